@@ -1,30 +1,42 @@
-//! What the tests across crates share: where the project is, the program they run as a process, and the pictures it makes.
+//! Shared by the tests across crates: the [harness] of the table-driven programs, a corpus of
+//! [samples] with its [manifest], small [glTF documents](gltf), the path of the program under test,
+//! and a PNG reader.
+
+#![allow(clippy::print_stdout, reason = "the harness prints for test programs")]
+
+pub mod gltf;
+pub mod harness;
+pub mod manifest;
+pub mod samples;
 
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The top folder of the project.
+/// The root folder of the repository.
 #[must_use]
 pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// The program `alberti`: `$ALBERTI` if that is set, else a fresh build in the profile of the calling test.
+/// The program `alberti`: `$ALBERTI` if that is set, else a fresh build in the profile of the
+/// calling test.
 ///
 /// # Errors
-/// If `$ALBERTI` is no file, or the program does not build.
+/// If `$ALBERTI` names no file, or if the program does not build.
 pub fn program_path() -> Result<PathBuf, String> {
     if let Some(path) = std::env::var_os("ALBERTI").map(PathBuf::from) {
-        let missing = || format!("ALBERTI names {}, which is no file", path.display());
+        let missing = || format!("ALBERTI names {}, which is not a file", path.display());
         return path.is_file().then(|| path.clone()).ok_or_else(missing);
     }
-    // A test is target/PROFILE/deps/NAME-HASH; Cargo knows whether the program beside it is up to date.
+    // A test is target/PROFILE/deps/NAME-HASH. Cargo knows whether the program in target/PROFILE is
+    // up to date.
     let test = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = test.ancestors().nth(2).ok_or("the test is in no target folder")?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
+    // As in `cargo xtask test`: with the features of the whole workspace nothing is compiled twice.
+    cargo.args(["build", "--quiet", "--workspace", "--bin", "alberti"]);
     if let Some(target) = folder.parent() {
         cargo.arg("--target-dir").arg(target);
     }
@@ -40,7 +52,7 @@ pub fn program_path() -> Result<PathBuf, String> {
 /// Width, height and 8-bit RGBA pixels of a PNG, rows from the top.
 ///
 /// # Errors
-/// If the file is no PNG, or cannot be read; the text names it.
+/// If the file cannot be read or is not a PNG; the text names it.
 pub fn read_png(path: &Path) -> Result<(u32, u32, Vec<[u8; 4]>), String> {
     let with_path = |error: String| format!("{}: {error}", path.display());
     let file = File::open(path).map_err(|error| with_path(error.to_string()))?;
@@ -58,9 +70,9 @@ fn decode_png(source: BufReader<File>) -> Result<(u32, u32, Vec<[u8; 4]>), Strin
     let pixels = match info.color_type {
         png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
         png::ColorType::GrayscaleAlpha => {
-            bytes.as_chunks().0.iter().map(|&[grey, alpha]| [grey, grey, grey, alpha]).collect()
+            bytes.as_chunks().0.iter().map(|&[gray, alpha]| [gray, gray, gray, alpha]).collect()
         }
-        other => return Err(format!("unexpected colour type {other:?}")),
+        other => return Err(format!("unexpected color type {other:?}")),
     };
     Ok((info.width, info.height, pixels))
 }
@@ -78,8 +90,8 @@ mod tests {
     fn the_scene_in_the_readme_is_the_committed_one() {
         let read = |name: &str| std::fs::read_to_string(project_root().join(name)).expect(name);
         let readme = read("README.md");
-        let shown = readme.split("```ron\n").nth(1).and_then(|rest| rest.split("```").next());
+        let printed = readme.split("```ron\n").nth(1).and_then(|rest| rest.split("```").next());
         let scene = read("scenes/mexican_hat.ron");
-        assert!(scene.ends_with(shown.expect("a scene in the README")));
+        assert!(scene.ends_with(printed.expect("a scene in the README")));
     }
 }

@@ -1,9 +1,10 @@
 //! How fast what is used in bulk is, against plain loops over glam's matrices.
 //!
-//! `cargo xtask bench [NAME…]` runs it optimised; names choose benchmarks by a part of theirs. Every
-//! benchmark does one job in several ways. The ways take turns, and what is printed is the time of each
-//! as a multiple of the first one's in the same turn: the median of all turns, and between which bounds
-//! eight turns in ten lay. A machine that is busy or slow slows all ways alike. Nothing is judged.
+//! `cargo xtask bench [NAME…]` runs it optimised; names choose benchmarks by a part of theirs.
+//! Every benchmark does one job in several ways. The ways take turns, and what is printed is the
+//! time of each as a multiple of the first one's in the same turn: the median of all turns, and
+//! between which bounds eight turns in ten lay. A machine that is busy or slow slows all ways
+//! alike. Nothing is judged.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]

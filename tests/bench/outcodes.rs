@@ -23,7 +23,7 @@ pub fn project_uncached() -> Vec<Variant> {
     projecting_variants(Blocks::Uncached)
 }
 
-/// What one writes without a library: six comparisons with w.
+/// Outcode without a library: six comparisons with w.
 fn outcode_by_hand(p: DVec4) -> u16 {
     u16::from(p.x < -p.w)
         | u16::from(p.x > p.w) << 1

@@ -1,4 +1,4 @@
-//! What the benchmarks work on: points before a camera, as many as are asked for, always the same.
+//! Workload of the benchmarks: a fixed sequence of points in front of a camera.
 
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
@@ -6,16 +6,17 @@ use homog::{Affine, Clip, Model, Point, Projective, Vector, World};
 /// How many points or triangles a way deals with in one turn.
 pub const POINT_COUNT: usize = 100_000;
 
-/// The points of a turn, as blocks to go through: one small block again and again, which stays in the
-/// nearest cache, or one large block, a different one each turn, which has long left all caches.
+/// The points of a turn, as blocks to go through: one small block again and again, which stays in
+/// the nearest cache, or one large block, a different one each turn, which has long left all
+/// caches.
 #[derive(Clone, Copy)]
 pub enum Blocks {
     Cached,
     Uncached,
 }
 
-/// Before a block of 100,000 points is gone through again, 12 turns of every way have gone through more
-/// than 60 MB each.
+/// Before a block of 100,000 points is gone through again, 12 turns of every way have gone through
+/// more than 60 MB each.
 const LARGE_BLOCKS: usize = 12;
 const SMALL_BLOCK: usize = 1_000;
 

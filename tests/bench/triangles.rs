@@ -53,8 +53,8 @@ fn border_mesh() -> Mesh {
     Mesh { points, triangles: (0..POINT_COUNT).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
 }
 
-/// Sutherland and Hodgman's loop as a textbook has it: all six planes, one after the other, no weights
-/// and no regard to which way a shared edge runs.
+/// Sutherland and Hodgman's loop as a textbook has it: all six planes, one after the other, no
+/// weights and no regard to which way a shared edge runs.
 fn clip_as_in_textbooks(triangle: [DVec4; 3], polygon: &mut Polygon) {
     polygon.corners[..3].copy_from_slice(&triangle);
     polygon.count = 3;

@@ -1,8 +1,10 @@
-//! A fixed piece of work for the rasteriser alone, to count its instructions: `cargo xtask bench --instructions`.
+//! A fixed piece of work for the rasteriser alone, to count its instructions: `cargo xtask bench
+//! --instructions`.
 //!
-//! Twenty thousand triangles of a few pixels, as models have them, and forty that cross the picture, one behind the
-//! other, drawn with the instructions that every processor has. The argument is the number of samples for each pixel.
-//! What is printed depends on every pixel, so that nothing can be left undone.
+//! Twenty thousand triangles of a few pixels, as models have them, and forty that cross the
+//! picture, one behind the other, drawn with the instructions that every processor has. The
+//! argument is the number of samples for each pixel. The printed number depends on every pixel, so
+//! that no work can be optimized away.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 

@@ -1,12 +1,13 @@
-//! Where the check and the validator differ, and why.
+//! Intended differences between the check and the Khronos validator, with reasons.
 
-use crate::manifest::Row;
-use model::import::{CheckReport, Severity};
+use alberti_tests::manifest::Row;
+use model::Severity;
+use model::import::CheckReport;
 use std::collections::BTreeSet;
 
-const KTX: &str = "KHR_texture_ktx, for images of several layers, is not read";
+const KTX: &str = "KHR_texture_ktx, for images of several layers, is not supported";
 
-/// Files in which the validator finds no error and the check does, with the kind and the reason.
+/// Files with an error that the validator does not report, its code and the reason.
 const STRICTER: &[(&str, &str, &str)] = &[
     (
         "acme-box-unknown-required-extension/ACMEBox.gltf",
@@ -16,7 +17,7 @@ const STRICTER: &[(&str, &str, &str)] = &[
     (
         "required-extensions-unsupported.gltf",
         "UNSUPPORTED_REQUIRED_EXTENSION",
-        "EXT_lights_image_based is not read",
+        "EXT_lights_image_based is not supported",
     ),
     ("Test/image-3d-bundled.gltf", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
     ("Test/image-3d-compressed.glb", "UNSUPPORTED_REQUIRED_EXTENSION", KTX),
@@ -26,25 +27,29 @@ const STRICTER: &[(&str, &str, &str)] = &[
     (
         "version-unsupported-min.gltf",
         "UNSUPPORTED_VERSION",
-        "it needs glTF 2.1, which is not known",
+        "it requires glTF 2.1, which is not supported",
     ),
     (
         "asset/min_version_valid.gltf",
         "UNSUPPORTED_VERSION",
-        "it needs glTF 2.1, which is not known",
+        "it requires glTF 2.1, which is not supported",
     ),
     (
         "KHR_node_visibility/data/node/unexpected_extension.gltf",
         "UNEXPECTED_EXTENSION_OBJECT",
-        "the file is wrong on purpose; the validator that was asked does not know the extension",
+        "the file is invalid on purpose; this version of the validator does not know the extension",
     ),
 ];
 
-/// Kinds of errors that the validator lists and the check does not find in a file, with the reason.
+/// Files with an error of the validator that the check does not report, its code and the reason.
 const MILDER: &[(&str, &str, &str)] = &[
-    ("Test/mesh-invalid.gltf", "EXCEPTION", "the validator itself broke; the check finds 28 kinds"),
-    ("glb/no_header.glb", "EXCEPTION", "the validator itself broke; NOT_GLTF here"),
-    ("json/invalid_object.gltf", "EXCEPTION", "the validator itself broke; TYPE_MISMATCH here"),
+    (
+        "Test/mesh-invalid.gltf",
+        "EXCEPTION",
+        "the validator itself crashed; the check reports 28 codes",
+    ),
+    ("glb/no_header.glb", "EXCEPTION", "the validator itself crashed; NOT_GLTF here"),
+    ("json/invalid_object.gltf", "EXCEPTION", "the validator itself crashed; TYPE_MISMATCH here"),
     (
         "camera/infinite_znear.gltf",
         "VALUE_NOT_IN_RANGE",
@@ -67,36 +72,38 @@ const MILDER: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// How a report differs from what is expected of a file.
+/// Errors of a file as a whole, which have no JSON pointer.
+fn concerns_whole_file(code: &str) -> bool {
+    code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
+}
+
+/// How a report differs from the errors that the validator lists.
 pub fn difference_from_validator(
     row: &Row,
     report: &CheckReport,
     actual: &BTreeSet<&'static str>,
 ) -> Option<String> {
     let listed: BTreeSet<&str> = row.validator_errors.iter().map(String::as_str).collect();
-    let allowed = |table: &[(&str, &str, &str)], code: &str| {
+    let is_exception = |table: &[(&str, &str, &str)], code: &str| {
         table.iter().any(|(end, known, _)| row.path.ends_with(end) && *known == code)
     };
     if row.group() != "bad" {
-        let wrong = actual.iter().find(|code| !allowed(STRICTER, code))?;
-        let problem = report.diagnostics.iter().find(|problem| problem.code == *wrong)?;
-        return Some(format!("no error is listed: {problem}"));
+        let wrong = actual.iter().find(|code| !is_exception(STRICTER, code))?;
+        let diagnostic = report.diagnostics.iter().find(|diagnostic| diagnostic.code == *wrong)?;
+        return Some(format!("no error is listed, but the check finds {diagnostic}"));
     }
     if !listed.is_empty() && report.errors == 0 {
-        return Some(format!("no error is found, and there are {listed:?}"));
+        return Some(format!("the check finds no error, but {listed:?} are listed"));
     }
-    // What is wrong with the file as a whole has no place in the JSON; everything else has.
-    let whole = |code: &str| {
-        code.starts_with("GLB_") || ["INVALID_JSON", "NOT_GLTF", "TYPE_MISMATCH"].contains(&code)
-    };
-    let lost = report.diagnostics.iter().find(|p| p.pointer.is_empty() && !whole(p.code));
-    if let Some(problem) = lost.filter(|problem| problem.severity == Severity::Error) {
-        return Some(format!("an error without a place: {problem}"));
+    let unlocated = report.diagnostics.iter().find(|diagnostic| {
+        diagnostic.severity == Severity::Error
+            && diagnostic.location.is_empty()
+            && !concerns_whole_file(diagnostic.code)
+    });
+    if let Some(diagnostic) = unlocated {
+        return Some(format!("an error without a JSON pointer: {diagnostic}"));
     }
-    let missing: Vec<&str> = listed
-        .iter()
-        .copied()
-        .filter(|code| !actual.contains(code) && !allowed(MILDER, code))
-        .collect();
-    if missing.is_empty() { None } else { Some(format!("{missing:?} not found, but {actual:?}")) }
+    let is_missing = |code: &&str| !actual.contains(code) && !is_exception(MILDER, code);
+    let missing: Vec<&str> = listed.iter().copied().filter(is_missing).collect();
+    (!missing.is_empty()).then(|| format!("expected {missing:?}, actual {actual:?}"))
 }

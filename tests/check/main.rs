@@ -1,110 +1,84 @@
-//! `check` against the Khronos validator: every file of the shared corpus, the two verdicts side by side.
+//! `check` against the Khronos glTF validator: every file of a corpus, the errors of both side by
+//! side.
 //!
-//! The folder is `$ASSETS`, or `shared/assets` beside the project; the column `validator_error_codes` of its `MANIFEST.tsv` has the
-//! errors that the validator finds. Broken files are loaded leniently as well. Where it finds none, neither may the check; where it finds some, the check must find
-//! an error at a place, and the same kinds of errors. What differs stands in [`expected`] with the reason. Arguments that
-//! are not flags choose files by a part of their path, as in `cargo test`; `--all` prints what is found in each file.
+//! Two corpora are checked: the one that [`alberti_tests::samples`] generates, and, if it exists,
+//! the folder `$ASSETS` or `shared/assets` beside the repository. The column
+//! `validator_error_codes` of a manifest lists the codes of the validator's errors. Where it lists
+//! none, the check must find none; where it lists some, the check must find them and locate each by
+//! a JSON pointer. Differences that are intended stand in [`expected`]. Broken files are also
+//! loaded leniently. Arguments that are not flags select files by a part of their path; `--all`
+//! prints every diagnostic.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod expected;
 mod lenient;
-#[path = "../corpus/manifest.rs"]
-#[allow(dead_code, reason = "the corpus test needs the rest")]
-mod manifest;
 mod tally;
 
-use manifest::Row;
-use model::import::{CheckReport, ImportOptions, Severity, check_file};
+use alberti_tests::harness::{Arguments, Tally, data_folder, map_parallel, run_program};
+use alberti_tests::manifest::{Row, read_manifest};
+use alberti_tests::samples::write_samples;
+use model::Severity;
+use model::import::{CheckReport, ImportOptions, check_file};
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tally::CodeTally;
 
 fn main() -> ExitCode {
-    let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/assets");
-    let folder = chosen.as_deref().unwrap_or(&beside);
-    if chosen.is_none() && !folder.is_dir() {
-        println!("SKIPPED check: the folder {} was not found", folder.display());
-        println!("0 passed, 0 failed, 1 skipped");
-        return ExitCode::SUCCESS;
-    }
-    let failures = match check_corpus(folder) {
-        Ok((passed, failures)) => {
-            failures.iter().for_each(|failure| println!("FAILED {failure}"));
-            println!("{passed} passed, {} failed, 0 skipped", failures.len());
-            failures.len()
+    run_program("check", |arguments| {
+        let samples = Path::new(env!("CARGO_TARGET_TMPDIR")).join("check");
+        write_samples(&samples)?;
+        let mut tally = check_corpus(&samples, arguments)?;
+        if let Some(assets) = data_folder("ASSETS", "assets")? {
+            tally += check_corpus(&assets, arguments)?;
         }
-        Err(error) => {
-            println!("FAILED check: {error}");
-            println!("0 passed, 1 failed, 0 skipped");
-            1
-        }
-    };
-    if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        Ok(tally)
+    })
 }
 
-/// Checks the files of a folder; gives the number of those that are as expected, and what is wrong with the others.
-fn check_corpus(folder: &Path) -> Result<(usize, Vec<String>), String> {
-    let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let prints = std::env::args().any(|argument| argument == "--all");
-    let mut rows = manifest::read_manifest(folder)?;
-    rows.retain(|row| filters.is_empty() || filters.iter().any(|f| row.path.contains(f.as_str())));
+/// Checks the files of a folder and loads its broken files leniently.
+fn check_corpus(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
+    println!("{}", folder.display());
+    let mut rows = read_manifest(folder)?;
+    rows.retain(|row| arguments.select(&row.path));
     let start = Instant::now();
-    let reports = check_all(folder, &rows);
+    let reports = check_files(folder, &rows);
     println!("{} files in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
-    let (mut passed, mut failures, mut tally) = (0, Vec::new(), CodeTally::default());
+    let (mut tally, mut codes) = (Tally::default(), CodeTally::default());
     for (row, report) in rows.iter().zip(&reports) {
         let Some(report) = report else {
-            failures.push(format!("{}: panic", row.path));
+            tally.fail(&row.path, "panic");
             continue;
         };
         let actual = error_codes(report);
-        if prints {
+        if arguments.has_flag("--all") {
             println!("{}: {}", row.path, report.summary());
-            report.diagnostics.iter().for_each(|problem| println!("    {problem}"));
+            report.diagnostics.iter().for_each(|diagnostic| println!("    {diagnostic}"));
         }
-        tally.add_file(row, &actual);
-        match expected::difference_from_validator(row, report, &actual) {
-            Some(difference) => failures.push(format!("{}: {difference}", row.path)),
-            None => passed += 1,
-        }
+        codes.add_file(row, &actual);
+        let difference = expected::difference_from_validator(row, report, &actual);
+        tally.record(&row.path, difference.map_or(Ok(()), Err));
     }
-    tally.print_table();
-    failures.extend(lenient::check_lenient_loading(folder, &rows));
-    Ok((passed, failures))
+    codes.print_table();
+    lenient::check_lenient_loading(folder, &rows, &mut tally);
+    Ok(tally)
 }
 
-/// The names of all kinds of errors in a report.
+/// The codes of all errors in a report.
 fn error_codes(report: &CheckReport) -> BTreeSet<&'static str> {
-    let errors = report.diagnostics.iter().filter(|problem| problem.severity == Severity::Error);
-    errors.map(|problem| problem.code).collect()
+    let errors =
+        report.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+    errors.map(|diagnostic| diagnostic.code).collect()
 }
 
-/// Checks all files, two at a time; `None` where there was a panic.
-fn check_all(folder: &Path, rows: &[Row]) -> Vec<Option<CheckReport>> {
-    let reports: Vec<Mutex<Option<CheckReport>>> = rows.iter().map(|_| Mutex::new(None)).collect();
-    let next = AtomicUsize::new(0);
-    let work = || {
-        loop {
-            let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some(row) = rows.get(at) else { break };
-            let path = folder.join(&row.path);
-            let work = AssertUnwindSafe(|| check_file(&path, &ImportOptions::default()));
-            if let (Ok(report), Ok(mut slot)) = (catch_unwind(work), reports[at].lock()) {
-                *slot = Some(report);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        scope.spawn(work);
-        work();
-    });
-    reports.into_iter().map(|slot| slot.into_inner().ok().flatten()).collect()
+/// Checks all files, two at a time; `None` after a panic.
+fn check_files(folder: &Path, rows: &[Row]) -> Vec<Option<CheckReport>> {
+    map_parallel(rows, |_, row| {
+        let path = folder.join(&row.path);
+        catch_unwind(AssertUnwindSafe(|| check_file(&path, &ImportOptions::default()))).ok()
+    })
 }

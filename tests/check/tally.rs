@@ -1,24 +1,27 @@
-//! How often the two verdicts agree, kind by kind.
+//! Agreement of check and validator, code by code.
 
-use crate::manifest::Row;
+use alberti_tests::manifest::Row;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// For each kind of error, in how many files both find it, only the validator, only the check.
+/// Counts of files per error code and in all.
 #[derive(Default)]
 pub struct CodeTally<'a> {
-    kinds: BTreeMap<&'a str, [usize; 3]>,
+    /// Files in which both find the code, only the validator, only the check.
+    codes: BTreeMap<&'a str, [usize; 3]>,
+    /// Files with equal sets of codes, with more found by the check, with some missing.
     files: [usize; 3],
 }
 
 impl<'a> CodeTally<'a> {
+    /// Counts the codes of a file.
     pub fn add_file(&mut self, row: &'a Row, actual: &BTreeSet<&'static str>) {
         let listed: BTreeSet<&str> = row.validator_errors.iter().map(String::as_str).collect();
         for &code in &listed {
             let which = usize::from(!actual.contains(code));
-            self.kinds.entry(code).or_default()[which] += 1;
+            self.codes.entry(code).or_default()[which] += 1;
         }
         for &code in actual.iter().filter(|code| !listed.contains(*code)) {
-            self.kinds.entry(code).or_default()[2] += 1;
+            self.codes.entry(code).or_default()[2] += 1;
         }
         if !listed.is_empty() {
             let equal = listed.iter().eq(actual.iter());
@@ -33,12 +36,13 @@ impl<'a> CodeTally<'a> {
         }
     }
 
+    /// Prints a row per code, then the counts of files.
     pub fn print_table(&self) {
-        println!("{:62} both  only listed  only found", "kinds of errors, in so many files");
-        for (code, [both, listed, found]) in &self.kinds {
-            println!("    {code:56} {both:6} {listed:12} {found:11}");
+        println!("{:62} both  only listed  only actual", "files per error code");
+        for (code, [both, listed, actual]) in &self.codes {
+            println!("    {code:56} {both:6} {listed:12} {actual:12}");
         }
         let [equal, more, less] = self.files;
-        println!("files: {equal} with the same kinds, {more} with more, {less} with some missing");
+        println!("files: {equal} with equal codes, {more} with more, {less} with some missing");
     }
 }

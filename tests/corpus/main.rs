@@ -1,111 +1,108 @@
-//! Every file of the shared corpus, drawn by the real program: rendered, or refused with a reason.
+//! Every file of a corpus, rendered by the real program: it yields a picture, or is refused with a
+//! reason.
 //!
-//! The folder is `$ASSETS`, or `shared/assets` beside the project; its `MANIFEST.tsv` lists the files. Each is drawn in a
-//! process of its own, two at a time, with thirty seconds to do it. Allowed are two outcomes: exit code 0 and a PNG of the right
-//! size, or exit code 1, a message that names the file and says why, and no PNG. The files under `models` are held to
-//! [`expected`]: what is refused there stands in a table, and the numbers of triangles are those of the manifest.
-//! Arguments that are not flags choose files by a part of their path, as in `cargo test`.
+//! Two corpora are rendered: the one that [`alberti_tests::samples`] generates, whose manifest
+//! states the outcome of each file, and, if it exists, the folder `$ASSETS` or `shared/assets`
+//! beside the repository, for which the tables of [`expected`] do. Each file is rendered in a
+//! process of its own, two at a time, within thirty seconds. There are two legal outcomes: exit
+//! code 0 and a PNG of the right size, or exit code 1, a message that names the file and the
+//! reason, and no PNG. The numbers of triangles of files under `models` are those of the manifest.
+//! Arguments that are not flags select files by a part of their path.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod expected;
-#[allow(dead_code, reason = "the test of `check` needs the rest")]
-mod manifest;
 mod program;
 mod triangles;
 mod verdict;
 
-use manifest::Row;
+use alberti_tests::harness::{
+    Arguments, Tally, TemporaryFolder, data_folder, map_parallel, run_program,
+};
+use alberti_tests::manifest::{Row, read_manifest};
+use alberti_tests::samples::write_samples;
 use program::Program;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use verdict::Verdict;
 
-/// The size of the pictures.
+/// Width and height of the pictures.
 const PICTURE_SIZE: (u32, u32) = (64, 48);
 
-/// The groups of files that are drawn.
+/// The groups of files that are rendered.
 const GROUPS: [&str; 3] = ["models", "validator-valid", "bad"];
 
+/// Outcomes of one group.
 #[derive(Default)]
-struct Tally {
+struct GroupTally {
     drawn: usize,
     blank: usize,
     refused: usize,
-    failed: usize,
 }
 
 fn main() -> ExitCode {
-    let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/assets");
-    let folder = chosen.as_deref().unwrap_or(&beside);
-    if chosen.is_none() && !folder.is_dir() {
-        println!("SKIPPED corpus: the folder {} was not found", folder.display());
-        println!("0 passed, 0 failed, 1 skipped");
-        return ExitCode::SUCCESS;
-    }
-    match draw_corpus(folder, chosen.is_none()) {
-        Ok((passed, failed)) => {
-            println!("{passed} passed, {failed} failed, 0 skipped");
-            if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    run_program("corpus", |arguments| {
+        let program = Program::build()?;
+        let samples = Path::new(env!("CARGO_TARGET_TMPDIR")).join("corpus");
+        write_samples(&samples)?;
+        let mut tally = render_corpus(&program, &samples, false, arguments)?;
+        if let Some(assets) = data_folder("ASSETS", "assets")? {
+            let known = std::env::var_os("ASSETS").is_none();
+            tally += render_corpus(&program, &assets, known, arguments)?;
         }
-        Err(error) => {
-            println!("FAILED corpus: {error}");
-            println!("0 passed, 1 failed, 0 skipped");
-            ExitCode::FAILURE
-        }
-    }
+        Ok(tally)
+    })
 }
 
-/// Draws the files of a folder and prints what became of them. `known` says that it is the folder the tables are about.
-fn draw_corpus(folder: &Path, known: bool) -> Result<(usize, usize), String> {
-    let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let mut rows = manifest::read_manifest(folder)?;
-    rows.retain(|row| filters.is_empty() || filters.iter().any(|f| row.path.contains(f.as_str())));
-    rows.retain(|row| GROUPS.contains(&row.group()));
-    let program = Program::build()?;
-    let verdicts = draw_all(&program, folder, &rows)?;
-    let mut failures = Vec::new();
-    let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
+/// Renders the files of a folder and prints the outcomes. `known` is true for the folder that the
+/// tables describe.
+fn render_corpus(
+    program: &Program,
+    folder: &Path,
+    known: bool,
+    arguments: &Arguments,
+) -> Result<Tally, String> {
+    println!("{}", folder.display());
+    let mut rows = read_manifest(folder)?;
+    rows.retain(|row| GROUPS.contains(&row.group()) && arguments.select(&row.path));
+    let verdicts = render_files(program, folder, &rows)?;
+    let mut tally = Tally::default();
+    let mut groups: BTreeMap<&str, GroupTally> = BTreeMap::new();
     for (row, verdict) in rows.iter().zip(&verdicts) {
-        let tally = tallies.entry(row.group()).or_default();
         if let Some(failure) = failure_message(row, verdict, known) {
-            failures.push(format!("{}: {failure}", row.path));
-            tally.failed += 1;
+            tally.fail(&row.path, &failure);
             continue;
         }
+        tally.pass(1);
+        let group = groups.entry(row.group()).or_default();
         match verdict {
-            Verdict::Drawn => tally.drawn += 1,
-            Verdict::Blank => tally.blank += 1,
-            Verdict::Refused(_) | Verdict::Broken(_) => tally.refused += 1,
+            Verdict::Drawn => group.drawn += 1,
+            Verdict::Blank => group.blank += 1,
+            Verdict::Refused(_) | Verdict::Broken(_) => group.refused += 1,
         }
     }
     print_refusals(&rows, &verdicts);
-    let counted = triangles::check_triangle_counts(folder, &rows, known, &mut failures);
-    for (group, Tally { drawn, blank, refused, failed }) in &tallies {
-        println!("{group}: {drawn} drawn, {blank} drawn blank, {refused} refused, {failed} failed");
+    triangles::check_triangle_counts(folder, &rows, known, &mut tally);
+    for (group, GroupTally { drawn, blank, refused }) in &groups {
+        println!("{group}: {drawn} drawn, {blank} drawn blank, {refused} refused");
     }
-    println!("triangles: {counted} files as in the manifest");
-    for failure in &failures {
-        println!("FAILED {failure}");
-    }
-    let drawn_or_refused = tallies.values().map(|t| t.drawn + t.blank + t.refused).sum::<usize>();
-    Ok((drawn_or_refused + counted, failures.len()))
+    Ok(tally)
 }
 
+/// Why an outcome is wrong: by the manifest where it states one, else by the tables of a known
+/// folder.
 fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
     match verdict {
         Verdict::Broken(problem) => Some(problem.clone()),
-        verdict if known => expected::difference_from_expected(row, verdict),
+        verdict if row.expected.is_some() => expected::difference_from_manifest(row, verdict),
+        verdict if known => expected::difference_from_tables(row, verdict),
         _ => None,
     }
 }
 
-/// The reasons of all refusals, each with its files; then the files whose pictures show nothing.
+/// Prints the reasons of all refusals, each with its files, and the files with blank pictures.
 fn print_refusals(rows: &[Row], verdicts: &[Verdict]) {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (row, verdict) in rows.iter().zip(verdicts) {
@@ -121,34 +118,14 @@ fn print_refusals(rows: &[Row], verdicts: &[Verdict]) {
     }
 }
 
-/// Draws all files, two at a time; the verdicts are in the order of the files.
-fn draw_all(program: &Program, folder: &Path, rows: &[Row]) -> Result<Vec<Verdict>, String> {
-    let pictures = std::env::temp_dir().join(format!("alberti-corpus-{}", std::process::id()));
-    std::fs::create_dir_all(&pictures).map_err(|error| error.to_string())?;
-    let verdicts: Vec<Mutex<Option<Verdict>>> = rows.iter().map(|_| Mutex::new(None)).collect();
-    let next = AtomicUsize::new(0);
-    let work = || {
-        loop {
-            let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some(row) = rows.get(at) else { break };
-            let picture = pictures.join(format!("{at}.png"));
-            let run = program.render(&folder.join(&row.path), &picture, PICTURE_SIZE);
-            let verdict = run.map_or_else(Verdict::Broken, |run| {
-                verdict::judge_run(row, &run, &picture, PICTURE_SIZE)
-            });
-            if let Ok(mut slot) = verdicts[at].lock() {
-                *slot = Some(verdict);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        scope.spawn(work);
-        work();
-    });
-    let _ = std::fs::remove_dir_all(&pictures);
-    let unjudged = || Verdict::Broken("it was not judged".to_owned());
-    Ok(verdicts
-        .into_iter()
-        .map(|v| v.into_inner().ok().flatten().unwrap_or_else(unjudged))
-        .collect())
+/// Renders all files, two at a time; the verdicts are in the order of the rows.
+fn render_files(program: &Program, folder: &Path, rows: &[Row]) -> Result<Vec<Verdict>, String> {
+    let pictures = TemporaryFolder::create("corpus")?;
+    Ok(map_parallel(rows, |index, row| {
+        let picture = pictures.path().join(format!("{index}.png"));
+        let run = program.render(&folder.join(&row.path), &picture, PICTURE_SIZE);
+        run.map_or_else(Verdict::Broken, |run| {
+            verdict::judge_run(row, &run, &picture, PICTURE_SIZE)
+        })
+    }))
 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// So long a file may take. The largest has eight million triangles and takes three seconds of a processor without
-/// optimisation; the machine may have other work to do.
+/// Time limit per file. The largest file has eight million triangles and takes three seconds in a
+/// build without optimization; the machine may be busy with other work.
 const TIME_LIMIT: Duration = Duration::from_secs(30);
 
 /// The program `alberti`.
@@ -14,22 +14,23 @@ pub struct Program {
     path: PathBuf,
 }
 
-/// How a run ended.
+/// The end of a run.
 pub struct Run {
-    /// The exit code; `None` if a signal ended the process.
+    /// The exit code; `None` if a signal killed the process.
     pub code: Option<i32>,
-    /// Whether the time limit ended it.
+    /// Whether it was killed at the time limit.
     pub hung: bool,
+    /// Everything it wrote to standard error.
     pub stderr: String,
 }
 
 impl Program {
-    /// The program that all tests use.
+    /// The program, built if necessary.
     pub fn build() -> Result<Self, String> {
         Ok(Self { path: alberti_tests::program_path()? })
     }
 
-    /// Draws a file into `picture`, as large as `size`, and waits no longer than the limit.
+    /// Renders `input` to `picture`; kills the process at the time limit.
     pub fn render(&self, input: &Path, picture: &Path, size: (u32, u32)) -> Result<Run, String> {
         let log = picture.with_extension("log");
         let stderr = File::create(&log).map_err(|error| error.to_string())?;

@@ -1,18 +1,14 @@
-//! The number of triangles the importer finds, against the manifest's.
+//! Triangle counts of the imported models against the manifest.
 
 use crate::expected;
-use crate::manifest::Row;
+use alberti_tests::harness::Tally;
+use alberti_tests::manifest::Row;
 use model::import::{ImportOptions, load};
 use model::{Model, Primitive, Topology};
 use std::path::Path;
 
-/// Counts the triangles of all models that load; gives the number of files that agree with the manifest.
-pub fn check_triangle_counts(
-    folder: &Path,
-    rows: &[Row],
-    known: bool,
-    failures: &mut Vec<String>,
-) -> usize {
+/// Compares the triangle counts of all models that load.
+pub fn check_triangle_counts(folder: &Path, rows: &[Row], known: bool, tally: &mut Tally) {
     let mut agreed = 0;
     for row in rows.iter().filter(|row| row.group() == "models") {
         let Some(expected) = expected::expected_triangles(row) else { continue };
@@ -21,13 +17,14 @@ pub fn check_triangle_counts(
         if actual == expected || known && expected::expected_refusal(row).is_some() {
             agreed += 1;
         } else {
-            let path = &row.path;
-            failures.push(format!("{path}: {actual} triangles, {expected} in the manifest"));
+            tally.fail(&row.path, &format!("{actual} triangles, {expected} in the manifest"));
         }
     }
-    agreed
+    tally.pass(agreed);
+    println!("triangles: {agreed} files agree with the manifest");
 }
 
+/// Triangles of all mesh instances in the default scene.
 fn count_triangles(model: &Model) -> usize {
     let meshes = model.mesh_instances().filter_map(|at| model.nodes[at.node].mesh);
     let primitives = meshes.flat_map(|mesh| &model.meshes[mesh].primitives);

@@ -1,31 +1,31 @@
-//! What a run of the program means for a file.
+//! Verdicts: classification of a run of the program by exit code, message and picture.
 
-use crate::manifest::Row;
 use crate::program::Run;
+use alberti_tests::manifest::Row;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 /// The outcome of one file.
 pub enum Verdict {
-    /// A picture was made, and something is to be seen in it.
+    /// Exit code 0 and a picture of more than one color.
     Drawn,
-    /// A picture was made, and all of its pixels are the same.
+    /// Exit code 0 and a picture of one color.
     Blank,
-    /// The file was refused with this reason.
+    /// Exit code 1 and a message that names the file; the reason it gives.
     Refused(String),
-    /// The program did what it must never do.
+    /// Anything else: a panic, a hang, a wrong picture, a message without the file's name.
     Broken(String),
 }
 
-/// Judges a run that was to draw `row` into `picture`.
+/// Classifies a run that renders `row` to `picture`.
 pub fn judge_run(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verdict {
-    let said = run.stderr.trim();
+    let message = run.stderr.trim();
     if run.hung {
         return Verdict::Broken("it takes longer than 30 s".to_owned());
     }
-    if said.contains("panicked at") {
-        return Verdict::Broken(format!("panic: {said}"));
+    if message.contains("panicked at") {
+        return Verdict::Broken(format!("panic: {message}"));
     }
     match run.code {
         Some(0) => match picture_has_content(picture, size) {
@@ -36,16 +36,16 @@ pub fn judge_run(row: &Row, run: &Run, picture: &Path, size: (u32, u32)) -> Verd
         Some(1) if picture.exists() => {
             Verdict::Broken("it failed and left a picture behind".to_owned())
         }
-        Some(1) => match refusal_reason(said, row.file_name()) {
+        Some(1) => match refusal_reason(message, row.file_name()) {
             Some(reason) => Verdict::Refused(reason),
-            None => Verdict::Broken(format!("the message does not name the file: {said:?}")),
+            None => Verdict::Broken(format!("the message does not name the file: {message:?}")),
         },
-        Some(code) => Verdict::Broken(format!("exit code {code}: {said}")),
-        None => Verdict::Broken(format!("ended by a signal: {said}")),
+        Some(code) => Verdict::Broken(format!("exit code {code}: {message}")),
+        None => Verdict::Broken(format!("ended by a signal: {message}")),
     }
 }
 
-/// What the message says besides the file's name; `None` if it lacks the name or says nothing else.
+/// The reason in an error message; `None` if the message lacks the file name or has no other text.
 fn refusal_reason(message: &str, file: &str) -> Option<String> {
     let errors = message.lines().skip_while(|line| !line.starts_with("error"));
     let error = errors.collect::<Vec<_>>().join("\n");
@@ -58,10 +58,10 @@ fn refusal_reason(message: &str, file: &str) -> Option<String> {
     (text.len() > 5).then(|| text.to_owned())
 }
 
-/// Whether anything is to be seen in the picture, which must be a PNG of the given size.
+/// Whether the picture has more than one color. It must be a PNG of the given size.
 fn picture_has_content(picture: &Path, size: (u32, u32)) -> Result<bool, String> {
-    let file = File::open(picture).map_err(|error| format!("there is no picture: {error}"))?;
-    let broken = |error: png::DecodingError| format!("the picture is no PNG: {error}");
+    let file = File::open(picture).map_err(|error| format!("no picture: {error}"))?;
+    let broken = |error: png::DecodingError| format!("the picture is not a PNG: {error}");
     let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(broken)?;
     let mut pixels = vec![0; reader.output_buffer_size().ok_or("the picture is too large")?];
     let frame = reader.next_frame(&mut pixels).map_err(broken)?;

@@ -1,33 +1,39 @@
-//! Line drawings of real models against their z-buffer images: no more than 0.2 per cent of the visible length may disagree.
+//! Line drawings against z-buffer images: at most 0.2 percent of the visible length may disagree.
 //!
-//! The folder is `$ASSETS`, or `shared/assets` beside the project. Each model is drawn from six sides in perspective, in
-//! isometric and in cavalier projection. Arguments that are not flags choose models by a part of their path, as in `cargo
-//! test`; with arguments any file of the folder's `models` can be named.
+//! The models are those of the scenes and, if it exists, the listed ones of `$ASSETS` or of
+//! `shared/assets` beside the repository. Each is drawn from six directions in perspective, in
+//! isometric and in cavalier projection. Arguments that are not flags select models by a part of
+//! their path; a path below the folder's `models` names one that is not listed.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod views;
 
+use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program};
+use alberti_tests::project_root;
 use drawing::{Agreement, DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
 use model::Model;
 use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use views::{DIRECTIONS, ViewKind, build_scene};
 
-/// The share of the visible length that may disagree.
+/// The fraction of the visible length that may disagree.
 const MAX_DISAGREEMENT: f64 = 0.002;
 
 /// Models that may disagree more, and why.
 const EXCEPTIONS: &[(&str, f64, &str)] = &[(
     "ship-light-draco/model.gltf",
     0.005,
-    "lines where quantised planks cross are seen through cracks a twentieth of a pixel wide, which no sample meets",
+    "lines where quantized planks cross are visible through cracks a twentieth of a pixel wide, which contain no sample",
 )];
 
+/// Models of the scenes that consist of lines alone.
+const WITHOUT_FACES: &[&str] = &["house_edges.glb", "mexican_hat_lines.glb"];
+
+/// Models below the folder `models` of the assets.
 const MODELS: &[&str] = &[
     "alien/alien.glb",
     "armor/armor.gltf",
@@ -63,61 +69,62 @@ const MODELS: &[&str] = &[
 ];
 
 fn main() -> ExitCode {
-    let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/assets");
-    let folder = chosen.as_deref().unwrap_or(&beside).join("models");
-    if chosen.is_none() && !folder.is_dir() {
-        println!("SKIPPED drawing: the folder {} was not found", folder.display());
-        println!("0 passed, 0 failed, {} skipped", MODELS.len());
-        return ExitCode::SUCCESS;
-    }
-    let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let is_wanted = |name: &str| filters.is_empty() || filters.iter().any(|f| name.contains(f));
-    let listed = MODELS.iter().map(|name| (*name).to_owned()).filter(|name| is_wanted(name));
-    // Any other model of the folder can be asked for by its path.
-    let others =
-        filters.iter().filter(|f| !MODELS.contains(&f.as_str()) && folder.join(f).is_file());
-    let models: Vec<String> = listed.chain(others.cloned()).collect();
-    let failed = check_models(&folder, &models);
-    println!("{} passed, {failed} failed, 0 skipped", models.len() - failed);
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// Judges models, two at a time, and prints a line for each; how many failed.
-fn check_models(folder: &Path, models: &[String]) -> usize {
-    let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let work = || {
-        while let Some(name) = models.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let explained = EXCEPTIONS.iter().find(|(other, ..)| other == name);
-            let allowed = explained.map_or(MAX_DISAGREEMENT, |(_, allowed, _)| *allowed);
-            match check_model(&folder.join(name), allowed) {
-                Ok(told) => println!("{name:60} {told}"),
-                Err(why) => {
-                    println!("{name:60} FAILED: {why}");
-                    failed.fetch_add(1, Ordering::Relaxed);
-                }
-            }
+    run_program("drawing", |arguments| {
+        let scenes = project_root().join("scenes/models");
+        let mut models = glb_files(&scenes)?;
+        if let Some(assets) = data_folder("ASSETS", "assets")? {
+            let folder = assets.join("models");
+            let listed = MODELS.iter().map(|name| (*name).to_owned());
+            // Any other model of the folder can be named by its path.
+            let others = arguments.filters().iter().filter(|name| folder.join(name).is_file());
+            models.extend(listed.chain(others.cloned()).map(|name| (folder.join(&name), name)));
         }
-    };
-    std::thread::scope(|scope| {
-        scope.spawn(work);
-        work();
-    });
-    failed.into_inner()
+        models.retain(|(_, name)| arguments.select(name));
+        models.dedup();
+        Ok(check_models(&models))
+    })
 }
 
-/// Draws a model from all sides; what was found of the worst side of each kind.
+/// Path and name of the models of the scenes that have faces.
+fn glb_files(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<String> =
+        names.filter(|name| name.ends_with(".glb") && !WITHOUT_FACES.contains(&&**name)).collect();
+    names.sort();
+    Ok(names.into_iter().map(|name| (folder.join(&name), format!("scenes/{name}"))).collect())
+}
+
+/// Checks models, two at a time, and prints a line for each.
+fn check_models(models: &[(PathBuf, String)]) -> Tally {
+    let results = map_parallel(models, |_, (path, name)| {
+        let exception = EXCEPTIONS.iter().find(|(other, ..)| other == name);
+        let allowed = exception.map_or(MAX_DISAGREEMENT, |(_, allowed, _)| *allowed);
+        let result = check_model(path, allowed);
+        if let Ok(summary) = &result {
+            println!("{name:60} {summary}");
+        }
+        result.map(|_| ())
+    });
+    let mut tally = Tally::default();
+    for ((_, name), result) in models.iter().zip(results) {
+        tally.record(name, result);
+    }
+    tally
+}
+
+/// Draws a model from all directions; the worst disagreement of each kind of view.
 fn check_model(path: &Path, allowed: f64) -> Result<String, String> {
     let model = load(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
     let model = Arc::new(model);
     let mut summary = String::new();
     for kind in ViewKind::ALL {
         let mut worst = 0.0_f64;
-        for side in 0..DIRECTIONS {
-            let (agreement, drawing) = measure_agreement(&model, kind, side)?;
+        for direction in 0..DIRECTIONS {
+            let (agreement, drawing) = measure_agreement(&model, kind, direction)?;
             worst = worst.max(agreement.disagreement_ratio());
             if agreement.disagreement_ratio() > allowed {
-                return Err(describe_disagreement(kind, side, &agreement, &drawing));
+                return Err(describe_disagreement(kind, direction, &agreement, &drawing));
             }
         }
         summary += &format!(" {kind:?} {:.4} %", worst * 100.0);
@@ -125,30 +132,31 @@ fn check_model(path: &Path, allowed: f64) -> Result<String, String> {
     Ok(summary)
 }
 
-/// The share that is denied, and the lines with most of it.
+/// The fraction that the z-buffer contradicts, and the lines with most of it.
 fn describe_disagreement(
     kind: ViewKind,
-    side: usize,
+    direction: usize,
     agreement: &Agreement,
     drawing: &LineDrawing,
 ) -> String {
     let percent = agreement.disagreement_ratio() * 100.0;
     let mut message =
-        format!("{kind:?} from side {side}: the z-buffer hides {percent:.4} % of the length");
-    let mut places = agreement.denied_segments.clone();
-    places.sort_by(|a, b| b.1.total_cmp(&a.1));
-    for (place, length) in places.into_iter().take(5) {
-        message += &format!("\n  {length:.2} px of {:?}", drawing.segments[place]);
+        format!("{kind:?} {direction}: the z-buffer hides {percent:.4} % of the visible length");
+    let mut segments = agreement.denied_segments.clone();
+    segments.sort_by(|a, b| b.1.total_cmp(&a.1));
+    for (segment, length) in segments.into_iter().take(5) {
+        message += &format!("\n  {length:.2} px of {:?}", drawing.segments[segment]);
     }
     message
 }
 
+/// Draws a model without its hidden edges and compares with the z-buffer.
 fn measure_agreement(
     model: &Arc<Model>,
     kind: ViewKind,
-    side: usize,
+    direction: usize,
 ) -> Result<(Agreement, LineDrawing), String> {
-    let scene = build_scene(model, kind, side)?;
+    let scene = build_scene(model, kind, direction)?;
     let agreement = |options: &DrawOptions| {
         let drawing =
             draw(&scene.drawing_subject(), options, 1).map_err(|error| error.to_string())?;
@@ -156,19 +164,20 @@ fn measure_agreement(
             .map_err(|error| error.to_string())?;
         Ok::<_, String>((agreement, drawing))
     };
-    let (found, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
-    // The check itself can fail: it does where hidden lines are drawn as visible ones.
-    if kind == ViewKind::Perspective && side == 0 {
+    let (removed, drawing) = agreement(&DrawOptions::hidden_edges_removed())?;
+    // The comparison itself must be able to fail: it does if hidden edges are drawn as visible
+    // ones.
+    if kind == ViewKind::Perspective && direction == 0 {
         let (all, _) = agreement(&DrawOptions {
             hidden_edges: HiddenEdges::Ignored,
             ..DrawOptions::default()
         })?;
-        if found.visible_length < 0.5 * all.visible_length
+        if removed.visible_length < 0.5 * all.visible_length
             && all.disagreement_ratio() < 10.0 * MAX_DISAGREEMENT
         {
-            let share = all.disagreement_ratio();
-            return Err(format!("only {share} of what may be seen through is denied"));
+            let ratio = all.disagreement_ratio();
+            return Err(format!("the z-buffer contradicts only {ratio} of all edges"));
         }
     }
-    Ok((found, drawing))
+    Ok((removed, drawing))
 }

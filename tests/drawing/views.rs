@@ -1,4 +1,4 @@
-//! The views of a model.
+//! Views of a model: three projections, each from six directions, framed to fill the image.
 
 use camera::ViewProjection;
 use camera::{Basis, Slopes, frame_oblique, frame_perspective};
@@ -10,24 +10,29 @@ use pipeline::scene::{ImageSpec, Style};
 use projection::{Convention, Frustum, Oblique, Orthographic};
 use std::sync::Arc;
 
-/// How many sides a model is seen from.
+/// Number of viewing directions of each kind.
 pub const DIRECTIONS: usize = 6;
 
+/// Width and height in pixels.
 const IMAGE_SIZE: (u32, u32) = (400, 300);
 
-/// How a model is projected.
+/// Projection of a view.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ViewKind {
+    /// Symmetric perspective.
     Perspective,
+    /// Orthographic along a space diagonal.
     Isometric,
+    /// Oblique at 45°, depth in full length.
     Cavalier,
 }
 
 impl ViewKind {
+    /// All kinds.
     pub const ALL: [Self; 3] = [Self::Perspective, Self::Isometric, Self::Cavalier];
 
-    /// Where the model is seen from.
-    fn direction_from(self, side: usize) -> Vector<World> {
+    /// The direction from the model to the eye.
+    fn direction_from(self, direction: usize) -> Vector<World> {
         let directions = match self {
             Self::Perspective => [
                 [0.0, 0.0, 1.0],
@@ -54,13 +59,13 @@ impl ViewKind {
                 [0.0, -1.0, 0.0],
             ],
         };
-        Vector::from(directions[side])
+        Vector::from(directions[direction])
     }
 }
 
-/// A model in a picture that it fills.
-pub fn build_scene(model: &Arc<Model>, kind: ViewKind, side: usize) -> Result<Scene, String> {
-    let gaze = -kind.direction_from(side);
+/// A scene of one model that fills the image.
+pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Result<Scene, String> {
+    let gaze = -kind.direction_from(direction);
     let up = Basis::fallback_up(gaze);
     let up = if gaze.cross(Vector::Y).length() > 1e-6 { Vector::Y } else { up };
     let basis = Basis::from_gaze(gaze, up).map_err(|error| error.to_string())?;
@@ -109,7 +114,7 @@ fn fit_perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjecti
     Ok(ViewProjection { camera: framing.camera, view_to_clip })
 }
 
-/// Orthographic, or with depth drawn in full length in a direction.
+/// Orthographic, or oblique with depth in full length at an angle.
 fn fit_parallel(
     points: &[Point<World>],
     basis: Basis,
@@ -120,10 +125,11 @@ fn fit_parallel(
     let aspect = f64::from(IMAGE_SIZE.0) / f64::from(IMAGE_SIZE.1);
     let framing = frame_oblique(points.iter().copied(), basis, projectors, aspect, 0.02);
     let f = framing.map_err(|error| error.to_string())?;
-    let room = 0.01 * (f.far - f.near) + 1e-3 * f.near;
-    let window = Orthographic::new(f.left, f.right, f.bottom, f.top, f.near - room, f.far + room);
+    let margin = 0.01 * (f.far - f.near) + 1e-3 * f.near;
+    let window =
+        Orthographic::new(f.left, f.right, f.bottom, f.top, f.near - margin, f.far + margin);
     let window = window.map_err(|error| error.to_string())?.view_to_clip(Convention::CHAPTER);
-    let upright = Affine::<View, View>::scale(1.0, 1.0, 1.0);
-    let shear = oblique.map_or(upright, Oblique::depth_preserving);
+    let identity = Affine::<View, View>::scale(1.0, 1.0, 1.0);
+    let shear = oblique.map_or(identity, Oblique::depth_preserving);
     Ok(ViewProjection { camera: f.camera, view_to_clip: shear.then_project(window) })
 }

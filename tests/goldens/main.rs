@@ -1,50 +1,33 @@
-//! The golden images: every scene of `scenes/`, drawn by the real program at its own size, must
-//! have the very pixels of `tests/goldens/NAME.png`.
+//! Golden images: the real program renders every scene of `scenes/` to exactly the pixels of
+//! `tests/goldens/NAME.png`.
 //!
 //! Pixels are compared, not bytes, so that a new release of the PNG encoder changes nothing. Where
-//! they differ, the new picture and a map of the differences are left beside the golden as
-//! `NAME.actual.png` and `NAME.diff.png`. `cargo xtask golden --bless NAME` makes a picture golden
-//! after someone has looked at it. Arguments that are not flags choose scenes by name.
+//! they differ, the new picture and a map of the differences are left as `NAME.actual.png` and
+//! `NAME.diff.png` in the folder of the goldens. `cargo xtask golden --bless NAME` makes a picture
+//! golden after someone has looked at it. Arguments that are not flags select scenes by a part of
+//! their name.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod picture;
 
+use alberti_tests::harness::{Tally, run_program};
 use alberti_tests::project_root;
 use picture::{Difference, Picture};
+use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
-use std::{env, fs};
 
 fn main() -> ExitCode {
-    match compare_goldens() {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(message) => {
-            println!("FAILED goldens: {message}");
-            ExitCode::FAILURE
+    run_program("goldens", |arguments| {
+        let program = alberti_tests::program_path()?;
+        let mut tally = Tally::default();
+        for name in scene_names()?.iter().filter(|name| arguments.select(name)) {
+            tally.record(name, compare_scene(&program, name));
         }
-    }
-}
-
-/// Whether all chosen scenes have their golden's pixels.
-fn compare_goldens() -> Result<bool, String> {
-    let chosen: Vec<String> = env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
-    let wanted = |name: &String| chosen.is_empty() || chosen.contains(name);
-    let program = alberti_tests::program_path()?;
-    let (mut passed, mut failed) = (0, 0);
-    for name in scene_names()?.iter().filter(|name| wanted(name)) {
-        match compare_scene(&program, name) {
-            Ok(()) => passed += 1,
-            Err(message) => {
-                failed += 1;
-                println!("FAILED {name}: {message}");
-            }
-        }
-    }
-    println!("goldens: {passed} passed, {failed} failed");
-    Ok(failed == 0 && passed > 0)
+        Ok(tally)
+    })
 }
 
 /// The scenes by name. Goldens that no scene makes are found by `cargo xtask tidy`.
@@ -59,7 +42,7 @@ fn scene_names() -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// Draws a scene and holds it against its golden.
+/// Renders a scene and compares it with its golden.
 fn compare_scene(program: &Path, name: &str) -> Result<(), String> {
     let beside =
         |ending: &str| project_root().join("tests/goldens").join(format!("{name}{ending}"));
@@ -86,7 +69,7 @@ fn compare_scene(program: &Path, name: &str) -> Result<(), String> {
     }
 }
 
-/// What an earlier run left; nothing is there to be removed most of the time.
+/// Removes a file that an earlier run may have left.
 fn remove_file(path: &Path) {
     let _ = fs::remove_file(path);
 }

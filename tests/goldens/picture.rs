@@ -1,4 +1,4 @@
-//! Pictures as their decoded pixels, and what differs between two of them.
+//! Decoded pictures, and the difference of two of them.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -11,16 +11,17 @@ pub struct Picture {
     pixels: Vec<[u8; 4]>,
 }
 
-/// What differs between a golden and a picture.
+/// The difference of a golden and a picture.
 pub enum Difference {
-    /// They are not even of one size.
+    /// Their sizes differ.
     Size(String),
-    /// How many pixels, where and by how much; and the same as a picture.
+    /// Number, bounds and size of the differences, and a map of them: the golden faded, differing
+    /// pixels red.
     Pixels { message: String, map: Picture },
 }
 
 impl Picture {
-    /// Reads a PNG of eight bits a channel.
+    /// Reads a PNG.
     pub fn read_png(path: &Path) -> Result<Self, String> {
         let (width, height, pixels) = alberti_tests::read_png(path)?;
         Ok(Self { width, height, pixels })
@@ -36,12 +37,12 @@ impl Picture {
         writer.write_image_data(self.pixels.as_flattened()).map_err(|error| error.to_string())
     }
 
-    /// What differs in `actual`; `None` if every pixel is the same.
+    /// The difference of `actual` from this golden; `None` if all pixels are equal.
     pub fn difference(&self, actual: &Self) -> Option<Difference> {
         if (self.width, self.height) != (actual.width, actual.height) {
-            let [golden, found] = [self, actual].map(|p| format!("{}×{}", p.width, p.height));
+            let [golden, size] = [self, actual].map(|p| format!("{}×{}", p.width, p.height));
             return Some(Difference::Size(format!(
-                "the golden has {golden} pixels, the picture {found}"
+                "the golden has {golden} pixels, the picture {size}"
             )));
         }
         let pairs = || self.pixels.iter().zip(&actual.pixels);
@@ -79,7 +80,7 @@ impl Picture {
     }
 }
 
-/// A quarter of the contrast, towards white: the ground on which differences stand out.
+/// A quarter of the contrast, towards white, so that differences stand out.
 fn fade_color([r, g, b, _]: [u8; 4]) -> [u8; 4] {
     let [r, g, b] = [r, g, b].map(|channel| 191 + channel / 4);
     [r, g, b, 255]

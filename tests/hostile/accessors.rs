@@ -1,7 +1,7 @@
 //! Counts, offsets, lengths and strides that lie.
 
 use crate::case::{Case, Expected};
-use crate::document::{Document, float_bytes};
+use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 
 pub fn accessor_cases() -> Vec<Case> {

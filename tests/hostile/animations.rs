@@ -1,7 +1,7 @@
 //! Animations whose keys and values are wrong.
 
 use crate::case::{Case, Expected};
-use crate::document::{Document, float_bytes};
+use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 
 /// A node that moves, turns, grows and morphs, each in its own way.

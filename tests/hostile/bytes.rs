@@ -1,7 +1,7 @@
 //! Files cut off at every byte, and files with one byte changed.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 
 pub fn byte_cases() -> Vec<Case> {
     let mut cases = Vec::new();

@@ -1,7 +1,7 @@
-//! A hostile file, and what is to come of it.
+//! Cases: a hostile file and its expected outcome.
 
-use crate::document::Document;
 use crate::promises;
+use alberti_tests::gltf::Document;
 use model::Model;
 use model::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
 use std::path::Path;
@@ -14,7 +14,7 @@ pub struct Case {
     pub expected: Expected,
 }
 
-/// What must come of a file, besides that loading returns and keeps its promises.
+/// Expected outcome of a file, besides that loading returns and keeps its promises.
 pub enum Expected {
     /// Either a model or an error.
     Anything,
@@ -68,7 +68,8 @@ impl Case {
         Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
     }
 
-    /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every promise.
+    /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every
+    /// promise.
     pub fn load_leniently(&self) -> Result<(), String> {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
         let loads = load_bytes("model.gltf", &self.file, &self.options).is_ok();
@@ -95,7 +96,7 @@ pub fn check_load_result(
     if let Ok(model) = loaded {
         promises::check_model(model)?;
     }
-    let said = loaded.as_ref().err().map(|error| error.diagnostic.to_string());
+    let said = loaded.as_ref().err().map(|error| error.diagnostic.sentence());
     match (expected, loaded, said) {
         (Expected::Anything, ..) | (Expected::Loads, Ok(_), _) | (Expected::Refused, Err(_), _) => {
             Ok(())
@@ -105,7 +106,7 @@ pub fn check_load_result(
         (Expected::LoadsClean, Ok(model), _) if model.warnings.is_empty() => Ok(()),
         (Expected::LoadsClean, Ok(model), _) => Err(format!("warnings: {:?}", model.warnings)),
         (Expected::Warns(text), Ok(model), _) => {
-            let warnings = model.warnings.iter().map(|w| format!("{} {}", w.pointer, w.message));
+            let warnings = model.warnings.iter().map(|w| format!("{} {}", w.location, w.message));
             let warnings: Vec<String> = warnings.collect();
             if warnings.contains(text) { Ok(()) } else { Err(format!("warnings: {warnings:#?}")) }
         }

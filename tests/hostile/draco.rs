@@ -1,7 +1,7 @@
 //! Primitives compressed by Draco whose stream is cut or changed, and whose numbers lie.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 use serde_json::json;
 
 /// A box of 24 vertices and 12 triangles, as the Draco encoder wrote it for the sample BoxDraco.
@@ -34,6 +34,7 @@ fn compressed_document(stream: &[u8]) -> Document {
     )
 }
 
+/// All cases about Draco streams.
 pub fn draco_cases() -> Vec<Case> {
     let whole = compressed_document(&DRACO_BOX);
     let mut cases = vec![Case::from_document("draco: whole", &whole, Expected::LoadsClean)];
@@ -57,6 +58,22 @@ pub fn draco_cases() -> Vec<Case> {
             ));
         }
     }
+    cases.extend(wrong_member_cases(&whole));
+    cases.push(Case::from_document(
+        "draco: more triangles than indices",
+        &whole.with_value("/accessors/1/count", json!(33)),
+        Expected::Says(
+            "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: the Draco stream is not valid: \
+             stream decodes 12 faces, over the caller's ceiling of 11; export the file again"
+                .to_owned(),
+        ),
+    ));
+    cases
+}
+
+/// Members of the extension and of its accessors replaced by wrong values.
+fn wrong_member_cases(whole: &Document) -> Vec<Case> {
+    let mut cases = Vec::new();
     let wrong = [
         json!(null),
         json!("x"),
@@ -90,14 +107,5 @@ pub fn draco_cases() -> Vec<Case> {
             ));
         }
     }
-    cases.push(Case::from_document(
-        "draco: more triangles than there are indices",
-        &whole.with_value("/accessors/1/count", json!(33)),
-        Expected::Says(
-            "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: the Draco stream is not valid: \
-             stream decodes 12 faces, over the caller's ceiling of 11; export the file again"
-                .to_owned(),
-        ),
-    ));
     cases
 }

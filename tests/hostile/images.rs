@@ -1,19 +1,8 @@
 //! Images that lie about their size, are cut off, or are something else.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::{Document, encode_png};
 use serde_json::json;
-
-/// A valid PNG of one colour.
-pub fn encode_png(width: u32, height: u32) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgba);
-    let pixels = vec![128; (width * height * 4) as usize];
-    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels));
-    written.expect("a small PNG can be written to memory");
-    bytes
-}
 
 /// A PNG whose header says what it likes; the checksum is right.
 fn png_with_false_size(width: u32, height: u32, depth: u8, color: u8) -> Vec<u8> {
@@ -101,6 +90,7 @@ fn webp_cases() -> [Case; 2] {
     ]
 }
 
+/// All cases about images.
 pub fn image_cases() -> Vec<Case> {
     let mut cases = vec![
         textured_case(
@@ -145,9 +135,16 @@ pub fn image_cases() -> Vec<Case> {
     ];
     cases.extend(jpeg_cases());
     cases.extend(webp_cases());
+    cases.extend(mutated_cases());
+    cases
+}
+
+/// Every bit depth and color type, and files cut off or changed at every byte.
+fn mutated_cases() -> Vec<Case> {
+    let mut cases = Vec::new();
     for depth in [0, 1, 2, 3, 4, 8, 16, 32] {
         for color in 0..8 {
-            let name = format!("PNG of {depth} bits, colour type {color}");
+            let name = format!("PNG of {depth} bits, color type {color}");
             cases.push(textured_case(
                 &name,
                 &png_with_false_size(2, 2, depth, color),

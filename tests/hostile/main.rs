@@ -1,21 +1,18 @@
-//! Files that wish the importer ill, built here, each loaded in this process.
+//! Hostile glTF files, built here and loaded in this process.
 //!
-//! Whatever a file says, loading and checking it return, do not panic, take little time and little memory; and if there is a
-//! model, read strictly or leniently, it keeps every promise of its documentation. What must come of a file is stated where it is certain, word by word where the
-//! message matters. Arguments that are not flags choose cases by a part of their name, as in `cargo test`; `--write DIR` writes
-//! all of them and loads none.
+//! Whatever a file contains, loading and checking it return without a panic, in bounded time and
+//! memory; and a model that is returned, from strict or lenient import, keeps every promise of its
+//! documentation. The expected outcome is stated wherever the message matters. Arguments that are
+//! not flags select cases by a part of their name; `--write DIR` writes all files and loads none.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod accessors;
 mod animations;
 mod bytes;
 mod case;
-mod document;
 mod draco;
-#[path = "../../xtask/src/glb.rs"]
-mod glb;
 mod images;
 mod members;
 mod meshopt;
@@ -25,60 +22,42 @@ mod text;
 mod types;
 mod uris;
 
+use alberti_tests::harness::{Arguments, Tally, TemporaryFolder, run_program};
 use case::Case;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// So much memory the whole run may take at any time.
+/// Memory limit of the whole run at any time.
 const MAX_MEMORY_MIB: u64 = 200;
 
-/// A case that takes longer hangs, however busy the machine is.
+/// Time limit of a case, generous enough for a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
+/// The extremes of a run, with the names of their cases.
 #[derive(Default)]
-struct Tally {
-    passed: usize,
-    failed: usize,
+struct Extremes {
     slowest: (Duration, String),
+    /// In MiB.
     largest: (u64, String),
 }
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args();
-    if arguments.any(|argument| argument == "--write") {
-        let folder = arguments.next().unwrap_or_default();
-        return match write_files(folder.as_ref()) {
-            Ok(count) => {
-                println!("{count} files");
-                ExitCode::SUCCESS
-            }
-            Err(error) => {
-                println!("{folder}: {error}");
-                ExitCode::FAILURE
-            }
-        };
-    }
-    let folder = std::env::temp_dir().join(format!("alberti-hostile-{}", std::process::id()));
-    let tally = run_groups(&folder);
-    let _ = std::fs::remove_dir_all(&folder);
-    match tally {
-        Ok(tally) => {
-            println!("slowest: {:?} {}", tally.slowest.0, tally.slowest.1);
-            println!("memory: {} MiB since {}", tally.largest.0, tally.largest.1);
-            println!("{} passed, {} failed, 0 skipped", tally.passed, tally.failed);
-            if tally.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    run_program("hostile", |arguments| {
+        if arguments.has_flag("--write") {
+            let [folder] = arguments.filters() else {
+                return Err("usage: --write DIR".to_owned());
+            };
+            let count = write_files(folder.as_ref()).map_err(|e| format!("{folder}: {e}"))?;
+            println!("{count} files");
+            return Ok(Tally::default());
         }
-        Err(error) => {
-            println!("FAILED hostile: {error}");
-            println!("0 passed, 1 failed, 0 skipped");
-            ExitCode::FAILURE
-        }
-    }
+        run_groups(TemporaryFolder::create("hostile")?.path(), arguments)
+    })
 }
 
-/// Writes the files of all cases into a folder, for the fuzzer to begin with.
+/// Writes the files of all cases to a folder, as seeds for the fuzzer.
 fn write_files(folder: &Path) -> std::io::Result<usize> {
     let mut count = 0;
     for (group, cases) in case_groups() {
@@ -90,33 +69,38 @@ fn write_files(folder: &Path) -> std::io::Result<usize> {
     Ok(count)
 }
 
-fn run_groups(folder: &Path) -> Result<Tally, String> {
-    std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
-    let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let is_chosen =
-        |name: &str| filters.is_empty() || filters.iter().any(|f| name.contains(f.as_str()));
-    let mut tally = Tally::default();
+/// Runs all selected cases: each is loaded from a file, checked, and loaded leniently.
+fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
+    let (mut tally, mut extremes) = (Tally::default(), Extremes::default());
     for (group, cases) in case_groups() {
-        let before = tally.passed + tally.failed;
-        for case in cases().iter().filter(|case| is_chosen(&case.name)) {
-            tally.record_case(&case.name, || case.check_file(folder));
-            tally.record_case(&format!("{}, checked", case.name), || case.check_bytes());
-            tally.record_case(&format!("{}, leniently", case.name), || case.load_leniently());
+        let cases: Vec<Case> =
+            cases().into_iter().filter(|case| arguments.select(&case.name)).collect();
+        println!("{group}: {} files", cases.len());
+        for case in &cases {
+            let name = &case.name;
+            let mut record = |name: &str, run: &dyn Fn() -> Result<(), String>| {
+                tally.record(name, extremes.measure(name, run));
+            };
+            record(name, &|| case.check_file(folder));
+            record(&format!("{name}, checked"), &|| case.check_bytes());
+            record(&format!("{name}, leniently"), &|| case.load_leniently());
         }
-        println!("{group}: {} cases", tally.passed + tally.failed - before);
     }
     let uris = uris::run_uri_cases(&folder.join("uris"))?;
     println!("uris: {} cases", uris.len());
-    for (name, result) in uris.into_iter().filter(|(name, _)| is_chosen(name)) {
-        tally.record_case(&name, || result);
+    for (name, result) in uris.into_iter().filter(|(name, _)| arguments.select(name)) {
+        tally.record(&name, result);
     }
-    if tally.largest.0 > MAX_MEMORY_MIB {
-        tally.failed += 1;
-        println!("FAILED memory: {} MiB since {}", tally.largest.0, tally.largest.1);
+    let Extremes { slowest, largest } = extremes;
+    println!("slowest: {:?} {}", slowest.0, slowest.1);
+    println!("memory: {} MiB since {}", largest.0, largest.1);
+    if largest.0 > MAX_MEMORY_MIB {
+        tally.fail("memory", &format!("{} MiB since {}", largest.0, largest.1));
     }
     Ok(tally)
 }
 
+/// Builds the cases of a group.
 type Cases = fn() -> Vec<Case>;
 
 fn case_groups() -> [(&'static str, Cases); 10] {
@@ -134,12 +118,13 @@ fn case_groups() -> [(&'static str, Cases); 10] {
     ]
 }
 
-impl Tally {
-    /// Runs a case and counts it.
-    fn record_case(&mut self, name: &str, case: impl FnOnce() -> Result<(), String>) {
+impl Extremes {
+    /// Runs a case, notes its time and the memory of the process, and turns a panic or a timeout
+    /// into an error.
+    fn measure(&mut self, name: &str, run: &dyn Fn() -> Result<(), String>) -> Result<(), String> {
         let start = Instant::now();
         let result =
-            catch_unwind(AssertUnwindSafe(case)).unwrap_or_else(|_| Err("panic".to_owned()));
+            catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err("panic".to_owned()));
         let time = start.elapsed();
         if time > self.slowest.0 {
             self.slowest = (time, name.to_owned());
@@ -148,18 +133,11 @@ impl Tally {
         if memory > self.largest.0 {
             self.largest = (memory, name.to_owned());
         }
-        match result {
-            Ok(()) if time < TIME_LIMIT => self.passed += 1,
-            result => {
-                let problem = result.err().unwrap_or_else(|| format!("it took {time:?}"));
-                println!("FAILED {name}: {problem}");
-                self.failed += 1;
-            }
-        }
+        if time < TIME_LIMIT { result } else { result.and(Err(format!("it took {time:?}"))) }
     }
 }
 
-/// The most memory this process has had so far, where the system tells; else 0.
+/// Peak memory of this process in MiB; 0 where the system does not report it.
 fn peak_memory_mib() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

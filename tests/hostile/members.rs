@@ -1,7 +1,7 @@
 //! Every member of a document that uses everything, replaced by every kind of value and left out.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 use serde_json::{Value, json};
 
 pub fn member_cases() -> Vec<Case> {

@@ -1,10 +1,11 @@
 //! Views compressed by meshopt whose sizes lie and whose streams are cut, changed or made up.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 use serde_json::json;
 
-/// The triangle with its positions and indices compressed: every byte in full, and every index written out.
+/// The triangle with its positions and indices compressed: every byte in full, and every index
+/// written out.
 fn compressed_document() -> Document {
     let mut document = Document::single_triangle();
     let plain = document.bytes.clone();

@@ -1,7 +1,7 @@
 //! Node trees that are no trees, or too deep, or out of all bounds.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 use serde_json::{Value, json};
 
 fn node_case(name: &str, nodes: Value, expected: Expected) -> Case {
@@ -29,7 +29,7 @@ pub fn node_cases() -> Vec<Case> {
 fn position_cases() -> Vec<Case> {
     let case = |name: &str, attributes: Value, count: u64, expected: Expected| {
         let mut document = Document::single_triangle();
-        let numbers = super::document::float_bytes(&[1.0, 2.0, f32::NAN, 0.0, 0.0, 0.0]);
+        let numbers = alberti_tests::gltf::float_bytes(&[1.0, 2.0, f32::NAN, 0.0, 0.0, 0.0]);
         document.add_accessor(&numbers, json!({"componentType": 5126, "type": "VEC3", "count": 2}));
         let zeros = |shape: &str| json!({"componentType": 5126, "type": shape, "count": count});
         let accessors =

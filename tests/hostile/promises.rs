@@ -1,4 +1,4 @@
-//! What a loaded model promises, checked without mercy.
+//! Invariants of a loaded model: every promise of its documentation, checked.
 
 use model::{Model, Primitive};
 

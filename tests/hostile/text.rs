@@ -1,8 +1,8 @@
 //! JSON that is deep, large, oddly encoded or not JSON; versions and extensions that are not known.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
-use crate::glb::encode_glb;
+use alberti_tests::gltf::Document;
+use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 
 fn text_case(name: &str, text: impl Into<Vec<u8>>, expected: Expected) -> Case {
@@ -18,12 +18,20 @@ fn triangle_with_member(member: &str) -> String {
     format!(r#"{{"asset": {{"version": "2.0"}}, {member}}}"#)
 }
 
+/// All cases about the text of a file.
 pub fn text_cases() -> Vec<Case> {
-    let deep = |n: usize| {
-        triangle_with_member(&format!(r#""extras": {}{}"#, "[".repeat(n), "]".repeat(n)))
-    };
+    let mut cases = encoding_cases();
+    cases.extend(json_cases());
+    cases.extend(version_cases());
+    cases.extend(extension_cases());
+    cases.extend(container_cases());
+    cases
+}
+
+/// Empty files, other formats, other encodings than UTF-8.
+fn encoding_cases() -> Vec<Case> {
     let utf16: Vec<u8> = "\u{FEFF}{}".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let mut cases = vec![
+    vec![
         text_case("empty", "", refusal_containing("the file is empty; give a .gltf or .glb file")),
         text_case(
             "blanks",
@@ -48,6 +56,15 @@ pub fn text_cases() -> Vec<Case> {
             b"{\"asset\": {\"version\": \"2.0\xFF\"}}".to_vec(),
             Expected::Refused,
         ),
+    ]
+}
+
+/// Deep, long and malformed JSON.
+fn json_cases() -> Vec<Case> {
+    let deep = |n: usize| {
+        triangle_with_member(&format!(r#""extras": {}{}"#, "[".repeat(n), "]".repeat(n)))
+    };
+    vec![
         text_case("119 deep", deep(119), Expected::LoadsClean),
         text_case("120 deep", deep(120), Expected::Refused),
         text_case("100,000 deep", deep(100_000), Expected::Refused),
@@ -94,11 +111,7 @@ pub fn text_cases() -> Vec<Case> {
             format!("// hello\n{}", triangle_with_member(r#""nodes": []"#)),
             Expected::Refused,
         ),
-    ];
-    cases.extend(version_cases());
-    cases.extend(extension_cases());
-    cases.extend(container_cases());
-    cases
+    ]
 }
 
 fn version_cases() -> Vec<Case> {

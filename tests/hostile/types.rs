@@ -1,7 +1,7 @@
 //! Every shape, component type and normalisation for every use of an accessor.
 
 use crate::case::{Case, Expected};
-use crate::document::Document;
+use alberti_tests::gltf::Document;
 use serde_json::json;
 
 const SHAPES: [(&str, usize); 8] = [

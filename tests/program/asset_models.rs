@@ -1,13 +1,13 @@
-//! Animated files from the wild, from `shared/assets` beside the project or `$ASSETS`: at the time of a key the pose must
-//! be the key's value, whatever the interpolation, and pictures at different times must differ. Skipped, by name, where the
-//! folder is not there.
+//! Animated files from the wild, from `shared/assets` beside the project or `$ASSETS`: at the time
+//! of a key the pose must be the key's value, whatever the interpolation, and pictures at different
+//! times must differ. Skipped, by name, where the folder is not there.
 
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The file of a model; `None`, told on the error stream, if there are no assets.
+/// The path of a model; `None`, with a note on the standard error stream, if there are no assets.
 pub(crate) fn asset_path(name: &str) -> Option<PathBuf> {
     let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
     let beside = alberti_tests::project_root().join("../shared/assets");
@@ -56,16 +56,18 @@ impl Gltf {
     }
 }
 
-/// Whether two lists of numbers are the same but for rounding; for rotations also if they are opposite.
+/// Whether two lists of numbers are the same but for rounding; for rotations also if they are
+/// opposite.
 fn are_equal_values(actual: &[f64], expected: &[f64], rotation: bool) -> bool {
     let near = |sign: f64| actual.iter().zip(expected).all(|(a, b)| (a - sign * b).abs() < 1e-5);
     actual.len() == expected.len() && (near(1.0) || rotation && near(-1.0))
 }
 
-/// Holds the poses of an animation at three of its keys against the file, and looks whether the pictures differ.
+/// Holds the poses of an animation at three of its keys against the file, and looks whether the
+/// pictures differ.
 fn check_animation(name: &str, path: &str, animation: usize) {
     let Some(path) = asset_path(path) else { return };
-    let bench = Sandbox::new(&format!("real_{name}_{animation}"));
+    let sandbox = Sandbox::new(&format!("real_{name}_{animation}"));
     let (gltf, file) = (Gltf::read_file(&path), path.to_string_lossy().into_owned());
     let json = &gltf.json["animations"][animation];
     let times = gltf.read_floats(&json["samplers"][0]["input"]);
@@ -74,15 +76,15 @@ fn check_animation(name: &str, path: &str, animation: usize) {
     for time in [times[0], times[times.len() / 3], times[times.len() * 2 / 3]] {
         let text = time.to_string();
         let pick = ["--animation", number.as_str(), "--time", text.as_str()];
-        let run = bench.run(&[&["info", "--json", file.as_str()], &pick[..]].concat());
+        let run = sandbox.run(&[&["info", "--json", file.as_str()], &pick[..]].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
         let info: Value = serde_json::from_str(&run.stdout).expect("JSON");
         let checked = check_pose(&gltf, json, &info, time);
         assert!(checked > 0, "{name}: no channel has a key at {time}");
         let size = ["--size", "96x72", "-o", "out.png"];
-        let run = bench.run(&[&["render", file.as_str()], &pick[..], &size].concat());
+        let run = sandbox.run(&[&["render", file.as_str()], &pick[..], &size].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
-        let pixels = bench.read_picture("out.png").2;
+        let pixels = sandbox.read_picture("out.png").2;
         assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() > 300, "{name} at {time}");
         pictures.push(pixels);
     }
@@ -147,10 +149,11 @@ fn a_skinned_cylinder_bends() {
 #[test]
 fn a_skinned_skater_compressed_by_draco_stands() {
     let Some(path) = asset_path("skater-female-draco/model.gltf") else { return };
-    let (bench, file) = (Sandbox::new("real_skater"), path.to_string_lossy().into_owned());
-    let run = bench.run(&["info", "--json", file.as_str()]);
+    let (sandbox, file) = (Sandbox::new("real_skater"), path.to_string_lossy().into_owned());
+    let run = sandbox.run(&["info", "--json", file.as_str()]);
     let info: Value = serde_json::from_str(&run.stdout).expect("JSON");
-    // She has no animation. With her arms out she is about as wide as high, and stands on the ground.
+    // She has no animation. With her arms out she is about as wide as high, and stands on the
+    // ground.
     let corner =
         |end: &str, axis: usize| info["shown"]["bounds"][end][axis].as_f64().expect("a number");
     let size = |axis| corner("max", axis) - corner("min", axis);

@@ -8,24 +8,24 @@ use std::time::{Duration, Instant};
 
 /// A folder of models: three good ones, one of them in a folder of its own, and a broken one.
 fn batch_sandbox(name: &str) -> Sandbox {
-    let bench = Sandbox::new(name);
-    std::fs::create_dir_all(bench.path_of("models/more")).expect("folders");
-    for (model, place) in
+    let sandbox = Sandbox::new(name);
+    std::fs::create_dir_all(sandbox.path_of("models/more")).expect("folders");
+    for (model, location) in
         [("crate.glb", "a.glb"), ("lamp.glb", "more/a.glb"), ("house.glb", "b.glb")]
     {
-        bench.copy_model(model);
-        std::fs::rename(bench.path_of(model), bench.path_of(&format!("models/{place}")))
+        sandbox.copy_model(model);
+        std::fs::rename(sandbox.path_of(model), sandbox.path_of(&format!("models/{location}")))
             .expect("a model");
     }
-    bench.write_file("models/broken.glb", "glTF but not really");
-    bench
+    sandbox.write_file("models/broken.glb", "glTF but not really");
+    sandbox
 }
 
-const SMALL: [&str; 6] = ["batch", "models", "--out", "out", "--size", "32x24"];
+const SMALL: [&str; 6] = ["batch", "models", "--out-dir", "out", "--size", "32x24"];
 
-/// What the report says: the status of each picture.
-fn read_report(bench: &Sandbox, name: &str) -> BTreeMap<String, String> {
-    let text = std::fs::read_to_string(bench.path_of(name)).expect("a report");
+/// The status of each picture in a report.
+fn read_report(sandbox: &Sandbox, name: &str) -> BTreeMap<String, String> {
+    let text = std::fs::read_to_string(sandbox.path_of(name)).expect("a report");
     let record = |line: &str| {
         let record: Value = serde_json::from_str(line).expect("JSON");
         let word = |name: &str| record[name].as_str().expect("words").to_owned();
@@ -34,8 +34,8 @@ fn read_report(bench: &Sandbox, name: &str) -> BTreeMap<String, String> {
     text.lines().map(record).collect()
 }
 
-fn statuses(bench: &Sandbox) -> Vec<(String, String)> {
-    read_report(bench, "out/report.jsonl").into_iter().collect()
+fn statuses(sandbox: &Sandbox) -> Vec<(String, String)> {
+    read_report(sandbox, "out/report.jsonl").into_iter().collect()
 }
 
 fn status_list(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
@@ -44,10 +44,10 @@ fn status_list(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
 
 #[test]
 fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
-    let bench = batch_sandbox("batch");
-    let run = bench.run(&SMALL);
+    let sandbox = batch_sandbox("batch");
+    let run = sandbox.run(&SMALL);
     assert_eq!(run.code, 1, "{}", run.stderr);
-    assert_eq!(run.stdout, "3 done, 0 done before, 1 failed\n");
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n");
     assert!(run.stderr.contains("broken.glb"), "{}", run.stderr);
     let first = status_list(&[
         ("a.png", "done"),
@@ -55,63 +55,64 @@ fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
         ("broken.png", "failed"),
         ("more/a.png", "done"),
     ]);
-    assert_eq!(statuses(&bench), first);
-    assert_eq!(bench.read_picture("out/more/a.png").0, 32);
-    let sheet = std::fs::read_to_string(bench.path_of("out/index.html")).expect("a contact sheet");
+    assert_eq!(statuses(&sandbox), first);
+    assert_eq!(sandbox.read_picture("out/more/a.png").0, 32);
+    let sheet =
+        std::fs::read_to_string(sandbox.path_of("out/index.html")).expect("a contact sheet");
     for word in ["./more/a.png", "3 pictures, 1 failed", "broken.glb"] {
         assert!(sheet.contains(word), "{word}: {sheet}");
     }
-    bench.copy_model("teapot.glb");
-    std::fs::rename(bench.path_of("teapot.glb"), bench.path_of("models/b.glb"))
+    sandbox.copy_model("teapot.glb");
+    std::fs::rename(sandbox.path_of("teapot.glb"), sandbox.path_of("models/b.glb"))
         .expect("another model");
-    std::fs::remove_file(bench.path_of("out/more/a.png")).expect("a picture");
-    let run = bench.run(&SMALL);
-    assert_eq!(run.stdout, "2 done, 1 done before, 1 failed\n", "content changed, picture gone");
-    let run = bench.run(&[&SMALL[..], &["--background", "#123"]].concat());
-    assert_eq!(run.stdout, "3 done, 0 done before, 1 failed\n", "settings changed");
-    let run = bench.run(&[&SMALL[..], &["--background", "#123", "--again"]].concat());
-    assert_eq!(run.stdout, "3 done, 0 done before, 1 failed\n", "asked for again");
+    std::fs::remove_file(sandbox.path_of("out/more/a.png")).expect("a picture");
+    let run = sandbox.run(&SMALL);
+    assert_eq!(run.stdout, "2 rendered, 1 up to date, 1 failed\n", "content changed, picture gone");
+    let run = sandbox.run(&[&SMALL[..], &["--background", "#123"]].concat());
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "settings changed");
+    let run = sandbox.run(&[&SMALL[..], &["--background", "#123", "--force"]].concat());
+    assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "asked for again");
 }
 
 #[test]
 fn shards_unite_to_the_whole() {
-    let bench = batch_sandbox("batch_shards");
-    std::fs::remove_file(bench.path_of("models/broken.glb")).expect("the broken one");
+    let sandbox = batch_sandbox("batch_shards");
+    std::fs::remove_file(sandbox.path_of("models/broken.glb")).expect("the broken one");
     for shard in ["1/2", "2/2"] {
-        let run = bench.run(&[&SMALL[..], &["--shard", shard]].concat());
+        let run = sandbox.run(&[&SMALL[..], &["--shard", shard]].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
     }
-    let mut united = read_report(&bench, "out/report-1-of-2.jsonl");
-    let other = read_report(&bench, "out/report-2-of-2.jsonl");
+    let mut united = read_report(&sandbox, "out/report-1-of-2.jsonl");
+    let other = read_report(&sandbox, "out/report-2-of-2.jsonl");
     assert!(other.keys().all(|picture| !united.contains_key(picture)), "no picture is made twice");
     united.extend(other);
     assert_eq!(united.into_keys().collect::<Vec<_>>(), ["a.png", "b.png", "more/a.png"]);
-    let run = bench.run(&SMALL);
-    assert_eq!((run.code, run.stdout.as_str()), (0, "0 done, 3 done before, 0 failed\n"));
-    let run = bench.run(&[&SMALL[..], &["--shard", "auto"]].concat());
+    let run = sandbox.run(&SMALL);
+    assert_eq!((run.code, run.stdout.as_str()), (0, "0 rendered, 3 up to date, 0 failed\n"));
+    let run = sandbox.run(&[&SMALL[..], &["--shard", "auto"]].concat());
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("SLURM_ARRAY_TASK_ID"), "{}", run.stderr);
 }
 
 #[test]
 fn a_run_that_is_killed_goes_on_where_it_was() {
-    let bench = Sandbox::new("batch_killed");
-    std::fs::create_dir(bench.path_of("models")).expect("a folder");
-    bench.copy_model("teapot.glb");
+    let sandbox = Sandbox::new("batch_killed");
+    std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
+    sandbox.copy_model("teapot.glb");
     for number in 0..16 {
-        let copy = bench.path_of(&format!("models/{number:02}.glb"));
-        std::fs::copy(bench.path_of("teapot.glb"), copy).expect("a model");
+        let copy = sandbox.path_of(&format!("models/{number:02}.glb"));
+        std::fs::copy(sandbox.path_of("teapot.glb"), copy).expect("a model");
     }
-    let arguments = ["batch", "models", "--out", "out", "--size", "320x240", "--threads", "1"];
+    let arguments = ["batch", "models", "--out-dir", "out", "--size", "320x240", "--threads", "1"];
     let program = alberti_tests::program_path().expect("the program");
     let mut process = Command::new(program)
         .args(arguments)
-        .current_dir(bench.path_of(""))
+        .current_dir(sandbox.path_of(""))
         .stdout(Stdio::null())
         .spawn()
         .expect("the program starts");
     let begin = Instant::now();
-    let lines = || std::fs::read_to_string(bench.path_of("out/report.jsonl")).unwrap_or_default();
+    let lines = || std::fs::read_to_string(sandbox.path_of("out/report.jsonl")).unwrap_or_default();
     while lines().lines().filter(|line| line.contains("done")).count() < 3 {
         assert!(begin.elapsed() < Duration::from_secs(60), "it does nothing: {}", lines());
         std::thread::sleep(Duration::from_millis(5));
@@ -119,9 +120,9 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
     process.kill().expect("it can be killed");
     process.wait().expect("it ends");
     let before = lines().lines().filter(|line| line.contains("done")).count();
-    let run = bench.run(&arguments);
+    let run = sandbox.run(&arguments);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert_eq!(read_report(&bench, "out/report.jsonl").len(), 16);
+    assert_eq!(read_report(&sandbox, "out/report.jsonl").len(), 16);
     let kept: usize = run
         .stdout
         .split(", ")
@@ -131,22 +132,22 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
         .expect("a count");
     assert_eq!(kept, before, "{}", run.stdout);
     assert!(kept < 16, "it was killed before it was through");
-    assert!(!bench.file_names().iter().any(|name| name.ends_with(".part")));
+    assert!(!sandbox.file_names().iter().any(|name| name.ends_with(".part")));
 }
 
 #[test]
 fn lists_and_scenes_are_inputs_too() {
-    let bench = batch_sandbox("batch_lists");
-    bench.write_file("list.txt", "# models\nmodels/a.glb\n\nmodels/more/a.glb\n");
-    bench.write_file(
+    let sandbox = batch_sandbox("batch_lists");
+    sandbox.write_file("list.txt", "# models\nmodels/a.glb\n\nmodels/more/a.glb\n");
+    sandbox.write_file(
         "scene.ron",
         "Scene(models: [(path: \"models/b.glb\")], image: (size: (8, 8)))",
     );
-    let run = bench.run(&["batch", "list.txt", "scene.ron", "--out", "out"]);
-    assert_eq!((run.code, run.stdout.as_str()), (0, "3 done, 0 done before, 0 failed\n"));
-    assert_eq!(bench.read_picture("out/scene.png").0, 8);
-    assert_eq!(bench.read_picture("out/models/more/a.png").0, 960);
-    let run = bench.run(&["batch", "nowhere", "--out", "out2"]);
+    let run = sandbox.run(&["batch", "list.txt", "scene.ron", "--out-dir", "out"]);
+    assert_eq!((run.code, run.stdout.as_str()), (0, "3 rendered, 0 up to date, 0 failed\n"));
+    assert_eq!(sandbox.read_picture("out/scene.png").0, 8);
+    assert_eq!(sandbox.read_picture("out/models/more/a.png").0, 960);
+    let run = sandbox.run(&["batch", "nowhere", "--out-dir", "out2"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("nowhere"), "{}", run.stderr);
 }

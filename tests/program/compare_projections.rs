@@ -14,10 +14,10 @@ fn layer_size(layers: &Layers, name: &str) -> [f64; 2] {
 
 #[test]
 fn a_subject_is_drawn_in_every_projection() {
-    let bench = Sandbox::new("compare_all");
-    bench.copy_model("house.glb");
-    assert_succeeds(&bench, &[COMMAND, "house.glb"]);
-    let (page, layers) = read_drawing(&bench, "projections.svg");
+    let sandbox = Sandbox::new("compare_all");
+    sandbox.copy_model("house.glb");
+    assert_succeeds(&sandbox, &[COMMAND, "house.glb"]);
+    let (page, layers) = read_drawing(&sandbox, "projections.svg");
     for name in PROJECTIONS {
         let [low, high] = layer_bounds(&layers, |id| id.starts_with(&format!("{name}-visible-")));
         assert!(low[0] > 0.0 && low[1] > 0.0 && high[0] < page[0] && high[1] < page[1], "{name}");
@@ -25,18 +25,18 @@ fn a_subject_is_drawn_in_every_projection() {
         let [w, h] = layer_size(&layers, name);
         assert!(w < 84.7 && h < 63.5 && (w > 70.0 || h > 52.0), "{name}: {w} x {h}");
     }
-    let text = std::fs::read_to_string(bench.path_of("projections.svg")).expect("an SVG");
+    let text = std::fs::read_to_string(sandbox.path_of("projections.svg")).expect("an SVG");
     assert!(text.contains("<g id=\"names.two-point\">\n<title>two point</title>"));
 }
 
 /// A box of 4 × 3 × 2: what the textbooks say its pictures measure.
 #[test]
 fn oblique_boxes_measure_as_the_textbooks_say() {
-    let bench = Sandbox::new("compare_box");
-    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let sandbox = Sandbox::new("compare_box");
+    write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let flags = ["--projections", "multiview,cavalier,cabinet,isometric", "--columns", "2"];
-    assert_succeeds(&bench, &[&[COMMAND, "box.gltf", "-o", "out.svg"][..], &flags].concat());
-    let (_, layers) = read_drawing(&bench, "out.svg");
+    assert_succeeds(&sandbox, &[&[COMMAND, "box.gltf", "-o", "out.svg"][..], &flags].concat());
+    let (_, layers) = read_drawing(&sandbox, "out.svg");
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let slant = 3_f64.sqrt() / 2.0 * (2_f64 / 3.0).sqrt();
     for (name, width, height) in [
@@ -54,23 +54,23 @@ fn oblique_boxes_measure_as_the_textbooks_say() {
 
 #[test]
 fn every_format_shows_the_same() {
-    let bench = Sandbox::new("compare_formats");
-    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let sandbox = Sandbox::new("compare_formats");
+    write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let flags = ["--projections", "cavalier,two-point,cavalier", "--size", "200x150"];
     for name in ["out.svg", "out.pdf", "out.png", "out.html"] {
-        assert_succeeds(&bench, &[&[COMMAND, "box.gltf", "-o", name][..], &flags].concat());
+        assert_succeeds(&sandbox, &[&[COMMAND, "box.gltf", "-o", name][..], &flags].concat());
     }
-    let (page, layers) = read_drawing(&bench, "out.svg");
-    let pages = parse_pdf(&std::fs::read(bench.path_of("out.pdf")).expect("a PDF"));
+    let (page, layers) = read_drawing(&sandbox, "out.svg");
+    let pages = parse_pdf(&std::fs::read(sandbox.path_of("out.pdf")).expect("a PDF"));
     let [(size, lines)] = &pages[..] else { panic!("one page") };
     assert!((size[0] - page[0]).abs() < 0.001 && (size[1] - page[1]).abs() < 0.001);
     assert_eq!(lines.len(), layers.values().map(Vec::len).sum::<usize>());
-    let (width, height, _) = bench.read_picture("out.png");
+    let (width, height, _) = sandbox.read_picture("out.png");
     let dots = [page[0], page[1]].map(|side| side / 25.4 * 150.0);
     assert!(
         (f64::from(width) - dots[0]).abs() <= 1.0 && (f64::from(height) - dots[1]).abs() <= 1.0
     );
-    let html = std::fs::read_to_string(bench.path_of("out.html")).expect("a page");
+    let html = std::fs::read_to_string(sandbox.path_of("out.html")).expect("a page");
     assert_eq!(html.matches("<figure").count(), 2, "each projection is there once");
     assert!(html.contains("formulas OB-1, VV-1") && html.contains("z 1 at 225°"), "{html}");
     assert!(html.contains("formulas VN-1, PE-1, PE-3, VV-2") && html.contains("x to (-3.2, 0.4)"));
@@ -79,18 +79,18 @@ fn every_format_shows_the_same() {
 
 #[test]
 fn threads_and_repetition_change_no_byte() {
-    let bench = Sandbox::new("compare_threads");
-    bench.copy_model("teapot.glb");
+    let sandbox = Sandbox::new("compare_threads");
+    sandbox.copy_model("teapot.glb");
     for flags in [
         &["-o", "out.svg"][..],
         &["-o", "out.svg", "--style", "shaded", "--projections", "cabinet"],
     ] {
         let bytes = |threads: &str| {
             assert_succeeds(
-                &bench,
+                &sandbox,
                 &[&[COMMAND, "teapot.glb", "--threads", threads], flags].concat(),
             );
-            std::fs::read(bench.path_of("out.svg")).expect("a drawing")
+            std::fs::read(sandbox.path_of("out.svg")).expect("a drawing")
         };
         let first = bytes("1");
         assert!(first == bytes("1") && first == bytes("3"), "{flags:?}");
@@ -99,18 +99,18 @@ fn threads_and_repetition_change_no_byte() {
 
 #[test]
 fn errors_are_reported_and_leave_no_file() {
-    let bench = Sandbox::new("compare_mistakes");
-    write_box(&bench, "box", [1.0, 1.0, 1.0]);
-    let run = bench.run(&[COMMAND, "box.gltf", "--projections", "isometrik"]);
+    let sandbox = Sandbox::new("compare_mistakes");
+    write_box(&sandbox, "box", [1.0, 1.0, 1.0]);
+    let run = sandbox.run(&[COMMAND, "box.gltf", "--projections", "isometrik"]);
     assert!(run.code == 2 && run.stderr.contains("isometric"), "{}", run.stderr);
-    let run = bench.run(&[COMMAND, "box.gltf", "-o", "out.txt"]);
-    let told = "the output out.txt does not end in .svg, .pdf, .png or .html";
-    assert!(run.code == 1 && run.stderr.contains(told), "{}", run.stderr);
-    let run = bench.run(&[COMMAND, "none.gltf"]);
+    let run = sandbox.run(&[COMMAND, "box.gltf", "-o", "out.txt"]);
+    let expected = "the output out.txt has no known extension: .svg, .pdf, .png or .html";
+    assert!(run.code == 1 && run.stderr.contains(expected), "{}", run.stderr);
+    let run = sandbox.run(&[COMMAND, "none.gltf"]);
     assert!(run.code == 1 && run.stderr.contains("none.gltf"), "{}", run.stderr);
     for wrong in [["--columns", "0"], ["--size", "10"], ["--style", "oil"], ["--threads", "0"]] {
-        let run = bench.run(&[&[COMMAND, "box.gltf"][..], &wrong].concat());
+        let run = sandbox.run(&[&[COMMAND, "box.gltf"][..], &wrong].concat());
         assert!(run.code == 2 && run.stderr.contains(wrong[0]), "{wrong:?}: {}", run.stderr);
     }
-    assert_eq!(bench.file_names(), ["box.bin", "box.gltf"]);
+    assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf"]);
 }

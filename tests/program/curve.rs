@@ -1,13 +1,14 @@
-//! `alberti curve depth` and `alberti demo tear`: curves, tables and demonstrations, held against formulas.
+//! `alberti curve depth` and `alberti demo wrap-around`: plots, tables and demonstrations against
+//! their formulas.
 
 use crate::drawings::{assert_succeeds, read_drawing};
 use crate::sandbox::Sandbox;
 use crate::vector_files::layer_bounds;
 
 /// The rows of a CSV table as numbers.
-fn curve_csv(bench: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
-    assert_succeeds(bench, &[&["curve", "depth", "-o", "out.csv"], flags].concat());
-    let text = std::fs::read_to_string(bench.path_of("out.csv")).expect("a table");
+fn curve_csv(sandbox: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
+    assert_succeeds(sandbox, &[&["curve", "depth", "-o", "out.csv"], flags].concat());
+    let text = std::fs::read_to_string(sandbox.path_of("out.csv")).expect("a table");
     assert!(text.starts_with("distance,depth,reversed_depth,step,reversed_step\n"));
     let row = |line: &str| {
         let numbers: Vec<f64> = line.split(',').map(|word| word.parse().expect(word)).collect();
@@ -16,19 +17,20 @@ fn curve_csv(bench: &Sandbox, flags: &[&str]) -> Vec<[f64; 5]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// The lesson's table of near 2 and far 40 (C68), with the four digits that it prints where they are known by heart.
+/// The lesson's table of near 2 and far 40 (C68), with the four digits that it prints where they
+/// are known by heart.
 #[test]
 fn the_lessons_table_comes_out() {
-    let bench = Sandbox::new("curve_lesson");
+    let sandbox = Sandbox::new("curve_lesson");
     let lesson = ["--near", "2", "--far", "40", "--range", "minus-one-one"];
-    let at = ["--at", "2,3,4,5,6,8,10,12,14,16,18,20,25,30,35,40"];
-    let rows = curve_csv(&bench, &[&lesson[..], &at].concat());
+    let at = ["--distances", "2,3,4,5,6,8,10,12,14,16,18,20,25,30,35,40"];
+    let rows = curve_csv(&sandbox, &[&lesson[..], &at].concat());
     assert_eq!(rows.len(), 16);
     for [distance, depth, reversed, ..] in rows {
         assert!((depth - (21.0 - 80.0 / distance) / 19.0).abs() < 1e-14, "{distance}: {depth}");
         assert!((depth + reversed).abs() < 1e-14);
     }
-    let run = bench.run(&[&["curve", "depth"], &lesson[..], &at].concat());
+    let run = sandbox.run(&[&["curve", "depth"], &lesson[..], &at].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for (distance, printed) in
         [("2", "-1.0000"), ("3", "-0.2982"), ("4", "0.0526"), ("5", "0.2632")]
@@ -37,29 +39,30 @@ fn the_lessons_table_comes_out() {
         assert!(run.stdout.lines().any(has), "{}", run.stdout);
     }
     assert!(run.stdout.contains("2FN/(F+N) = 3.8095"), "{}", run.stdout);
-    assert_succeeds(&bench, &[&["curve", "depth", "-o", "out.md"], &lesson[..], &at].concat());
-    let markdown = std::fs::read_to_string(bench.path_of("out.md")).expect("a table");
+    assert_succeeds(&sandbox, &[&["curve", "depth", "-o", "out.md"], &lesson[..], &at].concat());
+    let markdown = std::fs::read_to_string(sandbox.path_of("out.md")).expect("a table");
     assert!(markdown.contains("| 3 | -0.2982 | 0.2982 |"), "{markdown}");
 }
 
-/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap of the nearest f32, through the slope.
+/// Fixed point: D²(F − N)/(F N) parts of the range. Floating point: the gap of the nearest f32,
+/// through the slope.
 #[test]
 fn steps_are_those_of_the_formats() {
-    let bench = Sandbox::new("curve_steps");
-    let planes = ["--near", "0.1", "--far", "1000", "--at", "0.15,1,10,250,950"];
+    let sandbox = Sandbox::new("curve_steps");
+    let planes = ["--near", "0.1", "--far", "1000", "--distances", "0.15,1,10,250,950"];
     for (bits, parts) in [("16", 65_535.0), ("24", 16_777_215.0)] {
         for [distance, .., step, reversed] in
-            curve_csv(&bench, &[&planes[..], &["--bits", bits]].concat())
+            curve_csv(&sandbox, &[&planes[..], &["--bits", bits]].concat())
         {
-            let due = distance * distance * 999.9 / 100.0 / parts;
+            let expected = distance * distance * 999.9 / 100.0 / parts;
             assert!(
-                (step / due - 1.0).abs() < 1e-9 && (reversed / due - 1.0).abs() < 1e-9,
+                (step / expected - 1.0).abs() < 1e-9 && (reversed / expected - 1.0).abs() < 1e-9,
                 "{distance}"
             );
         }
     }
     for [distance, depth, reversed, step, step_reversed] in
-        curve_csv(&bench, &[&planes[..], &["--bits", "32f"]].concat())
+        curve_csv(&sandbox, &[&planes[..], &["--bits", "32f"]].concat())
     {
         let slope = 100.0 / 999.9 / (distance * distance);
         for (depth, step) in [(depth, step), (reversed, step_reversed)] {
@@ -73,19 +76,20 @@ fn steps_are_those_of_the_formats() {
 
 #[test]
 fn the_curves_are_drawn_in_every_format() {
-    let bench = Sandbox::new("curve_formats");
+    let sandbox = Sandbox::new("curve_formats");
     for bits in ["24", "32f"] {
         let flags = ["curve", "depth", "--near", "0.1", "--far", "inf", "--bits", bits, "-o"];
         for name in ["out.svg", "out.pdf", "out.png"] {
-            assert_succeeds(&bench, &[&flags[..], &[name]].concat());
+            assert_succeeds(&sandbox, &[&flags[..], &[name]].concat());
         }
-        let (page, layers) = read_drawing(&bench, "out.svg");
+        let (page, layers) = read_drawing(&sandbox, "out.svg");
         assert_eq!(page, [297.0, 210.0]);
         for id in ["depth-normal", "depth-reversed", "step-normal", "step-reversed", "table"] {
             let [low, high] = layer_bounds(&layers, |layer| layer == id);
             assert!(low[0] > 0.0 && high[0] < page[0] && high[1] < page[1], "{id}");
         }
-        // Both depth curves span the whole range, and cross where half of it is spent: at twice the near distance.
+        // Both depth curves span the whole range, and cross where half of it is spent: at twice the
+        // near distance.
         let [low, high] = layer_bounds(&layers, |layer| layer == "depth-axes");
         let mark = layers["depth-marks"][0][0][0];
         let part = (mark - low[0]) / (high[0] - low[0]);
@@ -95,10 +99,10 @@ fn the_curves_are_drawn_in_every_format() {
 
 /// C36: the segments that pass the eye are torn if they are divided as they are.
 #[test]
-fn the_tear_is_shown_with_and_without_clipping() {
-    let bench = Sandbox::new("tear");
-    assert_succeeds(&bench, &["demo", "tear"]);
-    let (_, layers) = read_drawing(&bench, "tear.svg");
+fn the_wrap_around_is_shown_with_and_without_clipping() {
+    let sandbox = Sandbox::new("wrap_around");
+    assert_succeeds(&sandbox, &["demo", "wrap-around"]);
+    let (_, layers) = read_drawing(&sandbox, "wrap-around.svg");
     let [_, frame] = layer_bounds(&layers, |id| id == "frames");
     let [top, _] = layer_bounds(&layers, |id| id == "frames");
     let horizon = 0.5 * (top[1] + frame[1]);
@@ -108,38 +112,38 @@ fn the_tear_is_shown_with_and_without_clipping() {
     let torn = span("divided-crossing");
     assert!(torn[0][1] < horizon && torn[1][1] > horizon, "{torn:?}");
     assert!(span("divided-behind")[1][1] < horizon);
-    let first = std::fs::read(bench.path_of("tear.svg")).expect("a drawing");
-    assert_succeeds(&bench, &["demo", "tear"]);
-    assert!(first == std::fs::read(bench.path_of("tear.svg")).expect("a drawing"));
-    assert_succeeds(&bench, &["demo", "tear", "-o", "tear.html"]);
-    let html = std::fs::read_to_string(bench.path_of("tear.html")).expect("a page");
+    let first = std::fs::read(sandbox.path_of("wrap-around.svg")).expect("a drawing");
+    assert_succeeds(&sandbox, &["demo", "wrap-around"]);
+    assert!(first == std::fs::read(sandbox.path_of("wrap-around.svg")).expect("a drawing"));
+    assert_succeeds(&sandbox, &["demo", "wrap-around", "-o", "wrap-around.html"]);
+    let html = std::fs::read_to_string(sandbox.path_of("wrap-around.html")).expect("a page");
     assert!(html.contains("(1, 0, 3) has w = -3, goes to (-0.433, 0.924)"), "{html}");
 }
 
 #[test]
 fn errors_are_reported_and_leave_no_file() {
-    let bench = Sandbox::new("curve_mistakes");
-    let depth = |flags: &[&str]| bench.run(&[&["curve", "depth"], flags].concat());
-    for (flags, told) in [
+    let sandbox = Sandbox::new("curve_mistakes");
+    let depth = |flags: &[&str]| sandbox.run(&[&["curve", "depth"], flags].concat());
+    for (flags, message) in [
         (&["--near", "2", "--far", "1"][..], "near"),
         (&["--near", "0", "--far", "1"], "near"),
         (&["--near", "nan", "--far", "1"], "near"),
-        (&["--near", "1", "--far", "2", "--at", "0"], "distance"),
+        (&["--near", "1", "--far", "2", "--distances", "0"], "distance"),
         (
             &["--near", "1", "--far", "2", "-o", "out.html"],
-            "does not end in .svg, .pdf, .png, .txt, .md or .csv",
+            "has no known extension: .svg, .pdf, .png, .txt, .md or .csv",
         ),
     ] {
         let run = depth(flags);
-        let is_told = run.stderr.starts_with("error: ") && run.stderr.contains(told);
-        assert!(run.code == 1 && is_told, "{flags:?}: {}", run.stderr);
+        let is_reported = run.stderr.starts_with("error: ") && run.stderr.contains(message);
+        assert!(run.code == 1 && is_reported, "{flags:?}: {}", run.stderr);
     }
     for bits in ["0", "65", "16f", "many"] {
         let run = depth(&["--near", "1", "--far", "2", "--bits", bits]);
         assert!(run.code == 2 && run.stderr.contains("or 32f"), "{bits}: {}", run.stderr);
     }
     assert_eq!(depth(&["--near", "1"]).code, 2);
-    assert_eq!(bench.run(&["demo", "tear", "-o", "tear"]).code, 1);
-    assert_eq!(bench.run(&["demo"]).code, 2);
-    assert_eq!(bench.file_names(), [""; 0]);
+    assert_eq!(sandbox.run(&["demo", "wrap-around", "-o", "wrap-around"]).code, 1);
+    assert_eq!(sandbox.run(&["demo"]).code, 2);
+    assert_eq!(sandbox.file_names(), [""; 0]);
 }

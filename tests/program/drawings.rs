@@ -20,8 +20,9 @@ pub(crate) const PROJECTIONS: [&str; 12] = [
     "three-point",
 ];
 
-/// A solid box of these sides in metres, one corner at the origin, with a groove so that front and back differ.
-pub(crate) fn write_box(bench: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
+/// A solid box of these sides in metres, one corner at the origin, with a groove so that front and
+/// back differ.
+pub(crate) fn write_box(sandbox: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
     let mut document = GltfBuilder::square();
     let corner = |n: usize| {
         [(n & 1, w), (n >> 1 & 1, h), (n >> 2 & 1, d)]
@@ -39,15 +40,15 @@ pub(crate) fn write_box(bench: &Sandbox, name: &str, [w, h, d]: [f32; 3]) {
     document.json["meshes"][0]["primitives"][0] = serde_json::json!({
         "attributes": {"POSITION": position}, "indices": indices, "mode": 4
     });
-    document.write_file(bench, name);
+    document.write_file(sandbox, name);
 }
 
-pub(crate) fn read_drawing(bench: &Sandbox, name: &str) -> (PagePoint, Layers) {
-    parse_svg(&std::fs::read_to_string(bench.path_of(name)).expect("an SVG"))
+pub(crate) fn read_drawing(sandbox: &Sandbox, name: &str) -> (PagePoint, Layers) {
+    parse_svg(&std::fs::read_to_string(sandbox.path_of(name)).expect("an SVG"))
 }
 
-pub(crate) fn assert_succeeds(bench: &Sandbox, arguments: &[&str]) {
-    let run = bench.run(arguments);
+pub(crate) fn assert_succeeds(sandbox: &Sandbox, arguments: &[&str]) {
+    let run = sandbox.run(arguments);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
 }
 
@@ -64,13 +65,13 @@ pub(crate) fn assert_near(actual: f64, expected: f64) {
 
 #[test]
 fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
-    let bench = Sandbox::new("hundred");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let sandbox = Sandbox::new("hundred");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["--scale", "1:1", "--no-dimensions", "--axonometric", "none"];
     for name in ["box.svg", "box.pdf"] {
-        assert_succeeds(&bench, &[&["sheet", "box.gltf", "-o", name][..], &flags].concat());
+        assert_succeeds(&sandbox, &[&["sheet", "box.gltf", "-o", name][..], &flags].concat());
     }
-    let (page, layers) = read_drawing(&bench, "box.svg");
+    let (page, layers) = read_drawing(&sandbox, "box.svg");
     assert_eq!(page, [420.0, 297.0]);
     for (view, width, height) in
         [("front-", 100.0, 50.0), ("top-", 100.0, 30.0), ("left-", 30.0, 50.0)]
@@ -80,7 +81,7 @@ fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
         assert_near(h, height);
     }
     // The same lines at the same places in the PDF, to the digits its matrix has.
-    let pages = parse_pdf(&std::fs::read(bench.path_of("box.pdf")).expect("a PDF"));
+    let pages = parse_pdf(&std::fs::read(sandbox.path_of("box.pdf")).expect("a PDF"));
     let [(page, lines)] = &pages[..] else { panic!("one page") };
     assert_near(page[0], 420.0);
     assert_near(page[1], 297.0);
@@ -99,8 +100,8 @@ fn a_hundred_millimetres_measure_a_hundred_at_one_to_one() {
 
 #[test]
 fn a_scale_makes_things_smaller_and_units_larger() {
-    let bench = Sandbox::new("scales");
-    write_box(&bench, "box", [1.0, 0.5, 0.25]);
+    let sandbox = Sandbox::new("scales");
+    write_box(&sandbox, "box", [1.0, 0.5, 0.25]);
     for (flags, width) in [
         (["--scale", "1:10", "--unit", "m"], 100.0),
         (["--scale", "2:1", "--unit", "mm"], 2.0),
@@ -108,20 +109,20 @@ fn a_scale_makes_things_smaller_and_units_larger() {
         (["--scale", "1:3", "--unit", "ft"], 101.6),
         (["--scale", "1:1", "--unit", "cm"], 10.0),
     ] {
-        assert_succeeds(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
-        assert_near(view_size(&read_drawing(&bench, "out.svg").1, "front-")[0], width);
+        assert_succeeds(&sandbox, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
+        assert_near(view_size(&read_drawing(&sandbox, "out.svg").1, "front-")[0], width);
     }
 }
 
 #[test]
 fn views_are_aligned_and_stand_where_the_angle_says() {
-    let bench = Sandbox::new("aligned");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("aligned");
+    sandbox.copy_model("house.glb");
     for (angle, side, top_is_below) in [("first", "left-", true), ("third", "right-", false)] {
         for paper in ["a0", "a1", "a2", "a3", "a4", "a5", "letter", "tabloid"] {
-            let flags = ["-o", "out.svg", "--angle", angle, "--paper", paper];
-            assert_succeeds(&bench, &[&["sheet", "house.glb"][..], &flags].concat());
-            let (page, layers) = read_drawing(&bench, "out.svg");
+            let flags = ["-o", "out.svg", "--projection-angle", angle, "--paper", paper];
+            assert_succeeds(&sandbox, &[&["sheet", "house.glb"][..], &flags].concat());
+            let (page, layers) = read_drawing(&sandbox, "out.svg");
             let of = |view: &str| layer_bounds(&layers, |id| id.starts_with(view));
             let (front, top, side) = (of("front-"), of("top-"), of(side));
             for end in 0..2 {
@@ -148,10 +149,10 @@ fn views_are_aligned_and_stand_where_the_angle_says() {
 
 #[test]
 fn dimensions_give_the_true_size() {
-    let bench = Sandbox::new("dimensions");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
-    assert_succeeds(&bench, &["sheet", "box.gltf", "-o", "with.svg", "--scale", "1:1"]);
-    let (_, layers) = read_drawing(&bench, "with.svg");
+    let sandbox = Sandbox::new("dimensions");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    assert_succeeds(&sandbox, &["sheet", "box.gltf", "-o", "with.svg", "--scale", "1:1"]);
+    let (_, layers) = read_drawing(&sandbox, "with.svg");
     let front = layer_bounds(&layers, |id| id.starts_with("front-"));
     let lines = &layers["dimensions"];
     let level = |line: &&Vec<PagePoint>| line.len() == 2 && line[0][1] == line[1][1];
@@ -163,22 +164,22 @@ fn dimensions_give_the_true_size() {
         widths.clone().count() == 1 && widths.clone().all(|line| line[0][1] < front[0][1] - 5.0)
     );
     assert_succeeds(
-        &bench,
+        &sandbox,
         &["sheet", "box.gltf", "-o", "without.svg", "--scale", "1:1", "--no-dimensions"],
     );
-    assert!(!read_drawing(&bench, "without.svg").1.contains_key("dimensions"));
+    assert!(!read_drawing(&sandbox, "without.svg").1.contains_key("dimensions"));
 }
 
 #[test]
 fn threads_and_repetition_change_no_byte_of_a_drawing() {
-    let bench = Sandbox::new("same_drawing");
-    bench.copy_model("teapot.glb");
+    let sandbox = Sandbox::new("same_drawing");
+    sandbox.copy_model("teapot.glb");
     for (command, name) in
         [("render", "out.svg"), ("render", "out.pdf"), ("sheet", "out.pdf"), ("sheet", "out.svg")]
     {
         let bytes = |threads: &str| {
-            assert_succeeds(&bench, &[command, "teapot.glb", "-o", name, "--threads", threads]);
-            std::fs::read(bench.path_of(name)).expect("a drawing")
+            assert_succeeds(&sandbox, &[command, "teapot.glb", "-o", name, "--threads", threads]);
+            std::fs::read(sandbox.path_of(name)).expect("a drawing")
         };
         let first = bytes("1");
         assert!(
@@ -190,12 +191,12 @@ fn threads_and_repetition_change_no_byte_of_a_drawing() {
 
 #[test]
 fn every_style_has_its_lines_in_every_projection() {
-    let bench = Sandbox::new("styles");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("styles");
+    sandbox.copy_model("house.glb");
     let count = |style: &str, projection: &str| {
         let flags = ["-o", "out.svg", "--style", style, "--projection", projection];
-        assert_succeeds(&bench, &[&["render", "house.glb"][..], &flags].concat());
-        let (page, layers) = read_drawing(&bench, "out.svg");
+        assert_succeeds(&sandbox, &[&["render", "house.glb"][..], &flags].concat());
+        let (page, layers) = read_drawing(&sandbox, "out.svg");
         let [low, high] = layer_bounds(&layers, |_| true);
         assert!(
             low.iter().all(|c| *c > 0.0) && high[0] < page[0] && high[1] < page[1],
@@ -222,28 +223,31 @@ fn every_style_has_its_lines_in_every_projection() {
 
 #[test]
 fn drawing_errors_are_reported_and_leave_no_file() {
-    let bench = Sandbox::new("no_drawing");
-    write_box(&bench, "box", [1.0, 1.0, 1.0]);
+    let sandbox = Sandbox::new("no_drawing");
+    write_box(&sandbox, "box", [1.0, 1.0, 1.0]);
     let failing = [
-        (&["render", "box.gltf", "-o", "out.dxf"][..], "does not end in .png, .svg or .pdf"),
-        (&["sheet", "box.gltf", "-o", "out"], "does not end in .png, .svg or .pdf"),
+        (
+            &["render", "box.gltf", "-o", "out.dxf"][..],
+            "has no known extension: .png, .svg or .pdf",
+        ),
+        (&["sheet", "box.gltf", "-o", "out"], "has no known extension: .png, .svg or .pdf"),
         (&["sheet", "box.gltf", "--scale", "1:1", "--paper", "a4", "-o", "out.pdf"], "; 1:20 fits"),
     ];
     for (arguments, message) in failing {
-        let run = bench.run(arguments);
+        let run = sandbox.run(arguments);
         assert!(run.code == 1 && run.stderr.contains(message), "{arguments:?}: {}", run.stderr);
     }
     for scale in ["0:1", "1:0", "1", "1:2:3", "a:b", "-1:2"] {
-        let run = bench.run(&["sheet", "box.gltf", "-o", "out.pdf", &format!("--scale={scale}")]);
+        let run = sandbox.run(&["sheet", "box.gltf", "-o", "out.pdf", &format!("--scale={scale}")]);
         assert_eq!(run.code, 2, "{scale}: {}", run.stderr);
     }
     let scene = |name: &str, more: &str| {
-        bench.write_file(name, format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
-        bench.run(&["check", name])
+        sandbox.write_file(name, format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
+        sandbox.run(&["check", name])
     };
     for (more, message) in [
-        ("style: Lines(width: Iso(0.4))", "ISO 128 has no group of line widths 0.4"),
-        ("style: Lines(color: \"blue\")", "`blue` is no colour"),
+        ("style: Lines(width: Iso(0.4))", "ISO 128 has no line group of width 0.4"),
+        ("style: Lines(color: \"bleu\")", "`bleu` is not a color"),
         ("sheet: (scale: (1, 0))", "scale of the thing"),
         ("camera: (projection: NPoint())", "p, q and r are all 0"),
         ("camera: (projection: NPoint(r: -3))", "behind the eye"),
@@ -256,46 +260,46 @@ fn drawing_errors_are_reported_and_leave_no_file() {
         let run = scene("wrong.ron", more);
         assert!(run.code == 1 && run.stdout.contains(message), "{more}: {}", run.stdout);
     }
-    assert_eq!(bench.file_names(), ["box.bin", "box.gltf", "wrong.ron"]);
+    assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "wrong.ron"]);
 }
 
 #[test]
 fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
-    let bench = Sandbox::new("described");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
-    bench.write_file(
+    let sandbox = Sandbox::new("described");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    sandbox.write_file(
         "scene.ron",
-        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, angle: Third,
+        "Scene(models: [(path: \"box.gltf\")], sheet: (paper: A4, orientation: Landscape, projection_angle: Third,
          scale: (1, 2), title: \"A <box> & more\", author: \"Zoë\"))",
     );
-    assert_succeeds(&bench, &["sheet", "scene.ron", "-o", "out.svg"]);
-    let (page, layers) = read_drawing(&bench, "out.svg");
+    assert_succeeds(&sandbox, &["sheet", "scene.ron", "-o", "out.svg"]);
+    let (page, layers) = read_drawing(&sandbox, "out.svg");
     assert_eq!(page, [297.0, 210.0]);
     assert_near(view_size(&layers, "front-")[0], 50.0);
     assert!(layers.keys().any(|id| id.starts_with("right-")));
-    let text = std::fs::read_to_string(bench.path_of("out.svg")).expect("an SVG");
+    let text = std::fs::read_to_string(sandbox.path_of("out.svg")).expect("an SVG");
     assert!(text.contains("<title>A &lt;box&gt; &amp; more</title>"));
     assert_succeeds(
-        &bench,
+        &sandbox,
         &["sheet", "scene.ron", "-o", "out.svg", "--paper", "a3", "--scale", "1:1"],
     );
-    let (page, layers) = read_drawing(&bench, "out.svg");
+    let (page, layers) = read_drawing(&sandbox, "out.svg");
     assert_eq!(page, [420.0, 297.0]);
     assert_near(view_size(&layers, "front-")[0], 100.0);
     // Without a name the sheet goes into a PDF beside.
-    assert_succeeds(&bench, &["sheet", "scene.ron"]);
-    assert_eq!(bench.file_names(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
+    assert_succeeds(&sandbox, &["sheet", "scene.ron"]);
+    assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "out.svg", "scene.pdf", "scene.ron"]);
 }
 
 #[test]
 fn drawings_are_verified() {
-    let bench = Sandbox::new("verified");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
-    let run = bench.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
+    let sandbox = Sandbox::new("verified");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let run = sandbox.run(&["render", "box.gltf", "-o", "box.svg", "--verify"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     // Nine edges of a box are seen; no pixel is in doubt.
-    let told = "verified: 0.0000 % of ";
-    assert!(run.stderr.starts_with(told), "{}", run.stderr);
-    let length = run.stderr[told.len()..].split(' ').next().and_then(|px| px.parse::<f64>().ok());
+    let prefix = "verified: 0.0000 % of ";
+    assert!(run.stderr.starts_with(prefix), "{}", run.stderr);
+    let length = run.stderr[prefix.len()..].split(' ').next().and_then(|px| px.parse::<f64>().ok());
     assert!(length.is_some_and(|px| px > 1000.0), "{}", run.stderr);
 }

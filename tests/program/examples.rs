@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// Runs an example of the crate `pipeline` in the folder of a test, and gives what it prints.
-fn run_example(bench: &Sandbox, name: &str, arguments: &[&str]) -> String {
+fn run_example(sandbox: &Sandbox, name: &str, arguments: &[&str]) -> String {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["build", "--quiet", "--package", "pipeline", "--example", name]);
     let test = std::env::current_exe().expect("this test");
@@ -18,45 +18,45 @@ fn run_example(bench: &Sandbox, name: &str, arguments: &[&str]) -> String {
     assert!(built.success(), "{name} does not build");
     let program: PathBuf =
         folder.join("examples").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
-    let output = Command::new(program).args(arguments).current_dir(bench.path_of("")).output();
+    let output = Command::new(program).args(arguments).current_dir(sandbox.path_of("")).output();
     let output = output.expect("the example starts");
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{name}: {told}");
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{name}: {stderr}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
 #[test]
 fn the_examples_do_what_the_program_does() {
-    let bench = Sandbox::new("examples");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("examples");
+    sandbox.copy_model("crate.glb");
     let program = |flags: &[&str]| {
-        let told = bench.run(&[&["render", "crate.glb"], flags].concat());
-        assert_eq!((told.code, told.stderr.as_str()), (0, ""), "{flags:?}");
+        let stderr = sandbox.run(&[&["render", "crate.glb"], flags].concat());
+        assert_eq!((stderr.code, stderr.stderr.as_str()), (0, ""), "{flags:?}");
     };
-    let told = run_example(&bench, "thumbnail", &["crate.glb", "thumb.png"]);
+    let stderr = run_example(&sandbox, "thumbnail", &["crate.glb", "thumb.png"]);
     program(&["--size", "256x256", "-o", "program.png"]);
     assert!(
-        told.starts_with("65536 pixels")
-            && bench.read_picture("thumb.png") == bench.read_picture("program.png")
+        stderr.starts_with("65536 pixels")
+            && sandbox.read_picture("thumb.png") == sandbox.read_picture("program.png")
     );
-    run_example(&bench, "isometric", &["crate.glb", "drawing.svg"]);
+    run_example(&sandbox, "isometric", &["crate.glb", "drawing.svg"]);
     program(&["--projection", "isometric", "--style", "dashed", "-o", "program.svg"]);
-    let read = |name: &str| std::fs::read_to_string(bench.path_of(name)).expect(name);
+    let read = |name: &str| std::fs::read_to_string(sandbox.path_of(name)).expect(name);
     assert_eq!(read("drawing.svg"), read("program.svg"));
-    let told = run_example(&bench, "explain", &["crate.glb", "480", "360"]);
-    let by_program = bench.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
-    assert!(told.starts_with(by_program.trim_end()), "{told}");
-    run_example(&bench, "depth_map", &["crate.glb", "own.npy"]);
-    program(&["--passes", "depth", "--passes-as", "npy", "-o", "passed.png"]);
-    let bytes = |name: &str| std::fs::read(bench.path_of(name)).expect(name);
+    let stderr = run_example(&sandbox, "explain", &["crate.glb", "480", "360"]);
+    let by_program = sandbox.run(&["explain", "crate.glb", "--pixel", "480,360"]).stdout;
+    assert!(stderr.starts_with(by_program.trim_end()), "{stderr}");
+    run_example(&sandbox, "depth_map", &["crate.glb", "own.npy"]);
+    program(&["--passes", "depth", "--pass-format", "npy", "-o", "passed.png"]);
+    let bytes = |name: &str| std::fs::read(sandbox.path_of(name)).expect(name);
     assert_eq!(bytes("own.npy"), bytes("passed.depth.npy"));
-    std::fs::create_dir(bench.path_of("frames")).expect("a folder");
-    run_example(&bench, "turntable", &["crate.glb", "frames"]);
+    std::fs::create_dir(sandbox.path_of("frames")).expect("a folder");
+    run_example(&sandbox, "turntable", &["crate.glb", "frames"]);
     let animate = ["animate", "crate.glb", "--turntable", "--frames", "12", "--size", "320x240"];
-    assert_eq!(bench.run(&[&animate[..], &["-o", "{frame:02}.png"]].concat()).code, 0);
+    assert_eq!(sandbox.run(&[&animate[..], &["-o", "{frame:02}.png"]].concat()).code, 0);
     for frame in 0..12 {
         let [one, other] =
-            ["frames/", ""].map(|folder| bench.read_picture(&format!("{folder}{frame:02}.png")));
+            ["frames/", ""].map(|folder| sandbox.read_picture(&format!("{folder}{frame:02}.png")));
         assert!(one == other, "frame {frame}");
     }
 }

@@ -9,16 +9,16 @@ const SCENE: &str = "Scene(models: [(path: \"model.gltf\")], camera: (view: Look
     projection: Perspective(fov_y_degrees: 90, near: 1, far: 9)), image: (size: (200, 100)))";
 
 fn sandbox_with_scene(name: &str, change: impl FnOnce(&mut GltfBuilder)) -> Sandbox {
-    let bench = Sandbox::new(name);
+    let sandbox = Sandbox::new(name);
     let mut document = GltfBuilder::square();
     change(&mut document);
-    document.write_file(&bench, "model");
-    bench.write_file("scene.ron", SCENE);
-    bench
+    document.write_file(&sandbox, "model");
+    sandbox.write_file("scene.ron", SCENE);
+    sandbox
 }
 
-fn explanation_json(bench: &Sandbox, arguments: &[&str]) -> Value {
-    let run = bench.run(&[&["explain", "scene.ron", "--json"], arguments].concat());
+fn explanation_json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
+    let run = sandbox.run(&[&["explain", "scene.ron", "--json"], arguments].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
     serde_json::from_str(&run.stdout).expect("JSON")
 }
@@ -41,63 +41,63 @@ fn assert_near(ours: &Value, theirs: &[f64]) {
 
 #[test]
 fn a_point_is_followed_to_its_pixel() {
-    let bench = sandbox_with_scene("explain_point", |_| {});
+    let sandbox = sandbox_with_scene("explain_point", |_| {});
     // Half-way up from the centre at distance 5, where the picture is 10 high: 25 of 100 rows.
-    let found = explanation_json(&bench, &["--point", "0,2.5,0"]);
+    let found = explanation_json(&sandbox, &["--point", "0,2.5,0"]);
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
     assert_near(&find_item(&found, "view"), &[0.0, 2.5, -5.0]);
     assert_near(&find_item(&found, "ndc"), &[0.0, 0.5, -0.8]);
     assert_near(&find_item(&found, "screen"), &[100.0, 25.0, 0.1]);
-    let lowest = explanation_json(&bench, &["--point", "0,-2.5,0", "--conventions", "chapter"]);
+    let lowest = explanation_json(&sandbox, &["--point", "0,-2.5,0", "--conventions", "chapter"]);
     assert_near(&find_item(&lowest, "screen"), &[99.5, 24.5, -0.8]);
-    let gl = explanation_json(&bench, &["--point", "0,2.5,0", "--conventions", "opengl"]);
+    let gl = explanation_json(&sandbox, &["--point", "0,2.5,0", "--conventions", "opengl"]);
     assert_near(&find_item(&gl, "screen"), &[100.0, 75.0, 0.9]);
-    let d3d = explanation_json(&bench, &["--point", "0,2.5,0", "--conventions", "direct3d"]);
+    let d3d = explanation_json(&sandbox, &["--point", "0,2.5,0", "--conventions", "direct3d"]);
     assert_near(&find_item(&d3d, "view"), &[0.0, 2.5, 5.0]);
     assert_near(&find_item(&d3d, "screen"), &[100.0, 25.0, 0.9]);
-    let vulkan = explanation_json(&bench, &["--point", "0,2.5,0", "--conventions", "vulkan"]);
+    let vulkan = explanation_json(&sandbox, &["--point", "0,2.5,0", "--conventions", "vulkan"]);
     assert_near(&find_item(&vulkan, "ndc"), &[0.0, -0.5, 0.9]);
     assert_near(&find_item(&vulkan, "screen"), &[100.0, 25.0, 0.9]);
 }
 
 #[test]
 fn a_segment_behind_the_eye_is_cut_by_the_near_plane() {
-    let bench = sandbox_with_scene("explain_segment", |_| {});
-    let found = explanation_json(&bench, &["--segment", "0,0,0,0,0,10"]);
+    let sandbox = sandbox_with_scene("explain_segment", |_| {});
+    let found = explanation_json(&sandbox, &["--segment", "0,0,0,0,0,10"]);
     assert_near(&find_item(&found, "t"), &[0.0, 0.4]);
     assert_eq!(find_item(&found, "leaves"), "the near plane");
-    let beside = explanation_json(&bench, &["--segment", "50,0,0,60,0,0"]);
+    let beside = explanation_json(&sandbox, &["--segment", "50,0,0,60,0,0"]);
     assert_eq!(beside["verdict"], "None of it is in the picture: it is outside of right.");
 }
 
 #[test]
 fn vertices_and_triangles_come_from_the_mesh() {
-    let bench = sandbox_with_scene("explain_mesh", |document| {
+    let sandbox = sandbox_with_scene("explain_mesh", |document| {
         document.json["nodes"][0]["translation"] = json!([1, 0, 0]);
         document.json["nodes"][0]["name"] = json!("sign");
     });
-    let corner = explanation_json(&bench, &["--node", "sign", "--vertex", "2"]);
+    let corner = explanation_json(&sandbox, &["--node", "sign", "--vertex", "2"]);
     assert_near(&find_item(&corner, "mesh"), &[1.0, 1.0, 0.0]);
     assert_near(&find_item(&corner, "world"), &[2.0, 1.0, 0.0]);
-    let half = explanation_json(&bench, &["--node", "0", "--triangle", "1"]);
+    let half = explanation_json(&sandbox, &["--node", "0", "--triangle", "1"]);
     // Half of a square of 2 × 2 where ten units are a hundred pixels.
     assert!((find_item(&half, "area").as_f64().expect("an area").abs() - 200.0).abs() < 1e-9);
-    let run = bench.run(&["explain", "scene.ron", "--node", "sing", "--vertex", "2"]);
+    let run = sandbox.run(&["explain", "scene.ron", "--node", "sing", "--vertex", "2"]);
     assert_eq!(run.code, 1);
     assert!(
         run.stderr.contains("there is no node `sing`") && run.stderr.contains("sign"),
         "{}",
         run.stderr
     );
-    let run = bench.run(&["explain", "scene.ron", "--node", "0", "--vertex", "9"]);
+    let run = sandbox.run(&["explain", "scene.ron", "--node", "0", "--vertex", "9"]);
     assert!(run.stderr.contains("has 4 vertices; there is no vertex 9"), "{}", run.stderr);
 }
 
 #[test]
 fn why_a_node_is_not_seen() {
     let verdict = |name: &str, change: &dyn Fn(&mut GltfBuilder)| {
-        let bench = sandbox_with_scene(name, change);
-        explanation_json(&bench, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
+        let sandbox = sandbox_with_scene(name, change);
+        explanation_json(&sandbox, &["--node", "0"])["verdict"].as_str().expect("words").to_owned()
     };
     let seen = verdict("explain_seen", &|_| {});
     assert!(seen.starts_with("2 of 2 (100 %)"), "{seen}");
@@ -122,8 +122,8 @@ fn why_a_node_is_not_seen() {
 
 #[test]
 fn without_a_subject_the_transforms_are_explained() {
-    let bench = sandbox_with_scene("explain_chain", |_| {});
-    let run = bench.run(&["explain", "scene.ron"]);
+    let sandbox = sandbox_with_scene("explain_chain", |_| {});
+    let run = sandbox.run(&["explain", "scene.ron"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for word in ["CA-1, CA-2", "VV-2", "M_vp", "perspective: left -2, right 2"] {
         assert!(run.stdout.contains(word), "{word}: {}", run.stdout);
@@ -132,29 +132,29 @@ fn without_a_subject_the_transforms_are_explained() {
 
 #[test]
 fn a_pixel_is_traced_to_its_triangle() {
-    let bench = sandbox_with_scene("explain_pixel", |_| {});
+    let sandbox = sandbox_with_scene("explain_pixel", |_| {});
     // The square is 20 × 20 pixels around the centre; its lower right half is its first triangle.
-    let found = explanation_json(&bench, &["--pixel", "104,52", "--samples", "1"]);
+    let found = explanation_json(&sandbox, &["--pixel", "104,52", "--samples", "1"]);
     assert_eq!(find_item(&found, "hex"), "#ff0000, alpha 255");
     assert_near(&find_item(&found, "srgb"), &[255.0, 0.0, 0.0, 255.0]);
     let title = found["steps"][0]["title"].as_str().expect("words");
     assert!(title.contains("triangle 0 of primitive 0 at node 0"), "{title}");
     let world = find_item(&found, "world");
-    let place: Vec<f64> =
-        world.as_array().expect("a place").iter().filter_map(Value::as_f64).collect();
+    let position: Vec<f64> =
+        world.as_array().expect("a position").iter().filter_map(Value::as_f64).collect();
     let expected = [0.45, -0.25, 0.0];
-    assert!(place.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{place:?}");
-    let empty = explanation_json(&bench, &["--pixel", "0,0"]);
+    assert!(position.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4), "{position:?}");
+    let empty = explanation_json(&sandbox, &["--pixel", "0,0"]);
     assert!(empty["verdict"].as_str().expect("words").contains("nothing is in it"));
-    let run = bench.run(&["explain", "scene.ron", "--pixel", "200,0"]);
+    let run = sandbox.run(&["explain", "scene.ron", "--pixel", "200,0"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("200 x 100"), "{}", run.stderr);
 }
 
 #[test]
 fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
-    let bench = sandbox_with_scene("explain_page", |_| {});
-    let run = bench.run(&[
+    let sandbox = sandbox_with_scene("explain_page", |_| {});
+    let run = sandbox.run(&[
         "explain",
         "scene.ron",
         "--segment",
@@ -164,7 +164,7 @@ fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
         "page.html",
     ]);
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
-    let page = std::fs::read_to_string(bench.path_of("page.html")).expect("a page");
+    let page = std::fs::read_to_string(sandbox.path_of("page.html")).expect("a page");
     assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
     // Two views of the view volume, two of the canonical volume, and the picture.
     assert_eq!(page.matches("<figure>").count(), 5);
@@ -173,7 +173,7 @@ fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
     for other in ["http:", "https:", "<script", "<link", "src="] {
         assert!(!page.contains(other), "{other}");
     }
-    let text = bench.run(&["explain", "scene.ron", "--segment", "0,0,0,0,2.5,8"]).stdout;
+    let text = sandbox.run(&["explain", "scene.ron", "--segment", "0,0,0,0,2.5,8"]).stdout;
     let verdict = text.lines().last().expect("a verdict");
     assert!(page.contains(verdict), "{verdict}");
     assert!(page.contains("<td>") && page.contains("<code>CL-2</code>"));
@@ -181,9 +181,9 @@ fn a_page_has_the_same_numbers_as_the_text_and_asks_for_nothing_else() {
 
 #[test]
 fn a_page_marks_the_pixel_also_where_rows_run_up() {
-    let bench = sandbox_with_scene("explain_page_rows", |_| {});
+    let sandbox = sandbox_with_scene("explain_page_rows", |_| {});
     for conventions in ["alberti", "chapter", "opengl", "vulkan", "direct3d", "webgpu"] {
-        let run = bench.run(&[
+        let run = sandbox.run(&[
             "explain",
             "scene.ron",
             "--point",

@@ -1,15 +1,16 @@
-//! Drawings as other programs show them: an SVG in Chromium and a PDF through Poppler must look like the PNG that `alberti` draws of
-//! the same page.
+//! Drawings as other programs show them: an SVG in Chromium and a PDF through Poppler must look
+//! like the PNG that `alberti` draws of the same page.
 //!
-//! Edges are softened a little differently by each, so pictures are compared with a tolerance of a pixel: where one has ink, the
-//! other must have some beside it. Skipped, by name, where the programs are not installed; `.ci/run` installs them if it can.
+//! Edges are softened a little differently by each, so pictures are compared with a tolerance of a
+//! pixel: where one has ink, the other must have some beside it. Skipped, by name, where the
+//! programs are not installed; `.ci/run` installs them if it can.
 
 use crate::sandbox::Sandbox;
 use std::io::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-/// Where a program is, by one of its names; `None`, told on the error stream, if it is nowhere.
+/// Where a program is, by one of its names; `None`, stderr on the error stream, if it is nowhere.
 fn installed(names: &[&str]) -> Option<String> {
     let answers = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
     if let Some(name) = names.iter().find(answers) {
@@ -90,8 +91,8 @@ fn drawings() -> Vec<(Vec<&'static str>, [u32; 2])> {
     ]
 }
 
-fn draw_file(bench: &Sandbox, flags: &[&str], output: &str) {
-    let run = bench.run(&[flags, &["-o", output]].concat());
+fn draw_file(sandbox: &Sandbox, flags: &[&str], output: &str) {
+    let run = sandbox.run(&[flags, &["-o", output]].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
 }
 
@@ -100,27 +101,27 @@ fn chromium_shows_an_svg_as_the_png_has_it() {
     let Some(chromium) = installed(&["chromium", "chromium-browser", "google-chrome"]) else {
         return;
     };
-    let bench = Sandbox::new("chromium");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("chromium");
+    sandbox.copy_model("house.glb");
     for (flags, [width, height]) in drawings() {
-        draw_file(&bench, &flags, "ours.png");
-        draw_file(&bench, &flags, "drawing.svg");
+        draw_file(&sandbox, &flags, "ours.png");
+        draw_file(&sandbox, &flags, "drawing.svg");
         // A sheet is laid out for 96 pixels to the inch.
         let factor = if flags[0] == "sheet" { 150.0 / 96.0 } else { 1.0 };
         let [columns, rows] = [width, height].map(|side| (f64::from(side) / factor).ceil());
-        let url = format!("file://{}", bench.path_of("drawing.svg").display());
+        let url = format!("file://{}", sandbox.path_of("drawing.svg").display());
         let status = Command::new(&chromium)
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"])
-            .arg(format!("--user-data-dir={}", bench.path_of("profile").display()))
+            .arg(format!("--user-data-dir={}", sandbox.path_of("profile").display()))
             .arg(format!("--force-device-scale-factor={factor}"))
             .arg(format!("--window-size={columns},{rows}"))
-            .arg(format!("--screenshot={}", bench.path_of("theirs.png").display()))
+            .arg(format!("--screenshot={}", sandbox.path_of("theirs.png").display()))
             .arg(url)
             .output()
             .expect("Chromium starts");
         assert!(status.status.success(), "{}", String::from_utf8_lossy(&status.stderr));
-        let ours = InkMap::from_picture(bench.read_picture("ours.png"));
-        let theirs = cropped(bench.read_picture("theirs.png"), ours.size);
+        let ours = InkMap::from_picture(sandbox.read_picture("ours.png"));
+        let theirs = cropped(sandbox.read_picture("theirs.png"), ours.size);
         assert_alike(&ours, &InkMap::from_picture(theirs), 0.1, &format!("{flags:?}"));
     }
 }
@@ -139,24 +140,24 @@ fn cropped(
 #[test]
 fn poppler_shows_a_pdf_as_the_png_has_it() {
     let Some(pdftoppm) = installed(&["pdftoppm"]) else { return };
-    let bench = Sandbox::new("poppler");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("poppler");
+    sandbox.copy_model("house.glb");
     for (flags, [width, height]) in drawings() {
-        draw_file(&bench, &flags, "ours.png");
-        draw_file(&bench, &flags, "drawing.pdf");
+        draw_file(&sandbox, &flags, "ours.png");
+        draw_file(&sandbox, &flags, "drawing.pdf");
         let sides = [("-scale-to-x", width), ("-scale-to-y", height)];
         let sides = sides.map(|(flag, side)| [flag.to_owned(), side.to_string()]).concat();
         let run = Command::new(&pdftoppm)
             .args(["-png", "-singlefile"])
             .args(sides)
-            .args([bench.path_of("drawing.pdf"), bench.path_of("theirs")])
+            .args([sandbox.path_of("drawing.pdf"), sandbox.path_of("theirs")])
             .output()
             .expect("Poppler starts");
-        let told = String::from_utf8_lossy(&run.stderr).into_owned();
-        assert!(run.status.success() && told.is_empty(), "{told}");
-        assert!(Path::new(&bench.path_of("theirs.png")).is_file());
+        let stderr = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(run.status.success() && stderr.is_empty(), "{stderr}");
+        assert!(Path::new(&sandbox.path_of("theirs.png")).is_file());
         let [ours, theirs] =
-            ["ours.png", "theirs.png"].map(|name| InkMap::from_picture(bench.read_picture(name)));
+            ["ours.png", "theirs.png"].map(|name| InkMap::from_picture(sandbox.read_picture(name)));
         // Poppler moves narrow lines onto whole pixels and makes them a little wider.
         assert_alike(&ours, &theirs, 0.2, &format!("{flags:?}"));
     }

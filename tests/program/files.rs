@@ -4,52 +4,53 @@ use crate::sandbox::Sandbox;
 
 #[test]
 fn without_a_name_the_picture_goes_to_the_current_folder() {
-    let bench = Sandbox::new("default_output");
-    bench.copy_model("teapot.glb");
-    let run = bench.run(&["render", "teapot.glb", "--size", "40x30"]);
+    let sandbox = Sandbox::new("default_output");
+    sandbox.copy_model("teapot.glb");
+    let run = sandbox.run(&["render", "teapot.glb", "--size", "40x30"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    assert_eq!(bench.file_names(), ["teapot.glb", "teapot.png"]);
-    assert_eq!(bench.read_picture("teapot.png").0, 40);
+    assert_eq!(sandbox.file_names(), ["teapot.glb", "teapot.png"]);
+    assert_eq!(sandbox.read_picture("teapot.png").0, 40);
 }
 
 #[test]
 fn a_failed_run_leaves_the_old_picture_and_nothing_else() {
-    let bench = Sandbox::new("failed_run");
-    bench.write_file("out.png", "the old picture");
-    bench.write_file("broken.glb", "glTF but not really");
-    bench.write_file("broken.ron", "Scene(models: [(path: \"missing.glb\")])");
+    let sandbox = Sandbox::new("failed_run");
+    sandbox.write_file("out.png", "the old picture");
+    sandbox.write_file("broken.glb", "glTF but not really");
+    sandbox.write_file("broken.ron", "Scene(models: [(path: \"missing.glb\")])");
     for input in ["broken.glb", "broken.ron", "missing.glb", "missing.ron", "."] {
-        let run = bench.run(&["render", input, "-o", "out.png"]);
+        let run = sandbox.run(&["render", input, "-o", "out.png"]);
         assert_eq!(run.code, 1, "{input}");
         assert!(run.stderr.starts_with("error: "), "{input}: {}", run.stderr);
-        assert_eq!(bench.file_names(), ["broken.glb", "broken.ron", "out.png"], "{input}");
-        let old = std::fs::read_to_string(bench.path_of("out.png")).expect("the old picture");
+        assert_eq!(sandbox.file_names(), ["broken.glb", "broken.ron", "out.png"], "{input}");
+        let old = std::fs::read_to_string(sandbox.path_of("out.png")).expect("the old picture");
         assert_eq!(old, "the old picture", "{input}");
     }
 }
 
 #[test]
 fn an_output_that_cannot_be_written_is_named() {
-    let bench = Sandbox::new("bad_output");
-    bench.copy_model("crate.glb");
-    let run = bench.run(&["render", "crate.glb", "-o", "no/such/folder/out.png"]);
+    let sandbox = Sandbox::new("bad_output");
+    sandbox.copy_model("crate.glb");
+    let run = sandbox.run(&["render", "crate.glb", "-o", "no/such/folder/out.png"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("no/such/folder/out.png"), "{}", run.stderr);
-    let run = bench.run(&["render", "crate.glb", "-o", "out.jpg"]);
+    let run = sandbox.run(&["render", "crate.glb", "-o", "out.jpg"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("out.jpg") && run.stderr.contains(".png"), "{}", run.stderr);
-    assert_eq!(bench.file_names(), ["crate.glb"]);
+    assert_eq!(sandbox.file_names(), ["crate.glb"]);
 }
 
 #[test]
 fn a_scene_may_not_lead_out_of_its_folder_unless_allowed() {
-    let bench = Sandbox::new("sandbox");
-    bench.copy_model("crate.glb");
-    std::fs::create_dir(bench.path_of("inner")).expect("a folder");
-    bench.write_file("inner/scene.ron", "Scene(models: [(path: \"../crate.glb\")])");
-    let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16"]);
+    let sandbox = Sandbox::new("sandbox");
+    sandbox.copy_model("crate.glb");
+    std::fs::create_dir(sandbox.path_of("inner")).expect("a folder");
+    sandbox.write_file("inner/scene.ron", "Scene(models: [(path: \"../crate.glb\")])");
+    let run = sandbox.run(&["render", "inner/scene.ron", "--size", "16x16"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("--allow-outside"), "{}", run.stderr);
-    let run = bench.run(&["render", "inner/scene.ron", "--size", "16x16", "--allow-outside", "."]);
+    let run =
+        sandbox.run(&["render", "inner/scene.ron", "--size", "16x16", "--allow-outside", "."]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
 }

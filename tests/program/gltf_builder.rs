@@ -10,7 +10,8 @@ pub(crate) struct GltfBuilder {
 }
 
 impl GltfBuilder {
-    /// A square from (−1, −1, 0) to (1, 1, 0) that faces +z, with a red unlit material; node 0 shows it.
+    /// A square from (−1, −1, 0) to (1, 1, 0) that faces +z, with a red unlit material; node 0
+    /// shows it.
     pub(crate) fn square() -> Self {
         let mut document = Self {
             json: json!({
@@ -65,17 +66,17 @@ impl GltfBuilder {
         )
     }
 
-    /// Adds to the list at a pointer; gives the place.
+    /// Appends to the array at a JSON pointer; returns the index.
     pub(crate) fn push_item(&mut self, pointer: &str, value: Value) -> usize {
         let list = self.json.pointer_mut(pointer).and_then(Value::as_array_mut).expect("a list");
         list.push(value);
         list.len() - 1
     }
 
-    /// Writes `NAME.gltf` and `NAME.bin` to a bench.
-    pub(crate) fn write_file(&mut self, bench: &Sandbox, name: &str) {
+    /// Writes `NAME.gltf` and `NAME.bin` to a sandbox.
+    pub(crate) fn write_file(&mut self, sandbox: &Sandbox, name: &str) {
         self.json["buffers"][0]["uri"] = json!(format!("{name}.bin"));
-        bench.write_file(&format!("{name}.bin"), &self.bytes);
-        bench.write_file(&format!("{name}.gltf"), self.json.to_string());
+        sandbox.write_file(&format!("{name}.bin"), &self.bytes);
+        sandbox.write_file(&format!("{name}.gltf"), self.json.to_string());
     }
 }

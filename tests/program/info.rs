@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 #[test]
 fn a_model_is_described_line_by_line() {
-    let bench = Sandbox::new("info");
-    bench.copy_model("crate.glb");
-    let run = bench.run(&["info", "crate.glb"]);
+    let sandbox = Sandbox::new("info");
+    sandbox.copy_model("crate.glb");
+    let run = sandbox.run(&["info", "crate.glb"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for subject in ["meshes", "shown", "bounds", "materials", "cameras", "extensions", "animations"]
     {
@@ -19,26 +19,26 @@ fn a_model_is_described_line_by_line() {
 
 #[test]
 fn a_file_that_is_no_model_is_refused() {
-    let bench = Sandbox::new("info_refused");
-    bench.write_file("text.glb", "hello");
+    let sandbox = Sandbox::new("info_refused");
+    sandbox.write_file("text.glb", "hello");
     for flags in [&[][..], &["--json"]] {
-        let run = bench.run(&[&["info", "text.glb"], flags].concat());
+        let run = sandbox.run(&[&["info", "text.glb"], flags].concat());
         assert_eq!((run.code, run.stdout.as_str()), (1, ""));
         assert!(run.stderr.contains("text.glb"), "{}", run.stderr);
     }
 }
 
-/// What `info --json` says of a document.
-fn info_json(bench: &Sandbox, document: &mut GltfBuilder) -> Value {
-    document.write_file(bench, "model");
-    let run = bench.run(&["info", "--json", "model.gltf"]);
+/// The output of `info --json` for a document.
+fn info_json(sandbox: &Sandbox, document: &mut GltfBuilder) -> Value {
+    document.write_file(sandbox, "model");
+    let run = sandbox.run(&["info", "--json", "model.gltf"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
 #[test]
 fn json_lists_counts_and_instances() {
-    let bench = Sandbox::new("info_json");
+    let sandbox = Sandbox::new("info_json");
     let mut document = GltfBuilder::square();
     document.json["nodes"][0]["scale"] = json!([-2, 1, 1]);
     document.json["nodes"][0]["children"] = json!([1]);
@@ -47,7 +47,7 @@ fn json_lists_counts_and_instances() {
     document.push_item("/meshes/0/primitives", line);
     document.json["extensionsUsed"] =
         json!(["KHR_materials_unlit", "ACME_gizmo", "KHR_materials_dispersion"]);
-    let info = info_json(&bench, &mut document);
+    let info = info_json(&sandbox, &mut document);
     assert_eq!(info["schema"], json!({"name": "alberti-info", "version": 1}));
     let bounds = json!({"min": [-2.0, -1.0, 0.0], "max": [2.0, 4.0, 0.0]});
     assert_eq!(info["shown"]["bounds"], bounds);
@@ -68,17 +68,17 @@ fn json_lists_counts_and_instances() {
 
 #[test]
 fn glass_is_described_as_thin_and_tinted() {
-    let bench = Sandbox::new("info_glass");
+    let sandbox = Sandbox::new("info_glass");
     let mut document = GltfBuilder::square();
     let extensions = ["KHR_materials_transmission", "KHR_materials_volume"];
     document.json["extensionsUsed"] = json!(extensions);
-    let info = info_json(&bench, &mut document);
+    let info = info_json(&sandbox, &mut document);
     for (at, name) in extensions.iter().enumerate() {
-        let told = &info["extensions"][at];
-        assert_eq!((&told["name"], &told["status"]), (&json!(name), &json!("drawn in part")));
-        let note = told["note"].as_str().expect("a note");
+        let entry = &info["extensions"][at];
+        assert_eq!((&entry["name"], &entry["status"]), (&json!(name), &json!("drawn in part")));
+        let note = entry["note"].as_str().expect("a note");
         assert!(note.contains("tinted"), "{note}");
-        let text = bench.run(&["info", "model.gltf"]).stdout;
+        let text = sandbox.run(&["info", "model.gltf"]).stdout;
         assert!(text.contains(&format!("{name} ({note})")), "{text}");
     }
 }
@@ -109,12 +109,12 @@ fn material_with_all_extensions() -> Value {
 
 #[test]
 fn json_lists_material_extensions() {
-    let bench = Sandbox::new("info_materials");
+    let sandbox = Sandbox::new("info_materials");
     let mut document = GltfBuilder::square();
     document.json["materials"][0] = material_with_all_extensions();
     document.json["textures"] = json!([{"source": 0}, {}]);
     document.json["images"] = json!([{"uri": "missing.png", "name": "look"}]);
-    let info = info_json(&bench, &mut document);
+    let info = info_json(&sandbox, &mut document);
     let material = &info["materials"][0];
     assert_eq!((&material["metallic"], &material["roughness"]), (&json!(0.25), &json!(1.0)));
     assert_eq!(material["emissive"], json!([2.0, 0.0, 4.0]));
@@ -136,29 +136,29 @@ fn json_lists_material_extensions() {
         material["textures"].as_array().expect("a list").iter().map(|used| &used["slot"]).collect();
     let coat = "extensions/KHR_materials_clearcoat/clearcoatNormalTexture";
     let color = "extensions/KHR_materials_specular/specularColorTexture";
-    let due = [
+    let expected = [
         "pbrMetallicRoughness/metallicRoughnessTexture",
         "normalTexture",
         "occlusionTexture",
         color,
         coat,
     ];
-    assert_eq!(slots, due);
+    assert_eq!(slots, expected);
     assert_eq!(material["textures"][1]["uv_set"], 1, "the transform's set goes first");
     assert_eq!(material["textures"][1]["transformed"], true);
     assert_eq!(info["images"], json!([{"name": "look", "uri": "missing.png", "file": null}]));
-    let told = |pointer: &str| {
+    let assert_listed = |pointer: &str| {
         let warnings = info["warnings"].as_array().expect("a list");
         assert!(warnings.iter().any(|w| w["pointer"] == pointer), "{pointer}: {warnings:?}");
     };
-    told("/materials/0/pbrMetallicRoughness/roughnessFactor");
-    told("/materials/0/extensions/KHR_materials_transmission/transmissionFactor");
-    told("/materials/0/extensions/KHR_materials_anisotropy/anisotropyRotation");
+    assert_listed("/materials/0/pbrMetallicRoughness/roughnessFactor");
+    assert_listed("/materials/0/extensions/KHR_materials_transmission/transmissionFactor");
+    assert_listed("/materials/0/extensions/KHR_materials_anisotropy/anisotropyRotation");
 }
 
 #[test]
 fn json_lists_visible_edges_of_the_file() {
-    let bench = Sandbox::new("info_edges");
+    let sandbox = Sandbox::new("info_edges");
     let mut document = GltfBuilder::square();
     // The example of the extension's text: values 2, 0, 1 and 0, 2, 0 for the two triangles.
     let bits = document
@@ -173,7 +173,7 @@ fn json_lists_visible_edges_of_the_file() {
         "EXT_mesh_primitive_edge_visibility": {"visibility": bits, "lineStrings": [{"indices": strings}]},
         "CESIUM_primitive_outline": {"indices": outline},
     });
-    let info = info_json(&bench, &mut document);
+    let info = info_json(&sandbox, &mut document);
     let edges = &info["meshes"][0]["primitives"][0]["edges"];
     // Lines 0-1, 1-2, 3-0 of the strings and 0-1 of the outline; there is no vertex 9.
     assert_eq!(*edges, json!({"hard": 2, "silhouette": 1, "lines": 4, "material": null}));

@@ -1,13 +1,14 @@
-//! Several views in one picture, what is behind the models, copies and changed materials, ways of cameras.
+//! Several views in one picture, what is behind the models, copies and changed materials, ways of
+//! cameras.
 
 use crate::sandbox::Sandbox;
 
-fn render_fields(bench: &Sandbox, name: &str, fields: &str) -> (u32, u32, Vec<[u8; 4]>) {
+fn render_fields(sandbox: &Sandbox, name: &str, fields: &str) -> (u32, u32, Vec<[u8; 4]>) {
     let scene = format!("{name}.ron");
-    bench.write_file(&scene, format!("Scene(models: [(path: \"crate.glb\")], {fields})"));
-    let run = bench.run(&["render", &scene]);
+    sandbox.write_file(&scene, format!("Scene(models: [(path: \"crate.glb\")], {fields})"));
+    let run = sandbox.run(&["render", &scene]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    bench.read_picture(&format!("{name}.png"))
+    sandbox.read_picture(&format!("{name}.png"))
 }
 
 /// The pixels of a rectangle: left, top, width, height.
@@ -23,47 +24,48 @@ fn cut_out(
 }
 
 /// Lights that say nothing of theirs are where the scene's own camera has them, and not the film's.
-const IMAGE: &str = "image: (size: (40, 30)), lights: [Sun(direction: (-1, -2, -1), lux: 3)]";
+const IMAGE: &str =
+    "image: (size: (40, 30)), lights: [Directional(direction: (-1, -2, -1), intensity: 3)]";
 const GRADIENT: &str = "Gradient(colors: [\"#102030\", \"#f0e0d0\"])";
 
 #[test]
 fn a_viewport_shows_what_its_camera_shows_alone() {
-    let bench = Sandbox::new("viewports");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("viewports");
+    sandbox.copy_model("crate.glb");
     let camera = "camera: (view: Frame(from: Top), projection: Orthographic())";
     let viewport = format!("pixels: (20, 8, 30, 24), {camera}, style: Clay");
     let both = format!(
         "image: (size: (80, 60), background: {GRADIENT}), viewports: [({viewport}), (at: (0.75, 0.5, 0.25, 0.5), \
          background: Color(\"#f00\"), border: (color: \"#0f0\", width: 2))]"
     );
-    let all = render_fields(&bench, "all", &both);
+    let all = render_fields(&sandbox, "all", &both);
     let inner = format!("image: (size: (30, 24), background: {GRADIENT}), {camera}, style: Clay");
-    assert_eq!(cut_out(&all, [20, 8, 30, 24]), render_fields(&bench, "inner", &inner).2);
+    assert_eq!(cut_out(&all, [20, 8, 30, 24]), render_fields(&sandbox, "inner", &inner).2);
     let outer = format!("image: (size: (80, 60), background: {GRADIENT})");
-    let outer = render_fields(&bench, "outer", &outer);
+    let outer = render_fields(&sandbox, "outer", &outer);
     assert_eq!(cut_out(&all, [0, 0, 20, 60]), cut_out(&outer, [0, 0, 20, 60]));
     assert_eq!(cut_out(&all, [60, 30, 20, 2]), [[0, 255, 0, 255]; 40]);
     assert_eq!(cut_out(&all, [62, 32, 1, 1]), [[255, 0, 0, 255]]);
     // A part of the picture is what the whole has there, views and gradient included.
-    let run = bench.run(&["render", "all.ron", "-o", "part.png", "--crop", "15,5,50,40"]);
+    let run = sandbox.run(&["render", "all.ron", "-o", "part.png", "--crop", "15,5,50,40"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    assert_eq!(bench.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
-    let run = bench.run(&["render", "all.ron", "-o", "all.svg"]);
+    assert_eq!(sandbox.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
+    let run = sandbox.run(&["render", "all.ron", "-o", "all.svg"]);
     assert_eq!(run.code, 0);
     assert!(run.stderr.contains("only PNG pictures have viewports"), "{}", run.stderr);
 }
 
 #[test]
 fn stereo_views_agree_in_the_plane_of_convergence() {
-    let bench = Sandbox::new("stereo");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("stereo");
+    sandbox.copy_model("crate.glb");
     let camera = "camera: (view: LookAt(eye: (0, 0.5, 5), target: (0, 0.5, 0)))";
     let image = "image: (size: (60, 60), background: Color(\"#fff\"))";
-    let mono = render_fields(&bench, "mono", &format!("{camera}, {image}"));
+    let mono = render_fields(&sandbox, "mono", &format!("{camera}, {image}"));
     let wide = "image: (size: (120, 60), background: Color(\"#fff\"))";
     // Both converge on the crate's front, whose outline is where one eye alone has it.
     let pair = "stereo: SideBySide(convergence: 4.5, eye_distance: 0.3)";
-    let pair = render_fields(&bench, "pair", &format!("{camera}, {wide}, {pair}"));
+    let pair = render_fields(&sandbox, "pair", &format!("{camera}, {wide}, {pair}"));
     let dark = |pixels: Vec<[u8; 4]>| pixels.iter().filter(|p| **p != [255; 4]).count();
     let counts =
         [dark(mono.2), dark(cut_out(&pair, [0, 0, 60, 60])), dark(cut_out(&pair, [60, 0, 60, 60]))];
@@ -72,7 +74,7 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
     assert_ne!(cut_out(&pair, [0, 0, 60, 60]), cut_out(&pair, [60, 0, 60, 60]));
     // Red of the left eye, green and blue of the right one.
     let glasses = "stereo: Anaglyph(convergence: 4.5, eye_distance: 0.3)";
-    let glasses = render_fields(&bench, "glasses", &format!("{camera}, {image}, {glasses}"));
+    let glasses = render_fields(&sandbox, "glasses", &format!("{camera}, {image}, {glasses}"));
     let (left, right) = (cut_out(&pair, [0, 0, 60, 60]), cut_out(&pair, [60, 0, 60, 60]));
     let mixed: Vec<_> = left.iter().zip(&right).map(|(l, r)| [l[0], r[1], r[2], 255]).collect();
     assert_eq!(glasses.2, mixed);
@@ -80,52 +82,53 @@ fn stereo_views_agree_in_the_plane_of_convergence() {
 
 #[test]
 fn a_picture_lies_behind_the_models_and_outside_of_the_folder_it_is_refused() {
-    let bench = Sandbox::new("background_picture");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("background_picture");
+    sandbox.copy_model("crate.glb");
     let red = "image: (size: (8, 8), background: Color(\"#c00\")), camera: (view: LookTo(eye: (0, 0, 9), gaze: (0, 0, 1)))";
-    render_fields(&bench, "red", red);
+    render_fields(&sandbox, "red", red);
     let behind = "background: Picture(path: \"red.png\", fit: Contain, color: \"#00c\")";
-    let image = render_fields(&bench, "framed", &format!("image: (size: (40, 20), {behind})"));
+    let image = render_fields(&sandbox, "framed", &format!("image: (size: (40, 20), {behind})"));
     assert_eq!(cut_out(&image, [0, 0, 1, 1]), [[0, 0, 204, 255]]);
     assert_eq!(cut_out(&image, [11, 0, 1, 1]), [[204, 0, 0, 255]]);
     let lines = format!("image: (size: (40, 20), {behind}), style: Lines()");
-    let lines = render_fields(&bench, "lines", &lines);
+    let lines = render_fields(&sandbox, "lines", &lines);
     assert_eq!(cut_out(&lines, [0, 0, 1, 1]), [[0, 0, 204, 255]]);
     assert_eq!(cut_out(&lines, [10, 0, 1, 1]), [[204, 0, 0, 255]]);
 }
 
 #[test]
 fn copies_and_changed_materials_are_seen() {
-    let bench = Sandbox::new("copies");
-    bench.copy_model("crate.glb");
-    bench.write_file(
+    let sandbox = Sandbox::new("copies");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file(
         "scene.ron",
         "Scene(models: [(path: \"crate.glb\", instances: Grid(count: (2, 1, 1), step: (4, 0, 0)), \
          materials: [(base_color: \"#00f\", unlit: true)])], camera: (view: Frame(from: Front), \
          projection: Orthographic()), image: (size: (90, 30)))",
     );
-    let run = bench.run(&["render", "scene.ron"]);
+    let run = sandbox.run(&["render", "scene.ron"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let picture = bench.read_picture("scene.png");
+    let picture = sandbox.read_picture("scene.png");
     let blue = |x: u32| cut_out(&picture, [x, 15, 1, 1])[0];
     assert_eq!([blue(10), blue(45), blue(80)], [[0, 0, 255, 255], [0; 4], [0, 0, 255, 255]]);
 }
 
 #[test]
 fn a_camera_moves_along_its_keys() {
-    let bench = Sandbox::new("camera_path");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("camera_path");
+    sandbox.copy_model("crate.glb");
     let key =
         |time: f64, x: f64| format!("(time: {time}, eye: ({x}, 0.5, 6), target: ({x}, 0.5, 0))");
     let keys =
         format!("camera_path: (keys: [{}, {}], curve: Linear)", key(1.0, 0.0), key(2.0, 2.0));
-    bench.write_file("way.ron", format!("Scene(models: [(path: \"crate.glb\")], {IMAGE}, {keys})"));
-    let run = bench.run(&["animate", "way.ron", "-o", "f_{frame}.png", "--fps", "4"]);
+    sandbox
+        .write_file("way.ron", format!("Scene(models: [(path: \"crate.glb\")], {IMAGE}, {keys})"));
+    let run = sandbox.run(&["animate", "way.ron", "-o", "f_{frame}.png", "--fps", "4"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(!bench.path_of("f_4.png").exists());
+    assert!(!sandbox.path_of("f_4.png").exists());
     for (frame, x) in [(0, 0.0), (1, 0.5), (3, 1.5)] {
         let camera = format!("camera: (view: LookAt(eye: ({x}, 0.5, 6), target: ({x}, 0.5, 0)))");
-        let still = render_fields(&bench, "still", &format!("{IMAGE}, {camera}"));
-        assert_eq!(bench.read_picture(&format!("f_{frame}.png")), still, "{frame}");
+        let still = render_fields(&sandbox, "still", &format!("{IMAGE}, {camera}"));
+        assert_eq!(sandbox.read_picture(&format!("f_{frame}.png")), still, "{frame}");
     }
 }

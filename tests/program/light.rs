@@ -4,18 +4,18 @@ use crate::sandbox::Sandbox;
 
 type Pixels = Vec<[u8; 4]>;
 
-/// A bench with a model, and pictures of it by flags.
+/// A sandbox with a model, and pictures of it by flags.
 fn sandbox_with_model(name: &str, model: &str) -> Sandbox {
-    let bench = Sandbox::new(name);
-    bench.copy_model(model);
-    bench
+    let sandbox = Sandbox::new(name);
+    sandbox.copy_model(model);
+    sandbox
 }
 
-fn render_pixels(bench: &Sandbox, input: &str, flags: &[&str]) -> Pixels {
-    let usual = ["render", input, "-o", "out.png", "--size", "80x60"];
-    let run = bench.run(&[&usual[..], flags].concat());
+fn render_pixels(sandbox: &Sandbox, input: &str, flags: &[&str]) -> Pixels {
+    let default = ["render", input, "-o", "out.png", "--size", "80x60"];
+    let run = sandbox.run(&[&default[..], flags].concat());
     assert_eq!(run.code, 0, "{flags:?}: {}", run.stderr);
-    bench.read_picture("out.png").2
+    sandbox.read_picture("out.png").2
 }
 
 /// The sum of all codes of red, green and blue where something is.
@@ -33,103 +33,108 @@ fn hdr_file(rgbe: [u8; 4]) -> Vec<u8> {
 
 #[test]
 fn a_bare_model_stands_in_the_studio() {
-    let bench = sandbox_with_model("studio", "finishes.glb");
-    let bare = render_pixels(&bench, "finishes.glb", &[]);
-    assert_eq!(render_pixels(&bench, "finishes.glb", &["--environment", "studio"]), bare);
-    let none = render_pixels(&bench, "finishes.glb", &["--environment", "none"]);
-    let sky = render_pixels(&bench, "finishes.glb", &["--environment", "sky"]);
+    let sandbox = sandbox_with_model("studio", "finishes.glb");
+    let bare = render_pixels(&sandbox, "finishes.glb", &[]);
+    assert_eq!(render_pixels(&sandbox, "finishes.glb", &["--environment", "studio"]), bare);
+    let none = render_pixels(&sandbox, "finishes.glb", &["--environment", "none"]);
+    let sky = render_pixels(&sandbox, "finishes.glb", &["--environment", "sky"]);
     assert!(none != bare && sky != bare && sky != none);
     // Metals have something to mirror.
     assert!(total_brightness(&bare) > total_brightness(&none));
     // A scene file says itself what is around.
-    bench.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
-    assert_eq!(render_pixels(&bench, "scene.ron", &[]), none);
+    sandbox.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
+    assert_eq!(render_pixels(&sandbox, "scene.ron", &[]), none);
 }
 
 #[test]
 fn the_environment_comes_from_the_named_file() {
-    let bench = sandbox_with_model("hdr", "finishes.glb");
-    bench.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
+    let sandbox = sandbox_with_model("hdr", "finishes.glb");
+    sandbox.write_file("scene.ron", "Scene(models: [(path: \"finishes.glb\")])");
     let outside = Sandbox::new("hdr_outside");
     outside.write_file("red.hdr", hdr_file([128, 0, 0, 129]));
     let path = outside.path_of("red.hdr").display().to_string();
     for input in ["finishes.glb", "scene.ron"] {
-        let pixels = render_pixels(&bench, input, &["--environment", &path]);
+        let pixels = render_pixels(&sandbox, input, &["--environment", &path]);
         let red = pixels.iter().filter(|pixel| pixel[3] == 255);
         assert!(red.clone().count() > 100 && red.clone().all(|pixel| pixel[1] < 40), "{input}");
         assert!(red.clone().any(|pixel| pixel[0] > 200), "{input}");
     }
-    let missing = bench.run(&["render", "finishes.glb", "--environment", "none.hdr"]);
+    let missing = sandbox.run(&["render", "finishes.glb", "--environment", "none.hdr"]);
     assert_eq!(missing.code, 1, "{}", missing.stderr);
     assert!(missing.stderr.contains("none.hdr"), "{}", missing.stderr);
-    let other = bench.run(&["render", "finishes.glb", "--environment", "beach"]);
+    let other = sandbox.run(&["render", "finishes.glb", "--environment", "beach"]);
     assert_eq!(other.code, 2);
     assert!(other.stderr.contains("studio, sky, none and a .hdr file"), "{}", other.stderr);
 }
 
 #[test]
 fn exposure_and_tone_change_brightness() {
-    let bench = sandbox_with_model("exposure", "teapot.glb");
-    let usual = render_pixels(&bench, "teapot.glb", &[]);
-    assert_eq!(render_pixels(&bench, "teapot.glb", &["--exposure", "0", "--tone", "none"]), usual);
-    let darker = render_pixels(&bench, "teapot.glb", &["--exposure", "-1.5"]);
-    let brighter = render_pixels(&bench, "teapot.glb", &["--exposure", "1"]);
-    assert!(total_brightness(&darker) < total_brightness(&usual));
-    assert!(total_brightness(&brighter) > total_brightness(&usual));
+    let sandbox = sandbox_with_model("exposure", "teapot.glb");
+    let default = render_pixels(&sandbox, "teapot.glb", &[]);
+    assert_eq!(
+        render_pixels(&sandbox, "teapot.glb", &["--exposure", "0", "--tone-mapping", "none"]),
+        default
+    );
+    let darker = render_pixels(&sandbox, "teapot.glb", &["--exposure", "-1.5"]);
+    let brighter = render_pixels(&sandbox, "teapot.glb", &["--exposure", "1"]);
+    assert!(total_brightness(&darker) < total_brightness(&default));
+    assert!(total_brightness(&brighter) > total_brightness(&default));
     let curves = ["neutral", "aces", "agx"];
-    let curves = curves.map(|curve| render_pixels(&bench, "teapot.glb", &["--tone", curve]));
-    assert!(curves.iter().all(|curve| *curve != usual) && curves[0] != curves[1]);
-    for wrong in [["--exposure", "bright"], ["--exposure", "nan"], ["--tone", "filmic"]] {
-        let run = bench.run(&[&["render", "teapot.glb"][..], &wrong].concat());
+    let curves =
+        curves.map(|curve| render_pixels(&sandbox, "teapot.glb", &["--tone-mapping", curve]));
+    assert!(curves.iter().all(|curve| *curve != default) && curves[0] != curves[1]);
+    for wrong in [["--exposure", "bright"], ["--exposure", "nan"], ["--tone-mapping", "filmic"]] {
+        let run = sandbox.run(&[&["render", "teapot.glb"][..], &wrong].concat());
         assert_eq!(run.code, 2, "{wrong:?}");
     }
 }
 
 #[test]
 fn shadows_and_the_ground_are_switched_by_flags() {
-    let bench = sandbox_with_model("shadows", "teapot.glb");
+    let sandbox = sandbox_with_model("shadows", "teapot.glb");
     let below = |pixels: &Pixels| pixels.iter().filter(|p| p[3] > 0 && p[..3] == [0; 3]).count();
-    let plain = render_pixels(&bench, "teapot.glb", &[]);
+    let plain = render_pixels(&sandbox, "teapot.glb", &[]);
     assert_eq!(below(&plain), 0);
-    let ground = render_pixels(&bench, "teapot.glb", &["--ground", "shadow"]);
+    let ground = render_pixels(&sandbox, "teapot.glb", &["--ground", "shadow"]);
     assert!(below(&ground) > 15);
-    bench.write_file(
+    sandbox.write_file(
         "scene.ron",
         "Scene(models: [(path: \"teapot.glb\")], ground: Shadow(),
-        lights: [Sun(direction: (1, -1, 0), lux: 3, shadows: On()), Ambient(lux: 1)])",
+        lights: [Directional(direction: (1, -1, 0), intensity: 3, shadows: On()), Ambient(intensity: 1)])",
     );
-    let own = render_pixels(&bench, "scene.ron", &[]);
-    assert_eq!(render_pixels(&bench, "scene.ron", &["--shadows", "on"]), own);
+    let own = render_pixels(&sandbox, "scene.ron", &[]);
+    assert_eq!(render_pixels(&sandbox, "scene.ron", &["--shadows", "on"]), own);
     assert!(below(&own) > 100);
-    assert_eq!(below(&render_pixels(&bench, "scene.ron", &["--shadows", "off"])), 0);
-    let without = render_pixels(&bench, "scene.ron", &["--ground", "none"]);
+    assert_eq!(below(&render_pixels(&sandbox, "scene.ron", &["--shadows", "off"])), 0);
+    let without = render_pixels(&sandbox, "scene.ron", &["--ground", "none"]);
     assert_eq!(below(&without), 0);
     assert!(
-        render_pixels(&bench, "scene.ron", &["--ground", "none", "--shadows", "off"]) != without
+        render_pixels(&sandbox, "scene.ron", &["--ground", "none", "--shadows", "off"]) != without
     );
-    assert!(render_pixels(&bench, "teapot.glb", &["--ambient-occlusion"]) != plain);
+    assert!(render_pixels(&sandbox, "teapot.glb", &["--ambient-occlusion"]) != plain);
 }
 
 #[test]
 fn settings_of_shadows_out_of_range_are_pointed_at() {
-    let bench = sandbox_with_model("shadow_settings", "crate.glb");
-    for (field, place, message) in [
+    let sandbox = sandbox_with_model("shadow_settings", "crate.glb");
+    for (field, location, message) in [
         ("shadows: On(size: 10)", "2:19", "a shadow map cannot have 10 texels on a side"),
         ("shadows: On(softness_degrees: 40)", "2:31", "an angle from 0 to 30 degrees"),
         (
-            "lights: [Sun(direction: (0, -1, 0), lux: 1, shadows: On(size: 9000))]",
-            "2:63",
+            "lights: [Directional(direction: (0, -1, 0), intensity: 1, shadows: On(size: 9000))]",
+            "2:77",
             "a shadow map cannot have 9000 texels on a side",
         ),
         ("ambient_occlusion: (radius: 0)", "2:29", "a number greater than 0"),
-        ("image: (anisotropy: 9)", "2:21", "textures cannot be read at 9 places"),
+        ("image: (max_anisotropy: 9)", "2:25", "anisotropic filtering cannot take 9 samples"),
         ("ground: Shadow(height: inf)", "2:24", "a finite number"),
     ] {
-        bench.write_file("scene.ron", format!("Scene(models: [(path: \"crate.glb\")],\n{field})"));
-        let run = bench.run(&["render", "scene.ron"]);
+        sandbox
+            .write_file("scene.ron", format!("Scene(models: [(path: \"crate.glb\")],\n{field})"));
+        let run = sandbox.run(&["render", "scene.ron"]);
         assert_eq!(run.code, 1, "{field}");
-        let place = format!("scene.ron:{place}");
-        let told = run.stderr.contains(&place) && run.stderr.contains(message);
-        assert!(told, "{field}: {}", run.stderr);
+        let location = format!("scene.ron:{location}");
+        let is_reported = run.stderr.contains(&location) && run.stderr.contains(message);
+        assert!(is_reported, "{field}: {}", run.stderr);
     }
 }

@@ -1,9 +1,11 @@
-//! Light leaks on closed models from the wild, with the sun behind them: what rays find in the dark must be dark in the picture, and
-//! what they find in the light must be as if there were no shadows, but for a pixel in a hundred. Skipped, by name, where `shared/assets` is not there.
+//! Light leaks on closed models from the wild, with the sun behind them: what rays find in the dark
+//! must be dark in the picture, and what they find in the light must be as if there were no
+//! shadows, but for a pixel in a hundred. Skipped, by name, where `shared/assets` is not there.
 //!
-//! Each pixel's place and normal are those of the passes. From there go a ray to the sun and eight more around it, four texels of
-//! the shadow map apart: where all nine are stopped, by something that is not the surface itself, no filtering of the map lets
-//! light in; where none is, none keeps it out.
+//! Each pixel's position and normal are those of the passes. From there go a ray to the sun and
+//! eight more around it, four texels of the shadow map apart: where all nine are stopped, by
+//! something that is not the surface itself, no filtering of the map lets light in; where none is,
+//! none keeps it out.
 
 use crate::asset_models::asset_path;
 use glam::DVec3;
@@ -44,7 +46,8 @@ impl Occluder {
         Self { diagonal: (greatest - least).length(), triangles }
     }
 
-    /// Whether something is on a ray, farther than so much from its start (Möller and Trumbore, 1997).
+    /// Whether something is on a ray, farther than so much from its start (Möller and Trumbore,
+    /// 1997).
     fn blocks_ray(&self, from: DVec3, along: DVec3, least: f64) -> bool {
         self.triangles.iter().any(|[a, b, c]| {
             let (u, v) = (*b - *a, *c - *a);
@@ -66,7 +69,7 @@ fn scene_with_sun(model: &Arc<Model>, travel: DVec3, shadows: &str) -> Scene {
         r#"Scene(
             models: [(path: "made")],
             camera: (view: Frame(from: Direction((0.6, 0.5, 1)))),
-            lights: [Sun(direction: ({x}, {y}, {z}), lux: 3, shadows: {shadows})],
+            lights: [Directional(direction: ({x}, {y}, {z}), intensity: 3, shadows: {shadows})],
             image: (size: {SIZE:?}, samples: 1),
         )"#
     );
@@ -110,14 +113,14 @@ fn check_sun_direction(
     };
     let code = |picture: &Picture, x: u32, y: u32| picture.pixel(x, y).expect("a pixel")[0];
     for (x, y) in (0..SIZE.1).step_by(3).flat_map(|y| (0..SIZE.0).step_by(3).map(move |x| (x, y))) {
-        let (place, normal) = (vector(0, x, y), vector(1, x, y));
+        let (position, normal) = (vector(0, x, y), vector(1, x, y));
         if normal == DVec3::ZERO {
             continue;
         }
         let cosine = normal.dot(towards);
         let lit = code(&with, x, y);
         let stops = |least: f64| {
-            move |side: &DVec3| body.blocks_ray(place + *side, towards, least * body.diagonal)
+            move |side: &DVec3| body.blocks_ray(position + *side, towards, least * body.diagonal)
         };
         let mut rays = sides.iter().flatten();
         if cosine <= 0.0 {
@@ -148,7 +151,8 @@ fn no_light_leaks_through_closed_models() {
         }
         let RayCounts { away, dark, light, spots } = found;
         assert!(away > 100 && dark > 60 && light > 60, "{name}: {away} {dark} {light}");
-        // Where a surface is a saddle, single pixels lie below the planes of triangles beside theirs.
+        // Where a surface is a saddle, single pixels lie below the planes of triangles beside
+        // theirs.
         assert!(spots * 100 <= light, "{name}: {spots} spots in the light of {light} pixels");
     }
 }

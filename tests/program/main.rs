@@ -1,4 +1,5 @@
-//! The program as a process: what it prints, what it leaves on the disk, and with which code it ends.
+//! The program as a process: what it prints, what it leaves on the disk, and with which code it
+//! ends.
 
 #![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
 

@@ -4,27 +4,30 @@ use crate::sandbox::Sandbox;
 
 #[test]
 fn shells_learn_the_commands_and_flags() {
-    let bench = Sandbox::new("completions");
+    let sandbox = Sandbox::new("completions");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let run = bench.run(&["completions", shell]);
+        let run = sandbox.run(&["completions", shell]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{shell}");
         for word in ["render", "projection", "turntable", "overlay"] {
             assert!(run.stdout.contains(word), "{shell}: {word}");
         }
-        assert!(run.stdout == bench.run(&["completions", shell]).stdout, "{shell}: twice the same");
+        assert!(
+            run.stdout == sandbox.run(&["completions", shell]).stdout,
+            "{shell}: twice the same"
+        );
     }
-    assert_eq!(bench.run(&["completions", "cmd"]).code, 2);
+    assert_eq!(sandbox.run(&["completions", "cmd"]).code, 2);
 }
 
 #[test]
 fn every_command_has_a_manual_page() {
-    let bench = Sandbox::new("man");
-    let run = bench.run(&["man"]);
+    let sandbox = Sandbox::new("man");
+    let run = sandbox.run(&["man"]);
     assert!(run.code == 0 && run.stdout.contains(".TH alberti 1"), "{}", run.stdout);
-    let render = bench.run(&["man", "render"]).stdout;
+    let render = sandbox.run(&["man", "render"]).stdout;
     assert!(render.contains("alberti\\-render") && render.contains("\\-\\-size"), "{render}");
-    assert_eq!(bench.run(&["man", "--out", "pages"]).code, 0);
-    let page = |name: &str| std::fs::read_to_string(bench.path_of("pages").join(name));
+    assert_eq!(sandbox.run(&["man", "--out-dir", "pages"]).code, 0);
+    let page = |name: &str| std::fs::read_to_string(sandbox.path_of("pages").join(name));
     for command in ["sheet", "info", "check", "animate", "batch", "explain", "matrix", "scene-init"]
     {
         assert!(
@@ -33,25 +36,25 @@ fn every_command_has_a_manual_page() {
         );
     }
     assert_eq!(page("alberti-render.1").expect("the page"), render);
-    let run = bench.run(&["man", "rendr"]);
+    let run = sandbox.run(&["man", "rendr"]);
     assert!(run.code == 1 && run.stderr.contains("render, sheet"), "{}", run.stderr);
 }
 
 #[test]
 fn colours_come_when_they_are_wanted() {
-    let bench = Sandbox::new("colours");
-    bench.write_file("scene.ron", "Scene(modles: [])");
-    let told = |flags: &[&str]| bench.run(&[&["render", "scene.ron"], flags].concat()).stderr;
-    let plain = told(&[]);
+    let sandbox = Sandbox::new("colours");
+    sandbox.write_file("scene.ron", "Scene(modles: [])");
+    let stderr = |flags: &[&str]| sandbox.run(&[&["render", "scene.ron"], flags].concat()).stderr;
+    let plain = stderr(&[]);
     assert!(plain.starts_with("error: unexpected field") && !plain.contains('\x1b'), "{plain}");
-    assert_eq!(told(&["--color", "never"]), plain);
-    let colored = told(&["--color", "always"]);
+    assert_eq!(stderr(&["--color", "never"]), plain);
+    let colored = stderr(&["--color", "always"]);
     assert!(colored.starts_with("\x1b[1;31merror\x1b[0m: "), "{colored:?}");
     let mut bare = String::new();
     for (number, part) in colored.split("\x1b[").enumerate() {
         bare.push_str(if number == 0 { part } else { part.split_once('m').expect("a colour").1 });
     }
     assert_eq!(bare, plain, "the words are the same");
-    let check = bench.run(&["scene", "check", "scene.ron", "--color", "always"]).stdout;
+    let check = sandbox.run(&["scene", "check", "scene.ron", "--color", "always"]).stdout;
     assert!(check.contains("\x1b["), "{check:?}");
 }

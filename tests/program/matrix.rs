@@ -10,8 +10,8 @@ const FRUSTUM: &str = "[[1,0,.5,0],[0,4/3,-1/3,0],[0,0,-2,-6],[0,0,-1,0]]";
 
 #[test]
 fn a_frustum_is_read_back_and_a_misprint_is_found() {
-    let bench = Sandbox::new("matrix");
-    let run = bench.run(&["matrix", FRUSTUM]);
+    let sandbox = Sandbox::new("matrix");
+    let run = sandbox.run(&["matrix", FRUSTUM]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let read = "OpenGL (near −1, far +1)";
     assert!(run.stdout.contains(read), "{}", run.stdout);
@@ -19,16 +19,16 @@ fn a_frustum_is_read_back_and_a_misprint_is_found() {
     assert!(run.stdout.contains(window), "{}", run.stdout);
     assert!(!run.stdout.contains("misprint"), "{}", run.stdout);
     let slide: Vec<&str> = SLIDE.split_whitespace().collect();
-    let run = bench.run(&[&["matrix"], &slide[..]].concat());
+    let run = sandbox.run(&[&["matrix"], &slide[..]].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     assert!(run.stdout.contains("known misprint (M15)"), "{}", run.stdout);
 }
 
 #[test]
 fn json_names_steps_and_items() {
-    let bench = Sandbox::new("matrix_json");
+    let sandbox = Sandbox::new("matrix_json");
     let columns = "1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1";
-    let run = bench.run(&["matrix", "--json", "--columns", columns]);
+    let run = sandbox.run(&["matrix", "--json", "--column-major", columns]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let found: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
@@ -45,16 +45,16 @@ fn json_names_steps_and_items() {
 
 #[test]
 fn what_is_no_matrix_is_refused_with_the_reason() {
-    let bench = Sandbox::new("matrix_refused");
+    let sandbox = Sandbox::new("matrix_refused");
     for (numbers, reason) in [
-        ("1 2 3", "a matrix has 16 numbers, and here are 3"),
+        ("1 2 3", "expected 16 numbers, found 3"),
         ("one", "`one` is not a number"),
         (
             "1/0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1",
             "the entry in row 1, column 1 is not a finite number",
         ),
     ] {
-        let run = bench.run(&["matrix", numbers]);
+        let run = sandbox.run(&["matrix", numbers]);
         assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{numbers}");
         assert_eq!(run.stderr, format!("error: {reason}\n"));
     }

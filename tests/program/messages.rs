@@ -4,15 +4,15 @@ use crate::sandbox::Sandbox;
 
 #[test]
 fn help_and_version_are_worth_reading() {
-    let bench = Sandbox::new("help");
-    let help = bench.run(&["--help"]);
+    let sandbox = Sandbox::new("help");
+    let help = sandbox.run(&["--help"]);
     assert_eq!(help.code, 0);
     for word in ["render", "info", "check", "Examples:", "Exit codes:"] {
         assert!(help.stdout.contains(word), "{word}");
     }
-    let version = bench.run(&["--version"]);
+    let version = sandbox.run(&["--version"]);
     assert_eq!(version.stdout.trim(), concat!("alberti ", env!("CARGO_PKG_VERSION")));
-    let render = bench.run(&["render", "--help"]);
+    let render = sandbox.run(&["render", "--help"]);
     for flag in ["--output", "--size", "--style", "--camera", "--view", "--background", "--samples"]
     {
         assert!(render.stdout.contains(flag), "{flag}");
@@ -21,7 +21,7 @@ fn help_and_version_are_worth_reading() {
 
 #[test]
 fn wrong_usage_ends_with_code_2() {
-    let bench = Sandbox::new("usage");
+    let sandbox = Sandbox::new("usage");
     let wrong: [&[&str]; 8] = [
         &[],
         &["rendr"],
@@ -33,7 +33,7 @@ fn wrong_usage_ends_with_code_2() {
         &["render", "a.glb", "--threads", "0"],
     ];
     for arguments in wrong {
-        let run = bench.run(arguments);
+        let run = sandbox.run(arguments);
         assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{arguments:?}");
         assert!(!run.stderr.is_empty(), "{arguments:?}");
     }
@@ -41,13 +41,13 @@ fn wrong_usage_ends_with_code_2() {
 
 #[test]
 fn a_mistake_in_a_scene_is_shown_where_it_is() {
-    let bench = Sandbox::new("pointed");
-    bench.copy_model("crate.glb");
-    bench.write_file(
+    let sandbox = Sandbox::new("pointed");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file(
         "scene.ron",
         "Scene(\n    models: [(path: \"crate.glb\")],\n    camera: (view: LookAt(eye: (4, 3, 5), traget: (0, 0, 0))),\n)\n",
     );
-    let run = bench.run(&["render", "scene.ron"]);
+    let run = sandbox.run(&["render", "scene.ron"]);
     assert_eq!(run.code, 1);
     let expected = "\
 error: unexpected field `traget` in `LookAt`
@@ -63,10 +63,10 @@ error: unexpected field `traget` in `LookAt`
 
 #[test]
 fn what_makes_no_sense_is_pointed_at_as_well() {
-    let bench = Sandbox::new("senseless");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("senseless");
+    sandbox.copy_model("crate.glb");
     let scene = |rest: &str| format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)");
-    for (rest, place, words) in [
+    for (rest, location, words) in [
         (
             "camera: (view: LookAt(eye: (0, 3, 0), target: (0, 0, 0)))",
             "3:18",
@@ -76,16 +76,16 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
         ("camera: (view: FromModel(Index(0)))", "3:18", "no camera"),
         ("camera: (view: Frame(padding_percent: 50))", "3:18", "padding"),
         ("camera: (projection: Perspective(near: 5, far: 2))", "3:24", "far"),
-        ("lights: [Sun(direction: (0, 0, 0), lux: 1)]", "3:27", "direction"),
+        ("lights: [Directional(direction: (0, 0, 0), intensity: 1)]", "3:35", "direction"),
         ("image: (samples: 3)", "3:20", "1, 4, 8 and 16"),
         ("image: (size: (0, 10))", "3:17", "0 x 10"),
         ("image: (size: (2000000, 10))", "3:17", "1048576"),
-        ("image: (background: Color(\"mauve\"))", "3:23", "#rrggbb"),
+        ("image: (background: Color(\"mauve\"))", "3:29", "#rrggbb"),
     ] {
-        bench.write_file("scene.ron", scene(rest));
-        let run = bench.run(&["render", "scene.ron"]);
+        sandbox.write_file("scene.ron", scene(rest));
+        let run = sandbox.run(&["render", "scene.ron"]);
         assert_eq!(run.code, 1, "{rest}");
-        let pointed = run.stderr.contains(&format!("--> scene.ron:{place}\n"));
+        let pointed = run.stderr.contains(&format!("--> scene.ron:{location}\n"));
         assert!(pointed && run.stderr.contains(words), "{rest}:\n{}", run.stderr);
     }
     for (model, words) in [
@@ -94,8 +94,8 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
         ("../crate.glb", "leads out of the scene's folder"),
         ("scene.ron", "scene.ron"),
     ] {
-        bench.write_file("scene.ron", format!("Scene(models: [\n  (path: \"{model}\"),\n])"));
-        let run = bench.run(&["render", "scene.ron"]);
+        sandbox.write_file("scene.ron", format!("Scene(models: [\n  (path: \"{model}\"),\n])"));
+        let run = sandbox.run(&["render", "scene.ron"]);
         assert_eq!(run.code, 1, "{model}");
         let pointed = run.stderr.contains("--> scene.ron:2:10\n");
         assert!(pointed && run.stderr.contains(words), "{model}:\n{}", run.stderr);
@@ -104,9 +104,9 @@ fn what_makes_no_sense_is_pointed_at_as_well() {
 
 #[test]
 fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
-    let bench = Sandbox::new("cameras");
-    bench.copy_model("room.glb");
-    let run = bench.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
+    let sandbox = Sandbox::new("cameras");
+    sandbox.copy_model("room.glb");
+    let run = sandbox.run(&["render", "room.glb", "--camera", "nobody", "--size", "16x16"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("nobody") && run.stderr.contains("possible"), "{}", run.stderr);
 }

@@ -1,17 +1,18 @@
-//! Mistakes in scene files, flags and models, and what people are told: what it is, where it is, what to do.
+//! Mistakes in scene files, flags and models, and what people are told: what it is, where it is,
+//! what to do.
 //!
 //! Each file of `tests/program/mistakes` is a list of cases:
 //!
 //! ```text
 //! === what is wrong, in words
-//! --- scene.ron                     files, as many as it takes; the models of `scenes/` are there already
+//! --- scene.ron                     files; the models of `scenes/models` are there already
 //! Scene(modles: [])
-//! $ alberti render scene.ron        the call, then what it writes to its standard error, and its code
+//! $ alberti render scene.ron        the call, its standard error stream, and its exit code
 //! error: …
 //! [1]
 //! ```
-//! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes what is told now into the files. Read it, each
-//! message, before it is committed.
+//! `BLESS=1 cargo test -p alberti-tests --test program mistakes` writes what is told now into the
+//! files. Read it, each message, before it is committed.
 
 use crate::sandbox::Sandbox;
 use std::fmt::Write as _;
@@ -35,7 +36,7 @@ fn parse_cases(text: &str) -> Vec<Case> {
 fn parse_case(text: &str) -> Case {
     let (title, rest) = text.split_once('\n').expect("a title");
     let (files, answer) = rest.split_once("$ alberti ").expect("a call");
-    let (call, told) = answer.split_once('\n').unwrap_or((answer, ""));
+    let (call, message) = answer.split_once('\n').unwrap_or((answer, ""));
     let file = |part: &str| {
         let (name, content) = part.split_once('\n').expect("a file");
         (name.to_owned(), content.to_owned())
@@ -44,20 +45,20 @@ fn parse_case(text: &str) -> Case {
         title: title.to_owned(),
         files: files.split("--- ").skip(1).map(file).collect(),
         call: call.to_owned(),
-        message: told.to_owned(),
+        message: message.to_owned(),
     }
 }
 
 impl Case {
-    /// What the program tells now.
-    fn run_case(&self, bench: &Sandbox) -> String {
+    /// Runs the call; returns its message and exit code.
+    fn run_case(&self, sandbox: &Sandbox) -> String {
         for (name, content) in &self.files {
-            let folder = bench.path_of(name).parent().map(PathBuf::from).expect("a folder");
+            let folder = sandbox.path_of(name).parent().map(PathBuf::from).expect("a folder");
             std::fs::create_dir_all(folder).expect("a folder");
-            bench.write_file(name, content);
+            sandbox.write_file(name, content);
         }
         let words = split_call(&self.call);
-        let run = bench.run(&words.iter().map(String::as_str).collect::<Vec<_>>());
+        let run = sandbox.run(&words.iter().map(String::as_str).collect::<Vec<_>>());
         assert_ne!(run.code, 0, "{}: no mistake", self.title);
         let message = if run.stderr.is_empty() { run.stdout } else { run.stderr };
         format!("{}\n[{}]\n\n", message.trim_end(), run.code)
@@ -90,9 +91,9 @@ fn check_table(name: &str) {
     let bless = std::env::var_os("BLESS").is_some() && std::env::var_os("CI").is_none();
     let (mut blessed, mut faults) = (String::new(), String::new());
     for (number, case) in parse_cases(&text).iter().enumerate() {
-        let bench = Sandbox::new(&format!("mistake_{name}_{number}"));
-        MODELS.iter().for_each(|model| bench.copy_model(model));
-        let message = case.run_case(&bench);
+        let sandbox = Sandbox::new(&format!("mistake_{name}_{number}"));
+        MODELS.iter().for_each(|model| sandbox.copy_model(model));
+        let message = case.run_case(&sandbox);
         blessed.push_str(&case.to_text(&message));
         if message.trim_end() != case.message.trim_end() {
             let _ = writeln!(
@@ -106,6 +107,11 @@ fn check_table(name: &str) {
         std::fs::write(&path, blessed.trim_end().to_owned() + "\n").expect("the cases are written");
     }
     assert!(faults.is_empty(), "{}{faults}", if bless { "written: read it\n" } else { "" });
+}
+
+#[test]
+fn many() {
+    check_table("many");
 }
 
 #[test]

@@ -4,21 +4,25 @@ use crate::sandbox::Sandbox;
 
 #[test]
 fn several_inputs_and_views_go_to_files_by_a_template() {
-    let bench = Sandbox::new("templates");
+    let sandbox = Sandbox::new("templates");
     for model in ["crate.glb", "lamp.glb"] {
-        bench.copy_model(model);
+        sandbox.copy_model(model);
     }
-    std::fs::create_dir(bench.path_of("out")).expect("a folder");
+    std::fs::create_dir(sandbox.path_of("out")).expect("a folder");
     let small = ["--size", "16x12", "--samples", "1"];
     let render = |flags: &[&str]| {
-        let run = bench.run(&[&["render", "crate.glb", "lamp.glb"], flags, &small[..]].concat());
+        let run = sandbox.run(&[&["render", "crate.glb", "lamp.glb"], flags, &small[..]].concat());
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
     };
     render(&[]);
     render(&["--views", "front,iso", "-o", "out/{index:03}_{stem}_{view}_{frame}_{{x}}.png"]);
     render(&["--views", "top,left"]);
     for name in ["crate.png", "lamp.png", "crate_top.png", "crate_left.png", "lamp_top.png"] {
-        assert!(bench.file_names().contains(&name.to_owned()), "{name}: {:?}", bench.file_names());
+        assert!(
+            sandbox.file_names().contains(&name.to_owned()),
+            "{name}: {:?}",
+            sandbox.file_names()
+        );
     }
     for name in [
         "out/000_crate_front_0_{x}.png",
@@ -26,7 +30,7 @@ fn several_inputs_and_views_go_to_files_by_a_template() {
         "out/002_lamp_front_0_{x}.png",
         "out/003_lamp_isometric_1_{x}.png",
     ] {
-        assert_eq!(bench.read_picture(name).0, 16, "{name}");
+        assert_eq!(sandbox.read_picture(name).0, 16, "{name}");
     }
     let front = [
         "render",
@@ -40,84 +44,89 @@ fn several_inputs_and_views_go_to_files_by_a_template() {
         "--samples",
         "1",
     ];
-    assert_eq!(bench.run(&front).code, 0);
-    assert!(bench.read_picture("one.png") == bench.read_picture("out/002_lamp_front_0_{x}.png"));
+    assert_eq!(sandbox.run(&front).code, 0);
+    assert!(
+        sandbox.read_picture("one.png") == sandbox.read_picture("out/002_lamp_front_0_{x}.png")
+    );
 }
 
 #[test]
 fn names_that_meet_are_refused_before_anything_is_drawn() {
-    let bench = Sandbox::new("collisions");
-    bench.copy_model("crate.glb");
-    bench.copy_model("lamp.glb");
+    let sandbox = Sandbox::new("collisions");
+    sandbox.copy_model("crate.glb");
+    sandbox.copy_model("lamp.glb");
     for (flags, words) in [
-        (&["-o", "all.png"][..], "the pictures of crate.glb and lamp.glb would both be all.png"),
-        (&["--views", "front,top", "-o", "{stem}.png"], "would both be crate.png"),
+        (
+            &["-o", "all.png"][..],
+            "the pictures of crate.glb and lamp.glb would both be written to all.png",
+        ),
+        (&["--views", "front,top", "-o", "{stem}.png"], "would both be written to crate.png"),
         (&["-o", "-"], "2 pictures do not go to the standard output"),
-        (&["-o", "{stm}.png"], "there is no `{stm}`"),
-        (&["-o", "{stem}.tiff"], "does not end in .png, .svg or .pdf"),
+        (&["-o", "{stm}.png"], "unknown field `{stm}`"),
+        (&["-o", "{stem}.tiff"], "has no known extension: .png, .svg or .pdf"),
     ] {
-        let run = bench.run(&[&["render", "crate.glb", "lamp.glb"], flags].concat());
+        let run = sandbox.run(&[&["render", "crate.glb", "lamp.glb"], flags].concat());
         assert!(run.code == 1 && run.stderr.contains(words), "{flags:?}: {}", run.stderr);
-        assert_eq!(bench.file_names(), ["crate.glb", "lamp.glb"], "{flags:?}");
+        assert_eq!(sandbox.file_names(), ["crate.glb", "lamp.glb"], "{flags:?}");
     }
 }
 
 #[test]
 fn one_bad_input_does_not_stop_the_others() {
-    let bench = Sandbox::new("one_bad");
-    bench.copy_model("crate.glb");
-    bench.write_file("bad.glb", "nothing");
-    let run = bench.run(&["render", "bad.glb", "crate.glb", "--size", "16x16"]);
+    let sandbox = Sandbox::new("one_bad");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file("bad.glb", "nothing");
+    let run = sandbox.run(&["render", "bad.glb", "crate.glb", "--size", "16x16"]);
     assert!(run.code == 1 && run.stderr.starts_with("error: bad.glb: "), "{}", run.stderr);
-    assert_eq!(bench.file_names(), ["bad.glb", "crate.glb", "crate.png"]);
+    assert_eq!(sandbox.file_names(), ["bad.glb", "crate.glb", "crate.png"]);
 }
 
 #[test]
 fn pictures_come_from_the_standard_input_and_go_to_the_standard_output() {
-    let bench = Sandbox::new("pipes");
-    bench.copy_model("crate.glb");
-    let model = std::fs::read(bench.path_of("crate.glb")).expect("the model");
+    let sandbox = Sandbox::new("pipes");
+    sandbox.copy_model("crate.glb");
+    let model = std::fs::read(sandbox.path_of("crate.glb")).expect("the model");
     let small = ["--size", "24x18"];
-    let file = bench.run(&[&["render", "crate.glb", "-o", "file.png"], &small[..]].concat());
+    let file = sandbox.run(&[&["render", "crate.glb", "-o", "file.png"], &small[..]].concat());
     assert_eq!(file.code, 0);
-    let expected = std::fs::read(bench.path_of("file.png")).expect("a picture");
-    let piped = bench.run_with_input(&[&["render", "-", "-o", "-"], &small[..]].concat(), &model);
+    let expected = std::fs::read(sandbox.path_of("file.png")).expect("a picture");
+    let piped = sandbox.run_with_input(&[&["render", "-", "-o", "-"], &small[..]].concat(), &model);
     assert!(piped == (0, expected), "a model in, a picture out");
     let scene = b"Scene(models: [(path: \"crate.glb\")], image: (size: (24, 18)))";
-    bench.write_file("scene.ron", scene);
-    assert_eq!(bench.run(&["render", "scene.ron"]).code, 0);
-    let expected = std::fs::read(bench.path_of("scene.png")).expect("a picture");
+    sandbox.write_file("scene.ron", scene);
+    assert_eq!(sandbox.run(&["render", "scene.ron"]).code, 0);
+    let expected = std::fs::read(sandbox.path_of("scene.png")).expect("a picture");
     assert!(
-        bench.run_with_input(&["render", "-", "-o", "-"], scene) == (0, expected),
+        sandbox.run_with_input(&["render", "-", "-o", "-"], scene) == (0, expected),
         "a scene in"
     );
     for (format, magic) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF-")] {
         let (code, bytes) =
-            bench.run_with_input(&["render", "-", "-o", "-", "--format", format], &model);
+            sandbox.run_with_input(&["render", "-", "-o", "-", "--format", format], &model);
         assert!(code == 0 && bytes.starts_with(magic), "{format}");
     }
-    assert_eq!(bench.run_with_input(&[&["render", "-"], &small[..]].concat(), &model).0, 0);
-    assert!(bench.file_names().contains(&"stdin.png".to_owned()));
-    let run = bench.stderr_with_input(&["render", "-"], b"Scene(modles: [])");
+    assert_eq!(sandbox.run_with_input(&[&["render", "-"], &small[..]].concat(), &model).0, 0);
+    assert!(sandbox.file_names().contains(&"stdin.png".to_owned()));
+    let run = sandbox.stderr_with_input(&["render", "-"], b"Scene(modles: [])");
     assert!(run.contains("--> <stdin>:1:7") && run.contains("did you mean `models`?"), "{run}");
-    let run = bench.stderr_with_input(&["render", "-", "--max-file-bytes", "1k"], &model);
+    let run = sandbox.stderr_with_input(&["render", "-", "--max-file-bytes", "1k"], &model);
     assert!(run.contains("--max-file-bytes allows more"), "{run}");
 }
 
 #[test]
 fn a_picture_is_scaled() {
-    let bench = Sandbox::new("scaled");
-    bench.copy_model("crate.glb");
-    bench
+    let sandbox = Sandbox::new("scaled");
+    sandbox.copy_model("crate.glb");
+    sandbox
         .write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], image: (size: (30, 20)))");
     for (flags, size) in [
         (&["--scale", "2"][..], (60, 40)),
         (&["--scale", "0.5"], (15, 10)),
         (&["--size", "8x6", "--scale", "1.5"], (12, 9)),
     ] {
-        let run = bench.run(&[&["render", "scene.ron", "-o", "out.png"], flags].concat());
+        let run = sandbox.run(&[&["render", "scene.ron", "-o", "out.png"], flags].concat());
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
-        let (width, height, _) = bench.read_picture("out.png");
+        let (width, height, _) = sandbox.read_picture("out.png");
         assert_eq!((width, height), size, "{flags:?}");
     }
 }

@@ -1,21 +1,22 @@
-//! Overlays and classical projections: vanishing points, the horizon and the axes are where the formulas have them.
+//! Overlays and classical projections: vanishing points, the horizon and the axes are where the
+//! formulas have them.
 
 use crate::sandbox::Sandbox;
 use crate::vector_files::{Layers, PagePoint, parse_svg, point_bounds};
 
 /// The layers of a drawing of the house, and half the width and height of its page.
-fn draw_overlays(bench: &Sandbox, camera: &str, overlays: &str) -> (PagePoint, Layers) {
-    bench.copy_model("house.glb");
-    bench.write_file(
+fn draw_overlays(sandbox: &Sandbox, camera: &str, overlays: &str) -> (PagePoint, Layers) {
+    sandbox.copy_model("house.glb");
+    sandbox.write_file(
         "scene.ron",
         format!(
             "Scene(models: [(path: \"house.glb\")], style: Lines(), camera: ({camera}),
              overlays: [{overlays}], image: (size: (800, 600)))"
         ),
     );
-    let run = bench.run(&["render", "scene.ron", "-o", "out.svg"]);
+    let run = sandbox.run(&["render", "scene.ron", "-o", "out.svg"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{camera}");
-    let text = std::fs::read_to_string(bench.path_of("out.svg")).expect("an SVG");
+    let text = std::fs::read_to_string(sandbox.path_of("out.svg")).expect("an SVG");
     let (page, layers) = parse_svg(&text);
     ([page[0] / 2.0, page[1] / 2.0], layers)
 }
@@ -26,7 +27,7 @@ fn layers_ending_in<'a>(layers: &'a Layers, end: &str) -> Vec<&'a Vec<PagePoint>
     chosen.flat_map(|(_, lines)| lines).collect()
 }
 
-/// A place of the page in half heights of the picture from its middle, y up.
+/// A point of the page in half heights of the picture from its middle, y up.
 fn to_half_heights(point: PagePoint, half: PagePoint) -> PagePoint {
     [(point[0] - half[0]) / half[1], (half[1] - point[1]) / half[1]]
 }
@@ -47,7 +48,7 @@ fn ring_center(layers: &Layers, axis: &str, half: PagePoint) -> Option<PagePoint
 
 #[test]
 fn c82_axes_vanish_where_the_construction_wants_them() {
-    let bench = Sandbox::new("vanishing");
+    let sandbox = Sandbox::new("vanishing");
     let cases = [
         ("OnePoint(at: (0.35, 0.45), distance: 3)", [None, None, Some([0.35, 0.45])]),
         (
@@ -59,18 +60,21 @@ fn c82_axes_vanish_where_the_construction_wants_them() {
             [Some([-1.2, 0.8]), Some([0.1, -0.9]), Some([1.25, 0.7])],
         ),
     ];
-    for (projection, due) in cases {
+    for (projection, expected) in cases {
         let camera = format!("projection: {projection}");
-        let (half, layers) = draw_overlays(&bench, &camera, "VanishingPoints, Horizon");
-        for (axis, due) in ["x", "y", "z"].into_iter().zip(due) {
+        let (half, layers) = draw_overlays(&sandbox, &camera, "VanishingPoints, Horizon");
+        for (axis, expected) in ["x", "y", "z"].into_iter().zip(expected) {
             let found = ring_center(&layers, axis, half);
-            assert_eq!(found.is_some(), due.is_some(), "{axis} of {projection}");
-            found.into_iter().zip(due).for_each(|(found, due)| assert_near(found, due));
+            assert_eq!(found.is_some(), expected.is_some(), "{axis} of {projection}");
+            found
+                .into_iter()
+                .zip(expected)
+                .for_each(|(found, expected)| assert_near(found, expected));
         }
         // Horizontal directions vanish on one line, whatever the eye.
         let horizon = layers_ending_in(&layers, "-horizon");
         let ends = [horizon[0][0], horizon[0][1]].map(|end| to_half_heights(end, half));
-        for [x, y] in [due[0], due[2]].into_iter().flatten() {
+        for [x, y] in [expected[0], expected[2]].into_iter().flatten() {
             let slope = (ends[1][1] - ends[0][1]) / (ends[1][0] - ends[0][0]);
             assert_near([x, ends[0][1] + slope * (x - ends[0][0])], [x, y]);
         }
@@ -79,9 +83,9 @@ fn c82_axes_vanish_where_the_construction_wants_them() {
 
 #[test]
 fn c80_lines_of_the_models_run_to_the_vanishing_points() {
-    let bench = Sandbox::new("run_to");
+    let sandbox = Sandbox::new("run_to");
     let camera = "projection: TwoPoint(x: (-1.2, 0.5), z: (1.1, 0.5), fraction: 0.5)";
-    let (half, layers) = draw_overlays(&bench, camera, "VanishingPoints");
+    let (half, layers) = draw_overlays(&sandbox, camera, "VanishingPoints");
     for (axis, at) in [("x", [-1.2, 0.5]), ("z", [1.1, 0.5])] {
         let lines = layers_ending_in(&layers, &format!("-to-{axis}"));
         assert_eq!(lines.len(), 8, "one from each corner of the box");
@@ -97,7 +101,7 @@ fn c80_lines_of_the_models_run_to_the_vanishing_points() {
 
 #[test]
 fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
-    let bench = Sandbox::new("axes");
+    let sandbox = Sandbox::new("axes");
     let isometric = libm::sqrt(2.0 / 3.0);
     let half_angle = std::f64::consts::FRAC_1_SQRT_2;
     // The images of the units along x, y and z, up to a common factor; z towards the viewer.
@@ -114,19 +118,25 @@ fn c76_c77_axes_are_drawn_as_long_and_at_the_angles_of_the_textbooks() {
         ("Cavalier()", [[1.0, 0.0], [0.0, 1.0], [-half_angle, -half_angle]]),
         ("Cabinet()", [[1.0, 0.0], [0.0, 1.0], [-half_angle / 2.0, -half_angle / 2.0]]),
         ("Oblique(length: 0.75, angle_degrees: 0)", [[1.0, 0.0], [0.0, 1.0], [-0.75, 0.0]]),
-        ("Military(turn_degrees: 90)", [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]),
+        ("Military(rotation_degrees: 90)", [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]),
     ];
-    for (projection, due) in cases {
+    for (projection, expected) in cases {
         let camera = format!("projection: {projection}, view: Frame(padding_percent: 30)");
-        let found = axis_vectors(&draw_overlays(&bench, &camera, "Axes(length: 3)").1);
-        let up = vector_length(due[1]) / vector_length(found[1]);
-        for (found, due) in found.into_iter().zip(due) {
-            assert!((found[0] * up - due[0]).abs() < 1e-3, "{projection}: {found:?} {due:?}");
-            assert!((found[1] * up - due[1]).abs() < 1e-3, "{projection}: {found:?} {due:?}");
+        let found = axis_vectors(&draw_overlays(&sandbox, &camera, "Axes(length: 3)").1);
+        let up = vector_length(expected[1]) / vector_length(found[1]);
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!(
+                (found[0] * up - expected[0]).abs() < 1e-3,
+                "{projection}: {found:?} {expected:?}"
+            );
+            assert!(
+                (found[1] * up - expected[1]).abs() < 1e-3,
+                "{projection}: {found:?} {expected:?}"
+            );
         }
     }
     let dimetric_axes =
-        axis_vectors(&draw_overlays(&bench, "projection: Dimetric", "Axes(length: 3)").1);
+        axis_vectors(&draw_overlays(&sandbox, "projection: Dimetric", "Axes(length: 3)").1);
     let lengths = dimetric_axes.map(vector_length);
     assert!((lengths[0] / lengths[1] - 1.0).abs() < 1e-3, "{lengths:?}");
     assert!((lengths[2] / lengths[1] - 0.5).abs() < 1e-3, "{lengths:?}");
@@ -138,17 +148,17 @@ fn vector_length([x, y]: PagePoint) -> f64 {
 
 /// The images of the three axes, from the origin to the tip, y up.
 fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
-    let places = ["x", "y", "z"].map(|axis| {
+    let points = ["x", "y", "z"].map(|axis| {
         let parts =
             ["", "-hidden"].map(|part| layers_ending_in(layers, &format!("-axis-{axis}{part}")));
         parts.into_iter().flatten().flatten().copied().collect::<Vec<PagePoint>>()
     });
-    // The origin is the place that two axes share; the tip is what is farthest from it.
+    // The origin is the point that two axes share; the tip is what is farthest from it.
     let near = |a: PagePoint, b: PagePoint| vector_length([a[0] - b[0], a[1] - b[1]]) < 2e-3;
-    let shared = |place: &&PagePoint| places[1].iter().any(|other| near(**place, *other));
-    let origin = *places[0].iter().find(shared).expect("x and y begin at the origin");
-    places.map(|places| {
-        let images = places.iter().map(|place| [place[0] - origin[0], origin[1] - place[1]]);
+    let shared = |point: &&PagePoint| points[1].iter().any(|other| near(**point, *other));
+    let origin = *points[0].iter().find(shared).expect("x and y begin at the origin");
+    points.map(|points| {
+        let images = points.iter().map(|point| [point[0] - origin[0], origin[1] - point[1]]);
         images.fold(
             [0.0, 0.0],
             |tip, image| if vector_length(image) > vector_length(tip) { image } else { tip },

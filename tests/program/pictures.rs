@@ -4,46 +4,46 @@ use crate::sandbox::Sandbox;
 
 #[test]
 fn flags_go_before_what_the_scene_says() {
-    let bench = Sandbox::new("flags");
-    bench.copy_model("crate.glb");
-    bench.write_file(
+    let sandbox = Sandbox::new("flags");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file(
         "scene.ron",
         "Scene(models: [(path: \"crate.glb\")], image: (size: (30, 20), background: Color(\"#f00\")))",
     );
-    assert_eq!(bench.run(&["render", "scene.ron"]).code, 0);
-    let (width, height, pixels) = bench.read_picture("scene.png");
+    assert_eq!(sandbox.run(&["render", "scene.ron"]).code, 0);
+    let (width, height, pixels) = sandbox.read_picture("scene.png");
     assert_eq!((width, height, pixels[0]), (30, 20, [255, 0, 0, 255]));
     let flags = ["--size", "50x40", "--background", "#00f", "--view", "top", "--samples", "1"];
-    let run = bench.run(&[&["render", "scene.ron", "-o", "other.png"][..], &flags].concat());
+    let run = sandbox.run(&[&["render", "scene.ron", "-o", "other.png"][..], &flags].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let (width, height, pixels) = bench.read_picture("other.png");
+    let (width, height, pixels) = sandbox.read_picture("other.png");
     assert_eq!((width, height, pixels[0]), (50, 40, [0, 0, 255, 255]));
 }
 
 #[test]
 fn timings_name_the_stages_and_change_nothing() {
-    let bench = Sandbox::new("timings");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("timings");
+    sandbox.copy_model("crate.glb");
     let flags = ["--size", "40x30", "--timings"];
-    let run = bench.run(&[&["render", "crate.glb"][..], &flags].concat());
+    let run = sandbox.run(&[&["render", "crate.glb"][..], &flags].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let stages: Vec<_> = run.stderr.lines().filter_map(|line| line.split("  ").next()).collect();
     let expected = ["read", "parse", "geometry", "images", "frame", "mip chains", "vertices"];
     assert_eq!(stages, [&expected[..], &["pixels", "encode", "write", "all"]].concat());
-    let timed = bench.read_picture("crate.png");
-    assert_eq!(bench.run(&["render", "crate.glb", "--size", "40x30"]).stderr, "");
-    assert_eq!(bench.read_picture("crate.png"), timed);
+    let timed = sandbox.read_picture("crate.png");
+    assert_eq!(sandbox.run(&["render", "crate.glb", "--size", "40x30"]).stderr, "");
+    assert_eq!(sandbox.read_picture("crate.png"), timed);
 }
 
 #[test]
 fn a_transparent_background_has_no_halo() {
-    let bench = Sandbox::new("transparent");
-    bench.copy_model("spheres.glb");
+    let sandbox = Sandbox::new("transparent");
+    sandbox.copy_model("spheres.glb");
     let render = |name: &str, background: &str| {
         let flags = ["--size", "64x32", "--view", "front", "--background", background];
-        let run = bench.run(&[&["render", "spheres.glb", "-o", name][..], &flags].concat());
+        let run = sandbox.run(&[&["render", "spheres.glb", "-o", name][..], &flags].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
-        bench.read_picture(name).2
+        sandbox.read_picture(name).2
     };
     let clear = render("clear.png", "transparent");
     let white = render("white.png", "#fff");
@@ -54,7 +54,8 @@ fn a_transparent_background_has_no_halo() {
             0 => assert_eq!((*clear, *white), ([0; 4], [255; 4]), "pixel {at}"),
             255 => assert_eq!(clear, white, "pixel {at}"),
             alpha => {
-                // Over white, in linear light, the soft pixel must give the opaque picture's colour.
+                // Over white, in linear light, the soft pixel must give the opaque picture's
+                // colour.
                 let share = f64::from(alpha) / 255.0;
                 for k in 0..3 {
                     let over = srgb_to_linear(clear[k]) * share + 1.0 - share;
@@ -73,13 +74,13 @@ fn srgb_to_linear(code: u8) -> f64 {
 
 #[test]
 fn threads_and_repetition_change_no_byte() {
-    let bench = Sandbox::new("same_bytes");
-    bench.copy_model("teapot.glb");
+    let sandbox = Sandbox::new("same_bytes");
+    sandbox.copy_model("teapot.glb");
     let bytes = |name: &str, threads: &str| {
         let flags = ["-o", name, "--size", "333x222", "--threads", threads];
-        let run = bench.run(&[&["render", "teapot.glb"][..], &flags].concat());
+        let run = sandbox.run(&[&["render", "teapot.glb"][..], &flags].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
-        std::fs::read(bench.path_of(name)).expect("a picture")
+        std::fs::read(sandbox.path_of(name)).expect("a picture")
     };
     let first = bytes("a.png", "1");
     assert!(
@@ -91,8 +92,8 @@ fn threads_and_repetition_change_no_byte() {
 
 #[test]
 fn every_view_style_and_projection_shows_something() {
-    let bench = Sandbox::new("views");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("views");
+    sandbox.copy_model("house.glb");
     let views = [
         "front",
         "back",
@@ -110,9 +111,9 @@ fn every_view_style_and_projection_shows_something() {
             for projection in ["perspective", "orthographic"] {
                 let flags = ["--view", view, "--style", style, "--projection", projection];
                 let size = ["--size", "48x32", "-o", "out.png"];
-                let run = bench.run(&[&["render", "house.glb"][..], &flags, &size].concat());
+                let run = sandbox.run(&[&["render", "house.glb"][..], &flags, &size].concat());
                 assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
-                let (_, _, pixels) = bench.read_picture("out.png");
+                let (_, _, pixels) = sandbox.read_picture("out.png");
                 let inked = pixels.iter().filter(|pixel| pixel[3] > 0).count();
                 assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
                 // Framing leaves the margin of 5 per cent free: nothing touches the border.
@@ -127,10 +128,10 @@ fn every_view_style_and_projection_shows_something() {
 
 #[test]
 fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
-    let bench = Sandbox::new("floor");
-    bench.copy_model("floor.glb");
+    let sandbox = Sandbox::new("floor");
+    sandbox.copy_model("floor.glb");
     for height in [0.1, 0.01, 0.001] {
-        bench.write_file(
+        sandbox.write_file(
             "scene.ron",
             format!(
                 "Scene(models: [(path: \"floor.glb\")], camera: (
@@ -139,14 +140,15 @@ fn c36_the_floor_is_whole_from_the_horizon_down_with_the_eye_just_above_it() {
                  image: (size: (200, 120), background: Color(\"#f0f\"), samples: 1))"
             ),
         );
-        let run = bench.run(&["render", "scene.ron"]);
+        let run = sandbox.run(&["render", "scene.ron"]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-        let (width, _, pixels) = bench.read_picture("scene.png");
+        let (width, _, pixels) = sandbox.read_picture("scene.png");
         let rows: Vec<usize> = pixels
             .chunks(width as usize)
             .map(|row| row.iter().filter(|pixel| **pixel == [255, 0, 255, 255]).count())
             .collect();
-        // The horizon is row 60. From a little below it, where the sides of the floor are out of sight, no pixel is missing.
+        // The horizon is row 60. From a little below it, where the sides of the floor are out of
+        // sight, no pixel is missing.
         let torn: Vec<usize> = (66..120).filter(|&row| rows[row] > 0).collect();
         assert!(torn.is_empty(), "eye at {height}: background in rows {torn:?}");
         assert_eq!(rows[0], width as usize, "sky above");

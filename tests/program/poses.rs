@@ -1,13 +1,13 @@
-//! Animations as the program poses them, held against the formulas of glTF 2.0 (appendix C), and against the keys in real
-//! files. `info --json` tells the pose in numbers.
+//! Animations as the program poses them, held against the formulas of glTF 2.0 (appendix C), and
+//! against the keys in real files. `info --json` tells the pose in numbers.
 
 use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::{Value, json};
 
-/// What `info --json` says of a file.
-fn info_json(bench: &Sandbox, arguments: &[&str]) -> Value {
-    let run = bench.run(&[&["info", "--json"][..], arguments].concat());
+/// The output of `info --json` for a file.
+fn info_json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
+    let run = sandbox.run(&[&["info", "--json"][..], arguments].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
     serde_json::from_str(&run.stdout).expect("JSON")
 }
@@ -24,9 +24,9 @@ fn assert_near(actual: &Value, expected: &[f64], what: &str) {
     assert!(near, "{what}: {found:?} instead of {expected:?}");
 }
 
-/// A square whose node moves by a line, turns by a line and grows by a cubic spline, whose second node steps, and
-/// whose weights, material, light and camera change too.
-fn write_animated_model(bench: &Sandbox) {
+/// A square whose node moves by a line, turns by a line and grows by a cubic spline, whose second
+/// node steps, and whose weights, material, light and camera change too.
+fn write_animated_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let [zero_to_two, steps] =
         [[0.0, 2.0], [0.5, 1.0]].map(|times| document.add_floats("SCALAR", &times));
@@ -84,7 +84,7 @@ fn write_animated_model(bench: &Sandbox) {
     document.json["animations"] =
         json!([{"name": "all", "samplers": samplers, "channels": channels}]);
     add_camera_and_light(&mut document);
-    document.write_file(bench, "moving");
+    document.write_file(sandbox, "moving");
 }
 
 /// Gives the square morph targets and a second node, which carries a light and a camera.
@@ -105,9 +105,10 @@ fn add_camera_and_light(document: &mut GltfBuilder) {
 
 #[test]
 fn poses_are_those_of_the_specification() {
-    let bench = Sandbox::new("poses");
-    write_animated_model(&bench);
-    // A cubic with these ends and slopes is x²; at a quarter of the turn the angle is a quarter of a right angle.
+    let sandbox = Sandbox::new("poses");
+    write_animated_model(&sandbox);
+    // A cubic with these ends and slopes is x²; at a quarter of the turn the angle is a quarter of
+    // a right angle.
     for (time, part, step) in [
         ("0.25", 0.125, 1.0),
         ("0.5", 0.25, 1.0),
@@ -115,7 +116,7 @@ fn poses_are_those_of_the_specification() {
         ("9", 1.0, 2.0),
         ("-1", 0.0, 1.0),
     ] {
-        let info = info_json(&bench, &["moving.gltf", "--time", time]);
+        let info = info_json(&sandbox, &["moving.gltf", "--time", time]);
         let what = |of: &str| format!("{of} at {time}");
         let transform = &info["nodes"][0]["transform"];
         assert_near(
@@ -150,7 +151,7 @@ fn poses_are_those_of_the_specification() {
         assert_near(&json!([info["cameras"][0]["fov_y"]]), &[0.5 + part], &what("camera"));
         assert_eq!(info["shown"]["time"], json!(time.parse::<f64>().expect("a number")));
     }
-    let described = info_json(&bench, &["moving.gltf"]);
+    let described = info_json(&sandbox, &["moving.gltf"]);
     assert_eq!(described["animations"][0]["duration"], json!(2.0));
     assert_eq!(
         described["animations"][0]["channels"][5]["target"],
@@ -161,9 +162,9 @@ fn poses_are_those_of_the_specification() {
 
 #[test]
 fn animation_pointers_to_nothing_are_reported_and_skipped() {
-    let bench = Sandbox::new("lost_pointers");
-    write_animated_model(&bench);
-    let text = std::fs::read_to_string(bench.path_of("moving.gltf")).expect("the file");
+    let sandbox = Sandbox::new("lost_pointers");
+    write_animated_model(&sandbox);
+    let text = std::fs::read_to_string(sandbox.path_of("moving.gltf")).expect("the file");
     for lost in [
         "/materials/7/alphaCutoff",
         "/materials/0/alphaCutoff",
@@ -172,8 +173,8 @@ fn animation_pointers_to_nothing_are_reported_and_skipped() {
         "",
         "/cameras/0/orthographic/xmag",
     ] {
-        bench.write_file("lost.gltf", text.replace("/cameras/0/perspective/yfov", lost));
-        let info = info_json(&bench, &["lost.gltf", "--time", "1"]);
+        sandbox.write_file("lost.gltf", text.replace("/cameras/0/perspective/yfov", lost));
+        let info = info_json(&sandbox, &["lost.gltf", "--time", "1"]);
         assert_eq!(info["animations"][0]["channels"].as_array().map(Vec::len), Some(7), "{lost}");
         let at = "/animations/0/channels/7/target/extensions/KHR_animation_pointer/pointer";
         let warnings = info["warnings"].as_array().expect("a list");
@@ -183,15 +184,15 @@ fn animation_pointers_to_nothing_are_reported_and_skipped() {
 
 #[test]
 fn the_picture_shows_the_pose() {
-    let bench = Sandbox::new("posed_picture");
-    write_animated_model(&bench);
+    let sandbox = Sandbox::new("posed_picture");
+    write_animated_model(&sandbox);
     let flags = ["--size", "32x32", "--view", "front", "--samples", "1", "--animation", "all"];
     for (time, red, green) in [("0.5", 225, 137), ("1", 188, 188), ("1.5", 137, 225)] {
-        let run = bench.run(
+        let run = sandbox.run(
             &[&["render", "moving.gltf", "-o", "out.png", "--time", time], &flags[..]].concat(),
         );
         assert_eq!(run.code, 0, "{}", run.stderr);
-        let (_, _, pixels) = bench.read_picture("out.png");
+        let (_, _, pixels) = sandbox.read_picture("out.png");
         let seen = pixels.iter().filter(|pixel| pixel[3] == 255);
         // Linear 0.75 and 0.25, 0.5 and 0.5, 0 and 1 in sRGB.
         assert!(seen.clone().count() > 20, "at {time}");

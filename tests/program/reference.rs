@@ -10,8 +10,8 @@ fn flags_in_help(help: &str) -> Vec<&str> {
 
 #[test]
 fn every_flag_of_every_command_is_in_the_reference() {
-    let bench = Sandbox::new("reference_flags");
-    let reference = bench.run(&["reference"]);
+    let sandbox = Sandbox::new("reference_flags");
+    let reference = sandbox.run(&["reference"]);
     assert_eq!((reference.code, reference.stderr.as_str()), (0, ""));
     let commands = [
         "render",
@@ -23,7 +23,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
         "compare-projections",
         "sweep",
         "curve depth",
-        "demo tear",
+        "demo wrap-around",
         "animate",
         "batch",
         "reference",
@@ -38,7 +38,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
         let section = section.split("\n\n").next().expect("a section");
         let mut arguments: Vec<&str> = command.split(' ').collect();
         arguments.push("-h");
-        let help = bench.run(&arguments).stdout;
+        let help = sandbox.run(&arguments).stdout;
         let options: Vec<&str> =
             help.lines().filter(|line| line.trim_start().starts_with('-')).collect();
         let options = options.join("\n");
@@ -51,9 +51,9 @@ fn every_flag_of_every_command_is_in_the_reference() {
 
 #[test]
 fn fields_are_found_by_name_by_type_and_by_path() {
-    let bench = Sandbox::new("reference_fields");
+    let sandbox = Sandbox::new("reference_fields");
     let doc = |word: &str| {
-        let run = bench.run(&["scene", "doc", word]);
+        let run = sandbox.run(&["scene", "doc", word]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{word}");
         run.stdout
     };
@@ -62,9 +62,9 @@ fn fields_are_found_by_name_by_type_and_by_path() {
     assert_eq!(doc("camera.view.LookAt.up").matches("up: Triple").count(), 1);
     assert!(doc("fov_y_degrees").contains("FieldOfView"));
     assert!(doc("lines").contains("crease_degrees: Crease"));
-    assert!(bench.run(&["reference", "--size"]).stdout.contains("--size <WxH>"));
-    assert!(bench.run(&["reference", "scene fmt"]).stdout.contains("--check"));
-    let run = bench.run(&["scene", "doc", "fov_degrees"]);
+    assert!(sandbox.run(&["reference", "--size"]).stdout.contains("--size <WxH>"));
+    assert!(sandbox.run(&["reference", "scene fmt"]).stdout.contains("--check"));
+    let run = sandbox.run(&["scene", "doc", "fov_degrees"]);
     assert!(
         run.code == 1 && run.stderr.contains("did you mean `fov_y_degrees`?"),
         "{}",
@@ -74,11 +74,11 @@ fn fields_are_found_by_name_by_type_and_by_path() {
 
 #[test]
 fn the_reference_can_be_read_elsewhere() {
-    let bench = Sandbox::new("reference_formats");
-    let markdown = bench.run(&["reference", "--format", "markdown"]).stdout;
+    let sandbox = Sandbox::new("reference_formats");
+    let markdown = sandbox.run(&["reference", "--format", "markdown"]).stdout;
     assert!(markdown.starts_with("# Reference of Alberti\n\n## alberti\n"), "{markdown}");
     assert!(markdown.contains("\n## Camera\n") && markdown.contains("\n- `view`: View — "));
-    let html = bench.run(&["scene", "doc", "--format", "html"]).stdout;
+    let html = sandbox.run(&["scene", "doc", "--format", "html"]).stdout;
     assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
     assert!(html.contains("<h2 id=\"View\">") && html.contains("<a href=\"#Triple\">Triple</a>"));
     for tag in ["dl", "dt", "dd", "code", "p"] {

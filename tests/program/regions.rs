@@ -5,47 +5,48 @@ use serde_json::Value;
 
 const SIZE: [&str; 2] = ["--size", "120x90"];
 
-fn render_region(bench: &Sandbox, output: &str, flags: &[&str]) {
-    let run = bench.run(&[&["render", "crate.glb", "-o", output], &SIZE[..], flags].concat());
+fn render_region(sandbox: &Sandbox, output: &str, flags: &[&str]) {
+    let run = sandbox.run(&[&["render", "crate.glb", "-o", output], &SIZE[..], flags].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{flags:?}");
 }
 
 fn sandbox_with_model(name: &str) -> Sandbox {
-    let bench = Sandbox::new(name);
-    bench.copy_model("crate.glb");
-    bench
+    let sandbox = Sandbox::new(name);
+    sandbox.copy_model("crate.glb");
+    sandbox
 }
 
 #[test]
 fn crops_and_bands_are_the_pixels_of_the_whole() {
-    let bench = sandbox_with_model("parts");
-    render_region(&bench, "whole.png", &["--overlay", "axes"]);
-    let (width, _, whole) = bench.read_picture("whole.png");
-    render_region(&bench, "crop.png", &["--overlay", "axes", "--crop", "31,20,50,40"]);
-    let (across, down, crop) = bench.read_picture("crop.png");
+    let sandbox = sandbox_with_model("parts");
+    render_region(&sandbox, "whole.png", &["--overlay", "axes"]);
+    let (width, _, whole) = sandbox.read_picture("whole.png");
+    render_region(&sandbox, "crop.png", &["--overlay", "axes", "--crop", "31,20,50,40"]);
+    let (across, down, crop) = sandbox.read_picture("crop.png");
     assert_eq!((across, down), (50, 40));
     for (at, pixel) in crop.iter().enumerate() {
         let (x, y) = (31 + at % 50, 20 + at / 50);
         assert_eq!(*pixel, whole[y * width as usize + x], "({x}, {y})");
     }
     let mut united = Vec::new();
-    for tile in ["1/4", "2/4", "3/4", "4/4"] {
-        render_region(&bench, "tile.png", &["--overlay", "axes", "--tile", tile]);
-        united.extend(bench.read_picture("tile.png").2);
+    for band in ["1/4", "2/4", "3/4", "4/4"] {
+        render_region(&sandbox, "band.png", &["--overlay", "axes", "--band", band]);
+        united.extend(sandbox.read_picture("band.png").2);
     }
     assert_eq!(united, whole);
 }
 
-/// All that looks beyond a pixel: shadows of two kinds of light, a ground that catches them, occlusion, an environment, textures.
+/// All that looks beyond a pixel: shadows of two kinds of light, a ground that catches them,
+/// occlusion, an environment, textures.
 const EVERYTHING: &str = r#"Scene(
     models: [
         (path: "crate.glb"),
-        (path: "panes.glb", translate: (1.5, 0.3, 0), scale: 0.5),
+        (path: "panes.glb", translation: (1.5, 0.3, 0), scale: 0.5),
     ],
     camera: (view: Frame(from: ThreeQuarter)),
     lights: [
-        Sun(direction: (-1, -1.4, -0.4), lux: 2, shadows: On(size: 256, softness_degrees: 4)),
-        Spot(position: (3, 4, 3), direction: (-3, -4, -3), candela: 50, shadows: On(size: 256)),
+        Directional(direction: (-1, -1.4, -0.4), intensity: 2, shadows: On(size: 256, softness_degrees: 4)),
+        Spot(position: (3, 4, 3), direction: (-3, -4, -3), intensity: 50, shadows: On(size: 256)),
     ],
     ground: Shadow(),
     environment: Studio(),
@@ -54,25 +55,25 @@ const EVERYTHING: &str = r#"Scene(
 
 #[test]
 fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
-    let bench = sandbox_with_model("everything");
-    bench.copy_model("panes.glb");
-    bench.write_file("scene.ron", EVERYTHING);
+    let sandbox = sandbox_with_model("everything");
+    sandbox.copy_model("panes.glb");
+    sandbox.write_file("scene.ron", EVERYTHING);
     // The tall one is drawn in two bands.
     for (size, columns, rows) in [("96x80", 96, 80), ("60x2100", 60, 2100)] {
         let draw = |output: &str, flags: &[&str]| {
-            let usual = ["render", "scene.ron", "-o", output, "--size", size];
-            let run = bench.run(&[&usual[..], flags].concat());
+            let default = ["render", "scene.ron", "-o", output, "--size", size];
+            let run = sandbox.run(&[&default[..], flags].concat());
             assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{size} {flags:?}");
-            bench.read_picture(output).2
+            sandbox.read_picture(output).2
         };
         let whole = draw("whole.png", &[]);
         let shades = whole.iter().filter(|p| p[..3] == [0; 3] && (1..255).contains(&p[3]));
         assert!(shades.count() > 100, "the ground catches shadows");
-        let mut tiled = Vec::new();
-        for tile in ["1/3", "2/3", "3/3"] {
-            tiled.extend(draw("tile.png", &["--tile", tile]));
+        let mut bands = Vec::new();
+        for band in ["1/3", "2/3", "3/3"] {
+            bands.extend(draw("band.png", &["--band", band]));
         }
-        assert!(tiled == whole, "{size} in tiles");
+        assert!(bands == whole, "{size} in bands");
         // Left and right of a line, put together row by row.
         let left = draw("left.png", &["--crop", &format!("0,0,37,{rows}")]);
         let right = draw("right.png", &["--crop", &format!("37,0,{},{rows}", columns - 37)]);
@@ -84,40 +85,41 @@ fn parts_with_shadows_and_occlusion_unite_byte_for_byte() {
 
 #[test]
 fn invalid_regions_are_refused() {
-    let bench = sandbox_with_model("no-parts");
+    let sandbox = sandbox_with_model("no-parts");
     for (flags, message) in [
         (
             &["--crop", "100,0,30,10"][..],
-            "--crop 100,0,30,10 is not in the picture, which has 120 x 90 pixels",
+            "--crop 100,0,30,10 is not inside the picture of 120 x 90 pixels",
         ),
-        (&["--tile", "91/200"], "--tile 91/200 has no row: there are 90"),
-        (&["--tile", "5/4"], "expected I/N with I from 1 to N, such as 2/8"),
+        (&["--band", "91/200"], "--band 91/200 is empty: the picture has only 90 rows"),
+        (&["--band", "5/4"], "expected I/N with I from 1 to N, such as 2/8"),
         (&["--crop", "1,2,0,4"], "expected column, row, width and height in pixels"),
         (&["--bits", "12"], "a channel cannot have 12 bits"),
         (&["--passes", "depht"], "tip: a similar value exists: 'depth'"),
-        (&["--passes-as", "npy"], "--passes <PASS,…>"),
+        (&["--pass-format", "npy"], "--passes <PASS,…>"),
         (&["--tolerance", "3"], "--compare <PNG>"),
         (&["--compare", "nowhere.png"], "cannot compare with nowhere.png"),
-        (&["-o", "a.svg", "--crop", "0,0,1,1"], "are for pictures: name a .png"),
+        (&["-o", "a.svg", "--crop", "0,0,1,1"], "need a raster image: name a .png"),
     ] {
-        let run = bench.run(&[&["render", "crate.glb"], &SIZE[..], flags].concat());
+        let run = sandbox.run(&[&["render", "crate.glb"], &SIZE[..], flags].concat());
         assert!(run.code == 1 || run.code == 2, "{flags:?}");
         assert!(run.stderr.contains(message), "{flags:?}: {}", run.stderr);
-        assert!(!bench.path_of("crate.png").exists(), "{flags:?}");
+        assert!(!sandbox.path_of("crate.png").exists(), "{flags:?}");
     }
-    let run = bench.run(&["render", "crate.glb", "--size", "1048577x1"]);
+    let run = sandbox.run(&["render", "crate.glb", "--size", "1048577x1"]);
     assert!(run.stderr.contains("each from 1 to 1048576"), "{}", run.stderr);
 }
 
 #[test]
 fn sixteen_bits_round_to_eight() {
-    let bench = sandbox_with_model("bits");
-    render_region(&bench, "flat.png", &[]);
-    render_region(&bench, "deep.png", &["--bits", "16"]);
-    let file = std::fs::read(bench.path_of("deep.png")).expect("a file");
+    let sandbox = sandbox_with_model("bits");
+    render_region(&sandbox, "flat.png", &[]);
+    render_region(&sandbox, "deep.png", &["--bits", "16"]);
+    let file = std::fs::read(sandbox.path_of("deep.png")).expect("a file");
     assert_eq!(file[24], 16, "the depth in the header");
-    let (flat, deep) = (bench.read_picture("flat.png").2, bench.read_picture("deep.png").2);
-    // The test's reader takes the high byte, which is the code of 8 bits or the one before or after it.
+    let (flat, deep) = (sandbox.read_picture("flat.png").2, sandbox.read_picture("deep.png").2);
+    // The test's reader takes the high byte, which is the code of 8 bits or the one before or after
+    // it.
     for (flat, deep) in flat.iter().zip(&deep) {
         assert!((0..4).all(|k| flat[k].abs_diff(deep[k]) <= 1), "{flat:?} {deep:?}");
     }
@@ -125,14 +127,14 @@ fn sixteen_bits_round_to_eight() {
 
 #[test]
 fn passes_lie_beside_the_picture() {
-    let bench = sandbox_with_model("passes");
+    let sandbox = sandbox_with_model("passes");
     render_region(
-        &bench,
+        &sandbox,
         "a.png",
-        &["--passes", "depth,normal,id", "--passes-as", "npy", "--samples", "1"],
+        &["--passes", "depth,normal,id", "--pass-format", "npy", "--samples", "1"],
     );
-    let seen = bench.read_picture("a.png").2;
-    let read = |name: &str| std::fs::read(bench.path_of(name)).expect(name);
+    let seen = sandbox.read_picture("a.png").2;
+    let read = |name: &str| std::fs::read(sandbox.path_of(name)).expect(name);
     let depth = read("a.depth.npy");
     assert_eq!(depth[..8], *b"\x93NUMPY\x01\0");
     let data = &depth[depth.len() - 120 * 90 * 4..];
@@ -141,63 +143,64 @@ fn passes_lie_beside_the_picture() {
         assert_eq!(depth.is_finite(), pixel[3] == 255, "pixel {at}: {depth} {pixel:?}");
     }
     assert_eq!(read("a.normal.npy").len() % 64, (120 * 90 * 12) % 64);
-    render_region(&bench, "b.png", &["--passes", "overdraw,coverage,view-normal"]);
+    render_region(&sandbox, "b.png", &["--passes", "overdraw,coverage,view-normal"]);
     for name in ["b.overdraw.png", "b.coverage.png", "b.view-normal.png"] {
         assert_eq!(read(name)[24], 16, "{name}");
     }
-    bench.write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], passes: (write: [Uv]))");
-    assert_eq!(bench.run(&["render", "scene.ron", "--size", "20x10"]).code, 0);
-    assert!(bench.path_of("scene.uv.png").exists());
+    sandbox
+        .write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], passes: (write: [Uv]))");
+    assert_eq!(sandbox.run(&["render", "scene.ron", "--size", "20x10"]).code, 0);
+    assert!(sandbox.path_of("scene.uv.png").exists());
 }
 
 #[test]
 fn nothing_is_written_if_a_pass_cannot_be() {
-    let bench = sandbox_with_model("all-or-nothing");
+    let sandbox = sandbox_with_model("all-or-nothing");
     // A name that is just short enough for a picture, and too long for its pass.
     let stem = "a".repeat(232);
     let output = format!("{stem}.png");
-    bench.write_file(&output, "old");
-    let run = bench.run(&["render", "crate.glb", "-o", &output, "--passes", "depth,view-normal"]);
+    sandbox.write_file(&output, "old");
+    let run = sandbox.run(&["render", "crate.glb", "-o", &output, "--passes", "depth,view-normal"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("view-normal.png"), "{}", run.stderr);
-    assert_eq!(std::fs::read_to_string(bench.path_of(&output)).expect("a file"), "old");
-    assert!(!bench.path_of(&format!("{stem}.depth.png")).exists());
-    let left = std::fs::read_dir(bench.path_of("")).expect("a folder").filter_map(Result::ok);
+    assert_eq!(std::fs::read_to_string(sandbox.path_of(&output)).expect("a file"), "old");
+    assert!(!sandbox.path_of(&format!("{stem}.depth.png")).exists());
+    let left = std::fs::read_dir(sandbox.path_of("")).expect("a folder").filter_map(Result::ok);
     let parts = left.filter(|entry| entry.file_name().to_string_lossy().ends_with(".part"));
     assert_eq!(parts.count(), 0, "nothing is left behind");
 }
 
 #[test]
 fn comparisons_print_figures_and_decide_the_exit_code() {
-    let bench = sandbox_with_model("compare");
-    render_region(&bench, "expected.png", &[]);
+    let sandbox = sandbox_with_model("compare");
+    render_region(&sandbox, "expected.png", &[]);
     let same = ["render", "crate.glb", "-o", "same.png", "--compare", "expected.png"];
-    let run = bench.run(&[&same[..], &SIZE].concat());
+    let run = sandbox.run(&[&same[..], &SIZE].concat());
     assert_eq!(run.code, 0);
     assert_eq!(
         run.stderr,
         "compared: agrees; greatest difference 0 of 255, 0 pixels (0.0000 %) beyond 0\n"
     );
-    let (width, height, _) = bench.read_picture("same.compare.png");
+    let (width, height, _) = sandbox.read_picture("same.compare.png");
     assert_eq!((width, height), (360, 90));
     let other =
         ["render", "crate.glb", "-o", "other.png", "--style", "flat", "--background", "#123"];
     let flags = ["--compare", "expected.png", "--tolerance", "40"];
-    let run = bench.run(&[&other[..], &flags, &SIZE].concat());
+    let run = sandbox.run(&[&other[..], &flags, &SIZE].concat());
     assert_eq!(run.code, 1);
     assert!(run.stderr.starts_with("compared: differs; greatest difference 255 of 255, "));
-    assert!(bench.path_of("other.png").exists(), "the picture is there to be looked at");
-    let run = bench.run(&["render", "crate.glb", "--size", "10x10", "--compare", "expected.png"]);
+    assert!(sandbox.path_of("other.png").exists(), "the picture is there to be looked at");
+    let run = sandbox.run(&["render", "crate.glb", "--size", "10x10", "--compare", "expected.png"]);
     assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("it has 120 x 90 pixels, and the picture has 10 x 10"));
+    assert!(run.stderr.contains("its size is 120 x 90, but the picture is 10 x 10"));
 }
 
 #[test]
 fn the_report_names_files_by_their_content() {
-    let bench = sandbox_with_model("report");
+    let sandbox = sandbox_with_model("report");
     let flags = ["--json", "--passes", "id", "--crop", "10,10,60,50", "--compare", "expected.png"];
-    render_region(&bench, "expected.png", &["--crop", "10,10,60,50"]);
-    let run = bench.run(&[&["render", "crate.glb", "-o", "a.png"], &SIZE[..], &flags].concat());
+    render_region(&sandbox, "expected.png", &["--crop", "10,10,60,50"]);
+    let run = sandbox.run(&[&["render", "crate.glb", "-o", "a.png"], &SIZE[..], &flags].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(report["schema"]["name"], "alberti-render");
@@ -215,7 +218,7 @@ fn the_report_names_files_by_their_content() {
     assert_eq!(files, ["a.png", "a.id.png", "a.compare.png"]);
     for file in report["files"].as_array().expect("files") {
         let bytes =
-            std::fs::read(bench.path_of(file["path"].as_str().expect("a path"))).expect("a file");
+            std::fs::read(sandbox.path_of(file["path"].as_str().expect("a path"))).expect("a file");
         assert_eq!(file["bytes"], bytes.len());
         assert_eq!(file["sha256"].as_str().map(str::len), Some(64));
     }
@@ -223,11 +226,12 @@ fn the_report_names_files_by_their_content() {
 
 #[test]
 fn pictures_are_shown_in_half_blocks() {
-    let bench = sandbox_with_model("show");
-    let run = bench.run(&[&["render", "crate.glb", "--show"], &SIZE[..]].concat());
+    let sandbox = sandbox_with_model("show");
+    let run = sandbox.run(&[&["render", "crate.glb", "--show"], &SIZE[..]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     let lines: Vec<&str> = run.stdout.lines().collect();
-    // 80 columns, and 60 rows of pixels in 30 lines; or characters, where the tests run without colours.
+    // 80 columns, and 60 rows of pixels in 30 lines; or characters, where the tests run without
+    // colours.
     assert_eq!(lines.len(), 30);
     let cells = lines[15].matches('▀').count();
     assert!(cells == 80 || lines[15].chars().count() == 80, "{}", lines[15]);

@@ -1,4 +1,4 @@
-//! A place to run the program in: an empty folder of its own for each test.
+//! A sandbox to run the program in: an empty folder for each test.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -44,13 +44,14 @@ impl Sandbox {
         }
     }
 
-    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to its standard output.
+    /// Runs the program here with bytes on its standard input; gives its code and what it wrote to
+    /// its standard output.
     pub(crate) fn run_with_input(&self, arguments: &[&str], input: &[u8]) -> (i32, Vec<u8>) {
         let output = self.spawn_with_input(arguments, input);
         (output.status.code().expect("no signal ends the program"), output.stdout)
     }
 
-    /// Runs the program here with bytes on its standard input; gives what it told.
+    /// Runs the program here with bytes on its standard input; returns its standard error stream.
     pub(crate) fn stderr_with_input(&self, arguments: &[&str], input: &[u8]) -> String {
         String::from_utf8(self.spawn_with_input(arguments, input).stderr)
             .expect("the program writes UTF-8")

@@ -5,19 +5,19 @@ use serde_json::{Value, json};
 
 #[test]
 fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice() {
-    let bench = Sandbox::new("scene_init");
+    let sandbox = Sandbox::new("scene_init");
     for model in ["room.glb", "crate.glb", "lamp.glb"] {
-        bench.copy_model(model);
+        sandbox.copy_model(model);
         let scene = model.replace(".glb", ".ron");
-        let run = bench.run(&["scene", "init", model]);
+        let run = sandbox.run(&["scene", "init", model]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
-        let run = bench.run(&["render", &scene, "--size", "32x24", "--samples", "1"]);
+        let run = sandbox.run(&["render", &scene, "--size", "32x24", "--samples", "1"]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
-        let run = bench.run(&["scene", "check", &scene]);
+        let run = sandbox.run(&["scene", "check", &scene]);
         let clean = run.stdout.contains(&format!("{scene}: no mistakes\n"));
         assert!(run.code == 0 && clean, "{}", run.stdout);
-        assert_eq!(bench.run(&["scene", "fmt", "--check", &scene]).code, 0, "{scene}");
-        let text = std::fs::read_to_string(bench.path_of(&scene)).expect("the scene");
+        assert_eq!(sandbox.run(&["scene", "fmt", "--check", &scene]).code, 0, "{scene}");
+        let text = std::fs::read_to_string(sandbox.path_of(&scene)).expect("the scene");
         let choices = text.lines().filter(|line| {
             let comment = line.trim_start().strip_prefix("// ");
             comment.is_some_and(|comment| comment.contains(": ") && comment.ends_with(','))
@@ -29,8 +29,8 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
             let name = field.split(':').next().expect("a name");
             let there = |line: &&str| !line.trim_start().starts_with(&format!("{name}: "));
             let lines: Vec<&str> = text.lines().filter(there).collect();
-            bench.write_file("chosen.ron", lines.join("\n").replace(choice, field));
-            let run = bench.run(&["scene", "check", "chosen.ron"]);
+            sandbox.write_file("chosen.ron", lines.join("\n").replace(choice, field));
+            let run = sandbox.run(&["scene", "check", "chosen.ron"]);
             assert!(run.stdout.contains("chosen.ron: no mistakes"), "{field}\n{}", run.stdout);
             seen += 1;
         }
@@ -40,73 +40,73 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
 
 #[test]
 fn a_starter_replaces_nothing_unless_it_must_and_finds_its_model_from_elsewhere() {
-    let bench = Sandbox::new("scene_init_places");
-    bench.copy_model("crate.glb");
-    bench.write_file("crate.ron", "mine");
-    let run = bench.run(&["scene", "init", "crate.glb"]);
-    assert!(run.code == 1 && run.stderr.contains("crate.ron is there already"), "{}", run.stderr);
-    assert_eq!(std::fs::read_to_string(bench.path_of("crate.ron")).expect("mine"), "mine");
-    assert_eq!(bench.run(&["scene", "init", "crate.glb", "--force"]).code, 0);
-    std::fs::create_dir(bench.path_of("scenes")).expect("a folder");
-    let run = bench.run(&["scene", "init", "crate.glb", "-o", "scenes/crate.ron"]);
+    let sandbox = Sandbox::new("scene_init_places");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file("crate.ron", "mine");
+    let run = sandbox.run(&["scene", "init", "crate.glb"]);
+    assert!(run.code == 1 && run.stderr.contains("crate.ron already exists"), "{}", run.stderr);
+    assert_eq!(std::fs::read_to_string(sandbox.path_of("crate.ron")).expect("mine"), "mine");
+    assert_eq!(sandbox.run(&["scene", "init", "crate.glb", "--force"]).code, 0);
+    std::fs::create_dir(sandbox.path_of("scenes")).expect("a folder");
+    let run = sandbox.run(&["scene", "init", "crate.glb", "-o", "scenes/crate.ron"]);
     assert!(run.code == 0 && run.stderr.contains("--allow-outside"), "{}", run.stderr);
     let draw = ["render", "scenes/crate.ron", "--size", "16x16", "-o", "out.png"];
-    assert_eq!(bench.run(&draw).code, 1);
-    assert_eq!(bench.run(&[&draw[..], &["--allow-outside", "."]].concat()).code, 0);
-    let run = bench.run(&["scene", "init", "crate.glb", "-o", "-"]);
+    assert_eq!(sandbox.run(&draw).code, 1);
+    assert_eq!(sandbox.run(&[&draw[..], &["--allow-outside", "."]].concat()).code, 0);
+    let run = sandbox.run(&["scene", "init", "crate.glb", "-o", "-"]);
     assert!(run.code == 0 && run.stdout.contains("path: \"crate.glb\""), "{}", run.stdout);
-    assert_eq!(bench.run(&["scene", "init", "missing.glb"]).code, 1);
+    assert_eq!(sandbox.run(&["scene", "init", "missing.glb"]).code, 1);
 }
 
 #[test]
 fn layout_is_written_or_only_checked() {
-    let bench = Sandbox::new("scene_fmt");
+    let sandbox = Sandbox::new("scene_fmt");
     let wild = "Scene( models:[ (path:\"a.glb\") ],// the crate\nstyle:Flat)";
     let tidy = "Scene(\n    models: [(path: \"a.glb\")], // the crate\n    style: Flat,\n)\n";
-    bench.write_file("wild.ron", wild);
-    bench.write_file("tidy.ron", tidy);
-    let run = bench.run(&["scene", "fmt", "--check", "wild.ron", "tidy.ron"]);
+    sandbox.write_file("wild.ron", wild);
+    sandbox.write_file("tidy.ron", tidy);
+    let run = sandbox.run(&["scene", "fmt", "--check", "wild.ron", "tidy.ron"]);
     assert_eq!((run.code, run.stdout.as_str()), (1, "wild.ron\n"));
-    assert_eq!(std::fs::read_to_string(bench.path_of("wild.ron")).expect("the file"), wild);
-    let run = bench.run(&["scene", "fmt", "wild.ron", "tidy.ron"]);
+    assert_eq!(std::fs::read_to_string(sandbox.path_of("wild.ron")).expect("the file"), wild);
+    let run = sandbox.run(&["scene", "fmt", "wild.ron", "tidy.ron"]);
     assert_eq!((run.code, run.stdout.as_str()), (0, ""));
-    assert_eq!(std::fs::read_to_string(bench.path_of("wild.ron")).expect("the file"), tidy);
-    bench.write_file("slip.ron", "Scene(modles: [])");
-    let run = bench.run(&["scene", "fmt", "slip.ron"]);
+    assert_eq!(std::fs::read_to_string(sandbox.path_of("wild.ron")).expect("the file"), tidy);
+    sandbox.write_file("slip.ron", "Scene(modles: [])");
+    let run = sandbox.run(&["scene", "fmt", "slip.ron"]);
     assert!(run.code == 1 && run.stderr.contains("did you mean `models`?"), "{}", run.stderr);
 }
 
 #[test]
 fn the_committed_scenes_are_laid_out_and_nothing_in_them_is_unmeant() {
-    let bench = Sandbox::new("scene_committed");
+    let sandbox = Sandbox::new("scene_committed");
     let folder = alberti_tests::project_root().join("scenes");
     let entries = std::fs::read_dir(&folder).expect("the scenes");
     let paths = entries.map(|entry| entry.expect("an entry").path().display().to_string());
     let mut scenes: Vec<String> = paths.filter(|path| path.ends_with(".ron")).collect();
     scenes.sort();
     let scenes: Vec<&str> = scenes.iter().map(String::as_str).collect();
-    let run = bench.run(&[&["scene", "fmt", "--check"], &scenes[..]].concat());
+    let run = sandbox.run(&[&["scene", "fmt", "--check"], &scenes[..]].concat());
     assert_eq!((run.code, run.stdout.as_str()), (0, ""), "run `alberti scene fmt scenes/*.ron`");
-    let run = bench.run(&[&["scene", "check", "--json"], &scenes[..]].concat());
+    let run = sandbox.run(&[&["scene", "check", "--json"], &scenes[..]].concat());
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!((&report["errors"], &report["warnings"]), (&json!(0), &json!(0)), "{report:#}");
     assert_eq!(report["files"].as_array().map(Vec::len), Some(scenes.len()));
 }
 
 /// A scene of a crate, one unit wide about the origin, and what is said of it.
-fn check_with_fields(bench: &Sandbox, rest: &str) -> (i32, String) {
-    bench.write_file(
+fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
+    sandbox.write_file(
         "scene.ron",
         format!("Scene(\n  models: [(path: \"crate.glb\")],\n  {rest}\n)"),
     );
-    let run = bench.run(&["scene", "check", "scene.ron"]);
+    let run = sandbox.run(&["scene", "check", "scene.ron"]);
     (run.code, run.stdout)
 }
 
 #[test]
 fn suspicious_values_are_warnings_with_their_location() {
-    let bench = Sandbox::new("scene_advice");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("scene_advice");
+    sandbox.copy_model("crate.glb");
     let away = "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))";
     let cases = [
         (away, "nothing-visible", "3:11", "all of it is behind the eye"),
@@ -142,37 +142,40 @@ fn suspicious_values_are_warnings_with_their_location() {
         ),
         ("lights: []", "no-light", "3:11", "black"),
     ];
-    for (rest, code, place, words) in cases {
-        let (exit, told) = check_with_fields(&bench, rest);
+    for (rest, code, location, words) in cases {
+        let (exit, output) = check_with_fields(&sandbox, rest);
         let head = format!("warning[{code}]: ");
-        let pointed = place.is_empty() || told.contains(&format!("scene.ron:{place}\n"));
-        assert!(exit == 0 && told.contains(&head), "{code}:\n{told}");
-        assert!(pointed && told.contains(words) && told.contains("= help: "), "{code}:\n{told}");
-        assert_eq!(told.matches("warning[").count(), 1, "{code}:\n{told}");
+        let pointed = location.is_empty() || output.contains(&format!("scene.ron:{location}\n"));
+        assert!(exit == 0 && output.contains(&head), "{code}:\n{output}");
+        assert!(
+            pointed && output.contains(words) && output.contains("= help: "),
+            "{code}:\n{output}"
+        );
+        assert_eq!(output.matches("warning[").count(), 1, "{code}:\n{output}");
     }
     for good in ["", "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))", "style: Lines()"]
     {
-        assert!(!check_with_fields(&bench, good).1.contains("warning["), "{good}");
+        assert!(!check_with_fields(&sandbox, good).1.contains("warning["), "{good}");
     }
 }
 
 #[test]
 fn a_model_beside_the_picture_is_named() {
-    let bench = Sandbox::new("scene_advice_model");
-    bench.copy_model("crate.glb");
-    bench.write_file(
+    let sandbox = Sandbox::new("scene_advice_model");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file(
         "scene.ron",
-        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translate: (30, 0, -16))],\n  \
+        "Scene(\n  models: [(path: \"crate.glb\"), (path: \"crate.glb\", translation: (30, 0, -16))],\n  \
          camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)",
     );
-    let run = bench.run(&["scene", "check", "scene.ron"]);
-    let told = run.stdout;
+    let run = sandbox.run(&["scene", "check", "scene.ron"]);
+    let output = run.stdout;
     assert!(
-        told.contains("warning[model-not-visible]") && told.contains("scene.ron:2:33"),
-        "{told}"
+        output.contains("warning[model-not-visible]") && output.contains("scene.ron:2:33"),
+        "{output}"
     );
-    assert!(told.contains("all of it is outside of the right"), "{told}");
-    let run = bench.run(&["scene", "check", "scene.ron", "--json"]);
+    assert!(output.contains("all of it is outside of the right"), "{output}");
+    let run = sandbox.run(&["scene", "check", "scene.ron", "--json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let advice = &report["files"][0]["advice"][0];
     assert_eq!((&advice["code"], &advice["line"]), (&json!("model-not-visible"), &json!(2)));
@@ -180,31 +183,31 @@ fn a_model_beside_the_picture_is_named() {
 
 #[test]
 fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
-    let bench = Sandbox::new("scene_include");
-    bench.copy_model("crate.glb");
-    std::fs::create_dir(bench.path_of("lib")).expect("a folder");
-    std::fs::copy(bench.path_of("crate.glb"), bench.path_of("lib/other.glb")).expect("a copy");
+    let sandbox = Sandbox::new("scene_include");
+    sandbox.copy_model("crate.glb");
+    std::fs::create_dir(sandbox.path_of("lib")).expect("a folder");
+    std::fs::copy(sandbox.path_of("crate.glb"), sandbox.path_of("lib/other.glb")).expect("a copy");
     let view = "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)))";
     let image = "image: (size: (24, 16), background: Color(\"#fff\"))";
-    bench.write_file(
+    sandbox.write_file(
         "lib/studio.ron",
         format!(
             "Scene(\n  include: \"paper.ron\",\n  models: [(path: \"other.glb\")],\n  {view},\n)"
         ),
     );
-    bench.write_file("lib/paper.ron", format!("Scene({image}, style: Flat)"));
+    sandbox.write_file("lib/paper.ron", format!("Scene({image}, style: Flat)"));
     let main = |rest: &str| {
         format!(
-            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translate: (1, 0, 0))],\n  {rest}\n)"
+            "Scene(\n  include: [\"lib/studio.ron\"],\n  models: [(path: \"crate.glb\", translation: (1, 0, 0))],\n  {rest}\n)"
         )
     };
-    bench.write_file("scene.ron", main("style: Shaded"));
-    let run = bench.run(&["render", "scene.ron", "-o", "out.png"]);
+    sandbox.write_file("scene.ron", main("style: Shaded"));
+    let run = sandbox.run(&["render", "scene.ron", "-o", "out.png"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translate: (1, 0, 0))]";
-    bench.write_file("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
-    assert_eq!(bench.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
-    assert!(bench.read_picture("out.png") == bench.read_picture("one.png"));
+    let one = "models: [(path: \"lib/other.glb\"), (path: \"crate.glb\", translation: (1, 0, 0))]";
+    sandbox.write_file("one.ron", format!("Scene({one}, {view}, {image}, style: Shaded)"));
+    assert_eq!(sandbox.run(&["render", "one.ron", "-o", "one.png"]).code, 0);
+    assert!(sandbox.read_picture("out.png") == sandbox.read_picture("one.png"));
     // A mistake in each of the three.
     let cases = [
         (
@@ -216,28 +219,31 @@ fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
         ("scene.ron", main("image: (samples: 3)"), "scene.ron:4:20"),
         ("lib/paper.ron", "Scene(imag: ())".to_owned(), "lib/paper.ron:1:7"),
     ];
-    for (name, text, place) in cases {
-        bench.write_file("lib/studio.ron", format!("Scene(include: \"paper.ron\", {view})"));
-        bench.write_file("lib/paper.ron", format!("Scene({image})"));
-        bench.write_file("scene.ron", main(""));
-        bench.write_file(name, text);
+    for (name, text, location) in cases {
+        sandbox.write_file("lib/studio.ron", format!("Scene(include: \"paper.ron\", {view})"));
+        sandbox.write_file("lib/paper.ron", format!("Scene({image})"));
+        sandbox.write_file("scene.ron", main(""));
+        sandbox.write_file(name, text);
         for command in [&["render", "scene.ron"][..], &["scene", "check", "scene.ron"]] {
-            let run = bench.run(command);
-            let told = run.stdout + &run.stderr;
-            assert!(run.code == 1 && told.contains(&format!("--> {place}\n")), "{place}\n{told}");
+            let run = sandbox.run(command);
+            let output = run.stdout + &run.stderr;
+            assert!(
+                run.code == 1 && output.contains(&format!("--> {location}\n")),
+                "{location}\n{output}"
+            );
         }
     }
 }
 
 #[test]
 fn includes_go_neither_in_circles_nor_astray() {
-    let bench = Sandbox::new("scene_include_refused");
-    bench.copy_model("crate.glb");
-    std::fs::create_dir(bench.path_of("in")).expect("a folder");
-    bench.write_file("outside.ron", "Scene(style: Flat)");
-    bench.write_file("in/a.ron", "Scene(\n  include: \"b.ron\",\n)");
-    bench.write_file("in/b.ron", "Scene(include: [\n  \"./a.ron\",\n])");
-    let run = bench.run(&["scene", "check", "in/a.ron"]);
+    let sandbox = Sandbox::new("scene_include_refused");
+    sandbox.copy_model("crate.glb");
+    std::fs::create_dir(sandbox.path_of("in")).expect("a folder");
+    sandbox.write_file("outside.ron", "Scene(style: Flat)");
+    sandbox.write_file("in/a.ron", "Scene(\n  include: \"b.ron\",\n)");
+    sandbox.write_file("in/b.ron", "Scene(include: [\n  \"./a.ron\",\n])");
+    let run = sandbox.run(&["scene", "check", "in/a.ron"]);
     assert_eq!(run.code, 1);
     for words in ["in/b.ron:2:3", "the file includes itself: in/a.ron → in/b.ron → in/./a.ron"]
     {
@@ -248,25 +254,25 @@ fn includes_go_neither_in_circles_nor_astray() {
         ("no.ron", "cannot read"),
         ("/etc/hostname", "leads out of the scene's folder"),
     ] {
-        bench.write_file("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
-        let run = bench.run(&["render", "in/c.ron"]);
+        sandbox.write_file("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));
+        let run = sandbox.run(&["render", "in/c.ron"]);
         let pointed = run.stderr.contains("in/c.ron:2:12") && run.stderr.contains(words);
         assert!(run.code == 1 && pointed, "{path}\n{}", run.stderr);
     }
-    bench.write_file(
+    sandbox.write_file(
         "in/d.ron",
         "Scene(include: \"../outside.ron\", models: [(path: \"../crate.glb\")])",
     );
     let draw = ["render", "in/d.ron", "--size", "16x16", "-o", "out.png", "--allow-outside", "."];
-    let run = bench.run(&draw);
+    let run = sandbox.run(&draw);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
 }
 
 #[test]
 fn a_misspelt_model_is_answered_with_the_one_beside_it() {
-    let bench = Sandbox::new("scene_namesake");
-    bench.copy_model("crate.glb");
-    bench.write_file("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
-    let run = bench.run(&["render", "scene.ron"]);
+    let sandbox = Sandbox::new("scene_namesake");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
+    let run = sandbox.run(&["render", "scene.ron"]);
     assert!(run.code == 1 && run.stderr.contains("did you mean `crate.glb`?"), "{}", run.stderr);
 }

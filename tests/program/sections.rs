@@ -7,14 +7,14 @@ use crate::vector_files::{Layers, PagePoint, layer_bounds, parse_svg};
 /// The layers of a cut box of 100 × 50 × 30 mm.
 #[test]
 fn sections_cut_drawings_open() {
-    let bench = Sandbox::new("sections");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let sandbox = Sandbox::new("sections");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let layers = |flags: &[&str]| {
         assert_succeeds(
-            &bench,
+            &sandbox,
             &[&["render", "box.gltf", "-o", "out.svg", "--style", "lines"], flags].concat(),
         );
-        read_drawing(&bench, "out.svg").1
+        read_drawing(&sandbox, "out.svg").1
     };
     assert!(layers(&[]).keys().all(|id| !id.contains("section") && !id.contains("hatching")));
     for flags in [
@@ -39,56 +39,58 @@ fn sections_cut_drawings_open() {
 
 #[test]
 fn invalid_sections_are_reported() {
-    let bench = Sandbox::new("bad_sections");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let sandbox = Sandbox::new("bad_sections");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for wrong in ["x", "w=0", "x=nan", "1,2,3", "0,0,0,0,0,0"] {
-        let run = bench.run(&["render", "box.gltf", "-o", "out.svg", "--section", wrong]);
+        let run = sandbox.run(&["render", "box.gltf", "-o", "out.svg", "--section", wrong]);
         assert!(
             run.code == 2 && run.stderr.contains("expected a plane"),
             "{wrong}: {}",
             run.stderr
         );
     }
-    let run = bench.run(&["render", "box.gltf", "-o", "out.png", "--section", "x=0.05"]);
+    let run = sandbox.run(&["render", "box.gltf", "-o", "out.png", "--section", "x=0.05"]);
     assert!(run.code == 0 && run.stderr.contains("warning: sections cut line drawings only"));
     for (more, message) in [
         ("sections: [Section(normal: (0, 0, 0))]", "wrong.ron:2:28"),
         ("sections: [Section(point: (1, 0, 0))]", "normal"),
-        ("style: Lines(hatch_mm: 0.01)", "a distance from 0.1 to 1000 millimetres"),
-        ("style: Lines(tone: Grey)", "Grey"),
+        ("style: Lines(hatch_spacing_mm: 0.01)", "a distance from 0.1 to 1000 millimeters"),
+        ("style: Lines(face_fill: Grey)", "Grey"),
     ] {
-        bench.write_file("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
-        let run = bench.run(&["render", "wrong.ron", "-o", "out.svg"]);
+        sandbox.write_file("wrong.ron", format!("Scene(models: [(path: \"box.gltf\")],\n{more})"));
+        let run = sandbox.run(&["render", "wrong.ron", "-o", "out.svg"]);
         assert!(run.code == 1 && run.stderr.contains(message), "{more}: {}", run.stderr);
     }
 }
 
 #[test]
 fn open_surfaces_are_cut_without_a_cap_and_named() {
-    let bench = Sandbox::new("open_section");
-    bench.copy_model("teapot.glb");
-    let run = bench.run(&["render", "teapot.glb", "-o", "out.svg", "--section", "z=0"]);
+    let sandbox = Sandbox::new("open_section");
+    sandbox.copy_model("teapot.glb");
+    let run = sandbox.run(&["render", "teapot.glb", "-o", "out.svg", "--section", "z=0"]);
     assert_eq!(run.code, 0);
     assert!(
         run.stderr.contains("warning: the cut through `body` does not close"),
         "{}",
         run.stderr
     );
-    assert!(read_drawing(&bench, "out.svg").1.contains_key("visible-section"));
+    assert!(read_drawing(&sandbox, "out.svg").1.contains_key("visible-section"));
 }
 
-/// The front view of a sheet is cut and named, the others show the whole thing and where the cut is.
+/// The front view of a sheet is cut and named, the others show the whole thing and where the cut
+/// is.
 #[test]
 fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
-    let bench = Sandbox::new("cut_sheet");
-    write_box(&bench, "box", [0.1, 0.05, 0.03]);
+    let sandbox = Sandbox::new("cut_sheet");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let flags = ["--section", "z=0.01", "--scale", "1:1"];
-    assert_succeeds(&bench, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
-    let (_, layers) = read_drawing(&bench, "out.svg");
+    assert_succeeds(&sandbox, &[&["sheet", "box.gltf", "-o", "out.svg"][..], &flags].concat());
+    let (_, layers) = read_drawing(&sandbox, "out.svg");
     assert!(layers.contains_key("front-visible-hatching"));
     assert!(layers.contains_key("isometric-visible-hatching"));
     assert!(!layers.contains_key("top-visible-hatching"));
-    // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to beyond the other.
+    // Whole from above: 30 mm deep; the cut 10 mm before the rear edge, from beyond one side to
+    // beyond the other.
     let [low, high] = layer_bounds(&layers, |id| id.starts_with("top-"));
     assert_near(high[1] - low[1], 30.0);
     let along = layers["cut-lines"].iter().find(|line| line[0][1] == line[1][1]).expect("a line");
@@ -104,17 +106,17 @@ fn sheets_show_cuts_in_the_view_that_looks_onto_them() {
 
 #[test]
 fn tones_lie_under_the_lines_in_all_formats() {
-    let bench = Sandbox::new("tones");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("tones");
+    sandbox.copy_model("house.glb");
     let scene = |tone: &str| {
-        let style = format!("style: Lines(tone: {tone}), image: (size: (320, 240))");
-        bench.write_file("scene.ron", format!("Scene(models: [(path: \"house.glb\")], {style})"));
+        let style = format!("style: Lines(face_fill: {tone}), image: (size: (320, 240))");
+        sandbox.write_file("scene.ron", format!("Scene(models: [(path: \"house.glb\")], {style})"));
     };
     let drawn = |name: &str| {
-        assert_succeeds(&bench, &["render", "scene.ron", "-o", name, "--threads", "1"]);
-        let first = std::fs::read(bench.path_of(name)).expect("a drawing");
-        assert_succeeds(&bench, &["render", "scene.ron", "-o", name, "--threads", "3"]);
-        assert!(first == std::fs::read(bench.path_of(name)).expect("a drawing"), "{name}");
+        assert_succeeds(&sandbox, &["render", "scene.ron", "-o", name, "--threads", "1"]);
+        let first = std::fs::read(sandbox.path_of(name)).expect("a drawing");
+        assert_succeeds(&sandbox, &["render", "scene.ron", "-o", name, "--threads", "3"]);
+        assert!(first == std::fs::read(sandbox.path_of(name)).expect("a drawing"), "{name}");
         first
     };
     scene("Flat");

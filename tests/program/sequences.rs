@@ -6,7 +6,7 @@ use serde_json::json;
 use std::process::{Command, Stdio};
 
 /// A red square that moves two units to the right within a second.
-fn write_moving_model(bench: &Sandbox) {
+fn write_moving_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let times = document.add_floats("SCALAR", &[0.0, 1.0]);
     document.json["accessors"][times]["min"] = json!([0.0]);
@@ -16,12 +16,12 @@ fn write_moving_model(bench: &Sandbox) {
         "samplers": [{"input": times, "output": places}],
         "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
     }]);
-    document.write_file(bench, "model");
+    document.write_file(sandbox, "model");
 }
 
 /// The middle of all red pixels, as parts of the width and height.
-fn visible_center(bench: &Sandbox, name: &str) -> [f64; 2] {
-    let (width, height, pixels) = bench.read_picture(name);
+fn visible_center(sandbox: &Sandbox, name: &str) -> [f64; 2] {
+    let (width, height, pixels) = sandbox.read_picture(name);
     let (mut sum, mut count) = ([0.0; 2], 0.0);
     for (at, pixel) in pixels.iter().enumerate().filter(|(_, pixel)| pixel[3] == 255) {
         let (x, y) = (at % width as usize, at / width as usize);
@@ -35,9 +35,9 @@ fn visible_center(bench: &Sandbox, name: &str) -> [f64; 2] {
 
 #[test]
 fn an_animation_becomes_a_file_for_each_picture() {
-    let bench = Sandbox::new("animate_files");
-    write_moving_model(&bench);
-    let run = bench.run(&[
+    let sandbox = Sandbox::new("animate_files");
+    write_moving_model(&sandbox);
+    let run = sandbox.run(&[
         "animate",
         "model.gltf",
         "-o",
@@ -51,8 +51,8 @@ fn an_animation_becomes_a_file_for_each_picture() {
     ]);
     assert_eq!((run.code, run.stderr.as_str(), run.stdout.as_str()), (0, "", ""));
     let pictures = ["f_00.png", "f_01.png", "f_02.png", "f_03.png"];
-    assert_eq!(bench.file_names(), [&pictures[..], &["model.bin", "model.gltf"]].concat());
-    let places = pictures.map(|name| visible_center(&bench, name));
+    assert_eq!(sandbox.file_names(), [&pictures[..], &["model.bin", "model.gltf"]].concat());
+    let places = pictures.map(|name| visible_center(&sandbox, name));
     let step = places[1][0] - places[0][0];
     for pair in places.windows(2) {
         assert!((pair[1][0] - pair[0][0] - step).abs() < 0.01 && step > 0.02, "{places:?}");
@@ -63,14 +63,14 @@ fn an_animation_becomes_a_file_for_each_picture() {
 
 #[test]
 fn a_turntable_is_one_animated_png_and_the_same_for_any_number_of_threads() {
-    let bench = Sandbox::new("animate_turntable");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("animate_turntable");
+    sandbox.copy_model("crate.glb");
     let turn = |name: &str, more: &[&str]| {
         let run =
             ["animate", "crate.glb", "-o", name, "--turntable", "--frames", "8", "--size", "48x48"];
-        let run = bench.run(&[&run[..], more].concat());
+        let run = sandbox.run(&[&run[..], more].concat());
         assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-        std::fs::read(bench.path_of(name)).expect("the film")
+        std::fs::read(sandbox.path_of(name)).expect("the film")
     };
     let one = turn("one.png", &["--threads", "1"]);
     assert_eq!(one, turn("three.png", &["--threads", "3"]));
@@ -89,21 +89,21 @@ fn a_turntable_is_one_animated_png_and_the_same_for_any_number_of_threads() {
     }
     assert!(frames.windows(2).all(|pair| pair[0] != pair[1]), "it turns");
     let run =
-        bench.run(&["animate", "crate.glb", "-o", "t.gif", "--frames", "4", "--size", "32x32"]);
+        sandbox.run(&["animate", "crate.glb", "-o", "t.gif", "--frames", "4", "--size", "32x32"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    let gif = std::fs::read(bench.path_of("t.gif")).expect("a film");
+    let gif = std::fs::read(sandbox.path_of("t.gif")).expect("a film");
     assert!(gif.starts_with(b"GIF89a") && gif.ends_with(b";"));
-    assert!(!bench.file_names().iter().any(|name| name.ends_with(".part")));
+    assert!(!sandbox.file_names().iter().any(|name| name.ends_with(".part")));
 }
 
 #[test]
 fn raw_frames_go_to_a_pipe() {
-    let bench = Sandbox::new("animate_raw");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("animate_raw");
+    sandbox.copy_model("crate.glb");
     let program = alberti_tests::program_path().expect("the program");
     let output = Command::new(program)
         .args(["animate", "crate.glb", "-o", "-", "--frames", "3", "--size", "20x10"])
-        .current_dir(bench.path_of(""))
+        .current_dir(sandbox.path_of(""))
         .stderr(Stdio::inherit())
         .output()
         .expect("the program starts");
@@ -113,18 +113,18 @@ fn raw_frames_go_to_a_pipe() {
 
 #[test]
 fn what_cannot_be_is_refused() {
-    let bench = Sandbox::new("animate_refused");
-    bench.copy_model("crate.glb");
+    let sandbox = Sandbox::new("animate_refused");
+    sandbox.copy_model("crate.glb");
     let cases: [(&[&str], i32, &str); 4] = [
-        (&["-o", "film.mp4"], 1, "film.mp4 is none of"),
+        (&["-o", "film.mp4"], 1, "unsupported output film.mp4"),
         (&["-o", "f_{frame:4}.png"], 1, "write {frame}, or {frame:04}"),
         (&["-o", "f.png", "--fps", "0"], 2, "from 0.1 to 1000"),
         (&["-o", "f.png", "--animation", "Walk"], 1, "the model crate has no animation"),
     ];
     for (arguments, code, reason) in cases {
-        let run = bench.run(&[&["animate", "crate.glb"], arguments].concat());
+        let run = sandbox.run(&[&["animate", "crate.glb"], arguments].concat());
         assert_eq!(run.code, code, "{arguments:?}");
         assert!(run.stderr.contains(reason), "{arguments:?}: {}", run.stderr);
-        assert_eq!(bench.file_names(), ["crate.glb"]);
+        assert_eq!(sandbox.file_names(), ["crate.glb"]);
     }
 }

@@ -28,37 +28,37 @@ const PARALLEL_RANGES: [(&str, &str, &str); 6] = [
 /// C62, C64, C94: sheets of every parameter, in perspective and in parallel.
 #[test]
 fn every_parameter_can_be_varied() {
-    let bench = Sandbox::new("sweep_all");
-    bench.copy_model("house.glb");
+    let sandbox = Sandbox::new("sweep_all");
+    sandbox.copy_model("house.glb");
     let in_perspective = RANGES.map(|range| ("perspective", range));
     let in_parallel = PARALLEL_RANGES.map(|range| ("orthographic", range));
     for (projection, (vary, from, to)) in in_perspective.into_iter().chain(in_parallel) {
         let flags = ["--vary", vary, "--from", from, "--to", to, "--steps", "3", "-o", "out.svg"];
         let begin = ["sweep", "house.glb", "--projection", projection];
-        assert_succeeds(&bench, &[&begin[..], &flags].concat());
-        let text = std::fs::read_to_string(bench.path_of("out.svg")).expect("an SVG");
+        assert_succeeds(&sandbox, &[&begin[..], &flags].concat());
+        let text = std::fs::read_to_string(sandbox.path_of("out.svg")).expect("an SVG");
         for (step, value) in [(1, from), (3, to)] {
             let name = format!("<g id=\"names.step-{step}\">\n<title>{vary} {value}</title>");
             assert!(text.contains(&name), "{vary}");
         }
-        let (_, layers) = read_drawing(&bench, "out.svg");
+        let (_, layers) = read_drawing(&sandbox, "out.svg");
         let shown = (1..=3)
             .filter(|step| layers.keys().any(|id| id.starts_with(&format!("step-{step}-visible"))));
         assert_eq!(shown.count(), 3, "{vary}");
     }
 }
 
-/// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size in a dolly zoom and goes with
-/// 1/distance without one.
+/// The front of a box seen in the middle, at the depth of the middle of a flat box, keeps its size
+/// in a dolly zoom and goes with 1/distance without one.
 #[test]
 fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
-    let bench = Sandbox::new("sweep_dolly");
-    write_box(&bench, "box", [4.0, 3.0, 1e-6]);
+    let sandbox = Sandbox::new("sweep_dolly");
+    write_box(&sandbox, "box", [4.0, 3.0, 1e-6]);
     let widths = |vary: &str| {
         let flags = ["--vary", vary, "--from", "10", "--to", "40", "--steps", "4", "-o", "out.svg"];
         let front = ["sweep", "box.gltf", "--view", "front"];
-        assert_succeeds(&bench, &[&front[..], &flags].concat());
-        let (_, layers) = read_drawing(&bench, "out.svg");
+        assert_succeeds(&sandbox, &[&front[..], &flags].concat());
+        let (_, layers) = read_drawing(&sandbox, "out.svg");
         [1, 2, 3, 4].map(|step| {
             let [low, high] =
                 layer_bounds(&layers, |id| id.starts_with(&format!("step-{step}-visible")));
@@ -76,34 +76,34 @@ fn a_dolly_zoom_keeps_the_size_and_a_walk_does_not() {
 /// C64: the frustum and its apex.
 #[test]
 fn view_volumes_stand_below_the_pictures() {
-    let bench = Sandbox::new("sweep_volumes");
-    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let sandbox = Sandbox::new("sweep_volumes");
+    write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let sweep =
         ["sweep", "box.gltf", "--vary", "fov", "--from", "20", "--to", "50", "--steps", "2"];
     let bytes = |threads: &str| {
-        let flags = ["--volumes", "-o", "out.svg", "--threads", threads];
-        assert_succeeds(&bench, &[&sweep[..], &flags].concat());
-        std::fs::read(bench.path_of("out.svg")).expect("a drawing")
+        let flags = ["--view-volumes", "-o", "out.svg", "--threads", threads];
+        assert_succeeds(&sandbox, &[&sweep[..], &flags].concat());
+        std::fs::read(sandbox.path_of("out.svg")).expect("a drawing")
     };
     assert!(bytes("1") == bytes("4"), "the number of threads does not matter");
-    let (_, layers) = read_drawing(&bench, "out.svg");
+    let (_, layers) = read_drawing(&sandbox, "out.svg");
     for step in [1, 2] {
         let of =
             |part: &str| layer_bounds(&layers, |id| id.starts_with(&format!("step-{step}-{part}")));
         assert!(of("view-visible")[1][1] < of("volume-overlay")[0][1], "{step}");
     }
-    assert_succeeds(&bench, &[&sweep[..], &["-o", "out.html"]].concat());
-    let html = std::fs::read_to_string(bench.path_of("out.html")).expect("a page");
+    assert_succeeds(&sandbox, &[&sweep[..], &["-o", "out.html"]].concat());
+    let html = std::fs::read_to_string(sandbox.path_of("out.html")).expect("a page");
     assert!(html.contains("<b>fov 20</b><span>20° high"), "{html}");
 }
 
 #[test]
 fn parameters_that_do_not_apply_are_reported() {
-    let bench = Sandbox::new("sweep_mistakes");
-    write_box(&bench, "box", [4.0, 3.0, 2.0]);
+    let sandbox = Sandbox::new("sweep_mistakes");
+    write_box(&sandbox, "box", [4.0, 3.0, 2.0]);
     let run = |vary: &str, from: &str, to: &str, more: &[&str]| {
         let flags = ["sweep", "box.gltf", "--vary", vary, "--from", from, "--to", to];
-        bench.run(&[&flags[..], more].concat())
+        sandbox.run(&[&flags[..], more].concat())
     };
     for (vary, from, to, more, told) in [
         (
@@ -146,5 +146,5 @@ fn parameters_that_do_not_apply_are_reported() {
     }
     // Around the models goes in parallel too.
     assert_eq!(run("angle", "0", "90", &["--projection", "orthographic"]).code, 0);
-    assert_eq!(bench.file_names(), ["box.bin", "box.gltf", "sweep.svg"]);
+    assert_eq!(sandbox.file_names(), ["box.bin", "box.gltf", "sweep.svg"]);
 }

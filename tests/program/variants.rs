@@ -4,9 +4,9 @@ use crate::gltf_builder::GltfBuilder;
 use crate::sandbox::Sandbox;
 use serde_json::json;
 
-/// A file with a red square on the left; in the variant `blue` it is blue. Its second scene shows the square on the
-/// right too.
-fn write_variants_model(bench: &Sandbox) {
+/// A file with a red square on the left; in the variant `blue` it is blue. Its second scene shows
+/// the square on the right too.
+fn write_variants_model(sandbox: &Sandbox) {
     let mut document = GltfBuilder::square();
     let blue = document.add_unlit_material([0.0, 0.0, 1.0]);
     document.json["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_materials_variants"]);
@@ -17,15 +17,15 @@ fn write_variants_model(bench: &Sandbox) {
         json!({"KHR_materials_variants": {"mappings": mappings}});
     let right = document.push_item("/nodes", json!({"mesh": 0, "translation": [4, 0, 0]}));
     document.push_item("/scenes", json!({"nodes": [0, right], "name": "both"}));
-    document.write_file(bench, "offer");
+    document.write_file(sandbox, "offer");
 }
 
 /// The colours that a picture shows, without the soft ones at edges.
-fn rendered_colors(bench: &Sandbox, arguments: &[&str]) -> Vec<[u8; 4]> {
-    let usual = ["-o", "out.png", "--size", "40x20", "--view", "front", "--samples", "1"];
-    let run = bench.run(&[arguments, &usual].concat());
+fn rendered_colors(sandbox: &Sandbox, arguments: &[&str]) -> Vec<[u8; 4]> {
+    let default = ["-o", "out.png", "--size", "40x20", "--view", "front", "--samples", "1"];
+    let run = sandbox.run(&[arguments, &default].concat());
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{arguments:?}");
-    let mut colors = bench.read_picture("out.png").2;
+    let mut colors = sandbox.read_picture("out.png").2;
     colors.sort_unstable();
     colors.dedup();
     colors
@@ -37,69 +37,69 @@ const BLUE: [u8; 4] = [0, 0, 255, 255];
 
 #[test]
 fn a_variant_is_chosen_by_name_or_number() {
-    let bench = Sandbox::new("variants");
-    write_variants_model(&bench);
-    assert_eq!(rendered_colors(&bench, &["render", "offer.gltf"]), [TRANSPARENT, RED]);
+    let sandbox = Sandbox::new("variants");
+    write_variants_model(&sandbox);
+    assert_eq!(rendered_colors(&sandbox, &["render", "offer.gltf"]), [TRANSPARENT, RED]);
     assert_eq!(
-        rendered_colors(&bench, &["render", "offer.gltf", "--variant", "blue"]),
+        rendered_colors(&sandbox, &["render", "offer.gltf", "--variant", "blue"]),
         [TRANSPARENT, BLUE]
     );
     assert_eq!(
-        rendered_colors(&bench, &["render", "offer.gltf", "--variant", "0"]),
+        rendered_colors(&sandbox, &["render", "offer.gltf", "--variant", "0"]),
         [TRANSPARENT, RED]
     );
     let models = "(path: \"offer.gltf\", variant: Name(\"blue\")), \
-                  (path: \"offer.gltf\", translate: (0, 4, 0))";
-    bench.write_file("two.ron", format!("Scene(models: [{models}])"));
-    assert_eq!(rendered_colors(&bench, &["render", "two.ron"]), [TRANSPARENT, BLUE, RED]);
+                  (path: \"offer.gltf\", translation: (0, 4, 0))";
+    sandbox.write_file("two.ron", format!("Scene(models: [{models}])"));
+    assert_eq!(rendered_colors(&sandbox, &["render", "two.ron"]), [TRANSPARENT, BLUE, RED]);
 }
 
 #[test]
 fn a_scene_is_chosen_by_name_or_number() {
-    let bench = Sandbox::new("scenes");
-    write_variants_model(&bench);
+    let sandbox = Sandbox::new("scenes");
+    write_variants_model(&sandbox);
     let width = |scene: &str| {
-        let run = bench.run(&["info", "offer.gltf", "--json", "--scene", scene]);
+        let run = sandbox.run(&["info", "offer.gltf", "--json", "--scene", scene]);
         assert_eq!(run.code, 0, "{}", run.stderr);
         let info: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
         info["shown"]["bounds"]["max"][0].as_f64()
     };
     assert_eq!([width("0"), width("first")], [Some(1.0); 2]);
     assert_eq!([width("1"), width("both")], [Some(5.0); 2]);
-    bench.write_file("scene.ron", "Scene(models: [(path: \"offer.gltf\", scene: Index(1))])");
-    assert_eq!(rendered_colors(&bench, &["render", "scene.ron"]), [TRANSPARENT, RED]);
+    sandbox.write_file("scene.ron", "Scene(models: [(path: \"offer.gltf\", scene: Index(1))])");
+    assert_eq!(rendered_colors(&sandbox, &["render", "scene.ron"]), [TRANSPARENT, RED]);
     let inked =
-        |bench: &Sandbox| bench.read_picture("out.png").2.iter().filter(|p| p[3] > 0).count();
-    let both = inked(&bench);
-    rendered_colors(&bench, &["render", "scene.ron", "--scene", "0"]);
-    assert!(inked(&bench) > both, "the flag goes before the scene file: one square fills more");
+        |sandbox: &Sandbox| sandbox.read_picture("out.png").2.iter().filter(|p| p[3] > 0).count();
+    let both = inked(&sandbox);
+    rendered_colors(&sandbox, &["render", "scene.ron", "--scene", "0"]);
+    assert!(inked(&sandbox) > both, "the flag goes before the scene file: one square fills more");
 }
 
 #[test]
 fn what_the_file_does_not_offer_is_answered_with_what_it_does() {
-    let bench = Sandbox::new("no_such_variant");
-    write_variants_model(&bench);
+    let sandbox = Sandbox::new("no_such_variant");
+    write_variants_model(&sandbox);
     for (flag, wanted, offered) in [
         ("--variant", "green", "choose one of 0 `red`, 1 `blue`"),
         ("--variant", "2", "choose one of 0 `red`, 1 `blue`"),
         ("--scene", "third", "choose one of 0 `first`, 1 `both`"),
     ] {
         for command in ["render", "info"] {
-            let run = bench.run(&[command, "offer.gltf", flag, wanted]);
+            let run = sandbox.run(&[command, "offer.gltf", flag, wanted]);
             assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{flag} {wanted}");
             assert!(run.stderr.contains(offered), "{flag} {wanted}: {}", run.stderr);
             assert!(run.stderr.contains(&format!("`{wanted}`")), "{}", run.stderr);
         }
     }
-    bench.write_file(
+    sandbox.write_file(
         "scene.ron",
         "Scene(models: [\n  (path: \"offer.gltf\", variant: Name(\"green\")),\n])",
     );
-    let run = bench.run(&["render", "scene.ron"]);
+    let run = sandbox.run(&["render", "scene.ron"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("scene.ron:2:33"), "{}", run.stderr);
     assert!(run.stderr.contains("choose one of 0 `red`, 1 `blue`"), "{}", run.stderr);
-    bench.copy_model("crate.glb");
-    let run = bench.run(&["render", "crate.glb", "--variant", "blue"]);
+    sandbox.copy_model("crate.glb");
+    let run = sandbox.run(&["render", "crate.glb", "--variant", "blue"]);
     assert!(run.stderr.contains("the file has no variants"), "{}", run.stderr);
 }

@@ -1,9 +1,10 @@
-//! Reads back the drawings that the program writes: the places of all lines of an SVG by its layers, and of a PDF, in
-//! millimetres. It knows no more of both formats than the program uses, and fails at anything else.
+//! Reads back the drawings that the program writes: the places of all lines of an SVG by its
+//! layers, and of a PDF, in millimetres. It knows no more of both formats than the program uses,
+//! and fails at anything else.
 
 use std::collections::BTreeMap;
 
-/// A place on the page in millimetres.
+/// A point on the page in millimetres.
 pub(crate) type PagePoint = [f64; 2];
 
 /// Lines as their points, by the id of their layer.
@@ -88,7 +89,8 @@ fn parse_numbers(text: &str) -> Vec<f64> {
     parted.split_ascii_whitespace().map(|word| word.parse().expect("a number")).collect()
 }
 
-/// The lines of each page of a PDF in millimetres from its upper left corner, and the sizes of the pages.
+/// The lines of each page of a PDF in millimetres from its upper left corner, and the sizes of the
+/// pages.
 pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
     let text = String::from_utf8_lossy(bytes);
     let sizes: Vec<PagePoint> = text
@@ -162,7 +164,7 @@ pub(crate) fn layer_bounds(layers: &Layers, wanted: impl Fn(&str) -> bool) -> [P
     point_bounds(chosen.flat_map(|(_, lines)| lines).flatten())
 }
 
-/// The least and the greatest coordinates of places.
+/// The minimum and maximum coordinates of points.
 pub(crate) fn point_bounds<'a>(places: impl Iterator<Item = &'a PagePoint>) -> [PagePoint; 2] {
     places.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], place| {
         let axis = |f: fn(f64, f64) -> f64, from: PagePoint| [0, 1].map(|k| f(from[k], place[k]));

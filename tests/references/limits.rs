@@ -1,32 +1,32 @@
-//! How far each picture may be from its reference.
+//! Largest allowed distance of each picture from its reference.
 
 use crate::score::Score;
 use std::path::Path;
 
-/// The largest `share` and `silhouette`.
+/// Upper bounds of [`Score::fraction_above`] and [`Score::silhouette`].
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
     pub fraction_above: f64,
     pub silhouette: f64,
 }
 
-/// Models of core metallic-roughness, and unlit ones.
+/// Core metallic-roughness and unlit materials.
 const CORE: Limits = Limits { fraction_above: 0.010, silhouette: 0.002 };
-/// Models with layers over the core, which renderers put together in their own ways.
+/// Materials with layers, which renderers combine differently.
 const LAYERED_MATERIALS: Limits = Limits { fraction_above: 0.03, silhouette: 0.002 };
-/// The extensions that add such layers.
+/// The extensions that add layers.
 const LAYER_EXTENSIONS: [&[u8]; 3] =
     [b"KHR_materials_clearcoat", b"KHR_materials_transmission", b"KHR_materials_sheen"];
 
-/// Where a reference is not what the specification says, and how far that leads; names are those of the references.
+/// References that deviate from the specification, with the limits that this needs and the reason.
 const EXCEPTIONS: [(&str, Limits, &str); 1] = [(
     "alpha-blend-mode-test",
     Limits { fraction_above: 0.014, silhouette: 0.0022 },
     "(alpha counts in linear light, §3.9.4, and the reference blends sRGB codes: the pane of BLEND; its upper edge is 0.0075 \
-     pixels above the centres of a row, and the reference rasterises in sixteenths of a pixel)",
+     pixels above the centers of a row, and the reference rasterises in sixteenths of a pixel)",
 )];
 
-/// The limits of a reference, and why they are not the usual ones.
+/// The limits of a reference, and the reason of an exception.
 pub fn limits_for(name: &str, model: &Path) -> (Limits, &'static str) {
     if let Some((_, limits, why)) = EXCEPTIONS.iter().find(|(known, ..)| *known == name) {
         return (*limits, why);
@@ -37,6 +37,7 @@ pub fn limits_for(name: &str, model: &Path) -> (Limits, &'static str) {
 }
 
 impl Limits {
+    /// Whether a score is within the limits.
     pub fn allow(&self, score: &Score) -> bool {
         score.fraction_above <= self.fraction_above && score.silhouette <= self.silhouette
     }

@@ -1,92 +1,83 @@
-//! Pictures that another renderer made of the shared models: ours must be the same but for what the eye does not see.
+//! Reference pictures: ours must be equal but for differences that cannot be seen.
 //!
-//! The folder of the references is `$REFERENCES`, or `shared/references` beside the project; the models are below `$ASSETS`, or
-//! `shared/assets`. Each `NAME.json` says with which camera, lights and time `NAME.png` was made. The real program draws the
-//! same, the two are scored, and `NAME.png` in the folder that is printed at the end shows ours, theirs and the difference side
-//! by side. The limits are in `limits.rs`. Arguments that are not flags choose pictures by a part of their name.
+//! There are two sets. [`analytic`] computes its own, by ray tracing and the formulas of the
+//! specification. The other was made by three.js: the folder `$REFERENCES`, or `shared/references`
+//! beside the repository, with its models below `$ASSETS` or `shared/assets`. Each `NAME.json`
+//! states the camera, lights and time of `NAME.png`. The real program renders the same scene, the
+//! two pictures are scored, and `NAME.png` in the folder that is printed shows ours, the reference
+//! and the difference side by side. The limits are in `limits.rs`. Arguments that are not flags
+//! select pictures by a part of their name.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(missing_docs, unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
+mod analytic;
 mod limits;
 mod picture;
 mod score;
 mod setup;
 
+use alberti_tests::harness::{Arguments, Tally, data_folder, run_program};
 use picture::Picture;
 use score::{Score, score_picture};
 use setup::Setup;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, ExitCode};
 
 fn main() -> ExitCode {
-    if let Err(problem) = score::is_that_of_the_script() {
-        println!("FAILED references: {problem}");
-        return ExitCode::FAILURE;
-    }
-    let beside = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared").join(name);
-    let chosen = |variable: &str| std::env::var_os(variable).map(PathBuf::from);
-    let references = chosen("REFERENCES").unwrap_or_else(|| beside("references"));
-    let assets = chosen("ASSETS").unwrap_or_else(|| beside("assets"));
-    let was_chosen = chosen("REFERENCES").is_some() || chosen("ASSETS").is_some();
-    for folder in [&references, &assets] {
-        if !was_chosen && !folder.is_dir() {
-            println!("SKIPPED references: the folder {} was not found", folder.display());
-            return ExitCode::SUCCESS;
+    run_program("references", |arguments| {
+        score::compare_with_script()?;
+        let program = alberti_tests::program_path()?;
+        let computed = Path::new(env!("CARGO_TARGET_TMPDIR")).join("references");
+        analytic::write_references(&computed)?;
+        let mut tally = compare_references(&program, &computed, &computed, arguments)?;
+        let folders = (data_folder("REFERENCES", "references")?, data_folder("ASSETS", "assets")?);
+        if let (Some(references), Some(assets)) = folders {
+            tally += compare_references(&program, &references, &assets, arguments)?;
         }
-    }
-    match compare_references(&references, &assets) {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
-        Err(error) => {
-            println!("FAILED references: {error}");
-            ExitCode::FAILURE
-        }
-    }
+        Ok(tally)
+    })
 }
 
-/// Draws all pictures of a folder and prints their scores; returns how many are beyond their limits.
-fn compare_references(references: &Path, assets: &Path) -> Result<usize, String> {
-    let program = alberti_tests::program_path()?;
+/// Renders all selected pictures of a folder and prints their scores.
+fn compare_references(
+    program: &Path,
+    references: &Path,
+    assets: &Path,
+    arguments: &Arguments,
+) -> Result<Tally, String> {
+    println!("{}", references.display());
     let output = program.with_file_name("references");
     std::fs::create_dir_all(&output).map_err(|error| error.to_string())?;
-    let (mut passed, mut failed) = (0, 0);
-    for name in reference_names(references)? {
-        let job = Job { program: &program, references, assets, output: &output, name: &name };
+    let mut tally = Tally::default();
+    for name in reference_names(references)?.iter().filter(|name| arguments.select(name)) {
+        let job = Job { program, references, assets, output: &output, name };
         match job.run() {
-            Ok((score, limits, why)) => {
-                let holds = limits.allow(&score);
-                let verdict = if holds { "passed" } else { "FAILED" };
-                println!("{verdict} {name:28} {score} {why}");
-                if holds { passed += 1 } else { failed += 1 }
+            Ok((score, limits, reason)) if limits.allow(&score) => {
+                println!("passed {name:28} {score} {reason}");
+                tally.pass(1);
             }
-            Err(error) => {
-                println!("FAILED {name}: {error}");
-                failed += 1;
-            }
+            Ok((score, ..)) => tally.fail(name, &score.to_string()),
+            Err(error) => tally.fail(name, &error),
         }
     }
-    println!("ours, theirs, difference: {}", output.display());
-    println!("references: {passed} passed, {failed} failed");
-    if passed + failed == 0 { Err("no such picture".to_owned()) } else { Ok(failed) }
+    println!("ours, reference, difference: {}", output.display());
+    Ok(tally)
 }
 
-/// The names of the references that are chosen.
+/// The names of the references in a folder, sorted.
 fn reference_names(references: &Path) -> Result<Vec<String>, String> {
-    let filters: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let chosen =
-        |name: &str| filters.is_empty() || filters.iter().any(|f| name.contains(f.as_str()));
     let entries = std::fs::read_dir(references)
         .map_err(|error| format!("{}: {error}", references.display()))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let setups = paths.filter(|path| path.extension().is_some_and(|e| e == "json"));
     let stems = setups.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()));
-    let mut names: Vec<String> = stems.filter(|name| chosen(name)).collect();
+    let mut names: Vec<String> = stems.collect();
     names.sort();
     Ok(names)
 }
 
-/// One picture to draw and to score.
+/// A picture to render and to score.
 struct Job<'a> {
     program: &'a Path,
     references: &'a Path,
@@ -96,6 +87,8 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
+    /// Renders the picture and scores it; the score, its limits and why they are not the default
+    /// ones.
     fn run(&self) -> Result<(Score, limits::Limits, &'static str), String> {
         let file = |ending: &str| self.references.join(format!("{}.{ending}", self.name));
         let setup = Setup::read_json(&file("json"))?;

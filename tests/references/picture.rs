@@ -1,4 +1,4 @@
-//! Pictures of red, green and blue, and what is written beside a reference.
+//! RGB pictures, read from and written to PNG.
 
 use crate::score::largest_step;
 use std::fs::File;
@@ -14,7 +14,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG; alpha is left out.
+    /// Reads a PNG and drops its alpha.
     pub fn read_png(path: &Path) -> Result<Self, String> {
         let (width, height, pixels) = alberti_tests::read_png(path)?;
         Ok(Self {
@@ -36,7 +36,8 @@ impl Picture {
         written.map_err(|error| with_path(error.to_string()))
     }
 
-    /// Ours, theirs and what differs, side by side. Differences are grey, eight times as bright as they are.
+    /// Ours, the reference and their difference side by side; differences are gray, multiplied by
+    /// eight.
     pub fn side_by_side(&self, theirs: &Self) -> Self {
         let width = self.width as usize;
         let mut pixels = Vec::with_capacity(3 * self.pixels.len());
@@ -44,7 +45,7 @@ impl Picture {
             pixels.extend_from_slice(ours);
             pixels.extend_from_slice(theirs);
             let difference = |(a, b): (&[u8; 3], &[u8; 3])| [largest_step(*a, *b); 3];
-            let bright = |grey: [u8; 3]| grey.map(|channel| channel.saturating_mul(8));
+            let bright = |gray: [u8; 3]| gray.map(|channel| channel.saturating_mul(8));
             pixels.extend(ours.iter().zip(theirs).map(difference).map(bright));
         }
         Self { width: 3 * self.width, height: self.height, pixels }

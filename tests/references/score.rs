@@ -1,21 +1,21 @@
-//! The distance of two pictures: `score.py` of the reference pictures, in Rust.
+//! Distance of two pictures, as the script `score.py` of the reference pictures computes it.
 //!
-//! Edges of surfaces may lie half a pixel apart, so each pixel is held against the nearest in colour of its 3 × 3 neighbours in
-//! the other picture, and that in both directions.
+//! Edges may differ by half a pixel, so each pixel is compared with the nearest in color of its 3 ×
+//! 3 neighbors in the other picture, and that in both directions.
 
 use crate::picture::Picture;
 
-/// How far apart two pictures of one size are.
+/// Distance of two pictures of one size.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Score {
     /// The mean difference of all channels, 0 to 255.
     pub mean: f64,
     /// The 95th percentile of the pixels' differences, each with its nearest neighbour.
     pub p95: f64,
-    /// The share of pixels whose difference is above 8.
+    /// The fraction of pixels whose difference is above 8.
     pub fraction_above: f64,
-    /// The share of pixels that only one of the pictures covers. The colour of the background is that of the reference's
-    /// upper left corner.
+    /// The fraction of pixels that only one of the pictures covers. The background has the color of
+    /// the reference's upper left pixel.
     pub silhouette: f64,
 }
 
@@ -49,8 +49,8 @@ pub fn largest_step(a: [u8; 3], b: [u8; 3]) -> u8 {
     a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
 
-/// For each pixel of `a` the least difference to one of the neighbours of its place in `b`. Beyond the border the border's
-/// pixels are repeated.
+/// For each pixel of `a`, the least difference to a 3 × 3 neighbor at its position in `b`. Pixels
+/// of the border are repeated beyond it.
 fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     let (width, height) = (a.width as usize, a.height as usize);
     let mut least = vec![255; width * height];
@@ -65,26 +65,26 @@ fn nearest_neighbor_steps(a: &Picture, b: &Picture) -> Vec<u8> {
     least
 }
 
-/// A percentile of sorted numbers, between two of them by their distances, as numpy has it.
-fn percentile(sorted: &[u8], share: f64) -> f64 {
-    let place = share * (sorted.len() - 1) as f64;
-    let (below, rest) = (place as usize, place - place.floor());
+/// Percentile of sorted numbers with linear interpolation, as in numpy.
+fn percentile(sorted: &[u8], fraction: f64) -> f64 {
+    let position = fraction * (sorted.len() - 1) as f64;
+    let (below, rest) = (position as usize, position - position.floor());
     let above = sorted[(below + 1).min(sorted.len() - 1)];
     f64::from(sorted[below]) + (f64::from(above) - f64::from(sorted[below])) * rest
 }
 
-/// What `score.py` prints for the pairs below.
+/// Output of `score.py` for the pairs below.
 const EXPECTED_SCORES: [&str; 3] = [
     "mean 0.0000 p95 0.0000 share 0.0000 silhouette 0.0000",
     "mean 31.5927 p95 0.0000 share 0.0104 silhouette 0.1250",
     "mean 25.0403 p95 52.0000 share 0.2397 silhouette 0.0000",
 ];
 
-/// The figures that `score.py` prints for some made-up pictures.
+/// Compares the scores of some generated pictures with the output of the script.
 ///
 /// # Errors
-/// If ours are others.
-pub fn is_that_of_the_script() -> Result<(), String> {
+/// If a score differs.
+pub fn compare_with_script() -> Result<(), String> {
     let made = |width: u32, height: u32, seed: u32, shift: u32| {
         let pixel = |n: u32| {
             let (x, y) = (n % width + shift, n / width);
@@ -102,10 +102,10 @@ pub fn is_that_of_the_script() -> Result<(), String> {
     .into_iter()
     .enumerate()
     {
-        let found =
+        let actual =
             score_picture(&ours, &reference).map_or_else(String::new, |score| score.to_string());
-        if found != printed {
-            return Err(format!("pair {number}: score.py prints {printed}, we have {found}"));
+        if actual != printed {
+            return Err(format!("pair {number}: score.py prints {printed}, actual {actual}"));
         }
     }
     Ok(())

@@ -1,16 +1,17 @@
-//! The set-up of a reference picture, from the JSON beside it to a scene of ours.
+//! Set-up of a reference picture: its JSON, converted to a scene file.
 
 use serde_json::Value;
 use std::path::Path;
 
-/// A reference picture's set-up.
+/// Camera, lights and model of a reference picture.
 pub struct Setup {
     json: Value,
-    /// The model, from the folder of the assets.
+    /// Path of the model, relative to the folder of the assets.
     pub model: String,
 }
 
 impl Setup {
+    /// Reads `NAME.json`.
     pub fn read_json(path: &Path) -> Result<Self, String> {
         let with_path = |error: String| format!("{}: {error}", path.display());
         let text = std::fs::read_to_string(path).map_err(|error| with_path(error.to_string()))?;
@@ -19,7 +20,8 @@ impl Setup {
         Ok(Self { model: model.to_owned(), json })
     }
 
-    /// The scene: one sample a pixel, the sun and the ambient light of the reference, and no other.
+    /// The scene file: one sample per pixel, no lights but the sun and the ambient light of the
+    /// reference.
     pub fn scene_source(&self, model: &Path) -> Result<String, String> {
         let json = &self.json;
         let (camera, lights) = (&json["camera"], &json["lights"]);
@@ -49,8 +51,8 @@ impl Setup {
             "Scene(models: [Model(path: {model:?}{pose})],
     camera: Camera(view: LookAt(eye: ({}), target: ({}), up: ({})),
         projection: Perspective(fov_y_degrees: {}, near: {}, far: {})),
-    lights: [Sun(direction: ({}), lux: {}), Ambient(lux: {})],
-    image: Image(size: ({}), background: Color(\"#{}\"), samples: 1, anisotropy: 1))",
+    lights: [Directional(direction: ({}), intensity: {}), Ambient(intensity: {})],
+    image: Image(size: ({}), background: Color(\"#{}\"), samples: 1, max_anisotropy: 1))",
             list(&camera["eye"])?,
             list(&camera["target"])?,
             list(&camera["up"])?,

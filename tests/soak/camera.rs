@@ -1,12 +1,12 @@
-//! Looking, framing, stereo, screens and rays.
+//! Looking, framing, stereo and screens.
 
 use crate::finite::Finite;
 use crate::random::Random;
 use crate::subject::Subject;
 use camera::{
-    Basis, Camera, CameraView, NamedView, Orbit, Orientation, ParallelFraming, PixelGrid, Ray,
-    Rays, ScreenCorners, Slopes, StereoPair, StereoRig, Window, apex_moved_view, frame_oblique,
-    frame_parallel, frame_perspective,
+    Basis, Camera, CameraView, NamedView, Orbit, Orientation, ParallelFraming, ScreenCorners,
+    Slopes, StereoPair, StereoRig, ViewWindow, apex_moved_view, frame_oblique, frame_parallel,
+    frame_perspective,
 };
 use homog::{Point, World};
 
@@ -71,8 +71,8 @@ pub const SUBJECTS: &[Subject] = &[
         let projectors = r.vector();
         parallel(frame_oblique(points, basis(r)?, projectors, r.size(), padding(r)).ok()?)
     }),
-    ("camera::Window::at", |r| Some(window(r).at_distance(r.size()).ok()?.finite())),
-    ("camera::Window::slopes", |r| Some(numbers(window(r).slopes().ok()?).finite())),
+    ("camera::ViewWindow::at", |r| Some(window(r).at_distance(r.size()).ok()?.finite())),
+    ("camera::ViewWindow::slopes", |r| Some(numbers(window(r).slopes().ok()?).finite())),
     ("camera::StereoRig::pair", |r| pair(rig(r).off_axis_pair(look_to(r)?, window(r)).ok()?)),
     ("camera::StereoRig::pair_apex_moved", |r| {
         pair(rig(r).pair_apex_moved(look_to(r)?, window(r)).ok()?)
@@ -80,22 +80,6 @@ pub const SUBJECTS: &[Subject] = &[
     ("camera::StereoRig::parallax", |r| Some(rig(r).parallax(r.size()).ok()?.finite())),
     ("camera::apex_moved", |r| Some(apex_moved_view(look_to(r)?, window(r)).ok()?.finite())),
     ("camera::ScreenCorners::view_from", |r| Some(screen(r).view_from(r.point()).ok()?.finite())),
-    ("camera::Rays::perspective", |r| {
-        let rays = Rays::perspective(look_to(r)?, window(r), grid(r)).ok()?;
-        through_pixels(rays, r)
-    }),
-    ("camera::Rays::parallel", |r| {
-        let rays = Rays::parallel(look_to(r)?, window(r), grid(r)).ok()?;
-        through_pixels(rays, r)
-    }),
-    ("camera::Rays::oblique", |r| {
-        let rays = Rays::oblique(look_to(r)?, window(r), grid(r), r.vector()).ok()?;
-        through_pixels(rays, r)
-    }),
-    ("camera::Rays::at", |r| {
-        let rays = Rays::perspective(look_to(r)?, window(r), grid(r)).ok()?;
-        Some(rays.at(r.number(), r.number())?.finite())
-    }),
 ];
 
 impl Finite for Basis {
@@ -110,7 +94,7 @@ impl Finite for Camera {
     }
 }
 
-impl Finite for Window {
+impl Finite for ViewWindow {
     fn finite(&self) -> bool {
         [self.left, self.right, self.bottom, self.top, self.distance].finite()
     }
@@ -119,12 +103,6 @@ impl Finite for Window {
 impl Finite for CameraView {
     fn finite(&self) -> bool {
         (self.camera, self.window).finite()
-    }
-}
-
-impl Finite for Ray {
-    fn finite(&self) -> bool {
-        (self.origin, self.direction).finite()
     }
 }
 
@@ -164,9 +142,9 @@ fn numbers(slopes: Slopes) -> [f64; 4] {
     [slopes.left, slopes.right, slopes.bottom, slopes.top]
 }
 
-fn window(r: &mut Random) -> Window {
+fn window(r: &mut Random) -> ViewWindow {
     let [left, right, bottom, top] = sides(r);
-    Window { left, right, bottom, top, distance: r.size() }
+    ViewWindow { left, right, bottom, top, distance: r.size() }
 }
 
 /// Mostly below one half.
@@ -198,11 +176,6 @@ fn screen(r: &mut Random) -> ScreenCorners {
     ScreenCorners { lower_left, lower_right, upper_left }
 }
 
-fn grid(r: &mut Random) -> PixelGrid {
-    let make = r.pick(&[PixelGrid::chapter, PixelGrid::image]);
-    make(r.count(), r.count())
-}
-
 fn pair(pair: StereoPair) -> Option<bool> {
     Some((pair.left, pair.right).finite())
 }
@@ -210,9 +183,4 @@ fn pair(pair: StereoPair) -> Option<bool> {
 fn parallel(framing: ParallelFraming) -> Option<bool> {
     let ParallelFraming { camera, left, right, bottom, top, near, far, .. } = framing;
     Some((camera, [left, right, bottom, top, near, far]).finite())
-}
-
-/// The rays of a few pixels of the image.
-fn through_pixels(rays: Rays, r: &mut Random) -> Option<bool> {
-    Some([rays.pixel(0, 0), rays.pixel(r.count() % 64, r.count() % 64)].finite())
 }

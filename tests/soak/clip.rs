@@ -118,7 +118,8 @@ impl Finite for ClipVertex {
     }
 }
 
-/// One of the conventions' volumes, perhaps without far plane, with a guard band or planes of its own.
+/// One of the conventions' volumes, perhaps without far plane, with a guard band or planes of its
+/// own.
 fn volume(r: &mut Random) -> Volume {
     let canonical = [Volume::CHAPTER, Volume::OPENGL, Volume::ZERO_ONE, Volume::ZERO_ONE_REVERSED];
     let mut volume = r.pick(&canonical);

@@ -1,9 +1,10 @@
 //! Millions of random calls of every function that may refuse: nothing panics, and what is made of
 //! finite numbers is finite.
 //!
-//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names choose functions
-//! by a part of theirs. A call draws its arguments from a generator whose whole state is one number,
-//! so that a call that went wrong is made again from that number, to print its arguments.
+//! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names choose
+//! functions by a part of theirs. A call draws its arguments from a generator whose whole state is
+//! one number, so that a call that went wrong is made again from that number, to print its
+//! arguments.
 
 #![allow(clippy::print_stdout, reason = "a program speaks on its standard output")]
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]

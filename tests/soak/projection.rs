@@ -365,8 +365,8 @@ fn decomposed(matrix: glam::DMat4, r: &mut Random) -> Option<bool> {
             (placement, volume.view_to_clip(c)).finite()
         }
         Decomposed::NPoint(projection) => projection.depth_preserving().finite(),
-        Decomposed::Flat { centre, projection } => {
-            (centre, projection.map(Classical::onto_plane)).finite()
+        Decomposed::Flat { center, projection } => {
+            (center, projection.map(Classical::onto_plane)).finite()
         }
     };
     Some(finite && found.factor.is_finite())

@@ -7,8 +7,8 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Space, Vector};
 use std::f64::consts::PI;
 
-/// Which sorts of numbers a call draws. Were each number of every sort, calls with six of them would
-/// hardly ever be accepted.
+/// Which sorts of numbers a call draws. Were each number of every sort, calls with six of them
+/// would hardly ever be accepted.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mood {
     /// Between −10 and 10, whole, zero of either sign, or the one before once more.

@@ -3,10 +3,10 @@
 use crate::finite::Finite;
 use crate::random::Random;
 use crate::subject::Subject;
-use homog::{Clip, View};
+use homog::{Clip, PixelConvention, PixelRect, View};
 use viewport::{
-    DepthRange, DrawingScale, FitPolicy, Limits, Paper, PixelConvention, PointGrid, Ray, Rectangle,
-    Resolution, Tile, Viewport, WindowToViewport, tiles,
+    DepthRange, DrawingScale, FitPolicy, Limits, Paper, PickRay, PointGrid, Rectangle, Resolution,
+    Viewport, WindowToViewport, tiles,
 };
 
 pub const SUBJECTS: &[Subject] = &[
@@ -40,7 +40,7 @@ pub const SUBJECTS: &[Subject] = &[
         Some(any_viewport(r)?.pick_matrix(any_rectangle(r)?).ok()?.finite())
     }),
     ("viewport::Viewport::for_tile", |r| {
-        let tile = Tile { x: r.count(), y: r.count(), width: r.count(), height: r.count() };
+        let tile = PixelRect { x: r.count(), y: r.count(), width: r.count(), height: r.count() };
         let viewport = any_viewport(r)?;
         let (moved, area) = (viewport.for_tile(tile), viewport.tile_area(tile));
         Some((moved.ndc_to_screen(), [area.x(), area.y(), area.width(), area.height()]).finite())
@@ -51,14 +51,13 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("viewport::Unprojector::ray", |r| {
         let unprojector = any_viewport(r)?.unprojector::<View>(r.projective::<Clip, View>());
-        let Ray { origin, direction, near, far } =
-            unprojector.pick_ray(r.numbers(), r.numbers())?;
-        Some((origin, direction, near, far).finite())
+        let PickRay { ray, near, far } = unprojector.pick_ray(r.numbers(), r.numbers())?;
+        Some((ray.origin, ray.direction, near, far).finite())
     }),
     ("viewport::tiles", |r| {
         let [image, largest] = [[r.count(), r.count()], [r.count(), r.count()]];
         let mut parts = tiles(image, largest).ok()?;
-        let fits = |tile: Tile| {
+        let fits = |tile: PixelRect| {
             tile.width > 0
                 && tile.height > 0
                 && tile.x.checked_add(tile.width).is_some_and(|end| end <= image[0])

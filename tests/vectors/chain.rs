@@ -53,7 +53,7 @@ struct ViewChain {
     kind: ProjectionKind,
 }
 
-/// What the rest of the chain must know of the projection.
+/// Properties of the projection that the rest of the chain needs.
 struct ProjectionKind {
     volume: Volume,
     near_far: [f64; 2],
@@ -181,10 +181,10 @@ fn check_pick_rays(case: &Value, out: &Value) -> Result<(), String> {
 fn check_rays(chain: &ViewChain, case: &Value, out: &Value) -> Result<(), String> {
     let back = chain.viewport.unprojector(chain.clip_to_world());
     for (pixel, theirs) in zip_arrays(&case["pixels"], &out["rays"])? {
-        let ray =
+        let pick =
             back.pick_ray(parse_numbers(pixel)?, chain.kind.near_far).ok_or("there is no ray")?;
-        let far = ray.far.divide().ok_or("the far point is at infinity")?;
-        let points = [("near_point", ray.near), ("far_point", far), ("origin", ray.origin)];
+        let far = pick.far.divide().ok_or("the far point is at infinity")?;
+        let points = [("near_point", pick.near), ("far_point", far), ("origin", pick.ray.origin)];
         for (name, ours) in points {
             assert_all_close(
                 name,
@@ -193,7 +193,7 @@ fn check_rays(chain: &ViewChain, case: &Value, out: &Value) -> Result<(), String
                 UNPROJECTED_TOLERANCE,
             )?;
         }
-        let direction = <[f64; 3]>::from(ray.direction);
+        let direction = <[f64; 3]>::from(pick.ray.direction);
         assert_all_close(
             "direction",
             &direction,

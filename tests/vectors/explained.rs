@@ -3,13 +3,13 @@
 use crate::numbers::{assert_all_close, assert_close, parse_point, parse_point4};
 use camera::ViewProjection;
 use glam::DMat4;
-use homog::{Point, Projective};
+use homog::{PixelConvention, Point, Projective};
 use pipeline::explain::{ApiConventions, TransformChain, explain_point};
 use serde_json::Value;
-use viewport::{DepthRange, PixelConvention, Viewport};
+use viewport::{DepthRange, Viewport};
 
-/// Holds the explanation of a point against a vector. `forth` is the projection in the chapter's convention, with w < 0 in
-/// front of the eye if `sign` is −1; `viewport` is the one of the vector.
+/// Holds the explanation of a point against a vector. `forth` is the projection in the chapter's
+/// convention, with w < 0 in front of the eye if `sign` is −1; `viewport` is the one of the vector.
 pub fn check_explained(
     (camera, forth, sign): (camera::Camera, DMat4, f64),
     viewport: &Viewport,

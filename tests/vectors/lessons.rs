@@ -1,5 +1,5 @@
-//! The exercises of the chapter, and the misprints of the sources: the right form must come out, the printed one must
-//! not.
+//! The exercises of the chapter, and the misprints of the sources: the right form must come out,
+//! the printed one must not.
 
 use crate::Runner;
 use crate::chain::check_lookat;
@@ -10,10 +10,12 @@ use crate::numbers::{
 use crate::windows::{assert_matrix3_close, check_viewport_after_box, parse_window_map};
 use camera::Camera;
 use glam::DMat4;
-use homog::{Affine, Foreshortening, HPoint, Point, Projective, Vector, View, World};
+use homog::{
+    Affine, Foreshortening, HPoint, PixelConvention, Point, Projective, Vector, View, World,
+};
 use projection::{ApexMovedFrustum, Convention, Frustum, ProjectionError, api, chapter};
 use serde_json::{Value, json};
-use viewport::{PixelConvention, Viewport};
+use viewport::Viewport;
 
 /// One per file.
 pub const RUNNERS: &[(&str, Runner)] =
@@ -206,18 +208,14 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
         }
         "000-translation-ty-twice" => {
             let by = Vector::<World>::from(parse_point(&case["t"])?);
-            check_correct_and_printed(
-                Affine::<World, World>::translation(by).raw(),
-                out,
-                "correct",
-                "printed",
-            )
+            let ours = Affine::<World, World>::translation(by);
+            check_correct_and_printed(ours.raw(), out, "correct", "printed")
         }
         "000-algorithm-without-P" => {
             let [l, r, b, t, n, f] = parse_frustum_edges(case)?;
             let ours = chapter::m_per(l, r, b, t, n, f).map_err(refused)?;
             check_correct_and_printed(ours.raw(), out, "correct", "printed")?;
-            // What is printed is a matrix as well, but that of the box: w stays 1 and nothing is foreshortened.
+            // The printed matrix is that of the box: w stays 1, without foreshortening.
             let orth = chapter::m_orth(l, r, b, t, n, f).map_err(refused)?;
             compare_matrix(orth.raw(), out, "printed")
         }
@@ -227,8 +225,8 @@ fn check_misprint(case: &Value, out: &Value) -> Result<(), String> {
             let frustum = Frustum::new(l, r, b, t, n, f).map_err(refused)?;
             compare_matrix(frustum.view_to_clip(Convention::OPENGL).raw(), out, "M_OpenGL")?;
             let chapter = frustum.view_to_clip(Convention::CHAPTER);
-            let turned = Convention::CHAPTER.convert(Convention::OPENGL, chapter);
-            compare_matrix(turned.raw(), out, "minus_flip_M_per")
+            let flipped = Convention::CHAPTER.convert(Convention::OPENGL, chapter);
+            compare_matrix(flipped.raw(), out, "minus_flip_M_per")
         }
         other => Err(format!("unknown misprint {other}")),
     }

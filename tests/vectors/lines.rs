@@ -1,4 +1,4 @@
-//! What faces hide of edges (HL-1).
+//! Hidden intervals of edges (HL-1).
 
 use crate::Runner;
 use crate::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};
@@ -48,7 +48,8 @@ fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
 /// The side of the picture in pixels. Tolerances are measured in them.
 const IMAGE_SIDE: u32 = 1 << 20;
 
-/// The window's half, at distance 1: what is beyond the picture's sides would be cut away, which the vectors do not.
+/// The window's half, at distance 1: what is beyond the picture's sides would be cut away, which
+/// the vectors do not.
 const HALF_WINDOW: f64 = 4096.0;
 
 fn parse_view_projection(input: &Value) -> Result<ViewProjection, String> {

@@ -1,17 +1,18 @@
-//! The shared test vectors: one JSON file a topic, computed elsewhere with exact or 50-digit arithmetic.
+//! Exact vectors: one JSON file per topic, computed elsewhere with rational or 50-digit arithmetic.
 //!
-//! The folder is `$VECTORS`, or `shared/vectors` beside the project. Every file of it is listed: with what its runner
-//! found, or as pending with the reason, and a file nobody knows is a failure, so that none is left out in silence.
-//! Arguments that are not flags choose files by a part of their name, as in `cargo test`.
+//! The files and their format are in `tests/vectors/data`; `$VECTORS` names another folder. A file
+//! without a runner is a failure, so that none is left out in silence. Arguments that are not flags
+//! select files by a part of their name.
 //!
-//! A runner judges one case: `fn(in, out) -> Result<(), String>`, where the error says what differs. Cases whose
-//! exact answer rests on a tie are marked `"fragile": true` in the files; they are run, for they must not panic, but
-//! not judged.
+//! A runner tests one case: `fn(in, out) -> Result<(), String>`, where the error says what differs.
+//! Cases whose exact answer rests on a tie are marked `"fragile": true`: they run, because they
+//! must not panic, but are not compared.
 
-#![allow(clippy::print_stdout, reason = "a test program speaks on its standard output")]
-#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod chain;
+mod classical;
 mod clipping;
 mod explained;
 mod lessons;
@@ -22,16 +23,20 @@ mod projection;
 mod raster;
 mod windows;
 
+use alberti_tests::harness::{Arguments, Tally, run_program};
+use alberti_tests::project_root;
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Tests the output of one case, given its input.
 type Runner = fn(&Value, &Value) -> Result<(), String>;
 
 /// The runners, by the name of their file.
 const RUNNERS: &[&[(&str, Runner)]] = &[
     chain::RUNNERS,
+    classical::RUNNERS,
     clipping::RUNNERS,
     lessons::RUNNERS,
     lines::RUNNERS,
@@ -41,112 +46,45 @@ const RUNNERS: &[&[(&str, Runner)]] = &[
     windows::RUNNERS,
 ];
 
-/// Files whose subject is not built yet, and why.
-const PENDING: &[(&str, &str)] = &[];
-
 /// How many failing cases of a file are printed in full.
 const MAX_PRINTED_FAILURES: usize = 5;
 
-#[derive(Default)]
-struct Tally {
-    passed: usize,
-    failed: usize,
-    fragile: usize,
-    pending: usize,
-}
-
 fn main() -> ExitCode {
-    let chosen = std::env::var_os("VECTORS").map(PathBuf::from);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/vectors");
-    let folder = chosen.as_deref().unwrap_or(&beside);
-    let files = match vector_files(folder) {
-        Ok(files) => files,
-        Err(_) if chosen.is_none() => {
-            println!("SKIPPED vectors: the folder {} was not found", folder.display());
-            println!("0 passed, 0 failed, 0 skipped");
-            return ExitCode::SUCCESS;
-        }
-        Err(error) => {
-            println!("FAILED vectors: VECTORS names {}: {error}", folder.display());
-            return ExitCode::FAILURE;
-        }
-    };
-    // A filter may be meant for another test program.
-    if files.is_empty() && name_filters().is_empty() {
-        println!("FAILED vectors: there are no such files in {}", folder.display());
-        return ExitCode::FAILURE;
-    }
-    run_files(&files)
+    run_program("vectors", run_files)
 }
 
-/// The arguments that choose files.
-fn name_filters() -> Vec<String> {
-    std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect()
-}
-
-/// The JSON files of the folder that the arguments choose, in order.
-fn vector_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let filters = name_filters();
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder)? {
-        let path = entry?.path();
-        let name = file_stem(&path);
-        let wanted = filters.is_empty() || filters.iter().any(|filter| name.contains(filter));
-        if wanted && path.extension().is_some_and(|extension| extension == "json") {
-            files.push(path);
+fn run_files(arguments: &Arguments) -> Result<Tally, String> {
+    let named = std::env::var_os("VECTORS").map(PathBuf::from);
+    let folder = named.unwrap_or_else(|| project_root().join("tests/vectors/data"));
+    let files = vector_files(&folder)?;
+    if files.is_empty() {
+        return Err(format!("no vectors in {}", folder.display()));
+    }
+    let mut tally = Tally::default();
+    for path in &files {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        if !arguments.select(&name) {
+            continue;
+        }
+        let runner = RUNNERS.iter().copied().flatten().find(|(topic, _)| *topic == name);
+        match (parse_cases(path), runner) {
+            (Ok(cases), Some((_, runner))) => run_cases(&name, &cases, *runner, &mut tally),
+            (Ok(_), None) => tally.fail(&name, "this file has no runner"),
+            (Err(error), _) => tally.fail(&name, &error),
         }
     }
+    Ok(tally)
+}
+
+/// The JSON files of a folder, sorted by name.
+fn vector_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let entries =
+        std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_json = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "json");
+    let mut files: Vec<PathBuf> = paths.filter(is_json).collect();
     files.sort();
     Ok(files)
-}
-
-fn file_stem(path: &Path) -> String {
-    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-fn run_files(files: &[PathBuf]) -> ExitCode {
-    let mut total = Tally::default();
-    for path in files {
-        let name = file_stem(path);
-        let tally = run_file(path, &name);
-        total.passed += tally.passed;
-        total.failed += tally.failed;
-        total.fragile += tally.fragile;
-        total.pending += tally.pending;
-    }
-    println!(
-        "{} files: {} cases passed, {} failed, {} fragile, {} pending",
-        files.len(),
-        total.passed,
-        total.failed,
-        total.fragile,
-        total.pending
-    );
-    let skipped = total.fragile + total.pending;
-    println!("{} passed, {} failed, {skipped} skipped", total.passed, total.failed);
-    if total.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// Runs the cases of one file and prints its line.
-fn run_file(path: &Path, name: &str) -> Tally {
-    let cases = match parse_cases(path) {
-        Ok(cases) => cases,
-        Err(error) => return broken_file(name, &error),
-    };
-    let runner = RUNNERS.iter().copied().flatten().find(|(topic, _)| *topic == name);
-    if let Some((_, runner)) = runner {
-        return run_cases(name, &cases, *runner);
-    }
-    if let Some((_, reason)) = PENDING.iter().find(|(topic, _)| *topic == name) {
-        println!("{name:26} {:4} cases   pending: {reason}", cases.len());
-        return Tally { pending: cases.len(), ..Tally::default() };
-    }
-    broken_file(name, "there is no runner for this file")
-}
-
-fn broken_file(name: &str, error: &str) -> Tally {
-    println!("{name:26} FAILED: {error}");
-    Tally { failed: 1, ..Tally::default() }
 }
 
 fn parse_cases(path: &Path) -> Result<Vec<Value>, String> {
@@ -154,40 +92,38 @@ fn parse_cases(path: &Path) -> Result<Vec<Value>, String> {
     let mut file: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     match file["cases"].take() {
         Value::Array(cases) if !cases.is_empty() => Ok(cases),
-        _ => Err("there is no list of cases in it".into()),
+        _ => Err("the list of cases is missing".into()),
     }
 }
 
-fn run_cases(name: &str, cases: &[Value], runner: Runner) -> Tally {
-    let mut tally = Tally::default();
-    let mut failures = Vec::new();
+/// Runs the cases of one file and prints a line of counts, then the first failures.
+fn run_cases(name: &str, cases: &[Value], runner: Runner, tally: &mut Tally) {
+    let (mut passed, mut fragile, mut failures) = (0, 0, Vec::new());
     for (index, case) in cases.iter().enumerate() {
-        let fragile = [case, &case["in"], &case["out"]].iter().any(|part| part["fragile"] == true);
-        match judge_case(case, runner) {
-            Ok(Ok(())) if !fragile => tally.passed += 1,
-            Ok(_) if fragile => tally.fragile += 1,
-            Ok(Ok(())) => {}
+        let is_fragile =
+            [case, &case["in"], &case["out"]].iter().any(|part| part["fragile"] == true);
+        match run_case(case, runner) {
+            Ok(_) if is_fragile => fragile += 1,
+            Ok(Ok(())) => passed += 1,
             Ok(Err(difference)) | Err(difference) => {
-                tally.failed += 1;
-                failures.push(format!("  {name} case {index}{}: {difference}", case_note(case)));
+                failures.push((format!("{name} case {index}{}", case_note(case)), difference));
             }
         }
     }
-    let Tally { passed, failed, fragile, .. } = tally;
-    println!("{name:26} {passed:4} passed {failed:4} failed {fragile:4} fragile");
-    for failure in failures.iter().take(MAX_PRINTED_FAILURES) {
-        println!("{failure}");
+    println!("{name:26} {passed:4} passed {:4} failed {fragile:4} fragile", failures.len());
+    tally.pass(passed);
+    for (case, difference) in failures.iter().take(MAX_PRINTED_FAILURES) {
+        tally.fail(case, difference);
     }
     if failures.len() > MAX_PRINTED_FAILURES {
-        println!("  {name}: and {} more", failures.len() - MAX_PRINTED_FAILURES);
+        tally.fail(name, &format!("{} more cases", failures.len() - MAX_PRINTED_FAILURES));
     }
-    tally
 }
 
-/// The runner's judgement; the outer error is a panic, which is a failure even where the answer is not judged.
-fn judge_case(case: &Value, runner: Runner) -> Result<Result<(), String>, String> {
+/// The result of the runner. The outer error is a panic, which is a failure even of a fragile case.
+fn run_case(case: &Value, runner: Runner) -> Result<Result<(), String>, String> {
     catch_unwind(AssertUnwindSafe(|| runner(&case["in"], &case["out"])))
-        .map_err(|_| "it panicked, see above".to_owned())
+        .map_err(|_| "panicked, see above".to_owned())
 }
 
 fn case_note(case: &Value) -> String {

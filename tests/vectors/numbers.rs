@@ -112,8 +112,8 @@ pub fn assert_matrix_close(
     Ok(())
 }
 
-/// Judges a result against an expectation that may be a refusal (`{"error": …}`, whatever its code): `check` sees what
-/// was built if it had to be built.
+/// Judges a result against an expectation that may be a refusal (`{"error": …}`, whatever its
+/// code): `check` sees what was built if it had to be built.
 pub fn compare_outcome<T, E: Display>(
     ours: Result<T, E>,
     out: &Value,

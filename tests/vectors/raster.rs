@@ -1,13 +1,12 @@
 //! Coverage and interpolated values (RA-1, RA-2, IN-2).
 //!
-//! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are judged with
-//! the precision that f32 has.
+//! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are
+//! judged with the precision that f32 has.
 
 use crate::numbers::{assert_close, parse_number};
-use homog::{Point, Screen};
+use homog::{PixelConvention, Point, Screen};
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 use serde_json::Value;
-use viewport::PixelConvention;
 
 pub const RUNNERS: &[(&str, crate::Runner)] =
     &[("raster_coverage", check_coverage), ("raster_attributes", check_attributes)];
@@ -107,7 +106,7 @@ fn check_attributes(input: &Value, out: &Value) -> Result<(), String> {
     Ok(())
 }
 
-/// What is kept of a fragment.
+/// A fragment as the test surface records it.
 struct CoveredFragment {
     x: u32,
     y: u32,
@@ -159,11 +158,12 @@ impl TestImage {
         ScreenVertex::snap(place, w).ok_or_else(|| format!("({x}, {y}) cannot be drawn"))
     }
 
-    /// The pixel's name in the convention of the file: its column and its row, from the top or from the bottom.
+    /// The pixel's name in the convention of the file: its column and its row, from the top or from
+    /// the bottom.
     fn pixel_at(&self, at: usize) -> [i64; 2] {
         let (width, height) = (i64::from(self.width), i64::from(self.height));
         let (x, y) = (at as i64 % width, at as i64 / width);
-        let counts_up = matches!(self.convention.y, viewport::YAxis::Up);
+        let counts_up = matches!(self.convention.y, homog::YAxis::Up);
         [x, if counts_up { height - 1 - y } else { y }]
     }
 }

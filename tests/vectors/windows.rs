@@ -7,12 +7,14 @@ use crate::numbers::{
     zip_arrays,
 };
 use glam::DMat3;
-use homog::{Affine, Homography, Ndc, Point, Screen, View, remap_interval};
+use homog::{
+    Affine, Homography, Ndc, PixelCenters, PixelConvention, Point, Screen, View, YAxis,
+    remap_interval,
+};
 use projection::chapter;
 use serde_json::Value;
 use viewport::{
-    DepthRange, Limits, PixelCenters, PixelConvention, PointGrid, Rectangle, Viewport,
-    ViewportError, WindowToViewport, YAxis,
+    DepthRange, Limits, PointGrid, Rectangle, Viewport, ViewportError, WindowToViewport,
 };
 
 /// One per file.
@@ -130,7 +132,8 @@ fn check_window_to_viewport(case: &Value, out: &Value) -> Result<(), String> {
     })
 }
 
-/// The viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says otherwise.
+/// The viewport on a whole image of `nx` by `ny` pixels; depth is kept unless the case says
+/// otherwise.
 pub fn full_image_viewport(case: &Value) -> Result<Result<Viewport, ViewportError>, String> {
     let y = match text_field(case, "y")? {
         "up" => YAxis::Up,

@@ -1,10 +1,11 @@
-//! `cargo xtask bench`: how fast it is, as ratios to others in the same process; and how many instructions it takes.
+//! `cargo xtask bench`: how fast it is, as ratios to others in the same process; and how many
+//! instructions it takes.
 //!
 //! ```text
 //! bench                 both of the following
-//! bench maths [NAME…]   what is used in bulk against plain loops: `tests/bench`; `bench NAME…` does it too
-//! bench raster [NAME…]  the rasteriser against its peers and the machine: `tests/peers`
-//! bench --instructions  counts of small fixed pieces of work, compared with those that are stored
+//! bench maths [NAME…]   bulk operations against plain loops (tests/bench); or `bench NAME…`
+//! bench raster [NAME…]  the rasterizer against other rasterizers (tests/peers)
+//! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!
 //! The first two print; they judge nothing, for times are no fact about the code alone. Counts are.
@@ -15,6 +16,7 @@ mod raster;
 use crate::Outcome;
 use crate::program::{cargo_command, run_visibly};
 
+/// Runs the named benchmarks, or all that measure time.
 pub fn run_bench(arguments: &[String]) -> Outcome {
     match arguments.split_first() {
         None => bench_maths(&[]).and_then(|()| raster::bench_raster(&[])),

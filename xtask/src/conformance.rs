@@ -1,7 +1,7 @@
 //! `cargo xtask conformance`: the table of what the sources teach and the tests that prove it.
 //!
-//! The table, `tests/CONFORMANCE.md`, is made from the source text of the tests. With `--check` it is
-//! compared instead of written. Either way a crate of mathematics without a test of an item it
+//! The table, `tests/CONFORMANCE.md`, is made from the source text of the tests. With `--check` it
+//! is compared instead of written. Either way a crate of mathematics without a test of an item it
 //! answers for is a failure, and so is a test that names an item there is none of.
 
 mod items;
@@ -18,6 +18,7 @@ use vectors::VECTORS;
 
 const TABLE_PATH: &str = "tests/CONFORMANCE.md";
 
+/// Writes the table, or compares it with `--check`; fails if a topic has no test.
 pub fn run_conformance(arguments: &[String]) -> Outcome {
     let check = match arguments {
         [] => false,
@@ -77,5 +78,7 @@ fn coverage_summary(tests: &[Test]) -> String {
     let proved =
         |item: &&items::Item| item.owners.iter().all(|owner| table::has_test(item, owner, tests));
     let proved = items::all_items().filter(proved).count();
-    format!("{naming} tests name items; {proved} of {all} items are proved by every owner")
+    format!(
+        "{naming} tests name topics; {proved} of {all} topics have a test in every crate that implements them"
+    )
 }

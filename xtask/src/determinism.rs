@@ -11,12 +11,13 @@ use crate::workspace::{Scene, create_folder, list_scenes, target_folder};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// One way to draw every scene.
+/// A build and a number of threads.
 struct Variant {
     name: String,
     flags: Vec<String>,
 }
 
+/// Renders all scenes in several ways and compares the bytes.
 pub fn run_determinism(arguments: &[String]) -> Outcome {
     let options = Options::parse_arguments(arguments)?;
     let mut builds = vec![Build::Release, Build::Debug];
@@ -72,7 +73,7 @@ fn variants(build: Build, has_threads: bool, threads: u32) -> Vec<Variant> {
     ways
 }
 
-/// Draws every scene one way and gives the folder of the pictures.
+/// Renders every scene with one variant and returns the folder of the pictures.
 fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf, String> {
     let folder = folder.join(&way.name);
     create_folder(&folder)?;
@@ -86,14 +87,14 @@ fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf
     Ok(folder)
 }
 
-/// What each scene is drawn as: a picture, and as a line drawing both kinds of vectors.
+/// The formats of each scene: a picture, and line drawings in both vector formats.
 const EXTENSIONS: [&str; 3] = ["png", "svg", "pdf"];
 
 fn output_path(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
     folder.join(format!("{}.{ending}", scene.name))
 }
 
-/// Compares every way's pictures with those of the first.
+/// Compares the pictures of every variant with those of the first.
 fn compare_outputs(drawn: &[(PathBuf, String)]) -> Outcome {
     let Some(((first, first_name), others)) = drawn.split_first() else { return Ok(()) };
     let bytes =

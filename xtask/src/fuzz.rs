@@ -1,18 +1,20 @@
-//! `cargo xtask fuzz`: bytes and numbers that libFuzzer makes up, guided by the branches they reach.
+//! `cargo xtask fuzz`: bytes and numbers that libFuzzer makes up, guided by the branches they
+//! reach.
 //!
 //! ```text
 //! fuzz [TARGET…] [--minutes N] [--jobs N] [--corpus DIR]
 //!   TARGET        some of the targets below; all, one after the other, if none is named
 //!   --minutes N   minutes of processor time for each target, all its jobs together; 20 if not said
 //!   --jobs N      processes that work on a target at a time; 1 if not said
-//!   --corpus DIR  where findings are kept from run to run; target/fuzz if not said
+//!   --corpus DIR  the folder of the corpora, default target/fuzz
 //! ```
 //!
-//! The targets are in `tests/fuzz`, a package of its own that needs a C++ compiler; the stable compiler does for them. They
-//! begin with the shared assets (`$ASSETS`, or `shared/assets` beside the project), the scenes and the cases of
-//! `tests/hostile`. A panic, a broken promise, more than a second or more than 200 MB of memory is a crash: the input is kept in
-//! `DIR/TARGET/artifacts`, the run ends with 1, and later runs begin with that input. Mend it, and put a small case like it into
-//! `tests/hostile` or the tests of the crate.
+//! The targets are in `tests/fuzz`, a package of its own that needs a C++ compiler; the stable
+//! compiler does for them. They begin with the shared assets (`$ASSETS`, or `shared/assets` beside
+//! the project), the scenes and the cases of `tests/hostile`. A panic, a broken promise, more than
+//! a second or more than 200 MB of memory is a crash: the input is saved in `DIR/TARGET/artifacts`,
+//! the run ends with 1, and later runs begin with that input. Mend it, and put a small case like it
+//! into `tests/hostile` or the tests of the crate.
 
 mod pack;
 mod seeds;
@@ -24,7 +26,7 @@ use crate::workspace::{create_folder, project_root, target_folder};
 use session::{Session, SessionReport};
 use std::path::{Path, PathBuf};
 
-/// A place where a stranger's bytes, or any numbers, come in.
+/// An entry point for untrusted bytes or arbitrary numbers.
 struct FuzzTarget {
     name: &'static str,
     about: &'static str,
@@ -62,7 +64,7 @@ const TARGETS: &[FuzzTarget] = &[
     },
 ];
 
-/// What the person asked for.
+/// The parsed command line.
 struct FuzzOrder {
     targets: Vec<&'static FuzzTarget>,
     minutes: f64,
@@ -70,6 +72,7 @@ struct FuzzOrder {
     corpus: PathBuf,
 }
 
+/// Builds the targets, writes their seeds and runs them.
 pub fn run_fuzz(arguments: &[String]) -> Outcome {
     if arguments.iter().any(|argument| argument == "--help" || argument == "-h") {
         println!("{}", fuzz_help());
@@ -146,7 +149,8 @@ fn fuzz_help() -> String {
     text
 }
 
-/// Counters at every branch, and what comparisons compare: `cargo fuzz` asks the compiler for the same.
+/// Counters at every branch, and what comparisons compare: `cargo fuzz` asks the compiler for the
+/// same.
 const COMPILER_FLAGS: [&str; 6] = [
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=4",

@@ -21,6 +21,7 @@ const PAGE_HEAD: &str = "<!doctype html>
 <main>
 ";
 
+/// Renders all scenes and writes the page.
 pub fn run_gallery(arguments: &[String]) -> Outcome {
     if let Some(argument) = arguments.first() {
         return Err(format!("unknown argument `{argument}`"));

@@ -1,7 +1,8 @@
-//! `cargo xtask golden`: the golden images, one for each scene.
+//! `cargo xtask golden`: golden images, one per scene.
 //!
-//! Comparing is a test of the workspace like any other (`tests/goldens`); this command runs it, and
-//! makes new goldens of scenes that were looked at and found right.
+//! The comparison is the test `tests/goldens`, which this command runs. `--bless` replaces the
+//! goldens of named scenes after someone has looked at their pictures; it needs a name or `--all`,
+//! and never works in CI.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command};
@@ -10,9 +11,10 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-/// Goldens are kept small, for they are kept for ever.
+/// The size limit of a golden in bytes: goldens stay in the history of the repository.
 const MAX_BYTES: usize = 150_000;
 
+/// Compares the named scenes with their goldens, or replaces these with `--bless`.
 pub fn run_golden(arguments: &[String]) -> Outcome {
     match arguments.iter().position(|argument| argument == "--bless") {
         Some(flag) => {

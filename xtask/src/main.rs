@@ -1,8 +1,8 @@
-//! `cargo xtask`: one program for everything a developer does to the workspace besides editing it.
+//! `cargo xtask`: the developer commands of the workspace, from tests to benchmarks.
 //!
-//! Each command is a file with a `run`; this one is the table. Nothing here depends on the crates
-//! it drives, so that `cargo xtask` builds in seconds and still works when they do not compile.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its person")]
+//! Each command is a module; this file is the table of commands. It depends on none of the crates
+//! that it drives, so that `cargo xtask` builds in seconds and works even when they do not compile.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod bench;
@@ -10,8 +10,8 @@ mod conformance;
 mod determinism;
 mod fuzz;
 mod gallery;
-mod glb;
 mod golden;
+mod metadata;
 mod models;
 mod program;
 mod soak;
@@ -21,13 +21,15 @@ mod workspace;
 
 use std::process::ExitCode;
 
-/// What a command gives back: nothing, or a sentence for the person.
+/// The result of a command: nothing, or an error message.
 type Outcome = Result<(), String>;
 
 /// A command of `cargo xtask`.
 struct Command {
     name: &'static str,
+    /// Its arguments as the help prints them.
     arguments: &'static str,
+    /// Its line in the help.
     about: &'static str,
     run: fn(&[String]) -> Outcome,
 }
@@ -36,61 +38,61 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "test",
         arguments: "[--keep-going] [STEP…]",
-        about: "All of the tests, or only the named steps; `test --list` shows them",
+        about: "Run all tests or the named steps; `test --list` lists the steps",
         run: test::run_tests,
     },
     Command {
         name: "tidy",
         arguments: "",
-        about: "The rules of the house that no lint can check",
+        about: "Check the project rules that no lint covers",
         run: tidy::run_tidy,
     },
     Command {
         name: "conformance",
         arguments: "[--check]",
-        about: "Write tests/CONFORMANCE.md, which test proves which item, or only check it",
+        about: "Write or check tests/CONFORMANCE.md, the table of topics and their tests",
         run: conformance::run_conformance,
     },
     Command {
         name: "golden",
         arguments: "[NAME…] [--bless NAME…|--all]",
-        about: "Compare each scene with its golden image, or make new goldens after looking",
+        about: "Compare every scene with its golden image, or replace goldens",
         run: golden::run_golden,
     },
     Command {
         name: "determinism",
         arguments: "[--threads N] [--wide]",
-        about: "Render every scene in debug and release, twice each, and compare the bytes",
+        about: "Render every scene in debug and release builds, twice each, and compare the bytes",
         run: determinism::run_determinism,
     },
     Command {
         name: "gallery",
         arguments: "",
-        about: "Render every scene onto one page, target/gallery/index.html",
+        about: "Render every scene to one HTML page, target/gallery/index.html",
         run: gallery::run_gallery,
     },
     Command {
         name: "soak",
         arguments: "[--calls N] [--seed S] [NAME…]",
-        about: "Millions of random calls: nothing panics, finite numbers give finite ones",
+        about: "Call every builder and clipper with millions of random inputs",
         run: soak::run_soak,
     },
     Command {
         name: "fuzz",
         arguments: "[TARGET…] [--minutes N] [--jobs N]",
-        about: "Bytes made up to break what reads them; `fuzz --help` lists the targets",
+        about: "Fuzz the readers of files; `fuzz --help` lists the targets",
         run: fuzz::run_fuzz,
     },
     Command {
         name: "bench",
         arguments: "[maths|raster] [NAME…] | --instructions",
-        about: "How fast it is, as ratios to others; or how many instructions it takes",
+        about: "Measure speed relative to other programs, or count instructions",
         run: bench::run_bench,
     },
     Command {
         name: "models",
         arguments: "[--check]",
-        about: "Write scenes/models anew, or only say which files would change",
+        about: "Write the models of the scenes, or list the files that would change",
         run: models::run_models,
     },
 ];
@@ -98,14 +100,14 @@ const COMMANDS: &[Command] = &[
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let Some(name) = arguments.first() else {
-        return usage_error("cargo xtask needs a command");
+        return usage_error("a command is missing");
     };
     if matches!(name.as_str(), "help" | "--help" | "-h") {
         println!("{}", help());
         return ExitCode::SUCCESS;
     }
     let Some(command) = COMMANDS.iter().find(|command| command.name == name) else {
-        return usage_error(&format!("there is no command `{name}`"));
+        return usage_error(&format!("no such command: `{name}`"));
     };
     match (command.run)(&arguments[1..]) {
         Ok(()) => ExitCode::SUCCESS,

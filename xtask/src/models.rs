@@ -1,65 +1,16 @@
-//! `cargo xtask models`: the models of the scenes, made by code.
-//!
-//! The `.glb` files are committed so that a fresh clone has its pictures at once; `--check` says
-//! whether they are still what the code makes. The same code gives the same bytes on every machine:
-//! `+ − × ÷ √` and `libm` only.
-
-mod bearing;
-mod bezier;
-mod boxes;
-mod document;
-mod finishes;
-mod floor;
-mod house;
-mod lamp;
-mod mesh;
-mod mexican_hat;
-mod palette;
-mod primitives;
-mod room;
-mod spheres;
-mod teapot;
-mod teapot_patches;
-mod tower;
-mod vase;
-mod wood;
+//! `cargo xtask models`: write `scenes/models` from the code of `scenes/generator`, or compare.
 
 use crate::Outcome;
 use crate::workspace::{create_folder, list_files, project_root, relative_path};
+use scene_models::{MAX_BYTES, all_models};
 use std::fs;
 use std::path::PathBuf;
-
-/// No model is larger: a clone should stay small.
-const MAX_BYTES: usize = 300_000;
-
-/// Every model's file name and its bytes.
-fn all_models() -> Result<Vec<(&'static str, Vec<u8>)>, String> {
-    let documents = [
-        ("bearing.glb", bearing::bearing()),
-        ("crate.glb", boxes::wooden_crate()?),
-        ("floor.glb", floor::floor()),
-        ("house.glb", house::solid_house()),
-        ("house_edges.glb", house::house_edges()),
-        ("lamp.glb", lamp::lamp()),
-        ("mexican_hat.glb", mexican_hat::hat_surface()),
-        ("mexican_hat_lines.glb", mexican_hat::hat_lines()),
-        ("panes.glb", boxes::panes()?),
-        ("primitives.glb", primitives::primitives()),
-        ("room.glb", room::room()),
-        ("finishes.glb", finishes::finishes()),
-        ("spheres.glb", spheres::spheres()),
-        ("table.glb", teapot::table_document()),
-        ("teapot.glb", teapot::teapot()),
-        ("tower.glb", tower::tower()),
-        ("vase.glb", vase::vase()),
-    ];
-    Ok(documents.into_iter().map(|(name, document)| (name, document.into_glb())).collect())
-}
 
 fn models_folder() -> PathBuf {
     project_root().join("scenes/models")
 }
 
+/// Writes the models, or compares them with `--check`.
 pub fn run_models(arguments: &[String]) -> Outcome {
     match arguments {
         [] => write_models(),
@@ -107,6 +58,3 @@ fn check_models() -> Outcome {
     faults.push("`cargo xtask models` writes them anew".into());
     Err(faults.join("\n  "))
 }
-
-#[cfg(test)]
-mod tests;

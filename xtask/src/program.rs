@@ -1,10 +1,10 @@
-//! Building the program `alberti` and making it draw.
+//! Processes: building and running the program `alberti`, and calls of Cargo.
 
 use crate::workspace::{project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A way to build the program. All of them must draw the same pixels.
+/// A build profile of the program. All of them must render the same pixels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Build {
     Debug,

@@ -1,20 +1,23 @@
-//! `cargo xtask test`: all of the tests, for a newcomer and for CI alike.
+//! `cargo xtask test`: all tests, for a newcomer and for CI alike.
 //!
-//! A step is a name and what it runs. The integration tests of `tests/` are steps of their own, one
-//! for each `[[test]]` of its manifest, so that `cargo xtask test vectors` runs just that one, with
-//! its environment (`VECTORS=DIR`, `ASSETS=DIR`) passed through. All steps but the last two build
-//! with one profile and one set of features, so that nothing is compiled twice. A line that begins with
-//! `SKIPPED` in what a step prints is repeated at the end.
+//! A step is a name and a command. Each integration test of `tests/` is a step of its own, so that
+//! `cargo xtask test vectors` runs just that one, with its environment (`VECTORS=DIR`,
+//! `ASSETS=DIR`) passed through. Steps select targets of the whole workspace, not packages: Cargo
+//! unifies features over the selected packages, and would compile most crates again for every other
+//! selection. Lines that begin with `SKIPPED` in the output of a step are repeated at the end.
 
 mod no_std;
 mod step;
 
 use crate::Outcome;
+use crate::metadata::Metadata;
 use crate::tidy::NO_STD;
-use crate::workspace::{project_root, read_text};
+use crate::workspace::read_text;
+use std::path::PathBuf;
 use std::time::Duration;
 use step::{Action, Step, StepReport};
 
+/// Runs all steps or the named ones; stops at the first failure unless `--keep-going` is given.
 pub fn run_tests(arguments: &[String]) -> Outcome {
     let steps = all_steps()?;
     let keep_going = arguments.iter().any(|argument| argument == "--keep-going");
@@ -26,10 +29,7 @@ pub fn run_tests(arguments: &[String]) -> Outcome {
         arguments.iter().filter(|argument| *argument != "--keep-going").collect();
     if let Some(unknown) = names.iter().find(|name| !steps.iter().any(|step| step.name == ***name))
     {
-        return Err(format!(
-            "there is no step `{unknown}`; these are the steps:\n{}",
-            list_steps(&steps)
-        ));
+        return Err(format!("no such step: `{unknown}`; the steps are:\n{}", list_steps(&steps)));
     }
     let chosen = steps.iter().filter(|step| names.is_empty() || names.contains(&&step.name));
     let mut reports = Vec::new();
@@ -44,89 +44,87 @@ pub fn run_tests(arguments: &[String]) -> Outcome {
     print_summary(&reports)
 }
 
+/// All steps in the order in which they run.
 fn all_steps() -> Result<Vec<Step>, String> {
     let maths: String = NO_STD.iter().map(|name| format!(" --package {name}")).collect();
     let without_maths: String = NO_STD.iter().map(|name| format!(" --exclude {name}")).collect();
+    let metadata = Metadata::load()?;
+    let unit_tests = tests_of_crates(&metadata);
     let mut steps = vec![
-        Step::cargo("fmt", "the code is laid out as rustfmt does it", &["fmt --all --check"]),
-        Step::built_in("tidy", "the rules of the house", || crate::tidy::run_tidy(&[])),
-        Step::built_in("models", "the models are what the code makes", || {
-            crate::models::run_models(&["--check".into()])
-        }),
+        Step::cargo("fmt", "rustfmt would change nothing", &["fmt --all --check"]),
+        Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[])),
         Step::built_in(
-            "conformance",
-            "each item is proved by a test, and the table says which",
-            || crate::conformance::run_conformance(&["--check".into()]),
+            "models",
+            "the committed models of the scenes are what the code generates",
+            || crate::models::run_models(&["--check".into()]),
         ),
+        Step::built_in("conformance", "every topic has a test, and the table lists it", || {
+            crate::conformance::run_conformance(&["--check".into()])
+        }),
         Step::cargo(
             "clippy",
-            "no lint has anything to say",
+            "no warning from clippy",
             &["clippy --quiet --workspace --all-targets -- -D warnings"],
         ),
         Step::built_in(
             "no-std",
-            "the five crates of mathematics do without std",
+            "the five crates of mathematics build without std",
             no_std::check_no_std,
         ),
         Step::cargo(
             "maths",
-            "the tests and examples of those five, by themselves",
+            "unit tests and doctests of those five, built by themselves",
             &[&format!("test{maths}")],
         ),
         Step::cargo(
             "units",
-            "the tests and doc-tests of the other crates",
+            "unit tests and doctests of the other crates",
             &[
-                &format!("test --workspace{without_maths} --exclude alberti-tests"),
-                "test --package alberti-tests --lib",
-                "test --package alberti-tests --doc",
+                &format!("test --workspace{without_maths} --lib --bins --examples{unit_tests}"),
+                &format!("test --workspace{without_maths} --doc"),
             ],
         ),
     ];
-    steps.extend(integration_tests()?);
+    steps.extend(integration_tests(&metadata)?);
     steps.push(Step {
         name: "docs".into(),
-        about: "the documentation builds without a warning".into(),
+        about: "the documentation builds without warnings".into(),
         action: Action::Documentation,
     });
     steps.push(Step::built_in(
         "determinism",
-        "debug and release draw the same bytes, twice",
+        "debug and release builds render the same bytes, twice each",
         || crate::determinism::run_determinism(&[]),
     ));
-    // As a command of its own, so that what it has to skip is repeated at the end.
+    // As a process, so that its SKIPPED lines are repeated at the end.
     steps.push(Step::cargo(
         "instructions",
-        "fixed pieces of work take no more instructions than is stored",
+        "fixed workloads take no more instructions than are recorded",
         &["xtask bench --instructions"],
     ));
     Ok(steps)
 }
 
-/// A step for each `[[test]]` of `tests/Cargo.toml`, described by the first sentence of its file.
-fn integration_tests() -> Result<Vec<Step>, String> {
-    let folder = project_root().join("tests");
-    let manifest = read_text(&folder.join("Cargo.toml"))?;
-    let step = |(name, path): (String, String)| {
-        let source = read_text(&folder.join(path))?;
-        let call = format!("test --package alberti-tests --test {name}");
-        Ok(Step::cargo(&name, &first_sentence(&source), &[&call]))
+/// A step for each integration test of `alberti-tests`, described by the first sentence of its
+/// file.
+fn integration_tests(metadata: &Metadata) -> Result<Vec<Step>, String> {
+    let package = metadata.package("alberti-tests").ok_or("there is no package alberti-tests")?;
+    let step = |(name, path): &(String, PathBuf)| {
+        let call = format!("test --workspace --test {name}");
+        Ok(Step::cargo(name, &first_sentence(&read_text(path)?), &[&call]))
     };
-    test_targets(&manifest).into_iter().map(step).collect()
+    package.tests.iter().map(step).collect()
 }
 
-/// Name and path of each `[[test]]` of a manifest.
-fn test_targets(manifest: &str) -> Vec<(String, String)> {
-    let value = |table: &str, key: &str| {
-        let line = table.lines().find_map(|line| line.trim().strip_prefix(key))?;
-        Some(line.trim_start().strip_prefix('=')?.trim().trim_matches('"').to_owned())
-    };
-    let tables = manifest.split("[[test]]").skip(1);
-    // A table ends where the next one begins.
-    let tables = tables.map(|table| table.split("\n[").next().unwrap_or(table));
-    tables.filter_map(|table| Some((value(table, "name")?, value(table, "path")?))).collect()
+/// Flags for the integration tests of the crates, besides those of mathematics.
+fn tests_of_crates(metadata: &Metadata) -> String {
+    let others = metadata.packages.iter().filter(|package| {
+        package.name != "alberti-tests" && !NO_STD.contains(&package.name.as_str())
+    });
+    others.flat_map(|package| &package.tests).map(|(name, _)| format!(" --test {name}")).collect()
 }
 
+/// The first sentence of a file's documentation.
 fn first_sentence(source: &str) -> String {
     let lines = source.lines().map_while(|line| line.strip_prefix("//!"));
     let text =
@@ -137,13 +135,14 @@ fn first_sentence(source: &str) -> String {
         .to_owned()
 }
 
+/// A line per step: its name and what it tests.
 fn list_steps(steps: &[Step]) -> String {
     let lines: Vec<String> =
         steps.iter().map(|step| format!("  {:12} {}", step.name, step.about)).collect();
     lines.join("\n")
 }
 
-/// The table at the end: each step with its time, then what was skipped, then the verdict.
+/// Prints each step with its time, then the skipped parts, then the counts.
 fn print_summary(reports: &[StepReport]) -> Outcome {
     println!("\n── summary");
     for report in reports {
@@ -159,7 +158,7 @@ fn print_summary(reports: &[StepReport]) -> Outcome {
         .filter_map(|report| Some(format!("{}: {}", report.name, report.failure.as_ref()?)))
         .collect();
     let time: Duration = reports.iter().map(|report| report.time).sum();
-    println!("  {:.0} s in all", time.as_secs_f64());
+    println!("  {:.0} s in total", time.as_secs_f64());
     println!(
         "steps: {} passed, {} failed, {} skipped",
         reports.len() - failures.len(),
@@ -172,29 +171,6 @@ fn print_summary(reports: &[StepReport]) -> Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tests_are_read_from_the_manifest() {
-        let manifest = r#"
-[lib]
-path = "lib.rs"
-
-[[test]]
-name = "a"
-path = "a/main.rs"
-harness = false
-
-[[test]]
-name = "b"
-path = "b.rs"
-
-[dependencies]
-name = "c"
-"#;
-        let expected =
-            [("a", "a/main.rs"), ("b", "b.rs")].map(|(a, b)| (a.to_owned(), b.to_owned()));
-        assert_eq!(test_targets(manifest), expected);
-    }
 
     #[test]
     fn a_step_is_described_by_the_first_sentence() {

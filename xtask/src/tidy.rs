@@ -1,11 +1,13 @@
-//! `cargo xtask tidy`: the rules of the house that no lint can check.
+//! `cargo xtask tidy`: project rules that no lint covers.
 //!
-//! Each rule is a function from what it looks at to the faults it finds; each file below holds the
-//! rules of one subject.
+//! Each rule is a function from sources to violations; each file below holds the rules of one
+//! subject.
 
 mod boundaries;
 mod code;
+mod comments;
 mod documents;
+mod names;
 mod scenes;
 mod size;
 mod source;
@@ -15,17 +17,19 @@ use crate::Outcome;
 pub use boundaries::NO_STD;
 pub use source::{Source, rust_files};
 
-/// A broken rule: where, and what to do about it.
+/// A broken rule: its location, and what to do about it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Violation {
-    /// The file from the root, with a line where there is one.
+    /// The file from the root, with a line number where there is one.
     pub location: String,
+    /// The rule, as an instruction.
     pub message: String,
 }
 
 impl Violation {
-    pub fn new(place: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { location: place.into(), message: message.into() }
+    /// A violation at `FILE:LINE` or in a whole file.
+    pub fn new(location: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { location: location.into(), message: message.into() }
     }
 }
 
@@ -33,6 +37,7 @@ impl Violation {
 const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
     size::file_length,
     size::function_length,
+    size::argument_count,
     boundaries::crate_boundaries,
     boundaries::no_std_where_promised,
     words::module_docs,
@@ -40,6 +45,7 @@ const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
     words::printing_macros,
 ];
 
+/// Checks all rules and lists every violation.
 pub fn run_tidy(arguments: &[String]) -> Outcome {
     if let Some(argument) = arguments.first() {
         return Err(format!("unknown argument `{argument}`"));
@@ -48,16 +54,23 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     for long in sources.iter().filter_map(size::long_file) {
         println!("note: {}: {}", long.location, long.message);
     }
-    let mut faults: Vec<Violation> =
+    let mut violations: Vec<Violation> =
         sources.iter().flat_map(|source| FILE_RULES.iter().flat_map(|rule| rule(source))).collect();
-    faults.extend(words::machine_path_mentions(&source::text_files()?));
-    faults.extend(boundaries::dependencies()?);
-    faults.extend(scenes::goldens_and_table()?);
-    faults.extend(documents::broken_links()?);
-    if faults.is_empty() {
+    violations.extend(names::repeated_types(&sources));
+    violations.extend(names::functions_named_of(&sources));
+    violations.extend(comments::wide_lines(&sources));
+    violations.extend(comments::empty_openings(&sources));
+    violations.extend(comments::unlisted_formulas(&sources)?);
+    violations.extend(words::machine_path_mentions(&source::text_files()?));
+    violations.extend(boundaries::dependencies()?);
+    violations.extend(scenes::goldens_and_table()?);
+    violations.extend(documents::broken_links()?);
+    if violations.is_empty() {
         println!("{} files of Rust are tidy", sources.len());
         return Ok(());
     }
-    let lines = faults.iter().map(|fault| format!("\n  {}: {}", fault.location, fault.message));
-    Err(format!("{} rules are broken{}", faults.len(), lines.collect::<String>()))
+    let lines = violations
+        .iter()
+        .map(|violation| format!("\n  {}: {}", violation.location, violation.message));
+    Err(format!("{} rules are broken{}", violations.len(), lines.collect::<String>()))
 }

@@ -1,32 +1,34 @@
-//! Where things are: the root of the workspace, its scenes, its files.
+//! Files of the workspace: its root, its scenes, helpers with error messages that name the file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder of the workspace's `Cargo.toml`. Known from this file's own place, so commands work
-/// from any folder.
+/// The folder of the workspace's `Cargo.toml`, known at compile time, so that commands work from
+/// any folder.
 pub fn project_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
-/// The folder that Cargo builds into when it is run at the root.
+/// The target folder of Cargo when it runs at the root.
 pub fn target_folder() -> PathBuf {
     project_root().join(std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
-/// A scene file and the name by which goldens and commands know it: its file name without `.ron`.
+/// A scene file.
 pub struct Scene {
+    /// The file name without `.ron`, by which goldens and commands know it.
     pub name: String,
+    /// The absolute path.
     pub path: PathBuf,
 }
 
 impl Scene {
-    /// The comment that opens the file: what the picture shows and why.
+    /// The comment at the beginning of the file, which describes the picture.
     pub fn scene_caption(&self) -> Result<String, String> {
         Ok(caption(&read_text(&self.path)?))
     }
 
-    /// Where the golden image of this scene is kept.
+    /// The path of the golden image.
     pub fn golden_path(&self) -> PathBuf {
         project_root().join("tests/goldens").join(format!("{}.png", self.name))
     }
@@ -55,23 +57,23 @@ pub fn list_files(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.is_file() && path.extension().is_some_and(|found| found == extension))
+        .filter(|path| path.is_file() && path.extension().is_some_and(|actual| actual == extension))
         .collect();
     paths.sort();
     Ok(paths)
 }
 
-/// The text of a file, or a sentence that names it.
+/// The text of a file; the error names it.
 pub fn read_text(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Makes a folder and those above it.
+/// Creates a folder and its parents.
 pub fn create_folder(path: &Path) -> Result<(), String> {
     fs::create_dir_all(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// `path` as seen from the root, with forward slashes: how rules and messages name files.
+/// The path relative to the root, with forward slashes, as messages name files.
 pub fn relative_path(path: &Path) -> String {
     path.strip_prefix(project_root()).unwrap_or(path).to_string_lossy().replace('\\', "/")
 }

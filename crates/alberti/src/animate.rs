@@ -1,44 +1,54 @@
-//! `alberti animate`: a turntable, or an animation of the model, as pictures, an animated PNG or GIF, or raw frames.
+//! `alberti animate`: a turntable or an animation as image files, APNG, GIF or raw frames.
 
 mod frame_sink;
 
 use super::CliError;
 use super::load_options::LoadArgs;
+use super::messages::print_warnings;
 use super::progress::ProgressCounter;
-use super::render::{open_input, print_warnings, thread_count};
+use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use frame_sink::FrameSink;
 use model::ModelInstance;
 use pipeline::scene::file::{Choice, Finite, SceneFile};
-use pipeline::scene::{CameraPath, ResolveOptions, select_animation};
+use pipeline::scene::{CameraPath, select_animation};
 use pipeline::sequence::{Motion, Sequence, SequenceError};
 use pipeline::{Origin, ResolveError, Scene};
 use std::path::PathBuf;
 
+/// Arguments of `alberti animate`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AnimateArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb)
     input: PathBuf,
-    /// Where the pictures go: `name_{frame:04}.png` for a file each, `name.png` for an animated PNG, `name.gif`, or - for raw
-    /// RGBA frames on the standard output
+    /// Output: NAME_{frame:04}.png for a file per frame, NAME.png for an animated PNG, NAME.gif, or
+    /// - for raw RGBA frames on the standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Turn the models by so many degrees instead of playing their animation [default: 360, if they have none]
-    #[arg(long, value_name = "DEGREES", num_args = 0..=1, require_equals = true, default_missing_value = "360", value_parser = finite)]
+    /// Rotate the models by this angle instead of playing their animation
+    /// [default: 360, if they have no animation]
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "360",
+        value_parser = parse_finite
+    )]
     turntable: Option<Finite>,
-    /// How many pictures [default: as many as the animation needs; 120 for a turntable]
+    /// Number of frames [default: the length of the animation; 120 for a turntable]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
-    /// Pictures a second
-    #[arg(long, value_name = "N", default_value = "30", value_parser = rate)]
+    /// Frames per second
+    #[arg(long, value_name = "N", default_value = "30", value_parser = parse_frame_rate)]
     fps: f64,
-    /// The time of the animation at which it begins, in seconds [default: 0]
-    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    /// Start time in seconds [default: 0]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     from: Option<Finite>,
-    /// The time at which it ends [default: where the animation does]
-    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    /// End time in seconds [default: the end of the animation]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     to: Option<Finite>,
-    /// Threads to use; the pictures do not depend on it [default: as many as there are cores]
+    /// Number of threads; the frames do not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
@@ -47,15 +57,9 @@ pub(crate) struct AnimateArgs {
     load_options: LoadArgs,
 }
 
+/// Renders the frames and writes each as soon as it is there.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
-    let (origin, mut file) =
-        open_input(&args.input, &args.overrides.import_options(&args.load_options))?;
-    args.overrides.apply_to(&mut file);
-    let scene = Scene::resolve(
-        &origin,
-        &file,
-        &ResolveOptions { import: args.overrides.import_options(&args.load_options) },
-    )?;
+    let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     print_warnings(&scene, &[]);
     let film = args.build_sequence(&origin, &file, scene)?;
     let mut sink = FrameSink::open(&args.input, &args.output, &film, args.fps)?;
@@ -73,6 +77,10 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
 }
 
 impl AnimateArgs {
+    /// The sequence that the flags and the scene describe.
+    ///
+    /// A turntable rotates the models; otherwise their animations play, and the camera follows its
+    /// keyframes, if it has any. Start, end and number of frames default to those of the animation.
     fn build_sequence(
         &self,
         origin: &Origin,
@@ -92,7 +100,7 @@ impl AnimateArgs {
             None if animations.iter().any(Option::is_some) => {
                 Motion::Animations { animations, from, to }
             }
-            // The camera moves, and nothing else.
+            // Only the camera moves, along its keyframes.
             None if path.is_some() => Motion::Turntable { angle: 0.0 },
             degrees => {
                 Motion::Turntable { angle: degrees.map_or(360.0, Finite::value).to_radians() }
@@ -111,7 +119,7 @@ impl AnimateArgs {
     }
 }
 
-/// For each model the animation that the file chooses, else its first.
+/// The animation of each model instance: the one that the scene chooses, or the model's first.
 fn choose_animations(
     models: &[ModelInstance],
     file: &SceneFile,
@@ -132,14 +140,16 @@ fn choose_animations(
     models.iter().zip(choices).map(chosen).collect()
 }
 
-fn finite(text: &str) -> Result<Finite, String> {
+/// Parses a finite number.
+fn parse_finite(text: &str) -> Result<Finite, String> {
     text.parse()
         .ok()
         .and_then(Finite::new)
         .ok_or_else(|| "expected a number, such as 1.5".to_owned())
 }
 
-fn rate(text: &str) -> Result<f64, String> {
+/// Parses a frame rate from 0.1 to 1000.
+fn parse_frame_rate(text: &str) -> Result<f64, String> {
     let rate = text.parse().ok().filter(|rate: &f64| (0.1..=1000.0).contains(rate));
     rate.ok_or_else(|| "expected a number from 0.1 to 1000".to_owned())
 }

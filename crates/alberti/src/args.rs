@@ -1,4 +1,7 @@
-//! Flags and arguments.
+//! The command line: commands, their flags, and the help text (clap derive).
+//!
+//! The doc comments of these structs are what users read in `--help`, in the manual pages and in
+//! `alberti reference`: the first paragraph is the short help, the rest is for the long one.
 
 use super::animate::AnimateArgs;
 use super::batch::BatchArgs;
@@ -17,102 +20,117 @@ use super::passes::PassArgs;
 use super::reference::ReferenceArgs;
 use super::region::RegionArgs;
 use super::scene::SceneArgs;
-use super::scene_overrides::{SceneOverrideArgs, named_view};
+use super::scene_overrides::{SceneOverrideArgs, named_view_parser};
 use super::sheet::SheetArgs;
 use super::sweep::SweepArgs;
 use camera::NamedView;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
-/// Pictures of glTF models, without a GPU, a display or a browser.
+/// Render, draw, validate and explain glTF models without a GPU, a display or a browser
 ///
-/// The same input gives the same bytes on every machine, whatever the number of threads.
+/// Output is deterministic: the bytes depend neither on the machine nor on the number of threads.
 #[derive(Debug, Parser)]
-#[command(name = "alberti", version, max_term_width = 100, after_help = EXAMPLES)]
+#[command(name = "alberti", version, max_term_width = 100, after_help = HELP_EXAMPLES)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
-    /// Colours in messages; with `auto` on a terminal, unless the variable NO_COLOR says no
+    /// When to color messages; `auto` colors them on a terminal unless NO_COLOR is set
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(crate) color: ColorChoice,
 }
 
-const EXAMPLES: &str = "\
+/// Examples and exit codes at the end of `alberti --help`.
+const HELP_EXAMPLES: &str = "\
 Examples:
   alberti render model.glb                        a picture in model.png, framed and lit
   alberti render model.glb --view front --size 512x512 -o thumb.png
   alberti render scene.ron                        a scene: models, camera, lights, style
-  alberti render model.glb -o model.svg           a line drawing, hidden lines removed
-  alberti sheet model.glb --paper a4              front, top, side and isometric view to scale
-  alberti info model.glb                          what is in the file
-  alberti check model.glb                         what is wrong with the file
-  alberti matrix 1 0 0 0 …                        what sixteen numbers are
-  alberti explain model.glb --point 0,1,0         where a point goes, stage by stage
+  alberti render model.glb -o model.svg           a line drawing with hidden lines removed
+  alberti sheet model.glb --paper a4              front, top, side and isometric view, to scale
+  alberti info model.glb                          the contents of a model
+  alberti check model.glb                         validation against the glTF specification
+  alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
+  alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12
   alberti curve depth --near 0.1 --far 1000 -o depth.svg
-  alberti demo tear                               why clipping comes before the divide
+  alberti demo wrap-around                        why clipping comes before the perspective divide
   alberti animate model.glb --turntable -o turn.png
-  alberti batch models --out thumbs --size 256x256
-  alberti scene init model.glb                    a scene file to begin with
-  alberti reference camera                        what a field or a flag means
+  alberti batch models --out-dir thumbs --size 256x256
+  alberti scene init model.glb                    a scene file to start from
+  alberti reference camera                        the meaning of a field or a flag
 
-Exit codes: 0 done, 1 the input or the work failed (no output file is touched), 2 wrong usage.
-`check` ends with 1 if there are errors, and with 0 if there are only warnings and notes; `render --compare` ends with 1 if the
-pictures differ, and all files are written.";
+Exit codes:
+  0  success
+  1  the input is invalid or the work failed; existing output files are left untouched
+  2  wrong usage
+`check` exits with 1 if there are errors, but not for warnings and notes. `render --compare` exits
+with 1 if the pictures differ, and writes all of its files.";
 
+/// The commands, in the order of the help.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Render a scene file or a bare model to a PNG, or as a line drawing to an SVG or a PDF
+    /// Render a scene or a model to a PNG, or draw it as lines to an SVG or a PDF
     Render(RenderArgs),
-    /// Draw the views of a scene or a model on paper, to scale: front, top, side and isometric
+    /// Draw the front, top, side and isometric view of a scene or a model on paper, to scale
     Sheet(SheetArgs),
-    /// Tell what is in a model: meshes, bounds, cameras, materials, extensions
+    /// Print what a model contains: meshes, bounds, cameras, materials, extensions
     Info(InfoArgs),
-    /// Tell everything that is wrong with a scene or a model, with its place and a remedy
+    /// Validate a scene or a model and print every error with its location and a fix
     Check(CheckArgs),
-    /// Tell what a 4x4 matrix is: which map, which projection, in whose convention, or which known misprint
+    /// Classify a 4x4 matrix: transform, projection, convention, or a known misprint
     Matrix(MatrixArgs),
-    /// Follow a point, a segment, a vertex or a triangle of a scene through every stage
+    /// Print every stage of the pipeline for a point, a segment, a pixel, a vertex or a triangle
     Explain(ExplainArgs),
-    /// Draw a subject in every projection of the textbooks, side by side, with formulas and numbers
+    /// Draw a subject in every classical projection, side by side, with formulas and numbers
     CompareProjections(CompareProjectionsArgs),
-    /// Vary one parameter of camera or lens, and draw the pictures side by side
+    /// Draw a series of pictures that differ in one parameter of the camera, side by side
     Sweep(SweepArgs),
-    /// Draw a curve of the pipeline, with its table: depth against distance
+    /// Plot a function of the pipeline, with its table: depth against distance
     Curve(CurveArgs),
-    /// Show what goes wrong where a stage is left out
+    /// Demonstrate the artifact that appears when a stage is omitted
     Demo(DemoArgs),
-    /// Make a film: a turntable, or the model's own animation
+    /// Render a turntable or the model's own animation as an image sequence, APNG or GIF
     Animate(AnimateArgs),
-    /// Make pictures of many models: thumbnails, a report, a contact sheet
+    /// Render many models: thumbnails, a report, a contact sheet
     Batch(BatchArgs),
-    /// Begin, check and lay out scene files, and tell what they may say
+    /// Create, validate, format and look up scene files
     Scene(SceneArgs),
-    /// Write the completions of a shell to the standard output
+    /// Print the completion script of a shell
     Completions(CompletionArgs),
-    /// Write the manual page of the program or of a command
+    /// Print or write manual pages
     Man(ManArgs),
-    /// Tell what every flag and every field of scene files means
+    /// Print the reference of all flags and scene fields
     Reference(ReferenceArgs),
 }
 
+/// Arguments of `alberti render`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
     /// Scenes (.ron) or models (.gltf, .glb); `-` reads one from the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
-    /// Where the picture goes: .png, or a line drawing as .svg or .pdf; `-` is the standard output. In the name {stem}, {camera},
-    /// {view}, {style}, {projection} and {variant} stand for the input's name and what the flags say, {frame} for the number of
-    /// the picture among those of its input and {index} among all, both from 0; {index:04} has four digits, {{ and }} are braces
+    /// Output file: .png, or .svg or .pdf for a line drawing; `-` is the standard output
     /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
+    ///
+    /// The name may be a template. {stem}, {camera}, {view}, {style}, {projection} and {variant}
+    /// are replaced by the input's name and the flags, {frame} by the index of the picture among
+    /// those of its input, {index} by its index among all. Indices start at 0; {index:04} has four
+    /// digits. Write {{ and }} for braces.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// What is written [default: by the end of the output's name; png to the standard output]
+    /// Output format [default: from the file extension; png on the standard output]
     #[arg(long)]
     pub(crate) format: Option<OutputFormat>,
-    /// A picture from each of these sides, such as front,right,top,iso
-    #[arg(long, value_name = "VIEWS", value_delimiter = ',', value_parser = named_view(), conflicts_with_all = ["view", "camera"])]
+    /// Render one picture from each of these directions, such as front,right,top,iso
+    #[arg(
+        long,
+        value_name = "VIEWS",
+        value_delimiter = ',',
+        value_parser = named_view_parser(),
+        conflicts_with_all = ["view", "camera"]
+    )]
     pub(crate) views: Vec<NamedView>,
     #[command(flatten)]
     pub(crate) overrides: SceneOverrideArgs,
@@ -122,125 +140,132 @@ pub(crate) struct RenderArgs {
     pub(crate) passes: PassArgs,
     #[command(flatten)]
     pub(crate) compare: CompareArgs,
-    /// Threads to use; the picture does not depend on it [default: as many as there are cores]
+    /// Number of threads; the picture does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
-    /// Tell how long each stage took
+    /// Print the time of each stage
     #[arg(long)]
     pub(crate) timings: bool,
-    /// Compare the line drawing with a z-buffer image, and tell how much of what is drawn as visible that hides
+    /// Compare the line drawing with a z-buffer image and print the fraction that disagrees
+    ///
+    /// The fraction is the length of lines drawn as visible that the z-buffer hides.
     #[arg(long)]
     pub(crate) verify: bool,
-    /// Tell what was rendered, for programs: size, camera, models, times, warnings, files with their SHA-256
+    /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256
     #[arg(long)]
     pub(crate) json: bool,
-    /// Show the picture in the terminal: by kitty's graphics where it has them, else in half blocks
+    /// Print the picture in the terminal, by kitty's graphics protocol or as half blocks
     #[arg(long, conflicts_with = "json")]
     pub(crate) show: bool,
     #[command(flatten)]
     pub(crate) load_options: LoadArgs,
 }
 
+/// Arguments of `alberti check`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb)
     pub(crate) input: PathBuf,
-    /// The report for programs
+    /// Print the report as JSON
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) load_options: LoadArgs,
 }
 
+/// Arguments of `alberti info`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
-    /// A model (.gltf, .glb)
+    /// Model (.gltf, .glb)
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) model_state: ModelStateArgs,
-    /// Everything there is to know, for programs
+    /// Print everything as JSON
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) load_options: LoadArgs,
 }
 
+/// The values of `--style`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum StyleArg {
-    /// Lit, with the smooth normals of the file
+    /// Physically based shading with the normals of the file
     Shaded,
-    /// Lit, each triangle with one normal
+    /// Physically based shading with one normal per triangle
     Flat,
-    /// Lit at the corners of triangles and blended over them
+    /// Gouraud shading: lit at the vertices, interpolated between them
     Gouraud,
-    /// Matt clay in the light of the scene
+    /// Matte clay in the light of the scene
     Clay,
-    /// A ball of glazed clay that faces the viewer alike
+    /// Material capture: shading by the normal in view space alone
     Matcap,
-    /// Normals in the world as colours: (n + 1) / 2
+    /// World-space normals as colors: (n + 1) / 2
     Normals,
-    /// The nearer, the brighter
+    /// Depth: near is bright
     Depth,
-    /// A checkerboard by texture coordinates
+    /// Checkerboard of texture coordinates
     Uv,
-    /// A colour for each part
+    /// A distinct color for each part
     Ids,
-    /// The colours of materials in three steps of light, with outlines
+    /// Cel shading: material colors in three steps of light, with outlines
     Toon,
-    /// As if of glass: denser along the line of sight
+    /// Transparent surfaces, denser at grazing angles
     XRay,
-    /// The edges of all triangles
+    /// Edges of all triangles
     Wireframe,
-    /// The edges of all triangles, paler the farther away they are
+    /// Edges of all triangles, fading with distance
     DepthCued,
-    /// A line drawing with hidden lines removed
+    /// Line drawing with hidden lines removed
     Lines,
-    /// A line drawing with hidden lines dashed
+    /// Line drawing with hidden lines dashed
     Dashed,
-    /// The outline alone
+    /// Silhouette lines only
     Silhouette,
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128
     Technical,
 }
 
+/// The values of `--overlay`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum OverlayArg {
-    /// The axes of the world
+    /// Axes of world space
     Axes,
-    /// A grid on the ground
+    /// Grid on the ground
     Grid,
-    /// Where horizontal directions vanish
+    /// Horizon line
     Horizon,
-    /// Where the axes vanish
+    /// Vanishing points of the axes
     VanishingPoints,
-    /// The edges of the surfaces, where they can be seen
+    /// Visible edges of the surfaces
     Edges,
 }
 
+/// The values of `--projection`, each with default parameters.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum ProjectionArg {
-    /// What is farther away is smaller
+    /// Perspective: distant objects are smaller
     Perspective,
-    /// Parallel, at right angles to the picture
+    /// Parallel, perpendicular to the picture
     Orthographic,
-    /// The front in true shape, or what --view names
+    /// Principal view, from the front or the direction of --view
     Multiview,
-    /// All three axes shortened alike
+    /// All three axes foreshortened equally
     Isometric,
-    /// x and y in full, z by half
+    /// Two axes at full length, the third at half
     Dimetric,
-    /// Each axis shortened by a factor of its own
+    /// Each axis foreshortened by a factor of its own
     Trimetric,
-    /// The front in true shape, depth in full at 45°
+    /// Oblique: the front in true shape, depth at full length at 45°
     Cavalier,
-    /// The front in true shape, depth by half at 45°
+    /// Oblique: the front in true shape, depth at half length at 45°
     Cabinet,
-    /// The ground plan in true shape, heights straight up
+    /// Oblique: the ground plan in true shape, heights vertical
     Military,
-    /// Lines in depth meet in one point
+    /// Perspective with one vanishing point, of the depth axis
     OnePoint,
-    /// Uprights stay upright, the other lines meet in two points
+    /// Perspective with two vanishing points; verticals stay vertical
     TwoPoint,
-    /// Uprights meet too
+    /// Perspective with three vanishing points
     ThreePoint,
 }

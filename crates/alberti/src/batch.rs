@@ -1,10 +1,11 @@
-//! `alberti batch`: pictures of many models and scenes, each for itself.
+//! `alberti batch`: renders many models and scenes, each to a picture of its own.
 //!
 //! ```text
-//!  folders, lists, files ─► jobs ─► this shard's ─► those not done yet ─► pictures, report, contact sheet
+//!  folders, lists, files ─► jobs ─► this shard ─► not done yet ─► pictures, report, contact sheet
 //! ```
-//! A job is done if the report says so of the same content and the same settings, and its picture is there. A run that was
-//! stopped, or killed, therefore goes on where it was. One broken model is a line of the report and no more.
+//! A job is done if a report has it with the same content and settings and its picture exists. A
+//! run that was stopped or killed therefore resumes where it was. A broken model is one line of the
+//! report and does not stop the others.
 
 mod contact_sheet;
 mod jobs;
@@ -23,22 +24,24 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Arguments of `alberti batch`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BatchArgs {
-    /// Models (.gltf, .glb), scenes (.ron), folders that are searched for models, or text files (.txt) that list them line by
-    /// line; `-` reads such a list from the standard input
+    /// Models (.gltf, .glb), scenes (.ron), folders to search for models, or lists (.txt)
+    ///
+    /// A list has one file per line; `-` reads a list from the standard input.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
-    /// The folder that the pictures, the report and the contact sheet go to
+    /// Output folder for the pictures, the report and the contact sheet
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
-    /// Do part I of N, from 1/N to N/N; `auto` takes both from the variables of an array job
-    #[arg(long, value_name = "I/N|auto", value_parser = shard::parse)]
+    out_dir: PathBuf,
+    /// Process part I of N; `auto` takes both from the environment variables of an array job
+    #[arg(long, value_name = "I/N|auto", value_parser = shard::parse_shard)]
     shard: Option<Shard>,
-    /// Do also what is done already
+    /// Render everything again, even if it is up to date
     #[arg(long)]
-    again: bool,
-    /// Models to work on at a time [default: as many as there are cores]
+    force: bool,
+    /// Number of models to render at a time [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
@@ -47,30 +50,31 @@ pub(crate) struct BatchArgs {
     load_options: LoadArgs,
 }
 
-/// Does the jobs; the exit code is 1 if one has failed.
+/// Runs the jobs of this shard; the exit code is 1 if one has failed.
 pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, CliError> {
     let all = jobs::find_jobs(&args.inputs)?;
     let shard = args.shard.unwrap_or(Shard::ALL_JOBS);
     let mine: Vec<&BatchJob> =
         all.iter().enumerate().filter(|(at, _)| shard.has_job(*at)).map(|(_, job)| job).collect();
-    let create_error =
-        |cause| CliError::Usage(format!("cannot make the folder {}: {cause}", args.out.display()));
-    std::fs::create_dir_all(&args.out).map_err(create_error)?;
+    let create_error = |cause| {
+        CliError::Usage(format!("cannot create the folder {}: {cause}", args.out_dir.display()))
+    };
+    std::fs::create_dir_all(&args.out_dir).map_err(create_error)?;
     let settings = format!("{:?} {:?}", args.overrides, args.load_options);
-    let done = if args.again { Vec::new() } else { report::read_reports(&args.out) };
-    let report = BatchReport::open_report(&args.out, shard)?;
+    let done = if args.force { Vec::new() } else { report::read_reports(&args.out_dir) };
+    let report = BatchReport::open_report(&args.out_dir, shard)?;
     let threads = super::render::thread_count(args.threads);
     let order = runner::BatchRun { args, settings: &settings, earlier: &done, threads };
     let records = order.run_jobs(&mine, &report);
     report.finish_report(&records)?;
     if shard.has_all_jobs() {
         let sheet = contact_sheet::contact_sheet_html(&records);
-        pipeline::write_file(&args.out.join("index.html"), sheet.as_bytes())?;
+        pipeline::write_file(&args.out_dir.join("index.html"), sheet.as_bytes())?;
     }
     print_summary(&records)
 }
 
-/// A sentence on the standard output, and the exit code.
+/// Prints the failures and the counts; returns the exit code.
 fn print_summary(records: &[JobRecord]) -> Result<ExitCode, CliError> {
     let count = |status| records.iter().filter(|record| record.status == status).count();
     let (done, before, failed) =
@@ -78,6 +82,6 @@ fn print_summary(records: &[JobRecord]) -> Result<ExitCode, CliError> {
     for record in records.iter().filter(|record| record.status == report::FAILED) {
         super::print_message("failed", &format!("{}: {}", record.input, record.message));
     }
-    writeln!(std::io::stdout(), "{done} done, {before} done before, {failed} failed")?;
+    writeln!(std::io::stdout(), "{done} rendered, {before} up to date, {failed} failed")?;
     Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

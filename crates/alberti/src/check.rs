@@ -1,4 +1,7 @@
-//! `alberti check` and `alberti scene check`: everything that is wrong with scenes and models, and what is probably not meant.
+//! `alberti check` and `alberti scene check`: validation of scenes and models.
+//!
+//! A scene gets its errors, lints for values that are probably unintended, and the validation of
+//! each model it refers to. A model is validated against the glTF 2.0 specification.
 
 mod json;
 
@@ -6,34 +9,40 @@ use super::args::CheckArgs;
 use super::load_options::LoadArgs;
 use super::render::is_scene_file;
 use super::{CliError, color, print_stdout};
-use model::import::{CheckReport, ImportOptions, check_file};
+use model::import::ImportOptions;
+use model::{CheckReport, check_file};
 use pipeline::scene::{Lint, ResolveOptions, lint_scene, validate_scene};
 use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Arguments of `alberti scene check`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckScenesArgs {
     /// Scenes (.ron)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// The report for programs
+    /// Print the report as JSON
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     load_options: LoadArgs,
 }
 
-/// What was found in a scene, and in each model.
+/// The results for one input: a scene with its models, or a bare model.
 struct CheckResult {
+    /// The path of the input.
     file: PathBuf,
+    /// The errors of a scene; `None` if the input is a model.
     scene: Option<Vec<SceneError>>,
+    /// Lints: values of the scene that are valid but probably unintended.
     advice: Vec<Lint>,
+    /// The reports of the models.
     models: Vec<CheckReport>,
 }
 
-/// Prints what is wrong with a scene or a model; the exit code is 1 if there are errors.
+/// Validates a scene or a model; the exit code is 1 if there are errors.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let findings = if is_scene_file(&args.input) {
@@ -43,18 +52,18 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
         CheckResult { file: args.input.clone(), scene: None, advice: Vec::new(), models }
     };
     print_stdout(
-        (if args.json { json::of_file(&findings) } else { findings.to_text() }).as_bytes(),
+        (if args.json { json::file_report(&findings) } else { findings.to_text() }).as_bytes(),
     )?;
     Ok(exit_code(findings.error_count()))
 }
 
-/// Prints what is wrong with scenes; the exit code is 1 if there are errors.
+/// Validates scenes and their models; the exit code is 1 if there are errors.
 pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let check = |path: &PathBuf| check_scene(path, &options);
     let findings = args.files.iter().map(check).collect::<Result<Vec<_>, _>>()?;
     let text = if args.json {
-        json::of_scenes(&findings)
+        json::scenes_report(&findings)
     } else {
         findings.iter().map(CheckResult::to_text).collect()
     };
@@ -62,10 +71,15 @@ pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     Ok(exit_code(findings.iter().map(CheckResult::error_count).sum()))
 }
 
+/// 1 if there are errors, else 0.
 fn exit_code(errors: usize) -> ExitCode {
     if errors == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
+/// Validates a scene and its models.
+///
+/// A file that cannot be parsed has its syntax errors only. Lints need a resolved scene, so they
+/// are looked for only where there is no error.
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, CliError> {
     let found = |scene, advice, models| CheckResult {
         file: input.to_owned(),
@@ -75,7 +89,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     };
     let (origin, file) = match Origin::read_scene_allowing(input, &options.allow_outside) {
         Err(ResolveError::Scene(mistake)) => {
-            return Ok(found(vec![mistake], Vec::new(), Vec::new()));
+            return Ok(found(mistake.into(), Vec::new(), Vec::new()));
         }
         read => read?,
     };
@@ -83,11 +97,11 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     let mut mistakes = validate_scene(&origin, &file, &resolve);
     let mut advice = Vec::new();
     if mistakes.is_empty() {
-        // What `render` would refuse is a mistake, also where the review has no eye for it.
+        // Whatever `render` would reject is an error, even if the review does not look for it.
         match Scene::resolve(&origin, &file, &resolve) {
             Ok(scene) => advice = lint_scene(&origin, &file, &scene),
-            Err(ResolveError::Scene(mistake)) => mistakes.push(mistake),
-            // The reports of the models tell it.
+            Err(ResolveError::Scene(mistake)) => mistakes.extend(Vec::from(mistake)),
+            // Errors of models are in the reports of the models.
             Err(_) => {}
         }
     }
@@ -95,7 +109,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     Ok(found(mistakes, advice, models))
 }
 
-/// The reports of the models of a scene, each once; those that may not be read have none.
+/// Validates each model file of a scene once, except those the scene may not read.
 fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> Vec<CheckReport> {
     let mut paths: Vec<&str> = Vec::new();
     for entry in &file.models {
@@ -108,12 +122,15 @@ fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> V
 }
 
 impl CheckResult {
+    /// The number of errors of the scene and of its models.
     fn error_count(&self) -> usize {
         let mistakes = self.scene.as_ref().map_or(0, Vec::len);
         mistakes + self.models.iter().map(|report| report.errors).sum::<usize>()
     }
 
-    /// A line for each problem, the worst first, and a summary of each file. Writing to a `String` cannot fail.
+    /// The report as text: the diagnostics of each file, then a summary of it.
+    ///
+    /// Writing to a `String` cannot fail.
     fn to_text(&self) -> String {
         let (mut text, color) = (String::new(), color::stdout_has_color());
         if let Some(mistakes) = &self.scene {
@@ -153,6 +170,7 @@ impl CheckResult {
     }
 }
 
+/// A count with its noun: `no errors`, `1 error`, `2 errors`.
 fn count_phrase(count: usize, what: &str) -> String {
     match count {
         0 => format!("no {what}s"),

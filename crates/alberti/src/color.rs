@@ -1,35 +1,44 @@
-//! Colours of messages: whether there are any, and which.
+//! Color of messages: when to use ANSI escapes, and which ones.
+//!
+//! The choice is global to the process, because messages are printed from everywhere: `--color`
+//! sets it once, before the first message.
 
 use std::io::IsTerminal as _;
 use std::sync::OnceLock;
 
-/// When messages have colours.
+/// When to color messages (`--color`).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
 pub(crate) enum ColorChoice {
     /// On a terminal, unless NO_COLOR is set
     Auto,
-    /// Wherever they go
+    /// Also into files and pipes
     Always,
-    /// Nowhere
+    /// Never
     Never,
 }
 
-/// What the flag says, once it has been read.
+/// The value of `--color`, once the arguments have been parsed.
 static COLOR_CHOICE: OnceLock<ColorChoice> = OnceLock::new();
 
+/// Sets the choice of the process; only the first call has an effect.
 pub(super) fn set_color_choice(arg: ColorChoice) {
     COLOR_CHOICE.get_or_init(|| arg);
 }
 
+/// Whether messages on the standard error stream are colored.
 pub(super) fn stderr_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stderr().is_terminal())
 }
 
+/// Whether reports on the standard output are colored.
 pub(super) fn stdout_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stdout().is_terminal())
 }
 
-/// Terminals that are dumb, and people who set NO_COLOR to anything (no-color.org), get none.
+/// Whether a stream gets colors, given that it is a `terminal` or not.
+///
+/// With `auto`, dumb terminals get none, and neither does anyone who sets `NO_COLOR` to a
+/// non-empty value (<https://no-color.org>).
 fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
     match chosen.unwrap_or(ColorChoice::Auto) {
         ColorChoice::Always => true,
@@ -41,7 +50,7 @@ fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
     }
 }
 
-/// The word that a message begins with: errors are red, all else is yellow.
+/// The severity at the start of a message: bold red for errors, bold yellow for anything else.
 pub(super) fn style_level(word: &str, colors: bool) -> String {
     match colors {
         false => word.to_owned(),

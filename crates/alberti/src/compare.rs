@@ -1,4 +1,4 @@
-//! `--compare`: the picture against one that it should be.
+//! `--compare`: image comparison of the rendered picture with a reference.
 
 use super::CliError;
 use super::passes::sibling_path;
@@ -8,32 +8,36 @@ use std::fmt;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What the picture is compared with.
+/// The reference picture and the tolerance.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Comparison")]
 pub(crate) struct CompareArgs {
-    /// Compare the picture with this one: tell the greatest difference and the share of other pixels, write NAME.compare.png with
-    /// expected, difference and actual side by side, and end with 1 if a pixel is farther off than --tolerance
+    /// Compare the picture with this reference; exit with 1 if they differ
+    ///
+    /// Prints the maximum difference and the fraction of differing pixels, and writes
+    /// NAME.compare.png with reference, difference and picture side by side.
     #[arg(long, value_name = "PNG")]
     compare: Option<PathBuf>,
-    /// The greatest difference of a channel that counts as none, of 255
+    /// Maximum difference of a channel that counts as equal, 0 to 255
     #[arg(long, value_name = "N", default_value_t = 0, requires = "compare")]
     tolerance: u8,
 }
 
-/// What was found.
+/// The result of a comparison of two pictures of the same size.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PictureComparison {
-    /// The greatest difference of a channel, of 255.
+    /// The largest difference of a channel in any pixel, 0 to 255.
     pub(super) max_difference: u8,
-    /// How many pixels differ by more than the tolerance.
+    /// The number of pixels that differ by more than the tolerance.
     pub(super) differing_pixels: usize,
-    /// How many pixels there are.
+    /// The number of pixels of the picture.
     pub(super) total_pixels: usize,
+    /// The difference of a channel that counts as equal.
     pub(super) tolerance: u8,
 }
 
 impl PictureComparison {
+    /// Compares two pictures of the same size, pixel by pixel.
     fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
         let mut comparison = Self {
             max_difference: 0,
@@ -49,12 +53,12 @@ impl PictureComparison {
         comparison
     }
 
-    /// Whether no pixel is farther off than the tolerance.
+    /// Whether no pixel differs by more than the tolerance.
     pub(super) const fn agrees(&self) -> bool {
         self.differing_pixels == 0
     }
 
-    /// The share of pixels that are farther off.
+    /// The fraction of pixels that differ, 0 to 1.
     pub(super) fn differing_fraction(&self) -> f64 {
         self.differing_pixels as f64 / self.total_pixels.max(1) as f64
     }
@@ -72,7 +76,8 @@ impl fmt::Display for PictureComparison {
     }
 }
 
-/// How far two pixels are apart in their farthest channel. What nobody sees has no colour.
+/// The maximum difference over the channels of two pixels. Two transparent pixels are equal,
+/// whatever their color.
 fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
     if expected[3] == 0 && actual[3] == 0 {
         return 0;
@@ -81,11 +86,15 @@ fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
 }
 
 impl CompareArgs {
+    /// Whether `--compare` was given.
     pub(super) const fn is_requested(&self) -> bool {
         self.compare.is_some()
     }
 
-    /// The picture that is expected, if one is named.
+    /// Reads the reference picture, if `--compare` was given.
+    ///
+    /// # Errors
+    /// If it cannot be read, or its size is not that of the rendered region.
     pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
         let Some(path) = &self.compare else { return Ok(None) };
         let fault =
@@ -94,7 +103,9 @@ impl CompareArgs {
         Ok(Some(picture))
     }
 
-    /// Compares, and writes expected, difference and actual side by side.
+    /// Compares the pictures and writes both and their difference to a temporary file.
+    ///
+    /// The file is returned with the path it is to be renamed to.
     pub(super) fn create_comparison(
         &self,
         expected: &Picture,
@@ -110,7 +121,7 @@ impl CompareArgs {
     }
 }
 
-/// A picture of the size of the region; 16 bits are rounded to 8.
+/// Reads a PNG of the size of the region as RGBA; 16-bit channels are rounded to 8 bits.
 fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
@@ -120,7 +131,7 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     if (width, height) != (region.width, region.height) {
         let (across, down) = (region.width, region.height);
         return Err(format!(
-            "it has {width} x {height} pixels, and the picture has {across} x {down}"
+            "its size is {width} x {height}, but the picture is {across} x {down}"
         ));
     }
     let mut bytes = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
@@ -143,7 +154,10 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     Ok(Picture { width, height, pixels })
 }
 
-/// Expected, difference, actual. The difference is white where the pictures agree, and the blacker the farther they are apart.
+/// Expected, difference and actual side by side.
+///
+/// The difference is white where the pictures are equal, and goes from pink to dark red with the
+/// difference.
 fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
     let width = actual.width as usize;
     let rows = expected.pixels.chunks_exact(width).zip(actual.pixels.chunks_exact(width));
@@ -151,7 +165,7 @@ fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
     for (expected, actual) in rows {
         pixels.extend(expected);
         pixels.extend(expected.iter().zip(actual).map(|(expected, actual)| {
-            // Even the least difference can be seen.
+            // A jump from 255 to 191 keeps even a difference of 1 visible.
             let shade = match pixel_difference(*expected, *actual) {
                 0 => 255,
                 far => 191 - (f64::from(far) * 191.0 / 255.0) as u8,
@@ -168,13 +182,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_nobody_sees_does_not_differ() {
+    fn transparent_pixels_are_equal() {
         assert_eq!(pixel_difference([9, 9, 9, 0], [0; 4]), 0);
         assert_eq!(pixel_difference([9, 9, 9, 255], [0, 20, 9, 254]), 11);
         let picture = |pixels: Vec<[u8; 4]>| Picture { width: 2, height: 1, pixels };
         let [a, b] = [picture(vec![[0; 4], [7; 4]]), picture(vec![[0; 4], [9, 7, 7, 7]])];
-        let found = PictureComparison::new(&a, &b, 1);
-        assert_eq!((found.max_difference, found.differing_pixels, found.agrees()), (2, 1, false));
+        let comparison = PictureComparison::new(&a, &b, 1);
+        assert_eq!((comparison.max_difference, comparison.differing_pixels), (2, 1));
+        assert!(!comparison.agrees());
         assert!(PictureComparison::new(&a, &b, 2).agrees());
         assert_eq!(side_by_side(&a, &b).pixels[2], [255; 4]);
         assert_ne!(side_by_side(&a, &b).pixels[3], [255; 4]);

@@ -1,4 +1,4 @@
-//! `alberti compare-projections`: a subject in every projection of the textbooks, side by side.
+//! `alberti compare-projections`: a subject in every classical projection, side by side.
 
 use super::CliError;
 use super::args::ProjectionArg;
@@ -12,21 +12,23 @@ use pipeline::demonstration::{NamedProjection, projection_panels};
 use pipeline::scene::ResolveOptions;
 use std::path::PathBuf;
 
+/// Arguments of `alberti compare-projections`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CompareProjectionsArgs {
-    /// Where the page goes: .svg, .pdf, .png or .html
+    /// Output file: .svg, .pdf, .png or .html
     #[arg(short, long, value_name = "FILE", default_value = "projections.svg")]
     output: PathBuf,
-    /// The projections, in the order in which they are shown [default: all]
+    /// Projections to show, in this order [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     projections: Vec<ProjectionArg>,
-    /// Pictures in a row [default: as many as make the page about square]
+    /// Panels per row [default: a page that is about square]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     columns: Option<u8>,
     #[command(flatten)]
     subject: PanelSubjectArgs,
 }
 
+/// Draws the page of panels.
 pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), CliError> {
     finish_panels(&args.output, &panels, &scene, progress)
 }
 
-/// Those that are wanted, or all; each once.
+/// The requested projections without duplicates, or all of them if none was named.
 fn select_members(wanted: &[ProjectionArg]) -> Vec<NamedProjection> {
     let all = if wanted.is_empty() { ProjectionArg::value_variants() } else { wanted };
     let mut members: Vec<NamedProjection> = Vec::new();

@@ -1,4 +1,4 @@
-//! `alberti curve`: curves of the pipeline's formulas, with their tables.
+//! `alberti curve`: plots of the pipeline's functions, with their tables.
 
 use super::format::OutputFormat;
 use super::page_output::{has_extension, write_page};
@@ -7,41 +7,45 @@ use pipeline::demonstration::{DepthRow, DepthTable};
 use projection::{Convention, DepthFormat};
 use std::path::{Path, PathBuf};
 
+/// Arguments of `alberti curve`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CurveArgs {
     #[command(subcommand)]
     subject: CurveSubject,
 }
 
+/// The functions that can be plotted.
 #[derive(Debug, clap::Subcommand)]
 enum CurveSubject {
-    /// Depth after the divide against distance, normal and reversed, and how finely it can tell distances apart
+    /// Plot depth against distance, standard and reversed, with the resolution of the depth buffer
     Depth(DepthArgs),
 }
 
+/// Arguments of `alberti curve depth`.
 #[derive(Debug, clap::Args)]
 struct DepthArgs {
-    /// The distance of the near plane
-    #[arg(long, value_name = "N")]
+    /// Distance of the near plane
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     near: f64,
-    /// The distance of the far plane; `inf` for none
-    #[arg(long, value_name = "F")]
+    /// Distance of the far plane; `inf` for an infinite projection
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
     far: f64,
-    /// How depth is stored: whole numbers of so many bits, 1 to 64, or `32f` for floating point
-    #[arg(long, value_name = "N|32f", default_value = "24", value_parser = parse_bits)]
+    /// Format of the depth buffer: fixed point of 1 to 64 bits, or 32f for floating point
+    #[arg(long, value_name = "N|32f", default_value = "24", value_parser = parse_depth_format)]
     bits: DepthFormat,
-    /// Which depths the near and the far plane have; reversed they are the other way round
-    #[arg(long, value_name = "WHICH", default_value = "zero-one")]
+    /// Depth of the near and the far plane; swapped for the reversed curve
+    #[arg(long, value_name = "RANGE", default_value = "zero-one")]
     range: DepthRangeArg,
-    /// The distances of the table, with commas between [default: sixteen from near to far, in equal ratios]
-    #[arg(long, value_name = "DISTANCES", value_delimiter = ',')]
-    at: Vec<f64>,
-    /// Where it goes: curves and table as .svg, .pdf or .png, the table alone as .txt, .md or .csv [default: the table, to the
-    /// standard output]
+    /// Distances of the table, separated by commas [default: 16 from near to far, in equal ratios]
+    #[arg(long, value_name = "DISTANCES", value_delimiter = ',', allow_hyphen_values = true)]
+    distances: Vec<f64>,
+    /// Output file: .svg, .pdf or .png for the plot, .txt, .md or .csv for the table alone
+    /// [default: the table on the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
+/// The range of normalized device depth.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum DepthRangeArg {
     /// Near at 0, far at 1: Vulkan, Direct3D, Metal, WebGPU
@@ -50,11 +54,14 @@ enum DepthRangeArg {
     MinusOneOne,
 }
 
-/// The ways in which a table is written without its curves.
+/// Formats a depth table as text.
 type TableFormatter = fn(&DepthTable, &[DepthRow]) -> String;
+
+/// The file extensions of a table without its plot, with their formatters.
 const TABLE_FORMATS: [(&str, TableFormatter); 3] =
     [("txt", DepthTable::to_text), ("md", DepthTable::to_markdown), ("csv", DepthTable::to_csv)];
 
+/// Plots a function, or prints its table.
 pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     let CurveSubject::Depth(args) = &args.subject;
     let convention = match args.range {
@@ -63,7 +70,10 @@ pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     };
     let table =
         DepthTable::new(args.near, args.far, convention, args.bits).map_err(projection_error)?;
-    let distances = if args.at.is_empty() { table.default_distances() } else { args.at.clone() };
+    let distances = match args.distances.as_slice() {
+        [] => table.default_distances(),
+        given => given.to_vec(),
+    };
     let rows: Vec<DepthRow> = distances
         .into_iter()
         .map(|distance| table.row_at(distance))
@@ -75,6 +85,7 @@ pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     }
 }
 
+/// Writes the table or the plot, by the extension of the output.
 fn write_output(output: &Path, table: &DepthTable, rows: &[DepthRow]) -> Result<(), CliError> {
     if let Some((_, written)) =
         TABLE_FORMATS.iter().find(|(ending, _)| has_extension(output, ending))
@@ -82,17 +93,19 @@ fn write_output(output: &Path, table: &DepthTable, rows: &[DepthRow]) -> Result<
         return Ok(pipeline::write_file(output, written(table, rows).as_bytes())?);
     }
     OutputFormat::from_path(output).map_err(|_| {
-        let (name, endings) = (output.display(), ".svg, .pdf, .png, .txt, .md or .csv");
-        CliError::Usage(format!("the output {name} does not end in {endings}"))
+        let (name, extensions) = (output.display(), ".svg, .pdf, .png, .txt, .md or .csv");
+        CliError::Usage(format!("the output {name} has no known extension: {extensions}"))
     })?;
     write_page(output, &table.to_page(rows))
 }
 
+/// Planes that make no projection, such as a near plane behind the eye, are wrong usage.
 fn projection_error(error: projection::ProjectionError) -> CliError {
     CliError::Usage(error.to_string())
 }
 
-fn parse_bits(text: &str) -> Result<DepthFormat, String> {
+/// Parses a number of bits from 1 to 64, or `32f`.
+fn parse_depth_format(text: &str) -> Result<DepthFormat, String> {
     if text.eq_ignore_ascii_case("32f") {
         return Ok(DepthFormat::Float32);
     }

@@ -1,31 +1,38 @@
-//! `alberti demo`: what goes wrong where a stage of the pipeline is left out.
+//! `alberti demo`: the artifacts that appear when a stage of the pipeline is omitted.
 
 use super::CliError;
 use super::page_output::{check_panel_output, write_panels};
 use pipeline::demonstration::wraparound_panels;
 use std::path::PathBuf;
 
+/// Arguments of `alberti demo`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct DemoArgs {
     #[command(subcommand)]
     subject: DemoSubject,
 }
 
+/// The demonstrations.
 #[derive(Debug, clap::Subcommand)]
 enum DemoSubject {
-    /// A floor that runs past the eye, divided at once and clipped first: why clipping comes before the divide
-    Tear(TearArgs),
+    /// Draw a floor that extends behind the eye, clipped before the divide and not clipped
+    ///
+    /// Points behind the eye have w < 0: divided without clipping, they wrap around infinity and
+    /// reappear on the wrong side of the picture.
+    WrapAround(WrapAroundArgs),
 }
 
+/// Arguments of `alberti demo wrap-around`.
 #[derive(Debug, clap::Args)]
-struct TearArgs {
-    /// Where the page goes: .svg, .pdf, .png or .html
-    #[arg(short, long, value_name = "FILE", default_value = "tear.svg")]
+struct WrapAroundArgs {
+    /// Output file: .svg, .pdf, .png or .html
+    #[arg(short, long, value_name = "FILE", default_value = "wrap-around.svg")]
     output: PathBuf,
 }
 
+/// Draws a demonstration.
 pub(crate) fn run(args: &DemoArgs) -> Result<(), CliError> {
-    let DemoSubject::Tear(args) = &args.subject;
+    let DemoSubject::WrapAround(args) = &args.subject;
     check_panel_output(&args.output)?;
     write_panels(&args.output, &wraparound_panels()?)
 }

@@ -1,8 +1,8 @@
-//! `alberti explain`: where a point, a segment, a vertex or a triangle goes, stage by stage, and why a node is not seen.
+//! `alberti explain`: every intermediate value of the viewing pipeline for one primitive or pixel.
 
 use super::CliError;
 use super::load_options::LoadArgs;
-use super::render::{open_input, thread_count};
+use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use homog::{Point, World};
 use model::Model;
@@ -11,30 +11,30 @@ use pipeline::explain::{
     ApiConventions, Explanation, TransformChain, VertexRef, explain_node, explain_pixel,
     explain_point, explain_segment, explain_transforms, explain_triangle, explain_vertex,
 };
-use pipeline::scene::ResolveOptions;
 use pipeline::{Picture, Scene};
 use std::io::Write as _;
 use std::path::PathBuf;
 
-/// The longer side of the picture on a page, in pixels.
+/// The longer side of the picture embedded in an HTML page, in pixels.
 const MAX_PAGE_SIDE: f64 = 960.0;
 
+/// Arguments of `alberti explain`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb)
     input: PathBuf,
     #[command(flatten)]
     subject: ExplainSubjectArgs,
-    /// Whose canonical volume, view space and pixels are spoken of
-    #[arg(long, value_name = "NAME", default_value = "alberti", value_parser = conventions())]
+    /// API conventions of view space, canonical volume and pixels
+    #[arg(long, value_name = "NAME", default_value = "alberti", value_parser = conventions_parser())]
     conventions: ApiConventions,
-    /// The explanation for programs
+    /// Print the explanation as JSON
     #[arg(long)]
     json: bool,
-    /// The explanation as a page with figures, which needs no other file
+    /// Print the explanation as a self-contained HTML page with figures
     #[arg(long, conflicts_with = "json")]
     html: bool,
-    /// Where it goes [default: the standard output]
+    /// Output file [default: the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -43,45 +43,56 @@ pub(crate) struct ExplainArgs {
     load_options: LoadArgs,
 }
 
-/// What is explained: a place, or a part of a model; without any the maps themselves.
+/// The subject of the explanation; without any, the transforms of the pipeline themselves.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Subject")]
 struct ExplainSubjectArgs {
-    /// A point of the world
-    #[arg(long, value_name = "X,Y,Z", value_parser = numbers::<3>, allow_hyphen_values = true, conflicts_with_all = ["segment", "node"])]
+    /// Point in world space
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = parse_numbers::<3>,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["segment", "node"]
+    )]
     point: Option<[f64; 3]>,
-    /// A pixel by its column and row from the upper left corner: what is seen in it, and why it has its colour
-    #[arg(long, value_name = "X,Y", value_parser = pair, conflicts_with_all = ["point", "segment", "node"])]
+    /// Pixel by column and row from the upper left: what is visible, and why it has its color
+    #[arg(
+        long,
+        value_name = "X,Y",
+        value_parser = parse_pixel,
+        conflicts_with_all = ["point", "segment", "node"]
+    )]
     pixel: Option<[u32; 2]>,
-    /// A segment of the world, from one point to another
-    #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = numbers::<6>, allow_hyphen_values = true, conflicts_with = "node")]
+    /// Segment in world space, as its two endpoints
+    #[arg(
+        long,
+        value_name = "X,Y,Z,X,Y,Z",
+        value_parser = parse_numbers::<6>,
+        allow_hyphen_values = true,
+        conflicts_with = "node"
+    )]
     segment: Option<[f64; 6]>,
-    /// A node of the model, by name or by number from 0: why it is seen, or not
+    /// Node of the model, by name or index: why it is visible or not
     #[arg(long, value_name = "NAME|INDEX")]
     node: Option<String>,
-    /// A vertex of the node's mesh, by number from 0
+    /// Vertex of the node's mesh, by index
     #[arg(long, value_name = "INDEX", requires = "node", conflicts_with = "triangle")]
     vertex: Option<usize>,
-    /// A triangle of the node's mesh, by number from 0
+    /// Triangle of the node's mesh, by index
     #[arg(long, value_name = "INDEX", requires = "node")]
     triangle: Option<usize>,
-    /// Which primitive of the mesh the vertex or triangle is in
+    /// Primitive of the mesh that has the vertex or triangle
     #[arg(long, value_name = "INDEX", requires = "node", default_value_t = 0)]
     primitive: usize,
-    /// Which model of the scene the node is in
+    /// Model of the scene that has the node
     #[arg(long, value_name = "INDEX", requires = "node", default_value_t = 0)]
     model: usize,
 }
 
+/// Prints or writes the explanation of a subject.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
-    let (origin, mut file) =
-        open_input(&args.input, &args.overrides.import_options(&args.load_options))?;
-    args.overrides.apply_to(&mut file);
-    let scene = Scene::resolve(
-        &origin,
-        &file,
-        &ResolveOptions { import: args.overrides.import_options(&args.load_options) },
-    )?;
+    let (_, _, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let size = (scene.image.width, scene.image.height);
     let chain = TransformChain::new(&scene.view_projection, size, args.conventions)
         .map_err(pipeline::RenderError::from)?;
@@ -98,7 +109,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The picture of a scene, no larger than a page has room for.
+/// Renders the scene, scaled down to at most [`MAX_PAGE_SIDE`].
 fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
     let image = &mut scene.image;
     let most = f64::from(image.width.max(image.height));
@@ -109,13 +120,17 @@ fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
 }
 
 impl ExplainSubjectArgs {
+    /// Explains the subject that the flags name.
+    ///
+    /// # Errors
+    /// If the scene has no such model, node, primitive, vertex, triangle or pixel.
     fn explain_subject(
         &self,
         chain: &TransformChain,
         scene: &Scene,
     ) -> Result<Explanation, String> {
-        if let Some(place) = self.point {
-            return Ok(explain_point(chain, place.into()));
+        if let Some(point) = self.point {
+            return Ok(explain_point(chain, point.into()));
         }
         if let Some([x, y]) = self.pixel {
             return explain_pixel(chain, scene, x, y);
@@ -132,6 +147,7 @@ impl ExplainSubjectArgs {
         self.explain_part(chain, placed, find_node(&placed.model, node)?)
     }
 
+    /// Explains a vertex, a triangle, or the visibility of a node.
     fn explain_part(
         &self,
         chain: &TransformChain,
@@ -147,7 +163,7 @@ impl ExplainSubjectArgs {
     }
 }
 
-/// The number of a node by its number or name.
+/// The index of a node, from its index or its name; an index is tried first.
 fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     let named = || model.nodes.iter().position(|known| known.name.as_deref() == Some(node));
     let numbered = node.parse().ok().filter(|&number: &usize| number < model.nodes.len());
@@ -159,8 +175,9 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     })
 }
 
-fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let fault = || format!("expected {N} numbers with commas between them");
+/// Parses `N` finite numbers separated by commas.
+fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let fault = || format!("expected {N} numbers separated by commas");
     let numbers: Vec<f64> = text
         .split(',')
         .map(|word| word.trim().parse().map_err(|_| fault()))
@@ -169,14 +186,16 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     if numbers.iter().all(|number| number.is_finite()) { Ok(numbers) } else { Err(fault()) }
 }
 
-fn pair(text: &str) -> Result<[u32; 2], String> {
+/// Parses a column and a row.
+fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     let fault = || "expected a column and a row, such as 320,200".to_owned();
     let (x, y) = text.split_once(',').ok_or_else(fault)?;
     let side = |digits: &str| digits.trim().parse().map_err(|_| fault());
     Ok([side(x)?, side(y)?])
 }
 
-fn conventions() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
+/// Parses conventions by the name that the `pipeline` crate has for them.
+fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
     use clap::builder::{PossibleValuesParser, TypedValueParser as _};
     PossibleValuesParser::new(ApiConventions::ALL.map(ApiConventions::name))
         .try_map(|name| name.parse::<ApiConventions>())

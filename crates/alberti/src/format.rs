@@ -1,22 +1,25 @@
-//! The format of an output, by the end of its name.
+//! Output formats and their file extensions.
 
 use super::error::CliError;
 use drawing::{Page, to_pdf};
 use std::path::Path;
 
-/// What an output is written as.
+/// The format of an output file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
 pub(crate) enum OutputFormat {
-    /// Pixels
+    /// Raster image
     Png,
-    /// A line drawing
+    /// Line drawing
     Svg,
-    /// A line drawing on a page
+    /// Line drawing on a page
     Pdf,
 }
 
 impl OutputFormat {
-    /// The format of a file of this name.
+    /// The format of a file, from its extension in any case.
+    ///
+    /// # Errors
+    /// If the extension is none of those above.
     pub(super) fn from_path(output: &Path) -> Result<Self, CliError> {
         let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
@@ -25,15 +28,15 @@ impl OutputFormat {
             Some("pdf") => Ok(Self::Pdf),
             _ => {
                 let name = output.display();
-                let help = "name it so, or say what it is with --format";
+                let help = "change the extension, or choose the format with --format";
                 Err(CliError::Usage(format!(
-                    "the output {name} does not end in .png, .svg or .pdf\n  = help: {help}"
+                    "the output {name} has no known extension: .png, .svg or .pdf\n  = help: {help}"
                 )))
             }
         }
     }
 
-    /// The end of the names of such files.
+    /// The file extension, without the dot.
     pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -42,7 +45,7 @@ impl OutputFormat {
         }
     }
 
-    /// Pages in a format of lines; an SVG has the first alone.
+    /// Encodes pages in a vector format; an SVG holds the first one only.
     pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),

@@ -1,4 +1,4 @@
-//! `alberti info`: what is in a model.
+//! `alberti info`: prints what a model contains.
 
 mod json;
 mod materials;
@@ -9,21 +9,22 @@ use super::args::InfoArgs;
 use super::model_state::ModelStateArgs;
 use model::import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
 use model::{
-    AlphaMode, CameraProjection, LightKind, Model, PunctualLight, SceneRoots, Topology, Warning,
+    AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
 };
 use pipeline::scene::file::Finite;
 use pipeline::scene::select_animation;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
+/// Prints the contents of a model as text or JSON.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let model = load_model(args)?;
-    let text = if args.json { json::document(args, &model) } else { describe_model(&model) };
+    let text = if args.json { json::info_document(args, &model) } else { describe_model(&model) };
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
 }
 
-/// The model as the flags pick it. Its images are not decoded.
+/// Loads the model in the state that the flags choose. Only the headers of its images are read.
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
@@ -44,7 +45,7 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     Ok(model)
 }
 
-/// The report, a line for each subject. Writing to a `String` cannot fail.
+/// The report as text, one line per subject. Writing to a `String` cannot fail.
 fn describe_model(model: &Model) -> String {
     let mut text = format!("{}\n", model.name);
     let mut line = |name: &str, value: String| {
@@ -69,14 +70,15 @@ fn describe_model(model: &Model) -> String {
         line("variants", list_or_none(&model.variants));
     }
     line("extensions", extensions_line(model));
-    // Those about extensions are marked in the line of the extensions.
-    let is_about_file = |warning: &&Warning| !warning.pointer.starts_with("/extensions");
+    // Warnings about extensions are in the line of the extensions already.
+    let is_about_file = |warning: &&Diagnostic| !warning.location.starts_with("/extensions");
     for warning in model.warnings.iter().filter(is_about_file) {
-        line("warning", format!("{}: {}", warning.pointer, warning.message));
+        line("warning", warning.sentence());
     }
     text
 }
 
+/// The number of meshes, primitives and vertices in the file.
 fn meshes_line(model: &Model) -> String {
     let primitives: usize = model.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
     let vertices: usize =
@@ -84,7 +86,7 @@ fn meshes_line(model: &Model) -> String {
     format!("{}, primitives {primitives}, vertices {vertices}", model.meshes.len())
 }
 
-/// What the shown scene draws, instances counted as often as they are shown.
+/// The primitives that the scene draws, counting every instance.
 fn shown_line(model: &Model) -> String {
     let mut counts = [0_usize; 3];
     for (_, primitive) in model.scene_primitives() {
@@ -98,6 +100,7 @@ fn shown_line(model: &Model) -> String {
     format!("triangles {}, lines {}, points {}", counts[0], counts[1], counts[2])
 }
 
+/// The axis-aligned bounds of the drawn scene.
 fn bounds_line(model: &Model) -> String {
     let Some(bounds) = model.bounds() else { return "none: nothing is shown".to_owned() };
     let triple = |p: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", p[0], p[1], p[2]);
@@ -105,6 +108,7 @@ fn bounds_line(model: &Model) -> String {
     format!("{} to {}", triple(min), triple(max))
 }
 
+/// The number of materials, and of those that need special treatment.
 fn materials_line(model: &Model) -> String {
     let count = |wanted: fn(&AlphaMode) -> bool| {
         model.materials.iter().filter(|material| wanted(&material.alpha_mode)).count()
@@ -116,6 +120,7 @@ fn materials_line(model: &Model) -> String {
     format!("{all}, masked {masked}, blended {blended}, double-sided {double}")
 }
 
+/// The cameras by index and name, with their projections.
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");
@@ -133,6 +138,7 @@ fn cameras_line(model: &Model) -> String {
     list_or_none(&model.cameras.iter().enumerate().map(describe).collect::<Vec<_>>())
 }
 
+/// The animations by name, with their channels and duration.
 fn animations_line(model: &Model) -> String {
     let describe = |animation: &model::Animation| {
         let name = animation.name.as_deref().unwrap_or("unnamed");
@@ -142,7 +148,7 @@ fn animations_line(model: &Model) -> String {
     list_or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The scenes by name, the shown one marked.
+/// The scenes of the file by name, with a mark at the one that is drawn.
 fn scenes_line(model: &Model) -> String {
     let describe = |(number, scene): (usize, &SceneRoots)| {
         let shown = if model.active_scene == Some(number) { " (shown)" } else { "" };
@@ -151,6 +157,7 @@ fn scenes_line(model: &Model) -> String {
     list_or_none(&model.scenes.iter().enumerate().map(describe).collect::<Vec<_>>())
 }
 
+/// The punctual lights by name, with their intensity and its unit.
 fn lights_line(model: &Model) -> String {
     let describe = |light: &PunctualLight| {
         let unit = if light.kind == LightKind::Directional { "lx" } else { "cd" };
@@ -160,7 +167,7 @@ fn lights_line(model: &Model) -> String {
     list_or_none(&model.lights.iter().map(describe).collect::<Vec<_>>())
 }
 
-/// The extensions; of those that are not drawn as they are meant to be it is said.
+/// The extensions of the file, with a note at those that are not fully supported.
 fn extensions_line(model: &Model) -> String {
     let describe = |name: &String| match extension_use(name) {
         ExtensionUse::Drawn | ExtensionUse::Harmless => name.clone(),
@@ -171,6 +178,7 @@ fn extensions_line(model: &Model) -> String {
     list_or_none(&model.extensions_used.iter().map(describe).collect::<Vec<_>>())
 }
 
+/// A list on one line, or `none`.
 fn list_or_none(items: &[String]) -> String {
     if items.is_empty() { "none".to_owned() } else { items.join("; ") }
 }

@@ -1,37 +1,41 @@
-//! Flags that change the light of a scene: shadows, the ground, surroundings, exposure and the tone curve.
+//! Flags about light: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
 
+use super::options::option_parser;
 use clap::ValueEnum;
 use pipeline::scene::file::{
     AmbientOcclusionFile, EnvironmentFile, Finite, GroundFile, LightFile, SceneFile, ShadowsFile,
-    ToneMappingFile,
 };
+use pipeline::shade::ToneMapping;
 use std::path::PathBuf;
 
-/// What goes before what the scene says of its light.
+/// Flags that replace the light of the scene.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Light")]
 pub(crate) struct LightArgs {
-    /// Light from all around: studio (of strength 0.6, as bare models have it), sky, none, or a .hdr file with a picture of all
-    /// directions
+    /// Environment light: studio, sky, none, or a .hdr file
+    ///
+    /// `studio` has strength 0.6, as bare models do. A .hdr file is an equirectangular Radiance
+    /// map.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
-    /// The exposure in stops, such as 1 or -0.5: each doubles all light
-    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
+    /// Exposure in stops, such as 1 or -0.5; each stop doubles the light
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<Finite>,
-    /// The curve that brings bright light into the range of a picture
-    #[arg(long, value_name = "CURVE")]
-    tone: Option<ToneArg>,
-    /// Whether all suns and spots cast shadows; points cast none
+    /// Tone mapping: the curve that compresses bright light into the range of a picture
+    #[arg(long, value_name = "CURVE", value_parser = option_parser::<ToneMapping>())]
+    tone_mapping: Option<ToneMapping>,
+    /// Enable or disable the shadows of all directional and spot lights
     #[arg(long, value_name = "on|off")]
     shadows: Option<SwitchArg>,
-    /// A level plane below the models on which only shadows are seen, or none
+    /// Ground plane below the models
     #[arg(long)]
     ground: Option<GroundArg>,
-    /// Darken corners, by what the picture shows in the way of light from all around
+    /// Enable screen-space ambient occlusion
     #[arg(long)]
     ambient_occlusion: bool,
 }
 
+/// The value of `--environment`.
 #[derive(Clone, Debug)]
 enum EnvironmentArg {
     Studio,
@@ -40,33 +44,24 @@ enum EnvironmentArg {
     File(PathBuf),
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ToneArg {
-    /// Light beyond 1 is cut off
-    None,
-    /// Khronos PBR Neutral: keeps colours but for highlights
-    Neutral,
-    /// ACES as films have it
-    Aces,
-    /// AgX
-    Agx,
-}
-
+/// The value of `--shadows`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum SwitchArg {
     On,
     Off,
 }
 
+/// The value of `--ground`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum GroundArg {
-    /// Nothing but shadows
+    /// Shadow catcher: invisible except for the shadows on it
     Shadow,
     /// No ground
     None,
 }
 
 impl LightArgs {
+    /// Replaces the light of a scene by the flags that were given.
     pub(super) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(environment) = &self.environment {
             file.environment = Some(environment.to_environment_file());
@@ -74,13 +69,8 @@ impl LightArgs {
         if let Some(exposure) = self.exposure {
             file.image.exposure_ev = Some(exposure);
         }
-        if let Some(tone) = self.tone {
-            file.image.tone_mapping = match tone {
-                ToneArg::None => ToneMappingFile::None,
-                ToneArg::Neutral => ToneMappingFile::Neutral,
-                ToneArg::Aces => ToneMappingFile::Aces,
-                ToneArg::Agx => ToneMappingFile::AgX,
-            };
+        if let Some(curve) = self.tone_mapping {
+            file.image.tone_mapping = curve;
         }
         match self.ground {
             Some(GroundArg::Shadow) => file.ground = Some(GroundFile::DEFAULT),
@@ -96,7 +86,7 @@ impl LightArgs {
         }
     }
 
-    /// The file of the surroundings, if it was named here: a person may read what they have named.
+    /// The environment map, if a file was given: it may be read wherever it is.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
@@ -105,7 +95,7 @@ impl LightArgs {
     }
 }
 
-/// Switches the shadows of all lights; those that the scene has settings for keep them.
+/// Enables or disables the shadows of all lights; settings of the scene are kept.
 fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
@@ -114,13 +104,14 @@ fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     };
     file.shadows = switched_shadows(file.shadows);
     for light in file.lights.iter_mut().flatten() {
-        if let LightFile::Sun { shadows, .. } | LightFile::Spot { shadows, .. } = light {
+        if let LightFile::Directional { shadows, .. } | LightFile::Spot { shadows, .. } = light {
             *shadows = shadows.and_then(|own| switched_shadows(Some(own)));
         }
     }
 }
 
 impl EnvironmentArg {
+    /// The environment as a field of a scene.
     fn to_environment_file(&self) -> EnvironmentFile {
         match self {
             Self::Studio => EnvironmentFile::STUDIO,
@@ -131,7 +122,7 @@ impl EnvironmentArg {
     }
 }
 
-/// Files are told from names by their ending; they are looked for in the current folder.
+/// Parses a preset, or the path of a `.hdr` file relative to the current folder.
 fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
     let path = PathBuf::from(text);
     match text {
@@ -142,10 +133,11 @@ fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
             let full = std::path::absolute(&path).map_err(|error| error.to_string())?;
             Ok(EnvironmentArg::File(full))
         }
-        _ => Err("possible are studio, sky, none and a .hdr file".to_owned()),
+        _ => Err("expected studio, sky, none or a .hdr file".to_owned()),
     }
 }
 
+/// Parses a number of stops from −30 to 30.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();
     let stops: f64 = text.parse().map_err(|_| fault())?;

@@ -1,63 +1,65 @@
-//! Flags about how models are loaded: how large they may be, where their files may lie, what is done with broken ones.
+//! Flags about loading models: leniency, allowed folders, and limits on the size of the input.
 
 use model::import::{ImportOptions, Limits};
 use std::path::PathBuf;
 
-/// How models are loaded.
+/// How models are loaded; [`import_options`](Self::import_options) makes the library's options.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Loading")]
 pub(crate) struct LoadArgs {
-    /// Load what can be loaded: leave out what is broken, missing or unknown, and say so
+    /// Skip whatever is broken, missing or unsupported, with a warning
     #[arg(long)]
     lenient: bool,
-    /// Let files lie below this folder too, besides the scene's and the model's own; may be given several times
+    /// Also allow files below this folder; can be repeated
+    ///
+    /// By default only files below the folder of the scene and of the model are read.
     #[arg(long, value_name = "DIR")]
     allow_outside: Vec<PathBuf>,
     #[command(flatten)]
     limits: LimitArgs,
 }
 
-/// The largest sizes that are accepted: a flag for each field of [`Limits`], with the same name.
+/// Limits on what an input may demand: one flag for each field of [`Limits`], with the same name.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Limits (numbers may end in k, M, G, Ki, Mi, Gi, and B for bytes)")]
 struct LimitArgs {
-    /// Bytes of any one file [default: 512MiB]
-    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    /// Size of one file in bytes [default: 512MiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_file_bytes: Option<u64>,
-    /// Bytes of all files of a model [default: 2GiB]
-    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    /// Size of all files of a model in bytes [default: 2GiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_total_bytes: Option<u64>,
-    /// Levels of brackets in the JSON, up to 127 [default: 120]
+    /// Nesting depth of the JSON, up to 127 [default: 120]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=127))]
     max_json_depth: Option<u64>,
-    /// Values in the JSON, an object counted as ten [default: 16M]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Number of values in the JSON; an object counts as ten [default: 16M]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_json_values: Option<u64>,
-    /// Bytes of all arrays made of a model [default: 4GiB]
-    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    /// Memory of all decoded arrays of a model in bytes [default: 4GiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
     max_array_bytes: Option<u64>,
-    /// How many times larger than the files these arrays may be [default: 64]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Ratio of decoded arrays to file size [default: 64]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_array_growth: Option<u64>,
-    /// Width and height of an image [default: 16384]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Width and height of an image in texels [default: 16384]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_image_side: Option<u64>,
-    /// Texels of all images of a model [default: 256Mi]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Number of texels of all images of a model [default: 256Mi]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_image_texels: Option<u64>,
-    /// Nodes [default: 1M]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Number of nodes [default: 1M]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_nodes: Option<u64>,
-    /// Levels of the node tree [default: 1024]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Depth of the node tree [default: 1024]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_node_depth: Option<u64>,
-    /// Points, lines and triangles of a model, each as often as it is shown [default: 200M]
-    #[arg(long, value_name = "N", value_parser = parse_size)]
+    /// Number of points, lines and triangles of a model, counting every instance [default: 200M]
+    #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_scene_items: Option<u64>,
 }
 
 impl LoadArgs {
-    /// What the flags say, in the library's words.
+    /// The options of the `model` crate for these flags.
     pub(crate) fn import_options(&self) -> ImportOptions {
         ImportOptions {
             limits: self.limits.to_limits(),
@@ -69,6 +71,7 @@ impl LoadArgs {
 }
 
 impl LimitArgs {
+    /// The limits of the `model` crate: the flags that were given, defaults for the others.
     fn to_limits(&self) -> Limits {
         let defaults = Limits::default();
         let size = |flag: Option<u64>, usual: usize| {
@@ -91,9 +94,9 @@ impl LimitArgs {
     }
 }
 
-/// A whole number with a unit, such as `512MiB`, `200M` or `1_000`.
-fn parse_size(text: &str) -> Result<u64, String> {
-    let fault = || "expected a whole number such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
+/// Parses a whole number with an optional decimal or binary unit: `512MiB`, `200M`, `1_000`.
+fn parse_byte_size(text: &str) -> Result<u64, String> {
+    let fault = || "expected an integer such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
     let start = text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len());
     let (digits, unit) = text.split_at(start);
     let number: u64 = digits.replace('_', "").parse().map_err(|_| fault())?;
@@ -108,7 +111,7 @@ fn parse_size(text: &str) -> Result<u64, String> {
         "gi" => 1 << 30,
         _ => return Err(fault()),
     };
-    number.checked_mul(factor).ok_or_else(|| format!("{text} is too large a number"))
+    number.checked_mul(factor).ok_or_else(|| format!("{text} is too large"))
 }
 
 #[cfg(test)]
@@ -126,7 +129,7 @@ mod tests {
             ("1GiB", 1 << 30),
             ("2Ki", 2_048),
         ] {
-            assert_eq!(parse_size(text), Ok(number), "{text}");
+            assert_eq!(parse_byte_size(text), Ok(number), "{text}");
         }
         for wrong in [
             "",
@@ -138,7 +141,7 @@ mod tests {
             "99999999999999999999",
             "18446744073709551615k",
         ] {
-            assert!(parse_size(wrong).is_err(), "{wrong}");
+            assert!(parse_byte_size(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -1,4 +1,22 @@
-//! The program `alberti`: pictures of glTF models, without a GPU, a display or a browser.
+//! The program `alberti`: renders, draws, validates and explains glTF models.
+//!
+//! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
+//! results go to the standard output, messages to the standard error stream.
+//!
+//! The crates below it, each useful alone:
+//!
+//! | crate | what it owns |
+//! | --- | --- |
+//! | [`homog`] | typed points, vectors, homogeneous points, affine and projective maps |
+//! | [`camera`] | the camera transform: look-at, named views, framing, stereo, rays |
+//! | [`projection`] | every planar projection by name, API conventions, inverses, decomposition |
+//! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
+//! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
+//! | [`raster`] | exact coverage, depth test, multisampling, deterministic parallel tiles |
+//! | [`model`] | glTF to a checked model, validation, skinning and morph targets |
+//! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
+//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG and PDF |
+//! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
 
 mod animate;
 mod args;
@@ -17,7 +35,9 @@ mod light;
 mod load_options;
 mod manual;
 mod matrix;
+mod messages;
 mod model_state;
+mod options;
 mod page_output;
 mod panel_subject;
 mod passes;
@@ -38,10 +58,10 @@ mod terminal_image;
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
 use error::CliError;
-use std::io::Write;
+use messages::{print_message, print_stdout};
 use std::process::ExitCode;
 
-/// Exit codes: 0 done, 1 the input or the work failed, or a check has found errors, 2 wrong usage (by clap).
+/// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap).
 fn main() -> ExitCode {
     match run(Args::parse()) {
         Ok(code) => code,
@@ -52,7 +72,10 @@ fn main() -> ExitCode {
     }
 }
 
-/// Does what was asked for.
+/// Runs the command of the arguments.
+///
+/// # Errors
+/// If the input is invalid or the work fails; nothing has been printed about it then.
 pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
     color::set_color_choice(args.color);
     match args.command {
@@ -74,19 +97,4 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
         Command::Reference(args) => reference::run(&args, Args::command())?,
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Writes to the standard output. A reader who has seen enough and closed it is no failure.
-pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
-    let mut stdout = std::io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
-    }
-}
-
-/// Tells the person something on the standard error stream. That the stream may be closed is no reason to fail.
-pub(crate) fn print_message(level: &str, message: &str) {
-    let level = color::style_level(level, color::stderr_has_color());
-    let _ = writeln!(std::io::stderr(), "{level}: {message}");
 }

@@ -1,15 +1,17 @@
-//! Where figures go: panels and pages, as drawings, pictures or web pages, by the end of the output's name.
+//! Output of pages and panels as SVG, PDF, PNG or HTML, by the extension of the output.
 
 use super::CliError;
 use super::format::OutputFormat;
+use super::messages::print_warnings;
 use super::progress::Progress;
-use super::render::print_warnings;
 use super::sheet;
 use drawing::{Page, Panels};
 use pipeline::Scene;
 use std::path::Path;
 
-/// Writes the panels of a scene, and then what is to be said of them.
+/// Writes the panels of a scene, then prints the warnings of its models and panels.
+///
+/// The progress line is removed before the first warning.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,
@@ -23,7 +25,7 @@ pub(super) fn finish_panels(
     Ok(())
 }
 
-/// Writes panels: .svg, .pdf, .png or .html. No file is touched if they cannot be written so.
+/// Writes panels as .svg, .pdf, .png or .html; no file is touched for any other extension.
 pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(pipeline::write_file(output, panels.to_html().as_bytes())?);
@@ -31,7 +33,7 @@ pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliErro
     write_page(output, &panels.to_page())
 }
 
-/// Writes a page: .svg, .pdf or .png.
+/// Writes a page as .svg, .pdf or .png.
 pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     let format = OutputFormat::from_path(output)?;
     let bytes = match format {
@@ -41,22 +43,25 @@ pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     Ok(pipeline::write_file(output, &bytes)?)
 }
 
-/// Refuses a name before any work is done for it.
+/// Rejects an output with another extension before any work is done for it.
 pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(());
     }
     OutputFormat::from_path(output).map(|_| ()).map_err(|_| {
         let name = output.display();
-        CliError::Usage(format!("the output {name} does not end in .svg, .pdf, .png or .html"))
+        CliError::Usage(format!(
+            "the output {name} has no known extension: .svg, .pdf, .png or .html"
+        ))
     })
 }
 
+/// Whether the output is a web page.
 fn is_html(output: &Path) -> bool {
     has_extension(output, "html")
 }
 
-/// Whether a name ends so, in capitals or not.
+/// Whether a file name has this extension, in any case.
 pub(super) fn has_extension(output: &Path, ending: &str) -> bool {
     output.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }

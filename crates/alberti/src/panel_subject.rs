@@ -1,54 +1,55 @@
-//! The subject of a demonstration: a scene or a bare model, and how it is drawn.
+//! Flags about the subject of a page of panels: the scene or model, and how it is drawn.
 
 use super::CliError;
 use super::args::{OverlayArg, StyleArg};
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
 use super::render::open_input;
-use super::scene_overrides::parse_size;
+use super::scene_overrides::parse_image_size;
 use super::section::SectionArgs;
 use pipeline::Origin;
 use pipeline::scene::SceneFile;
 use pipeline::scene::file::OverlayFile;
 use std::path::PathBuf;
 
-/// What is shown in every picture of a page.
+/// The subject that every panel of `compare-projections` and `sweep` shows.
 #[derive(Debug, clap::Args)]
 pub(super) struct PanelSubjectArgs {
-    /// A scene (.ron) or a model (.gltf, .glb); `-` reads one from the standard input
+    /// Scene (.ron) or model (.gltf, .glb); `-` reads one from the standard input
     pub(super) input: PathBuf,
-    /// Width and height of each picture in pixels, 96 to the inch, up to 4096 each
-    #[arg(long, value_name = "WxH", value_parser = parse_panel, default_value = "320x240")]
+    /// Width and height of each panel in pixels (96 per inch), up to 4096 each
+    #[arg(long, value_name = "WxH", value_parser = parse_panel_size, default_value = "320x240")]
     size: (u32, u32),
-    /// How surfaces are drawn; styles that show surfaces paste pictures into the page
+    /// Render style; styles other than line drawings embed raster images in the page
     #[arg(long, default_value = "lines")]
     style: StyleArg,
-    /// What is drawn over the pictures to explain them; may be given several times
+    /// Guides drawn over the panels; can be repeated
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     overlay: Vec<OverlayArg>,
     #[command(flatten)]
     section: SectionArgs,
     #[command(flatten)]
     model_state: ModelStateArgs,
-    /// Threads to use; the page does not depend on it [default: as many as there are cores]
+    /// Number of threads; the page does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(super) threads: Option<u16>,
     #[command(flatten)]
     pub(super) load_options: LoadArgs,
 }
 
-/// The most pixels of a side of one of many pictures on a page.
+/// The largest width and height of a panel in pixels.
 const MAX_PANEL_SIDE: u32 = 4096;
 
-fn parse_panel(text: &str) -> Result<(u32, u32), String> {
-    let size = parse_size(text)?;
+/// Parses `WIDTHxHEIGHT` with both at most [`MAX_PANEL_SIDE`].
+fn parse_panel_size(text: &str) -> Result<(u32, u32), String> {
+    let size = parse_image_size(text)?;
     let fits = size.0.max(size.1) <= MAX_PANEL_SIDE;
     fits.then_some(size)
-        .ok_or_else(|| format!("a picture on a page has up to {MAX_PANEL_SIDE} pixels a side"))
+        .ok_or_else(|| format!("the width and height of a panel are at most {MAX_PANEL_SIDE}"))
 }
 
 impl PanelSubjectArgs {
-    /// The scene's file as the flags want it.
+    /// Opens the scene file, or makes one for a bare model, and applies the flags to it.
     pub(super) fn open_scene(&self) -> Result<(Origin, SceneFile), CliError> {
         let (origin, mut file) = open_input(&self.input, &self.load_options.import_options())?;
         file.image.size = self.size;

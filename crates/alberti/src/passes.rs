@@ -1,52 +1,49 @@
-//! Flags for passes, and the files they go to.
+//! Render passes: their flags, and the files they are written to.
 
 use super::CliError;
-use clap::ValueEnum;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use super::options::option_parser;
 use pipeline::render::passes::{Pass, PassBuffer, PassEncoding};
-use pipeline::scene::file::{PassEncodingFile, PassFile, SceneFile};
+use pipeline::scene::file::SceneFile;
 use pipeline::{AtomicFile, OutputError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Which passes are written, and how.
+/// Which render passes to write, and in which format.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Passes")]
 pub(crate) struct PassArgs {
-    /// Write what is nearest at each pixel's centre besides its colour, beside the picture as NAME.PASS.png: depth along the view axis and
-    /// distance from the eye in scene units, normal (world) and view-normal, position (world), uv, barycentric weights, id of the triangle
-    /// and numbers of model, node, mesh and material (from 1; 0 is nothing), overdraw (fragments), coverage (share of the samples)
-    #[arg(long, value_name = "PASS,…", value_delimiter = ',', value_parser = pass())]
-    passes: Vec<PassFile>,
-    /// How passes are written
-    #[arg(long, value_name = "FORMAT", requires = "passes")]
-    passes_as: Option<EncodingArg>,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum EncodingArg {
-    /// PNG of 16 bits; its text chunk Description says what the codes mean
-    Png,
-    /// Raw numbers for NumPy: f32, or u32 for whole numbers; nothing is infinitely far away
-    Npy,
+    /// Render passes to write beside the picture, as NAME.PASS.png
+    ///
+    /// Each holds one property of the nearest surface at the center of each pixel: depth along the
+    /// view axis and distance from the eye in scene units; normal (world space) and view-normal;
+    /// position (world space); uv; barycentric coordinates; id of the triangle; index of model,
+    /// node, mesh and material (from 1; 0 is the background). overdraw counts the fragments of the
+    /// pixel, and coverage is the fraction of its samples that are covered.
+    #[arg(long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
+    passes: Vec<Pass>,
+    /// File format of the passes
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        value_parser = option_parser::<PassEncoding>(),
+        requires = "passes"
+    )]
+    pass_format: Option<PassEncoding>,
 }
 
 impl PassArgs {
-    /// What the flags say goes before what the scene says.
+    /// Replaces the passes of the scene by the flags that were given.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if !self.passes.is_empty() {
             file.passes.write.clone_from(&self.passes);
         }
-        if let Some(encoding) = self.passes_as {
-            file.passes.encoding = match encoding {
-                EncodingArg::Png => PassEncodingFile::Png,
-                EncodingArg::Npy => PassEncodingFile::Npy,
-            };
+        if let Some(encoding) = self.pass_format {
+            file.passes.encoding = encoding;
         }
     }
 }
 
-/// The files of passes beside a picture, not yet in their places.
+/// Writes passes to temporary files beside a picture, to be renamed when all are complete.
 pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],
@@ -62,32 +59,9 @@ pub(super) fn create_pass_files(
     buffers.iter().map(draft).collect()
 }
 
-/// The name of a file that belongs to another: `picture.depth.png` for `picture.png`.
+/// The path of a file that belongs to a picture: `picture.depth.png` for `picture.png`.
 pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     let mut name = output.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{what}.{ending}"));
     output.with_file_name(name)
-}
-
-fn pass() -> impl TypedValueParser<Value = PassFile> {
-    const ALL: [PassFile; 14] = [
-        PassFile::Depth,
-        PassFile::Distance,
-        PassFile::Normal,
-        PassFile::ViewNormal,
-        PassFile::Position,
-        PassFile::Uv,
-        PassFile::Barycentric,
-        PassFile::Id,
-        PassFile::Model,
-        PassFile::Node,
-        PassFile::Mesh,
-        PassFile::Material,
-        PassFile::Overdraw,
-        PassFile::Coverage,
-    ];
-    PossibleValuesParser::new(ALL.map(|file| Pass::from(file).name())).try_map(|name| {
-        let found = ALL.into_iter().find(|file| Pass::from(*file).name() == name);
-        found.ok_or_else(|| format!("there is no pass `{name}`"))
-    })
 }

@@ -1,4 +1,7 @@
-//! Progress on a terminal: what is being done, once it takes longer than a moment. Silent in a pipe.
+//! Progress display on a terminal: the current stage and elapsed time, or jobs done and left.
+//!
+//! It is shown on the standard error stream only if that is a terminal, and only for work that
+//! takes longer than [`DISPLAY_DELAY`].
 
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -6,19 +9,23 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// How long work may take before anything is said.
+/// Work that is done within this time shows no progress.
 const DISPLAY_DELAY: Duration = Duration::from_millis(400);
-/// How often the time is told.
+/// The interval between two updates of the elapsed time.
 const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 
-/// A line on the terminal that says what is being done and since when; it is gone when the work is.
+/// A terminal line with the current stage and the elapsed time, removed on drop.
+///
+/// A thread of its own redraws the line; stages are sent to it through a channel, and closing the
+/// channel ends it.
 #[derive(Debug)]
 pub(crate) struct Progress {
+    /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
     stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
 }
 
 impl Progress {
-    /// Starts to watch the work, if there is a terminal to show it on.
+    /// Starts the display, if the standard error stream is a terminal.
     pub(crate) fn start(stage: &'static str) -> Self {
         if !std::io::stderr().is_terminal() {
             return Self { stages: None };
@@ -44,7 +51,7 @@ impl Progress {
         Self { stages: Some((sender, watcher)) }
     }
 
-    /// The work has come to another stage.
+    /// Shows another stage from now on.
     pub(crate) fn enter_stage(&self, stage: &'static str) {
         if let Some((sender, _)) = &self.stages {
             let _ = sender.send(stage);
@@ -61,23 +68,27 @@ impl Drop for Progress {
     }
 }
 
-/// How many of many jobs are done, and how long the rest may take.
+/// A terminal line with the number of finished jobs and an estimate of the time left.
 #[derive(Debug)]
 pub(crate) struct ProgressCounter {
+    /// The number of jobs.
     total: usize,
+    /// The number of finished jobs.
     done: AtomicUsize,
+    /// When the first job started.
     begin: Instant,
+    /// Whether the line is shown.
     is_visible: bool,
 }
 
 impl ProgressCounter {
-    /// Starts to count, aloud if there is a terminal.
+    /// Starts to count; the line is shown if the standard error stream is a terminal.
     pub(crate) fn start(total: usize) -> Self {
         let is_visible = std::io::stderr().is_terminal();
         Self { total, done: AtomicUsize::new(0), begin: Instant::now(), is_visible }
     }
 
-    /// One more is done.
+    /// Counts one finished job; may be called from any thread.
     pub(crate) fn increment(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if !self.is_visible {

@@ -1,8 +1,8 @@
-//! `alberti reference` and `alberti scene doc`: every flag, and every field of scene files.
+//! `alberti reference` and `alberti scene doc`: the reference of flags and scene fields.
 //!
 //! ```text
 //!  clap's commands ─► flags ──┐
-//!  scene::reference ─► fields ┴─► sections ─► those that match a word ─► text, Markdown, HTML
+//!  scene::reference ─► fields ┴─► sections ─► search by a word ─► text, Markdown, HTML
 //! ```
 
 mod fields;
@@ -15,46 +15,53 @@ mod text;
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
 
+/// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
-    /// A flag, a command, a type, a field or a path of fields, such as --size, render, LookAt or camera.projection [default:
-    /// everything]
+    /// Flag, command, type, field or path of fields to look up [default: everything]
+    ///
+    /// For example --size, render, LookAt or camera.projection.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
-    /// How it is written
+    /// Output format
     #[arg(long, default_value = "text")]
     format: ReferenceFormat,
 }
 
+/// The value of `--format`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum ReferenceFormat {
-    /// Lines of up to 100 columns
+    /// Plain text, wrapped at 100 columns
     Text,
     /// Markdown
     Markdown,
-    /// A page that needs no other file
+    /// A self-contained HTML page
     Html,
 }
 
-/// A part of the reference: a command, or a type of scene files.
+/// A section of the reference: a command, or a type of scene files.
 #[derive(Clone, Debug, Default)]
 struct ReferenceSection {
+    /// The command, or the name of the type.
     title: String,
+    /// The description, in paragraphs separated by empty lines.
     about: String,
+    /// The flags, fields or variants.
     entries: Vec<ReferenceEntry>,
 }
 
-/// A flag, a field, or a word to choose.
+/// An entry of the reference: a flag, a field, a variant or a possible value.
 #[derive(Clone, Debug, Default)]
 struct ReferenceEntry {
-    /// Its name, as it is written.
+    /// The name, as it is written.
     term: String,
-    /// What kind of value it has.
+    /// The type or value name.
     value: String,
-    /// Whether it may be left out, and other remarks in few words.
+    /// A short remark, such as `required`.
     note: String,
+    /// The description.
     about: String,
-    /// The fields of a variant, the words that a flag takes.
+    /// The fields of a variant, or the possible values of a flag.
     inner: Vec<Self>,
 }
 
@@ -73,6 +80,7 @@ pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
     print_reference(args, "Reference of scene files", fields::type_sections())
 }
 
+/// Prints some sections, or what a search finds in them.
 fn print_reference(
     args: &ReferenceArgs,
     title: &str,

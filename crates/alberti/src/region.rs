@@ -1,40 +1,49 @@
-//! Flags for parts of pictures and for the depth of their channels.
+//! Flags that render a part of the picture, and its bit depth.
 
 use super::CliError;
 use homog::PixelRect;
 use pipeline::scene::ImageSpec;
 use pipeline::scene::file::SceneFile;
 
-/// Which part of the picture is drawn, and with how many bits.
+/// The rectangle of pixels to render, and the bits per channel.
+///
+/// A region has exactly the pixels that the whole picture has there: bands rendered on several
+/// machines can be stacked.
 #[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Part of the picture")]
+#[command(next_help_heading = "Region")]
 pub(crate) struct RegionArgs {
-    /// Bits of each channel: 8 or 16
+    /// Bits per channel: 8 or 16
     #[arg(long, value_name = "N")]
     bits: Option<u32>,
-    /// Draw these pixels of the picture only: column and row of the upper left one, width and height. They are those that the whole
-    /// picture has there
+    /// Render only this rectangle: column and row of its upper left pixel, width, height
+    ///
+    /// Its pixels are identical to those of the whole picture.
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
     crop: Option<PixelRect>,
-    /// Draw the I-th of N bands, from the top; put one under the other they are the whole picture
-    #[arg(long, value_name = "I/N", value_parser = parse_tile)]
-    tile: Option<[u32; 2]>,
+    /// Render only the I-th of N horizontal bands, counted from the top
+    ///
+    /// The bands of --crop, or of the whole picture, stacked from 1/N to N/N, are that picture.
+    #[arg(long, value_name = "I/N", value_parser = parse_band)]
+    band: Option<[u32; 2]>,
 }
 
 impl RegionArgs {
-    /// What the flags say goes before what the scene says.
+    /// Replaces the bit depth of the scene.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(bits) = self.bits {
             file.image.bits = bits;
         }
     }
 
-    /// Whether only a part is wanted.
+    /// Whether `--crop` or `--band` was given.
     pub(crate) fn is_partial(&self) -> bool {
-        self.crop.is_some() || self.tile.is_some()
+        self.crop.is_some() || self.band.is_some()
     }
 
-    /// The pixels that are wanted of a picture.
+    /// The rectangle to render of a picture: the crop, and of it the band.
+    ///
+    /// # Errors
+    /// If the crop is not inside the picture, or the band has no row.
     pub(super) fn resolve_region(&self, image: ImageSpec) -> Result<PixelRect, CliError> {
         let whole = image.pixel_rect();
         let crop = self.crop.unwrap_or(whole);
@@ -42,21 +51,22 @@ impl RegionArgs {
             let PixelRect { x, y, width, height } = crop;
             let PixelRect { width: across, height: down, .. } = whole;
             return Err(CliError::Usage(format!(
-                "--crop {x},{y},{width},{height} is not in the picture, which has {across} x {down} pixels"
+                "--crop {x},{y},{width},{height} is not inside the picture of {across} x {down} pixels"
             )));
         }
-        let Some([number, count]) = self.tile else { return Ok(crop) };
-        let band = crop.nth_band(number - 1, count);
+        let Some([index, count]) = self.band else { return Ok(crop) };
+        let band = crop.nth_band(index - 1, count);
         if band.height == 0 {
             let rows = crop.height;
             return Err(CliError::Usage(format!(
-                "--tile {number}/{count} has no row: there are {rows}"
+                "--band {index}/{count} is empty: the picture has only {rows} rows"
             )));
         }
         Ok(band)
     }
 }
 
+/// Parses `X,Y,WIDTH,HEIGHT` with a width and a height above 0.
 fn parse_region(text: &str) -> Result<PixelRect, String> {
     let fault =
         || "expected column, row, width and height in pixels, such as 100,50,640,480".to_owned();
@@ -70,7 +80,8 @@ fn parse_region(text: &str) -> Result<PixelRect, String> {
     }
 }
 
-fn parse_tile(text: &str) -> Result<[u32; 2], String> {
+/// Parses `I/N` with `1 <= I <= N`.
+fn parse_band(text: &str) -> Result<[u32; 2], String> {
     let fault = || "expected I/N with I from 1 to N, such as 2/8".to_owned();
     let (number, count) = text.split_once('/').ok_or_else(fault)?;
     let [number, count] = [number, count].map(|word| word.trim().parse().ok());

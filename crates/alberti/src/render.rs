@@ -1,35 +1,33 @@
-//! `alberti render`: scenes and bare models become PNGs, or as line drawings SVGs or PDFs.
+//! `alberti render`: renders scenes and models to PNG, or draws them as lines to SVG or PDF.
 
 pub(super) mod tasks;
 
 use super::args::RenderArgs;
+use super::messages::{print_message, print_note, print_warnings};
 use super::progress::Progress;
 use super::render_job::RenderJob;
-use super::{CliError, print_message, render_report, terminal_image};
+use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::ImportOptions;
 use pipeline::scene::file::SceneFile;
 use pipeline::scene::{Outputs, ResolveOptions};
 use pipeline::{Origin, Scene, Timings};
-use std::io::{Read as _, Write as _};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 use tasks::RenderTask;
 
-/// The most warnings of one model that are told; the rest is counted.
-const MAX_WARNINGS: usize = 8;
-
-/// Makes the pictures; one that cannot be made, or is not what it should be, does not stop the others.
+/// Renders all pictures. With several, a failure or a difference does not stop the others.
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
-    let jobs = tasks::plan_tasks(args)?;
+    let tasks = tasks::plan_tasks(args)?;
     let mut code = ExitCode::SUCCESS;
-    for job in &jobs {
-        match render_task(args, job) {
-            Err(failure) if jobs.len() > 1 => {
+    for task in &tasks {
+        match render_task(args, task) {
+            Err(failure) if tasks.len() > 1 => {
                 print_message(
                     "error",
-                    &format!("{}: {}", job.input.display(), failure.to_message()),
+                    &format!("{}: {}", task.input.display(), failure.to_message()),
                 );
                 code = ExitCode::FAILURE;
             }
@@ -42,7 +40,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
     Ok(code)
 }
 
-/// Makes one picture. Whether it is what it was compared with.
+/// Renders one picture; returns whether it agrees with its reference, if it has one.
+///
+/// The overrides, the region and the passes are applied to the scene file in this order; then the
+/// scene is resolved and everything is rendered from it.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
     let timings = if args.timings || args.json { Timings::enabled() } else { Timings::default() };
@@ -58,30 +59,31 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
     progress.enter_stage("rendering");
     let threads = thread_count(args.threads);
-    let painting =
+    let render_job =
         RenderJob { args, task: job, scene: &scene, outputs, threads, timings: &timings };
-    let painted = painting.write_files(&progress)?;
+    let output = render_job.write_files(&progress)?;
     let agreement = args.verify.then(|| verify_drawing(&scene, threads)).transpose()?;
     drop(progress);
     if let Some(agreement) = agreement {
-        // Nothing else can be done where nobody listens.
-        let _ = writeln!(std::io::stderr(), "{}", agreement_message(&agreement));
+        print_note(&agreement_message(&agreement));
     }
     if args.timings {
         print_timings(&timings);
     }
     if args.show {
-        terminal_image::print_image(&painted)?;
+        terminal_image::print_image(&output)?;
     }
     if args.json {
-        render_report::print_report(&painting, &painted)?;
+        render_report::print_report(&render_job, &output)?;
     } else {
-        print_warnings(&scene, &painted.warnings);
+        print_warnings(&scene, &output.warnings);
     }
-    Ok(painted.matches_reference(args.json))
+    Ok(output.matches_reference(args.json))
 }
 
-/// The scene's line drawing against its z-buffer image. Lines that show hidden parts as visible are left out of it.
+/// Compares the scene's line drawing with its z-buffer image, with hidden lines removed.
+///
+/// The drawing is made again, because dashed or drawn hidden lines would count as visible.
 fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> {
     let options = DrawOptions {
         hidden_edges: HiddenEdges::Removed,
@@ -93,6 +95,7 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
         .map_err(pipeline::RenderError::from)?)
 }
 
+/// The message of `--verify`.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
     let length = agreement.visible_length;
@@ -101,24 +104,25 @@ fn agreement_message(agreement: &Agreement) -> String {
     )
 }
 
-/// What each stage took, and all together, on the standard error.
+/// Prints the time of each stage and their sum on the standard error stream.
 fn print_timings(timings: &Timings) {
     let stages = timings.stages();
     let all: Duration = stages.iter().map(|(_, took)| *took).sum();
     let rows = stages.iter().copied().chain((!stages.is_empty()).then_some(("all", all)));
     for (stage, took) in rows {
         let milliseconds = 1e3 * took.as_secs_f64();
-        // Nothing else can be done where nobody listens.
-        let _ = writeln!(std::io::stderr(), "{stage:<10} {milliseconds:9.2} ms");
+        print_note(&format!("{stage:<10} {milliseconds:9.2} ms"));
     }
 }
 
-/// Whether a file is a scene, by its name.
+/// Whether a file is a scene, by its extension.
 pub(super) fn is_scene_file(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
 
-/// A scene file, with those it includes, or the scene of a bare model; `-` reads either from the standard input.
+/// Opens a scene file with its includes, or makes a scene for a bare model.
+///
+/// `-` reads either from the standard input. Models are not loaded yet.
 pub(super) fn open_input(
     input: &Path,
     options: &ImportOptions,
@@ -133,7 +137,10 @@ pub(super) fn open_input(
     }
 }
 
-/// A model if it begins like one, in binary or as JSON; else a scene, whose paths begin at the current folder.
+/// Reads a model or a scene from the standard input.
+///
+/// A model is recognized by its first bytes, `glTF` or `{`. Paths of a scene are relative to the
+/// current folder.
 fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> {
     let limit = options.limits.file_bytes;
     let mut bytes = Vec::new();
@@ -153,29 +160,8 @@ fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> 
     Ok(origin.parse_with_includes(&options.allow_outside)?)
 }
 
-/// As many threads as are wanted, or as there are cores.
+/// The requested number of threads, or one per core.
 pub(super) fn thread_count(wanted: Option<u16>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, Into::into);
     wanted.map_or_else(all, usize::from)
-}
-
-/// Tells what is wrong with the models, and what could not be drawn.
-pub(super) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning]) {
-    drawing.iter().for_each(|warning| print_message("warning", &warning.to_string()));
-    let mut printed: Vec<&str> = Vec::new();
-    for placed in &scene.models {
-        let model = &placed.model;
-        if printed.contains(&model.name.as_str()) {
-            continue;
-        }
-        printed.push(&model.name);
-        for warning in model.warnings.iter().take(MAX_WARNINGS) {
-            let message = format!("{}: {}: {}", model.name, warning.pointer, warning.message);
-            print_message("warning", &message);
-        }
-        let rest = model.warnings.len().saturating_sub(MAX_WARNINGS);
-        if rest > 0 {
-            print_message("warning", &format!("{}: {rest} more warnings", model.name));
-        }
-    }
 }

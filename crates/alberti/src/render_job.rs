@@ -1,67 +1,83 @@
-//! How the files of a picture are made: the picture band by band, passes and comparison beside it, all of them or none.
+//! Writes the files of a picture: the picture, its passes and its comparison, all of them or none.
+//!
+//! A raster image is rendered and encoded band by band, so that its size is not bounded by memory.
+//! Every file is written under a temporary name and renamed once all are complete.
 
+use super::CliError;
 use super::args::RenderArgs;
 use super::compare::PictureComparison;
 use super::format::OutputFormat;
+use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
 use super::progress::Progress;
 use super::render::tasks::RenderTask;
-use super::{CliError, print_stdout};
 use drawing::Warning;
 use homog::PixelRect;
 use pipeline::render::{render_passes, rows_per_band};
 use pipeline::scene::Outputs;
 use pipeline::{
-    AtomicFile, BandedRenderer, Channel, OutputError, Picture, Scene, Timings, draw_lines,
+    AtomicFile, Channel, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
+    draw_lines,
 };
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// All that the files of a picture depend on.
+/// A resolved scene with everything else that its files depend on.
 pub(super) struct RenderJob<'a> {
+    /// The flags of the command.
     pub(super) args: &'a RenderArgs,
+    /// The input, format and output of this picture.
     pub(super) task: &'a RenderTask,
+    /// The resolved scene.
     pub(super) scene: &'a Scene,
+    /// The bit depth and the passes.
     pub(super) outputs: Outputs,
+    /// The number of threads.
     pub(super) threads: usize,
+    /// The stopwatch of the stages.
     pub(super) timings: &'a Timings,
 }
 
-/// What was written.
+/// The files that were written, and their contents as far as something else needs them.
 pub(super) struct RenderOutput {
-    /// The part of the picture that was drawn.
+    /// The rectangle of the picture that was rendered.
     pub(super) region: PixelRect,
     /// The files, the picture first.
     pub(super) files: Vec<PathBuf>,
-    /// The picture, if someone wants to look at it.
+    /// The picture, if it is compared or shown in the terminal.
     pub(super) picture: Option<Picture>,
-    /// What could not be drawn as it should.
+    /// Warnings of the line drawing.
     pub(super) warnings: Vec<Warning>,
-    /// What the comparison has found, if one was asked for.
+    /// The result of `--compare`.
     pub(super) comparison: Option<PictureComparison>,
 }
 
 impl RenderOutput {
-    /// Whether the picture is what it was compared with, if it was. Says so, unless a report does.
+    /// Whether the picture agrees with its reference, if it has one. Prints the comparison unless
+    /// `silent`, as with a JSON report that holds it.
     pub(super) fn matches_reference(&self, silent: bool) -> bool {
         let Some(comparison) = &self.comparison else { return true };
         if !silent {
-            // Nothing else can be done where nobody listens.
-            let _ = writeln!(std::io::stderr(), "{comparison}");
+            print_note(&comparison.to_string());
         }
         comparison.agrees()
     }
 }
 
-/// The picture as a file that is not yet in its place, or as bytes for the standard output; in memory too if it is to be looked at;
-/// and what could not be drawn.
+/// An encoded picture that has not been published yet, with its pixels if they are needed.
 struct EncodedPicture {
+    /// The encoded bytes.
     sink: PictureSink,
+    /// The pixels, if they are compared or shown.
     picture: Option<Picture>,
+    /// Warnings of the line drawing.
     warnings: Vec<Warning>,
 }
 
-/// Where the bytes of a picture go.
+/// The destination of a picture: a temporary file, or memory for the standard output.
+///
+/// The standard output gets the bytes only when all of them are there, so that a failed run writes
+/// none.
 enum PictureSink {
     File(PathBuf, BufWriter<AtomicFile>),
     Stdout(Vec<u8>),
@@ -84,7 +100,7 @@ impl Write for PictureSink {
 }
 
 impl RenderJob<'_> {
-    /// Makes all files, and puts them in their places when all are whole.
+    /// Writes all files, and renames them into place once all are complete.
     pub(super) fn write_files(&self, progress: &Progress) -> Result<RenderOutput, CliError> {
         let region = self.args.region.resolve_region(self.scene.image)?;
         self.check_combination()?;
@@ -120,26 +136,28 @@ impl RenderJob<'_> {
         Ok(RenderOutput { region, files, picture, warnings, comparison })
     }
 
+    /// Whether the pixels are needed beside the file.
     fn needs_picture(&self) -> bool {
         self.args.show || self.args.compare.is_requested()
     }
 
-    /// That what is asked for goes together.
+    /// Rejects combinations of flags that make no sense with the output format or destination.
     fn check_combination(&self) -> Result<(), CliError> {
         let wrong = if self.task.format != OutputFormat::Png
             && (self.needs_picture() || self.args.region.is_partial())
         {
-            "--crop, --tile, --compare and --show are for pictures: name a .png with -o"
+            "--crop, --band, --compare and --show need a raster image: name a .png with -o"
         } else if self.task.output.is_none()
             && (self.needs_picture() || self.args.json || !self.outputs.passes.is_empty())
         {
-            "--passes, --compare, --show and --json do not go with a picture on the standard output: name a file with -o"
+            "--passes, --compare, --show and --json cannot be used with a picture on the standard output: name a file with -o"
         } else {
             return Ok(());
         };
         Err(CliError::Usage(wrong.to_owned()))
     }
 
+    /// Opens the destination of the picture.
     fn open_sink(&self) -> Result<PictureSink, CliError> {
         Ok(match &self.task.output {
             Some(path) => {
@@ -149,6 +167,7 @@ impl RenderJob<'_> {
         })
     }
 
+    /// An input/output error as an error about the destination.
     fn output_error(&self, cause: std::io::Error) -> CliError {
         match &self.task.output {
             Some(path) => OutputError { path: path.clone(), cause }.into(),
@@ -156,13 +175,16 @@ impl RenderJob<'_> {
         }
     }
 
-    /// The picture as a PNG file.
+    /// Renders and encodes the region as a PNG of `C` bits per channel, band by band.
     fn encode_picture<C: Channel>(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
-        let mut paint = BandedRenderer::new(self.scene, self.threads, self.timings)?;
+        let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
+        let context = RenderContext::new(self.scene, &textures, self.threads);
+        let mut renderer = Renderer::default();
+        let mut prepared = renderer.prepare(&context.with_timings(self.timings))?;
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);
-        let written = paint.write_png(&mut sink, region, rows, |band: &Picture<C>| {
+        let written = prepared.write_png(&mut sink, region, rows, |band: &Picture<C>| {
             if let Some(retained) = &mut picture {
                 let bytes = |pixel: &[C; 4]| pixel.map(C::to_byte);
                 retained.pixels.extend(band.pixels.iter().map(bytes));
@@ -173,10 +195,10 @@ impl RenderJob<'_> {
             pipeline::WritePngError::Render(error) => CliError::Render(error),
             pipeline::WritePngError::Output(cause) => self.output_error(cause),
         })?;
-        Ok(EncodedPicture { sink, picture, warnings: paint.into_warnings() })
+        Ok(EncodedPicture { sink, picture, warnings: prepared.into_warnings() })
     }
 
-    /// The line drawing as a file.
+    /// Draws the scene as lines and encodes it as SVG or PDF.
     fn encode_drawing(&self) -> Result<EncodedPicture, CliError> {
         let mut page = draw_lines(self.scene, self.threads, self.timings)?;
         let warnings = std::mem::take(&mut page.warnings);
@@ -186,6 +208,7 @@ impl RenderJob<'_> {
         Ok(EncodedPicture { sink, picture: None, warnings })
     }
 
+    /// Renders the passes and writes them to temporary files beside the picture.
     fn create_pass_files(
         &self,
         output: &Path,

@@ -1,5 +1,7 @@
-//! `alberti render --json`: what was rendered, on the standard output. New members may come in any release; [`VERSION`] rises when one
-//! changes its meaning or goes.
+//! `alberti render --json`: the report of a rendered picture.
+//!
+//! New members may be added in any release; [`VERSION`] rises when one is removed or changes its
+//! meaning.
 
 use super::CliError;
 use super::render_job::{RenderJob, RenderOutput};
@@ -10,17 +12,16 @@ use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::path::Path;
 
-/// The version of the schema.
+/// The version of the JSON schema.
 const VERSION: u32 = 1;
 
-pub(super) fn print_report(
-    painting: &RenderJob<'_>,
-    painted: &RenderOutput,
-) -> Result<(), CliError> {
-    let PixelRect { x, y, width, height } = painted.region;
-    let scene = painting.scene;
-    let files: Result<Vec<Value>, CliError> = painted.files.iter().map(|path| file(path)).collect();
-    let comparison = painted.comparison.map(|found| {
+/// Prints the report of one picture.
+pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result<(), CliError> {
+    let PixelRect { x, y, width, height } = output.region;
+    let scene = job.scene;
+    let files: Result<Vec<Value>, CliError> =
+        output.files.iter().map(|path| file_json(path)).collect();
+    let comparison = output.comparison.map(|found| {
         json!({
             "agrees": found.agrees(),
             "greatest_difference": found.max_difference,
@@ -32,19 +33,19 @@ pub(super) fn print_report(
         (stage, json!(1e3 * took.as_secs_f64()))
     };
     let timings: BTreeMap<&str, Value> =
-        painting.timings.stages().into_iter().map(milliseconds).collect();
+        job.timings.stages().into_iter().map(milliseconds).collect();
     let report = json!({
         "schema": {"name": "alberti-render", "version": VERSION},
-        "input": painting.task.input.to_string_lossy(),
+        "input": job.task.input.to_string_lossy(),
         "image": {
             "size": [scene.image.width, scene.image.height],
             "region": [x, y, width, height],
             "samples": scene.image.samples.count(),
-            "bits": if painting.outputs.sixteen_bit { 16 } else { 8 },
+            "bits": if job.outputs.sixteen_bit { 16 } else { 8 },
         },
-        "camera": camera(painting),
-        "models": models(painting),
-        "warnings": painted.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "camera": camera_json(job),
+        "models": models_json(job),
+        "warnings": output.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "comparison": comparison,
         "milliseconds": timings,
         "files": files?,
@@ -53,9 +54,9 @@ pub(super) fn print_report(
     Ok(())
 }
 
-/// The eye, the axes of the view in the world, and the projection as rows of its matrix.
-fn camera(painting: &RenderJob<'_>) -> Value {
-    let view_projection = painting.scene.view_projection;
+/// The eye and the axes of view space in world space, and the projection matrix by rows.
+fn camera_json(job: &RenderJob<'_>) -> Value {
+    let view_projection = job.scene.view_projection;
     let camera = view_projection.camera;
     let rows = [0, 1, 2, 3].map(|n| view_projection.view_to_clip.raw().row(n).to_array());
     json!({
@@ -67,7 +68,8 @@ fn camera(painting: &RenderJob<'_>) -> Value {
     })
 }
 
-fn models(painting: &RenderJob<'_>) -> Vec<Value> {
+/// The model instances, with their numbers of primitives and their warnings.
+fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
     let model = |placed: &model::ModelInstance| {
         let model = &placed.model;
         let count = |topology| -> usize {
@@ -75,7 +77,7 @@ fn models(painting: &RenderJob<'_>) -> Vec<Value> {
             shown.filter(|p| p.topology == topology).map(model::Primitive::item_count).sum()
         };
         let warnings = model.warnings.iter().map(|warning| {
-            json!({"pointer": warning.pointer.to_string(), "message": warning.message.to_string()})
+            json!({"pointer": warning.location.to_string(), "message": warning.message.to_string()})
         });
         json!({
             "name": model.name,
@@ -85,11 +87,11 @@ fn models(painting: &RenderJob<'_>) -> Vec<Value> {
             "warnings": warnings.collect::<Vec<_>>(),
         })
     };
-    painting.scene.models.iter().map(model).collect()
+    job.scene.models.iter().map(model).collect()
 }
 
-/// A file by its content.
-fn file(path: &Path) -> Result<Value, CliError> {
+/// The path of a file, its size, and the SHA-256 of its content.
+fn file_json(path: &Path) -> Result<Value, CliError> {
     let mut file = std::fs::File::open(path)?;
     let (mut hash, mut bytes) = (Sha256::new(), 0);
     let mut block = vec![0; 1 << 16];

@@ -1,4 +1,4 @@
-//! `alberti scene`: begins, checks and lays out scene files, and tells what they may say.
+//! `alberti scene`: creates, validates, formats and documents scene files.
 
 mod fmt;
 mod init;
@@ -8,24 +8,27 @@ use super::{CliError, check};
 use clap::Subcommand;
 use std::process::ExitCode;
 
+/// Arguments of `alberti scene`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SceneArgs {
     #[command(subcommand)]
     command: SceneCommand,
 }
 
+/// The subcommands of `alberti scene`.
 #[derive(Debug, Subcommand)]
 enum SceneCommand {
-    /// Tell everything that is wrong with scenes and their models, and what is probably not meant
+    /// Validate scenes and their models, with warnings about values that are probably unintended
     Check(check::CheckScenesArgs),
-    /// Write a scene file for a model, with comments, to go on from
+    /// Create a commented scene file for a model
     Init(init::InitArgs),
-    /// Lay out scene files alike; comments stay
+    /// Format scene files, keeping comments
     Fmt(fmt::FmtArgs),
-    /// Tell what each field of a scene file means
+    /// Print the reference of scene fields
     Doc(ReferenceArgs),
 }
 
+/// Runs a subcommand.
 pub(crate) fn run(args: &SceneArgs) -> Result<ExitCode, CliError> {
     match &args.command {
         SceneCommand::Check(args) => return check::run_scenes(args),

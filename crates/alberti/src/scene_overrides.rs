@@ -1,61 +1,72 @@
-//! Flags that change what a scene says of its picture: the size, the camera, the style, the state of the models.
+//! Flags that override fields of a scene: size, camera, style, overlays, state of the models.
+//!
+//! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
+//! the same meaning and the same errors. A bare model is a scene in which every field is default.
 
+use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::light::LightArgs;
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
+use super::render::open_input;
 use super::section::SectionArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
+use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, DEFAULT_PADDING, OverlayFile, PrincipalFile,
-    ProjectionFile, SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile, ProjectionFile,
+    SceneFile, StyleFile, ViewFile,
 };
+use pipeline::{Origin, Scene};
+use projection::PrincipalView;
+use std::path::Path;
 
-/// What goes before what the scene says; a bare model is a scene that says nothing.
+/// Flags that replace fields of the scene.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct SceneOverrideArgs {
-    /// Width and height in pixels, such as 1920x1080
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    /// Width and height of the picture in pixels, such as 1920x1080
+    #[arg(long, value_name = "WxH", value_parser = parse_image_size)]
     pub(crate) size: Option<(u32, u32)>,
-    /// Multiply width and height, those of the scene or of --size, by a number up to 64
-    #[arg(long, value_name = "N", value_parser = parse_factor)]
+    /// Multiply width and height by this factor, up to 64
+    #[arg(long, value_name = "N", value_parser = parse_scale_factor)]
     pub(crate) scale: Option<f64>,
-    /// How surfaces are drawn
+    /// Render style
     #[arg(long)]
     pub(crate) style: Option<StyleArg>,
-    /// A camera of the model, by name or by number from 0
+    /// Camera of the model, by name or index
     #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
     pub(crate) camera: Option<String>,
     #[command(flatten)]
     pub(crate) model_state: ModelStateArgs,
-    /// Frame everything from this side
-    #[arg(long, value_parser = named_view())]
+    /// Frame all models from this direction
+    #[arg(long, value_parser = named_view_parser())]
     pub(crate) view: Option<NamedView>,
-    /// The projection
+    /// Projection of the camera
     #[arg(long)]
     pub(crate) projection: Option<ProjectionArg>,
-    /// What is drawn over the picture to explain it; may be given several times
+    /// Guides drawn over the picture; can be repeated
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
     #[command(flatten)]
     pub(crate) section: SectionArgs,
-    /// What is seen where no model is: transparent, or a colour such as #f4f1ea
+    /// Background: transparent, or a color such as #f4f1ea
     #[arg(long, value_name = "COLOR", value_parser = parse_background)]
-    pub(crate) background: Option<String>,
-    /// Coverage samples per pixel: 1, 4, 8 or 16
+    pub(crate) background: Option<BackgroundFile>,
+    /// Samples per pixel for anti-aliasing: 1, 4, 8 or 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
-    /// Places that textures are read at along the longer side of what a pixel covers of them: 1 to 8
+    /// Maximum anisotropy of texture filtering, 1 to 8
+    ///
+    /// Up to this many trilinear samples are taken along the longer axis of a pixel's footprint.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
-    pub(crate) anisotropy: Option<u32>,
+    pub(crate) max_anisotropy: Option<u32>,
     #[command(flatten)]
     pub(crate) light: LightArgs,
 }
 
 impl SceneOverrideArgs {
-    /// What the flags say goes before what the scene says.
+    /// Replaces the fields of a scene by the flags that were given.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(size) = self.size {
             file.image.size = size;
@@ -68,13 +79,11 @@ impl SceneOverrideArgs {
         if let Some(samples) = self.samples {
             file.image.samples = samples;
         }
-        if let Some(anisotropy) = self.anisotropy {
-            file.image.anisotropy = anisotropy;
+        if let Some(anisotropy) = self.max_anisotropy {
+            file.image.max_anisotropy = anisotropy;
         }
-        if let Some(text) = &self.background {
-            let transparent = text.eq_ignore_ascii_case("transparent");
-            let color = BackgroundFile::Color(text.clone());
-            file.image.background = if transparent { BackgroundFile::Transparent } else { color };
+        if let Some(background) = &self.background {
+            file.image.background.clone_from(background);
         }
         if let Some(style) = self.style {
             file.style = style.into();
@@ -86,13 +95,34 @@ impl SceneOverrideArgs {
         self.apply_to_camera(&mut file.camera);
     }
 
-    /// How models are loaded by these flags too: a file that they name may be read wherever it is.
+    /// The import options, with permission to read the files that these flags name.
     pub(crate) fn import_options(&self, load: &LoadArgs) -> ImportOptions {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());
         options
     }
 
+    /// Opens a scene or a model, applies the flags to it, and resolves it.
+    ///
+    /// The scene file is returned too, for commands that resolve it again or look things up in it.
+    ///
+    /// # Errors
+    /// If the input or a file it refers to cannot be read or is invalid.
+    pub(crate) fn open_scene(
+        &self,
+        input: &Path,
+        load_options: &LoadArgs,
+    ) -> Result<(Origin, SceneFile, Scene), CliError> {
+        let import = self.import_options(load_options);
+        let (origin, mut file) = open_input(input, &import)?;
+        self.apply_to(&mut file);
+        let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+        Ok((origin, file, scene))
+    }
+
+    /// Replaces view and projection of the scene by the flags that were given.
+    ///
+    /// `--view` keeps the padding of a scene that frames its models.
     fn apply_to_camera(&self, file: &mut CameraFile) {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());
@@ -141,7 +171,7 @@ impl From<ProjectionArg> for ProjectionFile {
         match projection {
             ProjectionArg::Perspective => Self::PERSPECTIVE,
             ProjectionArg::Orthographic => Self::ORTHOGRAPHIC,
-            ProjectionArg::Multiview => Self::Multiview(PrincipalFile::Front),
+            ProjectionArg::Multiview => Self::Multiview(PrincipalView::Front),
             ProjectionArg::Isometric => Self::Isometric,
             ProjectionArg::Dimetric => Self::Dimetric,
             ProjectionArg::Trimetric => Self::Trimetric,
@@ -167,8 +197,8 @@ impl From<OverlayArg> for OverlayFile {
     }
 }
 
-/// The views of the `camera` crate by their names.
-pub(super) fn named_view() -> impl TypedValueParser<Value = NamedView> {
+/// Parses a view by its name in the `camera` crate; `iso` is short for `isometric`.
+pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
     let value = |view: NamedView| match view {
         NamedView::Isometric => PossibleValue::new(view.name()).alias("iso"),
         _ => PossibleValue::new(view.name()),
@@ -176,27 +206,29 @@ pub(super) fn named_view() -> impl TypedValueParser<Value = NamedView> {
     PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
 }
 
-fn parse_factor(text: &str) -> Result<f64, String> {
+/// Parses a factor above 0, up to 64.
+fn parse_scale_factor(text: &str) -> Result<f64, String> {
     let factor = text.parse().ok().filter(|factor: &f64| *factor > 0.0 && *factor <= 64.0);
     factor.ok_or_else(|| "expected a number greater than 0, up to 64, such as 2 or 0.5".to_owned())
 }
 
-/// `transparent`, or a colour.
-fn parse_background(text: &str) -> Result<String, String> {
-    let digits = text.strip_prefix('#').unwrap_or("");
-    let is_color = matches!(digits.len(), 3 | 6) && digits.chars().all(|c| c.is_ascii_hexdigit());
-    if is_color || text.eq_ignore_ascii_case("transparent") {
-        return Ok(text.to_owned());
+/// Parses `transparent`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
+fn parse_background(text: &str) -> Result<BackgroundFile, String> {
+    if text.eq_ignore_ascii_case("transparent") {
+        return Ok(BackgroundFile::Transparent);
     }
-    Err("expected transparent, or a colour such as #fff or #f4f1ea".to_owned())
+    let color = Color::parse(text).map(BackgroundFile::Color);
+    color.ok_or_else(|| "expected transparent, or a color such as #f4f1ea or white".to_owned())
 }
 
+/// Parses a number of samples that the rasterizer has a pattern for.
 fn parse_samples(text: &str) -> Result<u32, String> {
     let samples = text.parse().ok().filter(|samples| [1, 4, 8, 16].contains(samples));
-    samples.ok_or_else(|| "possible are 1, 4, 8 and 16".to_owned())
+    samples.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
 }
 
-pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_SIDE`].
+pub(super) fn parse_image_size(text: &str) -> Result<(u32, u32), String> {
     let fault = || {
         format!(
             "expected WIDTHxHEIGHT, such as 1920x1080, each from 1 to {}",

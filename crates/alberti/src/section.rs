@@ -1,26 +1,36 @@
-//! Flags that cut models open.
+//! Section planes: the `--section` flag.
 
 use pipeline::scene::file::{SceneFile, SectionFile};
 
-/// Section cuts.
+/// Section planes of a line drawing.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct SectionArgs {
-    /// Cut the models open in line drawings: x=0.5 takes away what has a greater x, -x=0.5 what has a smaller one; or a point and
-    /// the direction that is taken away, such as 0,1,0,1,0,1; may be given several times
-    #[arg(long = "section", value_name = "PLANE", value_parser = section, allow_hyphen_values = true)]
+    /// Cut the models of a line drawing open at a plane; can be repeated
+    ///
+    /// x=0.5 removes everything with a greater x, -x=0.5 everything with a smaller one. Six numbers
+    /// are a point of the plane and the direction that is removed, such as 0,1,0,1,0,1.
+    #[arg(
+        long = "section",
+        value_name = "PLANE",
+        value_parser = parse_section_plane,
+        allow_hyphen_values = true
+    )]
     pub(crate) sections: Vec<SectionFile>,
 }
 
 impl SectionArgs {
-    /// Cuts of the flags come after those of the scene.
+    /// Appends the planes of the flags to those of the scene.
     pub(crate) fn append_to(&self, file: &mut SceneFile) {
         file.sections.extend(self.sections.iter().cloned());
     }
 }
 
-fn section(text: &str) -> Result<SectionFile, String> {
+/// Parses `AXIS=VALUE`, `-AXIS=VALUE`, or a point and a normal as six numbers.
+///
+/// The normal points to the side that is removed.
+fn parse_section_plane(text: &str) -> Result<SectionFile, String> {
     let fault = || {
-        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction that is taken away".to_owned()
+        "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction that is removed".to_owned()
     };
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| fault());
     let (point, normal) = if let Some((axis, at)) = text.split_once('=') {
@@ -44,7 +54,7 @@ mod tests {
 
     #[test]
     fn planes_by_axes_and_by_six_numbers() {
-        let plane = |text| section(text).map(|s| (s.point.0, s.normal.0));
+        let plane = |text| parse_section_plane(text).map(|s| (s.point.0, s.normal.0));
         assert_eq!(plane("x=0.5"), Ok(([0.5, 0.0, 0.0], [1.0, 0.0, 0.0])));
         assert_eq!(plane("-z=-2"), Ok(([0.0, 0.0, -2.0], [0.0, 0.0, -1.0])));
         assert_eq!(plane("1, 2,3,0,-1,1"), Ok(([1.0, 2.0, 3.0], [0.0, -1.0, 1.0])));

@@ -1,128 +1,83 @@
-//! `alberti sheet`: the views of a scene or a bare model on paper, to scale.
+//! `alberti sheet`: orthographic views of a scene or a model on paper, to scale.
 
 use super::CliError;
 use super::format::OutputFormat;
 use super::load_options::LoadArgs;
+use super::messages::print_warnings;
 use super::model_state::ModelStateArgs;
+use super::options::option_parser;
 use super::progress::Progress;
-use super::render::{open_input, print_warnings, thread_count};
+use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
-use clap::ValueEnum;
+use drawing::HiddenLines;
 use drawing::Page;
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
-    AngleFile, AxonometricFile, HiddenFile, OrientationFile, PaperFile, SheetFile, UnitFile,
-};
+use pipeline::scene::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile};
 use pipeline::{Picture, Scene};
+use projection::SheetAngle;
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
-/// The resolution of sheets as PNG.
+/// The resolution of a sheet written as PNG.
 const DOTS_PER_INCH: f64 = 150.0;
 
+/// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SheetArgs {
-    /// A scene (.ron) or a model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb)
     input: PathBuf,
-    /// Where the sheet goes: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
+    /// Output file: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The paper [default: a3]
-    #[arg(long, value_name = "SIZE")]
-    paper: Option<PaperArg>,
-    /// How the paper lies [default: a4, a5 and letter upright, all others on their long side]
-    #[arg(long)]
-    orientation: Option<OrientationArg>,
-    /// Where views lie: first angle, usual in Europe and China, or third, usual in America [default: first]
-    #[arg(long)]
-    angle: Option<AngleArg>,
-    /// The scale, paper to thing, such as 1:50 [default: the largest of the standard series that fits]
+    /// Paper size [default: a3]
+    #[arg(long, value_name = "SIZE", value_parser = option_parser::<PaperSize>())]
+    paper: Option<PaperSize>,
+    /// Page orientation [default: portrait for a4, a5 and letter, landscape for larger paper]
+    #[arg(long, value_parser = option_parser::<PageOrientation>())]
+    orientation: Option<PageOrientation>,
+    /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
+    /// [default: first]
+    #[arg(long, value_parser = option_parser::<SheetAngle>())]
+    projection_angle: Option<SheetAngle>,
+    /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
     #[arg(long, value_name = "N:M", value_parser = parse_scale)]
     scale: Option<(u32, u32)>,
-    /// What a unit of the model is [default: m]
-    #[arg(long)]
-    unit: Option<UnitArg>,
-    /// The fourth view [default: isometric]
-    #[arg(long, value_name = "VIEW")]
-    axonometric: Option<AxonometricArg>,
-    /// What becomes of hidden lines in the first three views [default: dashed]
-    #[arg(long)]
-    hidden: Option<HiddenArg>,
-    /// Leave out the overall dimensions
+    /// Length unit of the model [default: m]
+    #[arg(long, value_parser = option_parser::<ModelUnit>())]
+    unit: Option<ModelUnit>,
+    /// Axonometric view beside the three principal views [default: isometric]
+    #[arg(long, value_name = "VIEW", value_parser = option_parser::<AxonometricView>())]
+    axonometric: Option<AxonometricView>,
+    /// Hidden lines of the three principal views [default: dashed]
+    #[arg(long, value_parser = option_parser::<HiddenLines>())]
+    hidden_lines: Option<HiddenLines>,
+    /// Omit the overall dimensions
     #[arg(long)]
     no_dimensions: bool,
-    /// What the sheet shows [default: the names of the models]
+    /// Title in the title block [default: the names of the models]
     #[arg(long)]
     title: Option<String>,
-    /// Who made it
+    /// Author in the title block
     #[arg(long)]
     author: Option<String>,
-    /// When, as it is to be written
+    /// Date in the title block, as it is to be printed
     #[arg(long)]
     date: Option<String>,
-    /// The number of the drawing
+    /// Drawing number in the title block
     #[arg(long)]
     number: Option<String>,
     #[command(flatten)]
     section: SectionArgs,
     #[command(flatten)]
     model_state: ModelStateArgs,
-    /// Threads to use; the sheet does not depend on it [default: as many as there are cores]
+    /// Number of threads; the sheet does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
     load_options: LoadArgs,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum PaperArg {
-    A0,
-    A1,
-    A2,
-    A3,
-    A4,
-    A5,
-    Letter,
-    Tabloid,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum OrientationArg {
-    Portrait,
-    Landscape,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AngleArg {
-    First,
-    Third,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum UnitArg {
-    M,
-    Cm,
-    Mm,
-    In,
-    Ft,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AxonometricArg {
-    None,
-    Isometric,
-    Dimetric,
-    Trimetric,
-    ThreeQuarter,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum HiddenArg {
-    Removed,
-    Dashed,
-    Drawn,
-}
-
+/// Draws the sheet and writes it.
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;
@@ -130,7 +85,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let (origin, mut file) = open_input(&args.input, &args.load_options.import_options())?;
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
     args.section.append_to(&mut file);
-    // The views are the sheet's; what the scene says of its camera does not matter.
+    // The sheet has views of its own: the scene's camera must not matter, not even if it is wrong.
     file.camera = pipeline::scene::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
@@ -152,14 +107,14 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The name of the input with another ending, in the current folder.
+/// The input's name with the extension `.pdf`, in the current folder.
 fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| CliError::Usage("name the output with -o FILE".to_owned()))?;
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
-/// A page as pixels, at 150 dots to the inch.
+/// Rasterizes a page at [`DOTS_PER_INCH`].
 pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
@@ -169,14 +124,14 @@ pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
     size().ok_or_else(|| CliError::Usage("the paper is too large for a picture".to_owned()))
 }
 
-/// What the flags say goes before what the scene says.
+/// Replaces the fields of the scene's sheet by the flags that were given.
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
-    args.paper.into_iter().for_each(|paper| sheet.paper = paper.into());
-    args.orientation.into_iter().for_each(|way| sheet.orientation = Some(way.into()));
-    args.angle.into_iter().for_each(|angle| sheet.angle = angle.into());
-    args.unit.into_iter().for_each(|unit| sheet.unit = unit.into());
-    args.axonometric.into_iter().for_each(|view| sheet.axonometric = view.into());
-    args.hidden.into_iter().for_each(|hidden| sheet.hidden = hidden.into());
+    args.paper.into_iter().for_each(|paper| sheet.paper = paper);
+    args.orientation.into_iter().for_each(|orientation| sheet.orientation = Some(orientation));
+    args.projection_angle.into_iter().for_each(|angle| sheet.projection_angle = angle);
+    args.unit.into_iter().for_each(|unit| sheet.unit = unit);
+    args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view);
+    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden);
     sheet.scale = args.scale.or(sheet.scale);
     sheet.dimensions &= !args.no_dimensions;
     let texts = [
@@ -190,76 +145,10 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     }
 }
 
+/// Parses `PAPER:MODEL`, two whole numbers above 0.
 fn parse_scale(text: &str) -> Result<(u32, u32), String> {
-    let fault = || "expected paper:thing, such as 1:50 or 2:1".to_owned();
-    let (paper, thing) = text.split_once(':').ok_or_else(fault)?;
+    let fault = || "expected PAPER:MODEL, such as 1:50 or 2:1".to_owned();
+    let (paper, model) = text.split_once(':').ok_or_else(fault)?;
     let number = |digits: &str| digits.trim().parse().ok().filter(|n| *n > 0).ok_or_else(fault);
-    Ok((number(paper)?, number(thing)?))
-}
-
-impl From<PaperArg> for PaperFile {
-    fn from(arg: PaperArg) -> Self {
-        match arg {
-            PaperArg::A0 => Self::A0,
-            PaperArg::A1 => Self::A1,
-            PaperArg::A2 => Self::A2,
-            PaperArg::A3 => Self::A3,
-            PaperArg::A4 => Self::A4,
-            PaperArg::A5 => Self::A5,
-            PaperArg::Letter => Self::Letter,
-            PaperArg::Tabloid => Self::Tabloid,
-        }
-    }
-}
-
-impl From<OrientationArg> for OrientationFile {
-    fn from(arg: OrientationArg) -> Self {
-        match arg {
-            OrientationArg::Portrait => Self::Portrait,
-            OrientationArg::Landscape => Self::Landscape,
-        }
-    }
-}
-
-impl From<AngleArg> for AngleFile {
-    fn from(arg: AngleArg) -> Self {
-        match arg {
-            AngleArg::First => Self::First,
-            AngleArg::Third => Self::Third,
-        }
-    }
-}
-
-impl From<UnitArg> for UnitFile {
-    fn from(arg: UnitArg) -> Self {
-        match arg {
-            UnitArg::M => Self::Metre,
-            UnitArg::Cm => Self::Centimetre,
-            UnitArg::Mm => Self::Millimetre,
-            UnitArg::In => Self::Inch,
-            UnitArg::Ft => Self::Foot,
-        }
-    }
-}
-
-impl From<AxonometricArg> for AxonometricFile {
-    fn from(arg: AxonometricArg) -> Self {
-        match arg {
-            AxonometricArg::None => Self::None,
-            AxonometricArg::Isometric => Self::Isometric,
-            AxonometricArg::Dimetric => Self::Dimetric,
-            AxonometricArg::Trimetric => Self::Trimetric,
-            AxonometricArg::ThreeQuarter => Self::ThreeQuarter,
-        }
-    }
-}
-
-impl From<HiddenArg> for HiddenFile {
-    fn from(arg: HiddenArg) -> Self {
-        match arg {
-            HiddenArg::Removed => Self::Removed,
-            HiddenArg::Dashed => Self::Dashed,
-            HiddenArg::Drawn => Self::Drawn,
-        }
-    }
+    Ok((number(paper)?, number(model)?))
 }

@@ -1,4 +1,4 @@
-//! `alberti sweep`: one parameter of camera or lens, step by step, on one page.
+//! `alberti sweep`: a series of panels that differ in one parameter of the camera.
 
 use super::CliError;
 use super::args::ProjectionArg;
@@ -6,7 +6,7 @@ use super::page_output::{check_panel_output, finish_panels};
 use super::panel_subject::PanelSubjectArgs;
 use super::progress::Progress;
 use super::render::thread_count;
-use super::scene_overrides::named_view;
+use super::scene_overrides::named_view_parser;
 use camera::NamedView;
 use pipeline::Scene;
 use pipeline::demonstration::{Sweep, SweepParameter};
@@ -14,63 +14,66 @@ use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{DEFAULT_PADDING, ViewFile};
 use std::path::PathBuf;
 
+/// Arguments of `alberti sweep`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SweepArgs {
-    /// Where the page goes: .svg, .pdf, .png or .html
+    /// Output file: .svg, .pdf, .png or .html
     #[arg(short, long, value_name = "FILE", default_value = "sweep.svg")]
     output: PathBuf,
-    /// What is varied
+    /// Parameter to vary
     #[arg(long, value_name = "WHAT")]
     vary: VaryArg,
-    /// The first value, in degrees, in units of the scene or as a plain number
-    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
+    /// First value, in degrees, scene units or as a plain number
+    #[arg(long, value_name = "A", value_parser = parse_number, allow_hyphen_values = true)]
     from: f64,
-    /// The last value
-    #[arg(long, value_name = "B", value_parser = number, allow_hyphen_values = true)]
+    /// Last value
+    #[arg(long, value_name = "B", value_parser = parse_number, allow_hyphen_values = true)]
     to: f64,
-    /// How many pictures, their values evenly spaced
+    /// Number of panels; their values are evenly spaced
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=64))]
     steps: u32,
-    /// Show below each picture its view volume and the eye, as they stand about the models
+    /// Draw below each panel its view volume and eye, seen from outside
     #[arg(long)]
-    volumes: bool,
-    /// Pictures in a row [default: as many as make the page about square]
+    view_volumes: bool,
+    /// Panels per row [default: a page that is about square]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     columns: Option<u8>,
-    /// Frame everything from this side to begin with
-    #[arg(long, value_parser = named_view())]
+    /// Initial view: frame all models from this direction
+    #[arg(long, value_parser = named_view_parser())]
     view: Option<NamedView>,
-    /// The projection to begin with
+    /// Initial projection
     #[arg(long)]
     projection: Option<ProjectionArg>,
     #[command(flatten)]
     subject: PanelSubjectArgs,
 }
 
+/// The parameters of a sweep, by their names as values of `--vary`.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum VaryArg {
-    /// The vertical opening angle in degrees; the eye stays
+    /// Vertical field of view in degrees, with a fixed eye
     Fov,
-    /// The height of the window in a parallel projection
+    /// Height of the window of a parallel projection
     Height,
-    /// Width by height of the window; the picture's own stays, so others distort
+    /// Aspect ratio of the window; the picture keeps its own, so others distort
     Aspect,
-    /// The distance of the near plane; it only cuts off
+    /// Distance of the near plane
     Near,
-    /// The distance of the far plane; it only cuts off
+    /// Distance of the far plane
     Far,
-    /// The distance of the near plane under a window of fixed size, as glFrustum has it; the angle changes
+    /// Distance of the near plane with a window of fixed size, as in glFrustum
     Lens,
-    /// How far the window is moved to the right, in halves of its width
+    /// Lens shift to the right, in half widths of the window
     Shift,
-    /// The distance of the eye from the middle of the models
+    /// Distance of the eye from the center of the models
     Distance,
-    /// The distance too, with the angle such that the middle keeps its size (a dolly zoom)
+    /// Dolly zoom: the distance, with the field of view that keeps the size of the center
     Dolly,
-    /// Degrees around the models, counterclockwise as seen from above
+    /// Orbit angle around the models in degrees, counterclockwise seen from above
     Angle,
 }
 
+/// Draws the page of panels.
 pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");
@@ -85,14 +88,15 @@ pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     let options = ResolveOptions { import: args.subject.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.enter_stage("drawing");
-    let (vary, volumes) = (args.vary.into(), args.volumes);
+    let (vary, volumes) = (args.vary.into(), args.view_volumes);
     let sweep = Sweep { parameter: vary, from: args.from, to: args.to, steps: args.steps, volumes };
     let mut panels = sweep.draw_panels(&scene, thread_count(args.subject.threads))?;
     panels.columns = args.columns.map_or(panels.columns, usize::from);
     finish_panels(&args.output, &panels, &scene, progress)
 }
 
-fn number(text: &str) -> Result<f64, String> {
+/// Parses a finite number.
+fn parse_number(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "expected a number, such as 35 or 0.5".to_owned())
 }

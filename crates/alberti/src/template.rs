@@ -1,26 +1,28 @@
-//! Names of outputs with places for words and numbers, such as `{stem}_{view}.png` or `frames/{frame:04}.png`.
+//! Templates of output names, such as `{stem}_{view}.png` or `frames/{frame:04}.png`.
 
 use std::path::PathBuf;
 
-/// A name with places in it. `{{` and `}}` stand for braces.
+/// A name with fields in braces; `{{` and `}}` are literal braces.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct NameTemplate {
+    /// The pieces of the name, in order; literal text is never empty and never adjacent.
     parts: Vec<TemplatePart>,
 }
 
+/// A piece of a template, in the order of the name.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum TemplatePart {
     Text(String),
     Word(&'static str),
-    /// A number with at least so many digits.
+    /// A number field, zero-padded to at least this many digits.
     Number(&'static str, usize),
 }
 
 impl NameTemplate {
-    /// Reads a template with these fields for words and these for numbers.
+    /// Parses a template whose fields may be these `words` and `numbers`.
     ///
     /// # Errors
-    /// If a brace has no partner, or there is no such field: what is wrong, and what there is.
+    /// If a brace has no partner or a field is unknown; the message lists the known fields.
     pub(super) fn parse(
         text: &str,
         words: &[&'static str],
@@ -38,7 +40,7 @@ impl NameTemplate {
             }
             let inside = brace.strip_prefix('{').and_then(|inside| inside.split_once('}'));
             let (field, behind) = inside.ok_or_else(|| {
-                format!("a brace in the template {text} has no partner\n  = help: {{{{ and }}}} stand for braces")
+                format!("unmatched brace in the template {text}\n  = help: write {{{{ and }}}} for braces")
             })?;
             parts.push(parse_field(text, field, words, numbers)?);
             rest = behind;
@@ -47,7 +49,7 @@ impl NameTemplate {
         Ok(Self { parts })
     }
 
-    /// Whether it has a place for this.
+    /// Whether the template has this field.
     pub(super) fn has_field(&self, field: &str) -> bool {
         self.parts.iter().any(|part| match part {
             TemplatePart::Text(_) => false,
@@ -55,7 +57,10 @@ impl NameTemplate {
         })
     }
 
-    /// The name with words and numbers in their places.
+    /// The name, with every field replaced by its value.
+    ///
+    /// Characters of words that are no part of a file name become `_`, so that a value cannot lead
+    /// to another folder.
     pub(super) fn expand_fields(
         &self,
         word: impl Fn(&str) -> String,
@@ -70,6 +75,7 @@ impl NameTemplate {
     }
 }
 
+/// Appends literal text, joined to the text before it.
 fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
     match parts.last_mut() {
         _ if text.is_empty() => {}
@@ -78,7 +84,11 @@ fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
     }
 }
 
-/// What stands between two braces.
+/// Parses the inside of a pair of braces: `NAME`, or `NAME:0N` for `N` digits.
+///
+/// # Errors
+///
+/// If the field is unknown, or a text field has digits; the message shows how to write it.
 fn parse_field(
     text: &str,
     field: &str,
@@ -93,25 +103,25 @@ fn parse_field(
             format.strip_prefix('0')?.parse().ok().filter(|digits| (1..=9).contains(digits))
         });
         return digits.map(|digits| TemplatePart::Number(number, digits)).ok_or_else(|| {
-            format!("`{{{field}}}` in the template {text} is no number\n  = help: write {{{name}}}, or {{{name}:04}} for four digits")
+            format!("invalid number format `{{{field}}}` in the template {text}\n  = help: write {{{name}}}, or {{{name}:04}} for four digits")
         });
     }
     match (found(words), format) {
         (Some(word), None) => Ok(TemplatePart::Word(word)),
         (Some(_), Some(_)) => Err(format!(
-            "`{{{field}}}` in the template {text} is a word and has no digits\n  = help: write {{{name}}}"
+            "`{{{field}}}` in the template {text} is text and takes no digits\n  = help: write {{{name}}}"
         )),
         (None, _) => {
             let known = words.iter().chain(numbers).map(|name| format!("{{{name}}}"));
             let known = known.collect::<Vec<_>>().join(", ");
             Err(format!(
-                "there is no `{{{name}}}` for the template {text}\n  = help: possible here: {known}; {{{{ and }}}} stand for braces"
+                "unknown field `{{{name}}}` in the template {text}\n  = help: possible fields: {known}; write {{{{ and }}}} for braces"
             ))
         }
     }
 }
 
-/// A word as a part of a file's name: what would lead to another folder, or is refused on some system, becomes `_`.
+/// A value as part of a file name: separators and characters that some system forbids become `_`.
 fn sanitize_file_name(word: &str) -> String {
     let safe = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     word.chars().map(safe).collect()
@@ -146,10 +156,10 @@ mod tests {
     #[test]
     fn malformed_templates_are_rejected() {
         for (text, words) in [
-            ("{stem", "no partner"),
-            ("stem}", "no partner"),
+            ("{stem", "unmatched brace"),
+            ("stem}", "unmatched brace"),
             ("{stm}", "{stem}, {view}, {frame}"),
-            ("{}", "possible here"),
+            ("{}", "possible fields"),
             ("{frame:4}", "{frame:04}"),
             ("{frame:00}", "{frame:04}"),
             ("{stem:04}", "no digits"),

@@ -1,7 +1,7 @@
-//! `--show`: the picture in the terminal.
+//! `--show`: prints the picture in the terminal.
 //!
-//! Terminals that speak kitty's graphics protocol get the picture as a PNG; others get half blocks, two pixels in a cell, in 24-bit
-//! colour; where NO_COLOR is set, one of ten characters for each cell, by lightness.
+//! Terminals with kitty's graphics protocol get the picture as a PNG. Others get half blocks, two
+//! pixels per cell in 24-bit color, or, with NO_COLOR set, ASCII art by luminance.
 
 use super::CliError;
 use super::render_job::RenderOutput;
@@ -10,15 +10,16 @@ use pipeline::Picture;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// The columns of a terminal that does not tell.
+/// The width assumed for a terminal that does not report it.
 const DEFAULT_COLUMNS: u32 = 80;
-/// The widest picture that is handed over by kitty's protocol, in pixels.
+/// The largest width of a picture sent by kitty's protocol, in pixels.
 const MAX_KITTY_WIDTH: u32 = 1280;
-/// The most characters of one of its commands.
+/// The largest payload of one command of kitty's protocol, in bytes of base64.
 const KITTY_CHUNK_LENGTH: usize = 4096;
-/// From dark to light.
+/// ASCII characters from dark to light.
 const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
 
+/// Prints the picture by the best means of the terminal, by its environment variables.
 pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     let Some(picture) = &painted.picture else { return Ok(()) };
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
@@ -38,8 +39,9 @@ pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     Ok(())
 }
 
-/// A picture of so many columns and rows, each pixel the mean of what it covers, over black: in light as the eye adds it up, roughly, by
-/// squares of the codes.
+/// Box-filters a picture over black down to `columns` × `rows`.
+///
+/// Squares of the codes stand in for linear light: a gamma of 2 is close enough to sRGB here.
 fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     let range = |at: u32, of: u32, side: u32| {
         let bound = |at: u32| (u64::from(at) * u64::from(side) / u64::from(of)) as u32;
@@ -64,13 +66,18 @@ fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     shrunk
 }
 
-/// As many columns as fit, and the rows that go with them; `cells` is how many rows a column is wide.
+/// The columns and rows that fit; `cells` is the width of a column in rows (0.5 for characters).
+///
+/// At most 400 of each, and no more columns than the picture has pixels.
 fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
     let columns = columns.clamp(1, 400).min(picture.width.max(1));
     let ratio = f64::from(picture.height) / f64::from(picture.width.max(1));
     (columns, ((f64::from(columns) * ratio * cells + 0.5) as u32).clamp(1, 400))
 }
 
+/// The picture as upper half blocks: foreground and background color are two pixels of a cell.
+///
+/// A cell of a terminal is about twice as high as wide, so the pixels are square.
 fn half_blocks(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 1.0);
     let rows = rows.next_multiple_of(2);
@@ -79,7 +86,7 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
     for pair in pixels.chunks_exact(2 * columns as usize) {
         let (upper, lower) = pair.split_at(columns as usize);
         for ([r, g, b], [s, h, c]) in upper.iter().zip(lower) {
-            // Writing to a text does not fail.
+            // Writing to a `String` cannot fail.
             let _ = write!(text, "\x1b[38;2;{r};{g};{b};48;2;{s};{h};{c}m▀");
         }
         text.push_str("\x1b[0m\n");
@@ -87,12 +94,13 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
     text
 }
 
+/// The picture as characters of [`ASCII_RAMP`], by luminance.
 fn ascii_art(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 0.5);
     let mut text = String::new();
     for row in downsample(picture, columns, rows).chunks_exact(columns as usize) {
         text.extend(row.iter().map(|[r, g, b]| {
-            // The luma of Rec. 709, in whole numbers.
+            // Luma of Rec. 709 in 16-bit fixed point.
             let luma =
                 (13_933 * u32::from(*r) + 46_871 * u32::from(*g) + 4732 * u32::from(*b)) >> 16;
             char::from(ASCII_RAMP[(luma as usize * ASCII_RAMP.len() / 256).min(9)])
@@ -102,7 +110,7 @@ fn ascii_art(picture: &Picture, columns: u32) -> String {
     text
 }
 
-/// Commands of kitty's protocol that transmit a PNG and show it.
+/// Commands of kitty's graphics protocol that transmit and display a PNG, in chunks.
 fn kitty_graphics(picture: &Picture, columns: u32) -> String {
     let (cells, _) = fit_columns(picture, columns, 0.5);
     let small;
@@ -123,7 +131,7 @@ fn kitty_graphics(picture: &Picture, columns: u32) -> String {
         let head = if number == 0 { format!("a=T,f=100,c={cells},") } else { String::new() };
         let more = u8::from(number != last);
         let chunk = String::from_utf8_lossy(chunk);
-        // Writing to a text does not fail.
+        // Writing to a `String` cannot fail.
         let _ = write!(text, "\x1b_G{head}m={more};{chunk}\x1b\\");
     }
     text.push('\n');
@@ -134,7 +142,7 @@ fn kitty_graphics(picture: &Picture, columns: u32) -> String {
 mod tests {
     use super::*;
 
-    /// White above, black below.
+    /// White upper half, black lower half.
     fn two_tone_picture() -> Picture {
         let pixels = (0..64).map(|at| [if at < 32 { 255 } else { 0 }; 3]);
         let pixels = pixels.map(|[r, g, b]| [r, g, b, 255]).collect();
@@ -142,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn halves_of_cells_have_the_colours_of_their_pixels() {
+    fn half_blocks_have_the_colors_of_their_pixels() {
         let text = half_blocks(&two_tone_picture(), 2);
         let cell = "\x1b[38;2;255;255;255;48;2;0;0;0m▀";
         assert_eq!(text, format!("{cell}{cell}\x1b[0m\n"));
@@ -150,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn graphics_are_a_png_in_commands_of_4096_characters() {
+    fn kitty_graphics_are_a_png_in_chunks_of_4096_bytes() {
         let text = kitty_graphics(&two_tone_picture(), 80);
         let data: String = text
             .split("\x1b_G")

@@ -26,7 +26,7 @@ const EYE_LIMIT: f64 = f64::MAX / 4.0;
 /// use camera::Camera;
 /// use homog::{Point, Vector};
 /// let camera = Camera::look_at(Point::new(0.0, 2.0, 5.0), Point::new(0.0, 2.0, 0.0), Vector::Y)?;
-/// let seen = camera.world_to_view().point(Point::new(1.0, 2.0, 0.0));
+/// let seen = camera.world_to_view().transform_point(Point::new(1.0, 2.0, 0.0));
 /// assert_eq!(seen, Point::new(1.0, 0.0, -5.0)); // one to the right, five ahead
 /// # Ok::<(), camera::CameraError>(())
 /// ```
@@ -178,7 +178,7 @@ impl Camera {
         self.basis.world_to_view_rotation()
     }
 
-    /// The same camera moved by `by`.
+    /// This camera, moved by `by` with its orientation unchanged.
     ///
     /// # Errors
     /// As [`Camera::new`] for the new eye.

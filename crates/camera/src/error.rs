@@ -1,4 +1,4 @@
-//! What can be wrong with a camera, each kind with the values at fault.
+//! Errors of cameras and framing, each with the values at fault.
 
 use homog::{Point, Vector, View, World};
 
@@ -85,21 +85,6 @@ pub enum CameraError {
         bottom: f64,
         /// Its upper side.
         top: f64,
-    },
-    /// A picture must have pixels.
-    #[error("a picture of {nx} x {ny} pixels has none: both numbers must be at least 1")]
-    EmptyGrid {
-        /// Pixels across.
-        nx: u32,
-        /// Pixels from top to bottom.
-        ny: u32,
-    },
-    /// The projectors run along the view plane and never meet it, or towards the viewer, or are not
-    /// finite.
-    #[error("the projectors run along {direction} in view space: z must be negative")]
-    Projectors {
-        /// Their direction as given.
-        direction: Vector<View>,
     },
     /// Two corners of the screen are the same point.
     #[error("two corners of the screen are both {corner}: it needs a width and a height")]

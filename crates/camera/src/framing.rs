@@ -12,12 +12,12 @@
 //! ```
 //!
 //! Each side of the pyramid is pushed inwards, at its own slope, until it touches a point. In
-//! coordinates along u, v, w a point (x, y, z) is left of the right side, of slope r, if
-//! x − ex ≤ r (ez − z), that is if ex + r ez ≥ x + r z: one number per side and point, and of these
-//! only the greatest, R, counts. With the least, L, for the left side we have ex + r ez ≥ R and
-//! ex + l ez ≤ L, hence ez ≥ (R − L)/(r − l): the least distance at which the width fits. The height
-//! gives another; the greater one counts, and in the other direction the picture is centred. There
-//! is no sphere around the points, no trial and no margin, and no point is cropped.
+//! coordinates along u, v, w a point (x, y, z) is left of the right side, of slope r, if x − ex ≤ r
+//! (ez − z), that is if ex + r ez ≥ x + r z: one number per side and point, and of these only the
+//! greatest, R, counts. With the least, L, for the left side we have ex + r ez ≥ R and ex + l ez ≤
+//! L, hence ez ≥ (R − L)/(r − l): the least distance at which the width fits. The height gives
+//! another; the greater one counts, and in the other direction the picture is centred. There is no
+//! sphere around the points, no trial and no margin, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
 use crate::{Basis, Camera, FramingError};
@@ -103,15 +103,15 @@ pub struct Framing {
     /// Distance of the farthest point along the gaze. Not padded: equal to `near` if the points lie
     /// in one plane.
     pub far: f64,
-    /// What the distance was decided by.
+    /// The constraint that decided the distance.
     pub constraint: FramingConstraint,
 }
 
 /// Places a camera of the given orientation so that the image of `points` just fills the frame.
 ///
-/// In the direction that [`Fit`] names the image touches both sides of the padded frame; in the
-/// other it is centred, with the same margin on both sides. `padding` is the part of the frame's
-/// width and height to be left free on every side: 0.05 is 5 per cent. For bounds pass
+/// In the direction that [`FramingConstraint`] names the image touches both sides of the padded
+/// frame; in the other it is centred, with the same margin on both sides. `padding` is the part of
+/// the frame's width and height to be left free on every side: 0.05 is 5 per cent. For bounds pass
 /// [`homog::Bounds::corners`]; the points themselves give a closer fit.
 ///
 /// A single point is framed as a cube of side 1 around it (or of a millionth of its distance from
@@ -126,10 +126,11 @@ pub struct Framing {
 /// ```
 /// use camera::{NamedView, Slopes, frame_perspective};
 /// use homog::{Bounds, Point};
-/// let cube = Bounds::of([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a cube");
+/// let cube = Bounds::from_points([[-1.0; 3], [1.0; 3]].map(Point::from)).expect("a cube");
 /// let slopes = Slopes { left: -0.5, right: 0.5, bottom: -0.5, top: 0.5 };
 /// let framing = frame_perspective(cube.corners(), NamedView::Front.basis(), slopes, 0.0)?;
-/// assert_eq!(framing.camera.eye(), Point::new(0.0, 0.0, 3.0)); // its front face, 2 wide, at distance 2
+/// // Its front face, 2 wide, is at distance 2.
+/// assert_eq!(framing.camera.eye(), Point::new(0.0, 0.0, 3.0));
 /// assert_eq!((framing.near, framing.far), (2.0, 4.0));
 /// # Ok::<(), camera::FramingError>(())
 /// ```

@@ -21,7 +21,7 @@
 //!
 //! // A camera by hand …
 //! let camera = Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::ORIGIN, Vector::Y)?;
-//! let ahead = camera.world_to_view().point(Point::ORIGIN);
+//! let ahead = camera.world_to_view().transform_point(Point::ORIGIN);
 //! assert!((ahead.z() + 61_f64.sqrt()).abs() < 1e-15);
 //!
 //! // … and one that finds its own place, with 5 per cent of the picture free on every side.
@@ -40,17 +40,15 @@
 //! | front, top, isometric … by name | [`NamedView`] |
 //! | so that all is in the picture | [`frame_perspective`], [`frame_parallel`], [`frame_oblique`] |
 //! | round a target, or on a turntable | [`Orbit`] |
-//! | yaw, pitch and roll | [`Attitude`] |
+//! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
-//! | two eyes | [`StereoRig`], and [`apex_moved`] to see how not to |
+//! | two eyes | [`StereoRig`], and [`apex_moved_view`] to see how not to |
 //! | before a screen that stands in the world | [`ScreenCorners`] |
-//!
-//! and [`Rays`] goes the other way, from the pixels of a picture into the world.
 //!
 //! # Conventions
 //!
 //! - Model and world: +y up, and things face +z, as in glTF. World and view space are right-handed.
-//! - A [`Window`] is four numbers in view space and the distance of their plane; [`Slopes`] are
+//! - A [`ViewWindow`] is four numbers in view space and the distance of their plane; [`Slopes`] are
 //!   those of the plane at distance 1. Give them to any projection.
 //! - No constructor returns a camera with NaN in it. What cannot be done is a [`CameraError`] or a
 //!   [`FramingError`] that names the values at fault and says what would do: a view-up along the
@@ -72,10 +70,10 @@ mod orbit;
 mod orientation;
 mod parallel_framing;
 mod point_coordinates;
-mod rays;
 mod screen_corners;
 mod stereo;
 mod view_projection;
+mod view_transform;
 mod window;
 
 pub use basis::Basis;
@@ -86,8 +84,14 @@ pub use named_view::{NamedView, UnknownView};
 pub use orbit::Orbit;
 pub use orientation::Orientation;
 pub use parallel_framing::{ParallelFraming, frame_oblique, frame_parallel};
-pub use rays::{PixelCenters, PixelGrid, Ray, Rays, VerticalAxis};
 pub use screen_corners::ScreenCorners;
 pub use stereo::{CameraView, StereoPair, StereoRig, apex_moved_view};
 pub use view_projection::ViewProjection;
-pub use window::Window;
+
+pub use view_transform::ViewTransform;
+pub use window::ViewWindow;
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

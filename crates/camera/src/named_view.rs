@@ -169,7 +169,7 @@ impl FromStr for NamedView {
     }
 }
 
-/// What counts when names are compared.
+/// The letters by which names are compared: lower case, without hyphens, underscores and spaces.
 fn normalized_letters(text: &str) -> impl Iterator<Item = char> {
     let filler = |c: &char| matches!(c, '-' | '_' | ' ');
     text.trim().chars().filter(move |c| !filler(c)).map(|c| c.to_ascii_lowercase())

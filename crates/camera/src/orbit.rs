@@ -19,7 +19,7 @@ use crate::{Basis, Camera, CameraError};
 use core::f64::consts::TAU;
 use homog::{Point, Vector, World};
 
-/// A place on a sphere around a target, looking at it.
+/// An orbit camera: a position on a sphere around a target, looking at it.
 ///
 /// ```
 /// use camera::Orbit;
@@ -27,12 +27,13 @@ use homog::{Point, Vector, World};
 /// let orbit = Orbit { target: Point::ORIGIN, azimuth: 0.0, elevation: 0.0, distance: 5.0 };
 /// assert_eq!(orbit.camera()?.eye(), Point::new(0.0, 0.0, 5.0)); // the front view
 /// let quarter = orbit.turntable(4).nth(1).expect("four frames");
-/// assert!((quarter.camera()?.eye() - Point::new(5.0, 0.0, 0.0)).length() < 1e-15); // from the right
+/// let from_the_right = Point::new(5.0, 0.0, 0.0);
+/// assert!((quarter.camera()?.eye() - from_the_right).length() < 1e-15);
 /// # Ok::<(), camera::CameraError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Orbit {
-    /// What the camera looks at.
+    /// The point that the camera looks at.
     pub target: Point<World>,
     /// Radians from the front (+z) towards the right (+x): the viewer walks anticlockwise as seen
     /// from above.

@@ -19,9 +19,9 @@ use homog::{Vector, World};
 /// Yaw, pitch and roll in radians.
 ///
 /// ```
-/// use camera::Attitude;
+/// use camera::Orientation;
 /// use homog::Vector;
-/// let left = Attitude { yaw: 90_f64.to_radians(), pitch: 0.0, roll: 0.0 };
+/// let left = Orientation { yaw: 90_f64.to_radians(), pitch: 0.0, roll: 0.0 };
 /// assert!((left.basis()?.gaze() + Vector::X).length() < 1e-15); // from −z to −x
 /// # Ok::<(), camera::CameraError>(())
 /// ```

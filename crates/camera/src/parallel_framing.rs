@@ -9,9 +9,9 @@
 //!       left    right
 //! ```
 //!
-//! The projectors run along the gaze (orthographic) or along any direction d that leads away from the
-//! viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z = 0, at
-//! (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
+//! The projectors run along the gaze (orthographic) or along any direction d that leads away from
+//! the viewer (oblique). A point (x, y, z) of view space has its image in the plane of the eye, z =
+//! 0, at (x − z dx/dz, y − z dy/dz). Sources: OB-1, VV-1.
 
 use crate::framing::{check_aspect, check_padding};
 use crate::point_coordinates::PointCoordinates;
@@ -59,7 +59,7 @@ pub struct ParallelFraming {
 /// ```
 /// use camera::{NamedView, frame_parallel};
 /// use homog::{Bounds, Point};
-/// let slab = Bounds::of([[0.0; 3], [8.0, 2.0, 1.0]].map(Point::from)).expect("a slab");
+/// let slab = Bounds::from_points([[0.0; 3], [8.0, 2.0, 1.0]].map(Point::from)).expect("a slab");
 /// let front = frame_parallel(slab.corners(), NamedView::Front.basis(), 2.0, 0.0)?;
 /// assert_eq!((front.left, front.right), (-4.0, 4.0));
 /// assert_eq!((front.bottom, front.top), (-2.0, 2.0));

@@ -26,7 +26,7 @@ pub(crate) struct PointCoordinates<I> {
     points: I,
     basis: Basis,
     center: Point<World>,
-    /// What is added on every side: 0, unless the points are all one.
+    /// The margin on every side: 0, unless all points coincide.
     margin: f64,
     farthest: f64,
     pub(crate) extent: Extent,

@@ -16,7 +16,7 @@
 //!
 //! Source: R. Kooima, *Generalized Perspective Projection*, 2008.
 
-use crate::{Basis, Camera, CameraError, CameraView, Window};
+use crate::{Basis, Camera, CameraError, CameraView, ViewWindow};
 use homog::{Point, Vector, World};
 
 /// Sides of a screen whose angle differs more than this from a right one, as a cosine, are refused.
@@ -37,7 +37,7 @@ impl ScreenCorners {
     /// The camera at `eye` and the window, on the screen's plane, through which it sees the world
     /// in the right places.
     ///
-    /// [`Window::at`] brings the window to the near plane wanted.
+    /// [`ViewWindow::at_distance`] brings the window to the near plane wanted.
     ///
     /// # Errors
     /// Corners or an eye that are not finite; a side of no length; sides that are not at right
@@ -66,7 +66,7 @@ impl ScreenCorners {
         if distance <= 0.0 {
             return Err(CameraError::EyeBehindScreen { distance });
         }
-        let window = Window { left: a.x(), right: b.x(), bottom: a.y(), top: c.y(), distance };
+        let window = ViewWindow { left: a.x(), right: b.x(), bottom: a.y(), top: c.y(), distance };
         window.check_perspective()?;
         Ok(CameraView { camera, window })
     }

@@ -11,16 +11,16 @@
 //! ```
 //!
 //! Both eyes look the same way; turning them inwards (toe-in) would shift things vertically. Their
-//! windows are off the axis instead: for an eye that is e to the right of the middle, each side is at
-//! l − e · distance/zero_parallax on the plane at that distance.
+//! windows are off the axis instead: for an eye that is e to the right of the middle, each side is
+//! at l − e · distance/zero_parallax on the plane at that distance.
 //!
-//! [`apex_moved`] is what one lesson's `createFrustum` does with an off-axis window instead (LW-1,
-//! misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric. The two
-//! agree on the window's plane and nowhere else, and a stereo pair made so has no plane of zero
-//! parallax where it was asked for. It is here to be compared.
+//! [`apex_moved_view`] is what one lesson's `createFrustum` does with an off-axis window instead
+//! (LW-1, misprint M12): it moves the eye to the window's middle and keeps the frustum symmetric.
+//! The two agree on the window's plane and nowhere else, and a stereo pair made so has no plane of
+//! zero parallax where it was asked for. It is here to be compared.
 
 use crate::window::{check_finite, check_positive};
-use crate::{Camera, CameraError, Window};
+use crate::{Camera, CameraError, ViewWindow};
 
 /// How far apart the eyes are and where they meet.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -38,10 +38,10 @@ pub struct CameraView {
     /// The camera.
     pub camera: Camera,
     /// Its window.
-    pub window: Window,
+    pub window: ViewWindow,
 }
 
-/// What the left and the right eye see.
+/// The views of the left and the right eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct StereoPair {
     /// The left eye.
@@ -59,16 +59,21 @@ impl StereoRig {
     /// not in front of the eye; eyes too far out.
     ///
     /// ```
-    /// use camera::{Basis, Camera, StereoRig, Window};
+    /// use camera::{Basis, Camera, StereoRig, ViewWindow};
     /// use homog::Point;
     /// let middle = Camera::new(Point::ORIGIN, Basis::WORLD)?;
-    /// let window = Window { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0, distance: 2.0 };
-    /// let pair = StereoRig { interocular: 0.5, zero_parallax: 4.0 }.pair(middle, window)?;
+    /// let window = ViewWindow { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0, distance: 2.0 };
+    /// let rig = StereoRig { interocular: 0.5, zero_parallax: 4.0 };
+    /// let pair = rig.off_axis_pair(middle, window)?;
     /// assert_eq!(pair.left.camera.eye(), Point::new(-0.25, 0.0, 0.0));
     /// assert_eq!((pair.left.window.left, pair.left.window.right), (-0.875, 1.125));
     /// # Ok::<(), camera::CameraError>(())
     /// ```
-    pub fn off_axis_pair(self, middle: Camera, window: Window) -> Result<StereoPair, CameraError> {
+    pub fn off_axis_pair(
+        self,
+        middle: Camera,
+        window: ViewWindow,
+    ) -> Result<StereoPair, CameraError> {
         check_positive("interocular distance", self.interocular)?;
         check_positive("distance of zero parallax", self.zero_parallax)?;
         window.check_perspective()?;
@@ -78,18 +83,18 @@ impl StereoRig {
         })
     }
 
-    /// The pair of [`pair`](Self::pair) with each frustum's apex moved to the middle of its window
-    /// (LW-1).
+    /// The pair of [`off_axis_pair`](Self::off_axis_pair) with each frustum's apex moved to the
+    /// middle of its window (LW-1).
     ///
     /// For comparison only: the eyes then are closer together than asked for, and their pictures
     /// meet elsewhere.
     ///
     /// # Errors
-    /// As [`pair`](Self::pair).
+    /// As [`off_axis_pair`](Self::off_axis_pair).
     pub fn pair_apex_moved(
         self,
         middle: Camera,
-        window: Window,
+        window: ViewWindow,
     ) -> Result<StereoPair, CameraError> {
         let StereoPair { left, right } = self.off_axis_pair(middle, window)?;
         let moved = |eye: CameraView| apex_moved_view(eye.camera, eye.window);
@@ -114,11 +119,12 @@ impl StereoRig {
     fn eye_view(
         self,
         middle: Camera,
-        window: Window,
+        window: ViewWindow,
         offset: f64,
     ) -> Result<CameraView, CameraError> {
         let shift = offset * (window.distance / self.zero_parallax);
-        let window = Window { left: window.left - shift, right: window.right - shift, ..window };
+        let window =
+            ViewWindow { left: window.left - shift, right: window.right - shift, ..window };
         window.check_perspective()?;
         Ok(CameraView { camera: middle.moved(middle.u() * offset)?, window })
     }
@@ -130,12 +136,12 @@ impl StereoRig {
 ///
 /// # Errors
 /// A window that is empty, not finite or not in front of the eye; an eye too far out.
-pub fn apex_moved_view(camera: Camera, window: Window) -> Result<CameraView, CameraError> {
+pub fn apex_moved_view(camera: Camera, window: ViewWindow) -> Result<CameraView, CameraError> {
     window.check_perspective()?;
-    let Window { left, right, bottom, top, distance } = window;
+    let ViewWindow { left, right, bottom, top, distance } = window;
     let (half_width, half_height) = ((right - left) / 2.0, (top - bottom) / 2.0);
     let (x, y) = (left / 2.0 + right / 2.0, bottom / 2.0 + top / 2.0);
     let camera = camera.moved(camera.u() * x + camera.v() * y)?;
     let (left, right, bottom, top) = (-half_width, half_width, -half_height, half_height);
-    Ok(CameraView { camera, window: Window { left, right, bottom, top, distance } })
+    Ok(CameraView { camera, window: ViewWindow { left, right, bottom, top, distance } })
 }

@@ -9,7 +9,8 @@ use homog::{Clip, HPoint, Projective, View, World};
 pub struct ViewProjection {
     /// The camera.
     pub camera: Camera,
-    /// The projection in the pipeline's convention: the chapter's canonical volume with w > 0 in front (PE-3).
+    /// The projection in the pipeline's convention: the chapter's canonical volume with w > 0 in
+    /// front (PE-3).
     pub view_to_clip: Projective<View, Clip>,
 }
 
@@ -20,9 +21,11 @@ impl ViewProjection {
         self.camera.world_to_view().then_project(self.view_to_clip)
     }
 
-    /// Where the viewer is: the eye, or in a parallel projection the direction towards it, a point at infinity.
+    /// Where the viewer is: the eye, or in a parallel projection the direction towards it, a point
+    /// at infinity.
     ///
-    /// It is the one point that has no image: the rows of x, y and w of the matrix all give 0 for it.
+    /// It is the one point that has no image: the rows of x, y and w of the matrix all give 0 for
+    /// it.
     #[must_use]
     pub fn viewer(&self) -> HPoint<World> {
         let viewer = self.blind_point();
@@ -33,15 +36,17 @@ impl ViewProjection {
         HPoint::from_raw(if viewer.w == 0.0 { viewer } else { viewer / viewer.w })
     }
 
-    /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom and top) exchanged.
+    /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom
+    /// and top) exchanged.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.blind_point().dot(self.viewer().raw()) > 0.0
     }
 
-    /// The point without an image, as the product of the rows of x, y and w in four dimensions: the determinant of three
-    /// points and this one is that of (x, y, w) of their images. View space looks along −z while w grows ahead, so the
-    /// product points away from the viewer unless the picture is mirrored.
+    /// The point without an image, as the product of the rows of x, y and w in four dimensions: the
+    /// determinant of three points and this one is that of (x, y, w) of their images. View space
+    /// looks along −z while w grows ahead, so the product points away from the viewer unless the
+    /// picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();
         let rows = [m.row(0), m.row(1), m.row(3)];

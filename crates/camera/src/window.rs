@@ -16,7 +16,7 @@ const WINDOW_LIMIT: f64 = 1e290;
 
 /// A rectangle on the plane at `distance` in front of an eye, in view space.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Window {
+pub struct ViewWindow {
     /// Left side: x in view space.
     pub left: f64,
     /// Right side. Less than `left` in a mirrored picture.
@@ -29,7 +29,7 @@ pub struct Window {
     pub distance: f64,
 }
 
-impl Window {
+impl ViewWindow {
     /// The window on the plane at another distance that is seen under the same angles.
     ///
     /// # Errors
@@ -37,9 +37,9 @@ impl Window {
     /// finite, then or before.
     ///
     /// ```
-    /// use camera::Window;
-    /// let window = Window { left: -1.0, right: 3.0, bottom: -1.0, top: 1.0, distance: 2.0 };
-    /// assert_eq!(window.at(1.0)?.right, 1.5);
+    /// use camera::ViewWindow;
+    /// let window = ViewWindow { left: -1.0, right: 3.0, bottom: -1.0, top: 1.0, distance: 2.0 };
+    /// assert_eq!(window.at_distance(1.0)?.right, 1.5);
     /// # Ok::<(), camera::CameraError>(())
     /// ```
     pub fn at_distance(self, distance: f64) -> Result<Self, CameraError> {
@@ -59,7 +59,7 @@ impl Window {
     /// The slopes of the four sides: the window on the plane at distance 1.
     ///
     /// # Errors
-    /// As [`at`](Self::at).
+    /// As [`at_distance`](Self::at_distance).
     pub fn slopes(self) -> Result<Slopes, CameraError> {
         let Self { left, right, bottom, top, .. } = self.at_distance(1.0)?;
         Ok(Slopes { left, right, bottom, top })
@@ -86,7 +86,7 @@ impl Window {
         Ok(())
     }
 
-    /// As [`check`](Self::check), and the window must be in front of the eye.
+    /// As [`check_edges`](Self::check_edges), and the window must be in front of the eye.
     pub(crate) fn check_perspective(self) -> Result<(), CameraError> {
         self.check_edges()?;
         check_positive("distance of the window", self.distance)
@@ -98,9 +98,9 @@ impl Slopes {
     ///
     /// # Errors
     /// A distance that is not positive and finite; slopes that are not finite or coincide.
-    pub fn at_distance(self, distance: f64) -> Result<Window, CameraError> {
+    pub fn at_distance(self, distance: f64) -> Result<ViewWindow, CameraError> {
         let Self { left, right, bottom, top } = self;
-        Window { left, right, bottom, top, distance: 1.0 }.at_distance(distance)
+        ViewWindow { left, right, bottom, top, distance: 1.0 }.at_distance(distance)
     }
 }
 

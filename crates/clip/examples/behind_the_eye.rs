@@ -1,7 +1,7 @@
 //! Why clipping comes before the divide: a rail that runs from ahead of the camera to behind it.
 //!
-//! Run it with `cargo run -p clip --example behind_the_eye`. It prints where the ends of the rail come out, once
-//! divided right away and once clipped first, and draws both pictures.
+//! Run it with `cargo run -p clip --example behind_the_eye`. It prints where the ends of the rail
+//! come out, once divided right away and once clipped first, and draws both pictures.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use clip::{Volume, clip_segment};
@@ -12,7 +12,8 @@ const WIDTH: usize = 41;
 const HEIGHT: usize = 13;
 
 fn main() {
-    // The chapter's perspective with w > 0 in front of the eye (PE-3): window [−1, 1]², n = −1, f = −9.
+    // The chapter's perspective with w > 0 in front of the eye (PE-3): window [−1, 1]², n = −1, f =
+    // −9.
     let view_to_clip = Projective::<View, Clip>::from_rows([
         [1.0, 0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0, 0.0],

@@ -1,18 +1,21 @@
 //! Arrays of points: projected and given outcodes in one pass.
 //!
-//! Most meshes are wholly visible or wholly hidden. [`Extent`] tells in two comparisons, and the triangles of the
-//! rest are sorted by the outcodes of their corners before any of them is cut:
+//! Most meshes are wholly visible or wholly hidden. [`OutcodeSummary`] tells in two comparisons,
+//! and the triangles of the rest are sorted by the outcodes of their corners before any of them is
+//! cut:
 //!
 //! ```
-//! use clip::{Extent, Outcode, Volume};
+//! use clip::{OutcodeSummary, Outcode, Volume};
 //! use homog::{Clip, HPoint, Model, Projective};
 //! let model_to_clip = Projective::<Model, Clip>::from_raw(glam::DMat4::IDENTITY);
 //! let positions = [[0.0_f32, 0.0, 0.0], [0.5, 0.5, 0.5], [3.0, 0.0, 0.0]];
 //! let mut points = [HPoint::<Clip>::new(0.0, 0.0, 0.0, 1.0); 3];
 //! let mut outcodes = [Outcode::INSIDE; 3];
-//! let extent = Volume::CHAPTER.project(model_to_clip, &positions, &mut points, &mut outcodes);
-//! assert!(!extent.is_inside() && !extent.is_outside()); // look at single triangles
-//! assert_eq!(extent.count, 3);
+//! let volume = Volume::CHAPTER;
+//! let summary =
+//!     volume.project_positions(model_to_clip, &positions, &mut points, &mut outcodes);
+//! assert!(!summary.is_inside() && !summary.is_outside()); // look at single triangles
+//! assert_eq!(summary.count, 3);
 //! ```
 
 use crate::{Outcode, Volume};
@@ -39,7 +42,8 @@ impl OutcodeSummary {
         self.any_outside.is_inside()
     }
 
-    /// True if all points are on the outer side of one plane, and with them all that lies between them.
+    /// True if all points are on the outer side of one plane, and with them all that lies between
+    /// them.
     #[must_use]
     pub fn is_outside(&self) -> bool {
         !self.all_outside.is_inside()
@@ -63,15 +67,16 @@ impl Volume {
         points: &[HPoint<Clip>],
         outcodes: &mut [Outcode],
     ) -> OutcodeSummary {
-        let mut extent = OutcodeSummary::EMPTY;
+        let mut summary = OutcodeSummary::EMPTY;
         for (point, code) in points.iter().zip(outcodes) {
             *code = self.outcode(*point);
-            extent.add_outcode(*code);
+            summary.add_outcode(*code);
         }
-        extent.finish()
+        summary.finish()
     }
 
-    /// Projects many positions in f64 and gives them outcodes. It goes as far as the shortest of the slices.
+    /// Projects many positions in f64 and gives them outcodes. It goes as far as the shortest of
+    /// the slices.
     pub fn project_positions<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -79,19 +84,20 @@ impl Volume {
         points: &mut [HPoint<Clip>],
         outcodes: &mut [Outcode],
     ) -> OutcodeSummary {
-        let mut extent = OutcodeSummary::EMPTY;
+        let mut summary = OutcodeSummary::EMPTY;
         for ((position, point), code) in positions.iter().zip(points).zip(outcodes) {
             *point = source_to_clip.transform_point(Point::from(position.map(f64::from)));
             *code = self.outcode(*point);
-            extent.add_outcode(*code);
+            summary.add_outcode(*code);
         }
-        extent.finish()
+        summary.finish()
     }
 
-    /// Projects many positions in f32: half the memory, about seven digits. For previews and bounds; what decides about
-    /// pixels goes by [`Self::project`].
+    /// Projects many positions in f32: half the memory, about seven digits. For previews and
+    /// bounds; what decides about pixels goes by [`Self::project_positions`].
     ///
-    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same everywhere.
+    /// Every coordinate is ((x·m₀ + y·m₁) + z·m₂) + m₃ in this order, so that the bits are the same
+    /// everywhere.
     pub fn project_positions_f32<S: Space>(
         &self,
         source_to_clip: Projective<S, Clip>,
@@ -100,15 +106,15 @@ impl Volume {
         outcodes: &mut [Outcode],
     ) -> OutcodeSummary {
         let [a, b, c, d] = matrix_columns_f32(source_to_clip);
-        let mut extent = OutcodeSummary::EMPTY;
+        let mut summary = OutcodeSummary::EMPTY;
         for ((&[x, y, z], point), code) in positions.iter().zip(points).zip(outcodes) {
             for i in 0..4 {
                 point[i] = ((x * a[i] + y * b[i]) + z * c[i]) + d[i];
             }
             *code = self.outcode(HPoint::from(point.map(f64::from)));
-            extent.add_outcode(*code);
+            summary.add_outcode(*code);
         }
-        extent.finish()
+        summary.finish()
     }
 }
 
@@ -144,8 +150,8 @@ mod tests {
         let (mut codes, mut again, mut rough) =
             ([Outcode::INSIDE; 64], [Outcode::INSIDE; 64], [Outcode::INSIDE; 64]);
         let volume = Volume::CHAPTER.with_guard_band(2.0, 1.5).expect("allowed").without_far();
-        let extent = volume.project_positions(wide(), &positions, &mut points, &mut codes);
-        assert_eq!(volume.compute_outcodes(&points, &mut again), extent);
+        let summary = volume.project_positions(wide(), &positions, &mut points, &mut codes);
+        assert_eq!(volume.compute_outcodes(&points, &mut again), summary);
         volume.project_positions_f32(wide(), &positions, &mut narrow, &mut rough);
         for i in 0..64 {
             let expected = wide().transform_point(Point::from(positions[i].map(f64::from)));
@@ -156,7 +162,7 @@ mod tests {
         }
         let some = codes.iter().fold(Outcode::INSIDE, |all, &code| all | code);
         assert_eq!(
-            (extent.count, extent.any_outside, extent.all_outside),
+            (summary.count, summary.any_outside, summary.all_outside),
             (64, some, Outcode::trivially_rejects(&codes))
         );
     }
@@ -164,13 +170,13 @@ mod tests {
     #[test]
     fn slices_of_different_lengths_go_as_far_as_the_shortest() {
         let mut points = [HPoint::new(0.0, 0.0, 0.0, 0.0); 2];
-        let extent = Volume::OPENGL.project_positions(
+        let summary = Volume::OPENGL.project_positions(
             wide(),
             &[[0.0; 3]; 5],
             &mut points,
             &mut [Outcode::INSIDE; 1],
         );
-        assert_eq!(extent.count, 1);
+        assert_eq!(summary.count, 1);
         let nothing = Volume::OPENGL.compute_outcodes(&[], &mut [Outcode::INSIDE; 1]);
         assert!(nothing.is_inside() && !nothing.is_outside());
     }

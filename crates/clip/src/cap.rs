@@ -8,18 +8,20 @@
 //!   └───────────────┘
 //! ```
 //!
-//! Only the points of the outline are used as corners, so that the cap meets the sides of the solid without cracks.
+//! Only the points of the outline are used as corners, so that the cap meets the sides of the solid
+//! without cracks.
 
 use crate::Outline;
 use alloc::vec::Vec;
 use homog::{Plane, Point, Space};
 
 impl<S: Space> Outline<S> {
-    /// The triangles of the cut face, as seen from the side that was cut away: counter-clockwise there, with the
-    /// plane's normal pointing away from the viewer.
+    /// The triangles of the cut face, as seen from the side that was cut away: counter-clockwise
+    /// there, with the plane's normal pointing away from the viewer.
     ///
-    /// What lies within an odd number of loops is filled, whichever way they run; loops that cross each other, which
-    /// those of a solid do not, come out covered in part. The time grows with the square of the number of points.
+    /// Even-odd rule: areas within an odd number of loops are filled, in either direction; loops
+    /// that cross each other, which those of a solid do not, come out covered in part. The time
+    /// grows with the square of the number of points.
     ///
     /// ```
     /// use clip::Outline;
@@ -27,7 +29,7 @@ impl<S: Space> Outline<S> {
     /// let corner = |x: f64, y: f64| Point::<World>::new(x, y, 0.0);
     /// let square = |r: f64| vec![corner(-r, -r), corner(r, -r), corner(r, r), corner(-r, r)];
     /// let frame = Outline { loops: vec![square(2.0), square(1.0)], open: vec![] };
-    /// let cap = frame.cap(Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0)));
+    /// let cap = frame.triangulate_cap(Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, -1.0)));
     /// let area = |[a, b, c]: [Point<World>; 3]| (b - a).cross(c - a).z() / 2.0;
     /// assert_eq!(cap.into_iter().map(area).sum::<f64>(), 16.0 - 4.0);
     /// ```
@@ -43,8 +45,8 @@ impl<S: Space> Outline<S> {
     }
 }
 
-/// All points of the outline in two coordinates of the plane, turned so that they are seen from the side that was cut
-/// away.
+/// All points of the outline in two coordinates of the plane, turned so that they are seen from the
+/// side that was cut away.
 struct PlanarPoints {
     points: Vec<[f64; 2]>,
 }
@@ -53,7 +55,8 @@ struct PlanarPoints {
 type VertexRing = Vec<usize>;
 
 impl PlanarPoints {
-    /// Leaves out the axis nearest to the normal, and swaps the others if the view would be from the wrong side.
+    /// Leaves out the axis nearest to the normal, and swaps the others if the view would be from
+    /// the wrong side.
     fn project_loops<S: Space>(loops: &[Vec<Point<S>>], plane: Plane<S>) -> Self {
         let normal = plane.normal().raw().to_array();
         let size = normal.map(f64::abs);
@@ -85,7 +88,8 @@ impl PlanarPoints {
         })
     }
 
-    /// One ring for each outline that is not a hole, counter-clockwise, with its holes joined to it.
+    /// One ring for each outline that is not a hole, counter-clockwise, with its holes joined to
+    /// it.
     fn outer_rings<S: Space>(&self, loops: &[Vec<Point<S>>]) -> Vec<VertexRing> {
         let mut start = 0;
         let numbered = loops.iter().map(|points| {
@@ -114,7 +118,8 @@ impl PlanarPoints {
         ring
     }
 
-    /// Joins holes to their outline, the rightmost first, so that no bridge crosses a hole that is still to come.
+    /// Joins holes to their outline, the rightmost first, so that no bridge crosses a hole that is
+    /// still to come.
     fn join_holes(&self, mut outline: VertexRing, mut holes: Vec<VertexRing>) -> VertexRing {
         let x = |&i: &usize| self.points[i][0];
         for hole in &mut holes {
@@ -138,8 +143,9 @@ impl PlanarPoints {
         outline
     }
 
-    /// The place in the outline of a corner that can be seen from a point inside: going right from the point, the
-    /// nearer end of the first edge that is met, or a corner that stands in the way of seeing it.
+    /// The place in the outline of a corner that can be seen from a point inside: going right from
+    /// the point, the nearer end of the first edge that is met, or a corner that stands in the way
+    /// of seeing it.
     fn find_bridge(&self, outline: &[usize], point: usize) -> Option<usize> {
         let [x, y] = self.points[point];
         let mut nearest: Option<(f64, usize)> = None;
@@ -159,8 +165,8 @@ impl PlanarPoints {
         Some(self.blocking_vertex(outline, point, meets, end).unwrap_or(end))
     }
 
-    /// Of the corners within the triangle from the point to the edge met and to the edge's end, the one seen at the
-    /// smallest angle from straight right.
+    /// Of the corners within the triangle from the point to the edge met and to the edge's end, the
+    /// one seen at the smallest angle from straight right.
     fn blocking_vertex(
         &self,
         outline: &[usize],
@@ -191,7 +197,8 @@ impl PlanarPoints {
         let (mut at, mut refused) = (0, 0);
         while ring.len() > 2 {
             at %= ring.len();
-            // After a whole round without an ear only flat corners are left, or the loops crossed each other.
+            // After a whole round without an ear only flat corners are left, or the loops crossed
+            // each other.
             let stuck = refused > ring.len();
             let ear = ring_corner(&ring, at);
             if stuck || self.is_ear(&ring, ear) {

@@ -1,9 +1,10 @@
 //! Clipping in homogeneous space, before the divide.
 //!
-//! Clipping makes of a shape the part of it that a volume contains. Here it comes before the divide by w, for the
-//! divide is where things go wrong: it takes points behind the eye to places in front of it. In clip space the volume
-//! is a wedge, |x| ≤ w and so on for y and z, and the picture is the line w = 1. The divide moves every point along
-//! its ray through the origin onto that line, those with w < 0 as well:
+//! Clipping makes of a shape the part of it that a volume contains. Here it comes before the divide
+//! by w, for the divide is where things go wrong: it takes points behind the eye to places in front
+//! of it. In clip space the volume is a wedge, |x| ≤ w and so on for y and z, and the picture is
+//! the line w = 1. The divide moves every point along its ray through the origin onto that line,
+//! those with w < 0 as well:
 //!
 //! ```text
 //!                 w
@@ -18,27 +19,27 @@
 //!                 │        q
 //! ```
 //!
-//! What is left of a shape inside the wedge has w > 0 and divides without further care.
+//! The part of a shape inside the wedge has w > 0 and divides without further care.
 //!
 //! | what | by | gives |
 //! | --- | --- | --- |
 //! | a point | [`clip_point`], [`Volume::outcode`] | inside or not, and which planes say no |
-//! | many points | [`Volume::project`], [`Volume::outcodes`] | outcodes, and whether all are inside or all outside |
+//! | many points | [`Volume::project_positions`] | outcodes; all inside, or all outside? |
 //! | a segment | [`clip_segment`] | its ends, their fractions of the way, the planes that cut |
 //! | a polyline | [`clip_polyline`] | unbroken runs |
 //! | a triangle | [`clip_triangle`] | a convex polygon with weights, without allocation |
 //! | a convex polygon | [`clip_convex`] | the same for any number of corners |
-//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, the outline of the cut, the cap |
+//! | a solid | [`cut_triangle`], [`Outline`] | its part behind a plane, outline and cap |
 //!
-//! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far plane, with a guard
-//! band, with planes of your own. Attributes follow by fractions and weights, which need no perspective correction at
-//! this stage. Neighbours that share an edge get the same bits where it is cut. Nothing here panics, and nothing that
-//! comes out is infinite or NaN.
+//! A [`Volume`] is a table of planes: any convention's canonical volume, with or without a far
+//! plane, with a guard band, with planes of your own. Attributes follow by fractions and weights,
+//! which need no perspective correction at this stage. Neighbours that share an edge get the same
+//! bits where it is cut. Nothing here panics, and nothing that comes out is infinite or NaN.
 //!
 //! # Example
 //! A floor tile under the camera: one corner is ahead, the others are beside and behind it.
 //! ```
-//! use clip::{Fate, PlaneIndex, Volume, clip_triangle};
+//! use clip::{PlaneOutcome, PlaneIndex, Volume, clip_triangle};
 //! use homog::{Clip, Point, Projective, View};
 //!
 //! // The chapter's perspective with w > 0 in front (PE-3): window [−1, 1]², n = −1, f = −9.
@@ -49,22 +50,23 @@
 //!     [0.0, 0.0, -1.0, 0.0],
 //! ]);
 //!
-//! let tile = [Point::new(0.0, -1.5, -6.0), Point::new(-4.0, -1.5, 2.0), Point::new(4.0, -1.5, 2.0)];
-//! let left = clip_triangle(tile.map(|corner| view_to_clip.point(corner)), &Volume::CHAPTER);
+//! let tile = [(0.0, -6.0), (-4.0, 2.0), (4.0, 2.0)].map(|(x, z)| Point::new(x, -1.5, z));
+//! let tile = tile.map(|corner| view_to_clip.transform_point(corner));
+//! let left = clip_triangle(tile, &Volume::CHAPTER);
 //!
-//! // The far corner stays. The floor leaves the picture through its lower border, 1.5 ahead of the eye.
+//! // The far corner stays. The floor leaves the picture through its lower border.
 //! assert_eq!(left.vertices().len(), 5);
 //! assert_eq!(left.vertices()[0].weights, [1.0, 0.0, 0.0]);
 //! let lowest = left.vertices()[2].point.divide().expect("visible");
 //! assert!((lowest.y() + 1.0).abs() < 1e-15);
 //!
-//! // Which plane did what?
-//! assert_eq!(left.fates.of(PlaneIndex::BOTTOM), Fate::Cut);
-//! assert_eq!(left.fates.of(PlaneIndex::FAR), Fate::Kept);
+//! // The effect of each plane.
+//! assert_eq!(left.outcomes.outcome_of(PlaneIndex::BOTTOM), PlaneOutcome::Clipped);
+//! assert_eq!(left.outcomes.outcome_of(PlaneIndex::FAR), PlaneOutcome::Accepted);
 //! ```
 //!
-//! Sources: Cohen and Sutherland (about 1967), Sutherland and Hodgman (1974), Blinn and Newell (1978), Liang and
-//! Barsky (1984); CL-1 to CL-4.
+//! Sources: Cohen and Sutherland (about 1967), Sutherland and Hodgman (1974), Blinn and Newell
+//! (1978), Liang and Barsky (1984); CL-1 to CL-4.
 #![no_std]
 
 extern crate alloc;
@@ -96,3 +98,8 @@ pub use segment::{ClippedSegment, clip_segment, segment_outcomes};
 pub use triangle::{ClipVertex, ClippedPolygon, clip_triangle};
 pub use triangle_section::{CutTriangle, SectionVertex, cut_triangle};
 pub use volume::{Volume, VolumeError};
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -112,14 +112,15 @@ impl Outcode {
         Self(self.0 & !(1 << plane.0))
     }
 
-    /// True if points with these outcodes, and all that lies between them, are inside: `a | b | … = 0`.
+    /// True if points with these outcodes, and all that lies between them, are inside: `a | b | … =
+    /// 0`.
     #[must_use]
     pub fn trivially_accepts(outcodes: &[Self]) -> bool {
         outcodes.iter().all(|code| code.is_inside())
     }
 
-    /// The planes that all of these points are outside of, `a & b & …`: if there is one, nothing between the
-    /// points is inside.
+    /// The planes that all of these points are outside of, `a & b & …`: if there is one, nothing
+    /// between the points is inside.
     #[must_use]
     pub fn trivially_rejects(outcodes: &[Self]) -> Self {
         let all = outcodes.iter().copied().reduce(|a, b| a & b);

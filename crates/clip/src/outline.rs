@@ -7,27 +7,30 @@ use homog::{Point, Space};
 /// The outline of a cut face.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outline<S: Space> {
-    /// Closed loops; the last point is joined to the first. Seen from the positive side of the plane the outer ones run
-    /// counter-clockwise and holes clockwise, if the triangles of the surface run counter-clockwise seen from outside.
+    /// Closed loops; the last point is joined to the first. Seen from the positive side of the
+    /// plane the outer ones run counter-clockwise and holes clockwise, if the triangles of the
+    /// surface run counter-clockwise seen from outside.
     pub loops: Vec<Vec<Point<S>>>,
-    /// What does not close, because the surface has a border itself. Empty for closed surfaces.
+    /// Chains that do not close, because the surface has a border. Empty for closed surfaces.
     pub open: Vec<Vec<Point<S>>>,
 }
 
 impl<S: Space> Outline<S> {
     /// Joins edges whose ends are the same numbers, as those of [`crate::CutTriangle::edge`] are.
     ///
-    /// Edges are joined end to start where possible. Where the surface is wound inconsistently they are turned round.
+    /// Edges are joined end to start where possible. Where the surface is wound inconsistently they
+    /// are turned round.
     ///
     /// ```
     /// use clip::{Outline, cut_triangle};
     /// use homog::{Normal, Plane, Point, World};
     /// let tip = Point::<World>::new(0.0, 2.0, 0.0);
-    /// let base = [(1.0, 0.0), (0.0, -1.0), (-1.0, 0.0), (0.0, 1.0)].map(|(x, z)| Point::new(x, 0.0, z));
+    /// let base = [(1.0, 0.0), (0.0, -1.0), (-1.0, 0.0), (0.0, 1.0)];
+    /// let base = base.map(|(x, z)| Point::new(x, 0.0, z));
     /// let sides = (0..4).map(|i| [base[i], base[(i + 1) % 4], tip]);
     /// let half_way = Plane::through(Point::new(0.0, 1.0, 0.0), Normal::new(0.0, -1.0, 0.0));
     /// let edges: Vec<_> = sides.filter_map(|side| cut_triangle(side, half_way).edge()).collect();
-    /// let outline = Outline::of_edges(&edges);
+    /// let outline = Outline::from_edges(&edges);
     /// assert_eq!((outline.loops.len(), outline.loops[0].len(), outline.open.len()), (1, 4, 0));
     /// ```
     #[must_use]

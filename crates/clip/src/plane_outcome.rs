@@ -1,8 +1,8 @@
-//! What each plane did: the reasons behind a result of clipping.
+//! Plane outcomes: which planes clipped or rejected a shape.
 
 use crate::{Outcode, PlaneIndex};
 
-/// What one plane did to a shape.
+/// The effect of one plane on a shape.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PlaneOutcome {
     /// The plane took nothing away.
@@ -13,18 +13,18 @@ pub enum PlaneOutcome {
     Rejected,
 }
 
-/// What every plane of a volume did to a shape.
+/// The effects of all planes of a volume on a shape.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct PlaneOutcomes {
     /// The planes that took a part away.
     pub clipped: Outcode,
-    /// The planes that took all that was left. Of several only those with the whole shape on their outer side are
-    /// named, or, if there is none, the one in whose turn nothing remained.
+    /// The planes that took all that was left. Of several only those with the whole shape on their
+    /// outer side are named, or, if there is none, the one in whose turn nothing remained.
     pub rejected: Outcode,
 }
 
 impl PlaneOutcomes {
-    /// What this plane did.
+    /// The effect of this plane.
     #[must_use]
     pub fn outcome_of(self, plane: PlaneIndex) -> PlaneOutcome {
         if self.rejected.contains(plane) {

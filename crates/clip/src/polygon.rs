@@ -6,16 +6,16 @@ use alloc::vec::Vec;
 use glam::DVec4;
 use homog::{Clip, HPoint};
 
-/// What is left of a convex polygon: a convex polygon with the same turning direction, or nothing.
+/// The visible part of a convex polygon: a convex polygon of the same winding, or nothing.
 ///
 /// # Guarantees
-/// The same as those of [`crate::ClippedPolygon`].
+/// Those of [`crate::ClippedPolygon`].
 #[derive(Clone, PartialEq, Debug)]
 pub struct ClippedConvex {
     points: Vec<HPoint<Clip>>,
     weights: Vec<f64>,
     sources: usize,
-    /// What each plane did.
+    /// The effect of each plane.
     pub outcomes: PlaneOutcomes,
 }
 
@@ -26,7 +26,8 @@ impl ClippedConvex {
         &self.points
     }
 
-    /// How much of each vertex of the source is in vertex `i`; they sum to 1. `None` if there is no such vertex.
+    /// How much of each vertex of the source is in vertex `i`; they sum to 1. `None` if there is no
+    /// such vertex.
     #[must_use]
     pub fn weights(&self, i: usize) -> Option<&[f64]> {
         self.weights.chunks_exact(self.sources.max(1)).nth(i)
@@ -50,14 +51,16 @@ impl ClippedConvex {
 
 /// The part of a convex polygon inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
-/// Every vertex of the result comes with its weights in the source, so that any attribute follows. A polygon with
-/// fewer than three vertices, or with one that is not finite, gives nothing. Concave polygons must be cut into convex
-/// ones before: here their separate parts would come out joined by a seam along the border.
+/// Every vertex of the result comes with its weights in the source, so that any attribute follows.
+/// A polygon with fewer than three vertices, or with one that is not finite, gives nothing. Concave
+/// polygons must be cut into convex ones before: here their separate parts would come out joined by
+/// a seam along the border.
 ///
 /// ```
 /// use clip::{Volume, clip_convex};
 /// use homog::HPoint;
-/// let tile = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.0, 0.5)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
+/// let tile = [(0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.0, 0.5)];
+/// let tile = tile.map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
 /// let left = clip_convex(&tile, &Volume::CHAPTER);
 /// assert_eq!(left.points()[1], HPoint::new(1.0, 0.0, 0.0, 1.0));
 /// assert_eq!(left.weights(1), Some(&[0.5, 0.5, 0.0, 0.0][..]));

@@ -17,9 +17,9 @@ pub struct PolylinePoint {
 
 /// The parts of a polyline inside a volume, in order, each an unbroken run of at least two points.
 ///
-/// Where the line goes on inside, the run goes on; dash patterns and joins can follow it. A closed line repeats its
-/// first point as its last; if that point is inside, the first and the last run meet there. Segments with an end that
-/// is not finite are left out.
+/// Where the line goes on inside, the run goes on; dash patterns and joins can follow it. A closed
+/// line repeats its first point as its last; if that point is inside, the first and the last run
+/// meet there. Segments with an end that is not finite are left out.
 ///
 /// ```
 /// use clip::{Volume, clip_polyline};

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!            ┌─────────┐
-//!   p ───────●─────────●───► q        t0 is the last of the enterings, t1 the first of the leavings;
+//!   p ───────●─────────●───► q        t0 is the last entry, t1 the first exit;
 //!        t0  │         │ t1           if t0 > t1 the segment passes by
 //!            └─────────┘
 //! ```
@@ -13,19 +13,21 @@ use core::cmp::Ordering;
 use glam::DVec4;
 use homog::{Clip, HPoint};
 
-/// What is left of a segment from p to q.
+/// The visible part of a segment from p to q.
 ///
 /// # Guarantees
-/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and lie inside the volume's box or on its border.
-/// - An end that is inside is here with its very bits. From q to p the same two points come out, bit by bit.
+/// - 0 ≤ `t0` ≤ `t1` ≤ 1; both ends are finite, have w > 0 and lie inside the volume's box or on
+///   its border.
+/// - An end that is inside is here with its very bits. From q to p the same two points come out,
+///   bit by bit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ClippedSegment {
     /// The first point that is inside.
     pub start: HPoint<Clip>,
     /// The last point that is inside. It equals `start` if only a point is left.
     pub end: HPoint<Clip>,
-    /// The fraction of the way from p to q at `start`. Attributes of the ends blended by it are right without a
-    /// further correction.
+    /// The fraction of the way from p to q at `start`. Attributes of the ends blended by it are
+    /// right without a further correction.
     pub t0: f64,
     /// The fraction at `end`.
     pub t1: f64,
@@ -54,10 +56,11 @@ impl ClippedSegment {
     }
 }
 
-/// The part of the segment from `p` to `q` inside a volume; `None` if there is none or an end is not finite.
+/// The part of the segment from `p` to `q` inside a volume; `None` if there is none or an end is
+/// not finite.
 ///
-/// It is cut before the divide, so that segments that pass w = 0, start behind the eye or end at infinity come out
-/// right.
+/// It is cut before the divide, so that segments that pass w = 0, start behind the eye or end at
+/// infinity come out right.
 ///
 /// ```
 /// use clip::{PlaneIndex, Volume, clip_segment};
@@ -78,10 +81,10 @@ pub fn clip_segment(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> Option
     VisibleSpan::new(p, q, volume).ok()?.end_points(p, q, volume)
 }
 
-/// What each plane does to the segment from `p` to `q`, for people who ask why it is cut or gone.
+/// The effect of each plane on the segment from `p` to `q`: why it is clipped or rejected.
 ///
-/// A segment that passes by a corner of the volume is rejected by two planes: it leaves through the one before it has
-/// entered through the other.
+/// A segment that passes by a corner of the volume is rejected by two planes: it leaves through the
+/// one before it has entered through the other.
 #[must_use]
 pub fn segment_outcomes(p: HPoint<Clip>, q: HPoint<Clip>, volume: &Volume) -> PlaneOutcomes {
     match VisibleSpan::new(p, q, volume) {
@@ -197,8 +200,8 @@ impl VisibleSpan {
     ) -> Option<ClippedSegment> {
         let start = self.enter.map_or(p, |enter| enter.crossing_point(q, p, volume));
         let end = self.exit.map_or(q, |exit| exit.crossing_point(p, q, volume));
-        // The zero vector is in every closed volume but is no point. A segment that ends there runs straight at the
-        // eye: all of it has the image of its other end.
+        // The zero vector is in every closed volume but is no point. A segment that ends there runs
+        // straight at the eye: all of it has the image of its other end.
         let (start, end) = match (start.w() > 0.0, end.w() > 0.0) {
             (true, true) => (start, end),
             (true, false) => (start, start),

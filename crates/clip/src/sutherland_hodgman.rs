@@ -8,8 +8,9 @@
 //!        ╲──────┼─── c              c a      cross
 //! ```
 //!
-//! A crossing is always computed from the end nearer to the plane. That is where the blend is most exact, and as two
-//! polygons that share an edge walk it in opposite directions, both get the same bits this way.
+//! A crossing is always computed from the end nearer to the plane. That is where the blend is most
+//! exact, and as two polygons that share an edge walk it in opposite directions, both get the same
+//! bits this way.
 
 use glam::DVec4;
 
@@ -21,7 +22,8 @@ pub(crate) enum RingStep {
     Cross { from: usize, to: usize, t: f64 },
 }
 
-/// Walks a ring, given the distances of its vertices from the plane, and emits the ring that is left.
+/// Walks a ring, given the distances of its vertices from the plane, and emits the ring that is
+/// left.
 pub(crate) fn clip_ring(distances: &[f64], mut emit: impl FnMut(RingStep)) {
     let count = distances.len();
     for start in 0..count {
@@ -62,7 +64,8 @@ pub(crate) fn crossing_fraction(inner: f64, outer: f64) -> EdgeFraction {
     }
 }
 
-/// A power of two that makes sums and differences of these coordinates safe from overflow: 1 for all but huge ones.
+/// A power of two that makes sums and differences of these coordinates safe from overflow: 1 for
+/// all but huge ones.
 pub(crate) fn safe_scale<'a>(points: impl IntoIterator<Item = &'a DVec4>) -> f64 {
     const HUGE: f64 = 1e290;
     let is_huge = points.into_iter().any(|p| p.abs().max_element() > HUGE);

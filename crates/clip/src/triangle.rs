@@ -21,8 +21,9 @@ const MAX_VERTICES: usize = 3 + MAX_PLANES;
 pub struct ClipVertex {
     /// Where it is, not divided. Its w is greater than 0.
     pub point: HPoint<Clip>,
-    /// How much of each vertex of the source triangle is in it; they sum to 1. Blending any attribute of the
-    /// vertices by them is right without a further correction, for the blend is made before the divide (CL-2).
+    /// How much of each vertex of the source triangle is in it; they sum to 1. Blending any
+    /// attribute of the vertices by them is right without a further correction, for the blend is
+    /// made before the divide (CL-2).
     pub weights: [f64; 3],
 }
 
@@ -38,17 +39,17 @@ impl ClipVertex {
     }
 }
 
-/// What is left of a triangle: a convex polygon with the turning direction of the triangle, or nothing.
+/// The visible part of a triangle: a convex polygon with the winding of the triangle, or nothing.
 ///
 /// # Guarantees
 /// - It has no vertices or at least three.
 /// - Every vertex is finite, inside the volume's box or on its border, and has w > 0.
-/// - Vertices of the triangle that are inside are here with their very bits, and an edge shared by two triangles is cut
-///   at the same bits in both, whichever way it runs.
+/// - Vertices of the triangle that are inside are here with their very bits, and an edge shared by
+///   two triangles is cut at the same bits in both, whichever way it runs.
 #[derive(Clone, Copy, Debug)]
 pub struct ClippedPolygon {
     ring: PolygonVertices,
-    /// What each plane did.
+    /// The effect of each plane.
     pub outcomes: PlaneOutcomes,
 }
 
@@ -97,15 +98,15 @@ impl ClippedPolygon {
 
 /// The part of a triangle inside a volume (CL-3; Sutherland and Hodgman, 1974).
 ///
-/// It is cut in homogeneous space, before the divide, so that triangles that pass behind the eye or have vertices at
-/// infinity come out right. Nothing is allocated. A triangle with a vertex that is not finite gives nothing, and so
-/// does one of which only a vertex or an edge touches the volume from outside, or that is seen edge-on from the eye
-/// itself (w = 0).
+/// It is cut in homogeneous space, before the divide, so that triangles that pass behind the eye or
+/// have vertices at infinity come out right. Nothing is allocated. A triangle with a vertex that is
+/// not finite gives nothing, and so does one of which only a vertex or an edge touches the volume
+/// from outside, or that is seen edge-on from the eye itself (w = 0).
 ///
 /// ```
 /// use clip::{Volume, clip_triangle};
 /// use homog::HPoint;
-/// let corners = [HPoint::new(-0.5, 0.0, 0.0, 1.0), HPoint::new(2.0, 0.0, 0.0, 1.0), HPoint::new(-0.5, 1.0, 0.0, 1.0)];
+/// let corners = [(-0.5, 0.0), (2.0, 0.0), (-0.5, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
 /// let left = clip_triangle(corners, &Volume::CHAPTER);
 /// assert_eq!(left.vertices().len(), 4);
 /// assert_eq!(left.vertices()[1].point, HPoint::new(1.0, 0.0, 0.0, 1.0));
@@ -143,8 +144,8 @@ fn source_vertices([a, b, c]: [HPoint<Clip>; 3]) -> [ClipVertex; 3] {
     ]
 }
 
-/// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave it out: so the
-/// fate of an edge depends on the edge alone, and a neighbour decides alike.
+/// Every plane looks at every vertex, also where the outcodes of this triangle would allow to leave
+/// it out: so the fate of an edge depends on the edge alone, and a neighbour decides alike.
 fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygon {
     let (mut one, mut other) = (VertexBuffer::default(), VertexBuffer::default());
     let (mut ring, mut rest) = (&mut one, &mut other);
@@ -166,7 +167,8 @@ fn clip_by_planes(triangle: [HPoint<Clip>; 3], volume: &Volume) -> ClippedPolygo
     for vertex in ring.vertices_mut() {
         vertex.point = HPoint::from_raw(volume.clamp_to_box(unscaled(vertex.point.raw(), scale)));
     }
-    // The zero vector is in every closed volume but is no point. Only triangles without an area in the image reach it.
+    // The zero vector is in every closed volume but is no point. Only triangles without an area in
+    // the image reach it.
     let is_point = |vertex: &ClipVertex| vertex.point.w() > 0.0;
     let ring = if ring.vertices().iter().all(is_point) {
         PolygonVertices::Clipped(*ring)
@@ -234,7 +236,8 @@ impl VertexBuffer {
         &mut self.vertices[..self.count]
     }
 
-    /// Rounding may make a ring a hair concave; only then could it outgrow its room, and loses a vertex on a line.
+    /// Rounding may make a ring a hair concave; only then could it outgrow its room, and loses a
+    /// vertex on a line.
     fn push(&mut self, vertex: ClipVertex) {
         if let Some(place) = self.vertices.get_mut(self.count) {
             *place = vertex;

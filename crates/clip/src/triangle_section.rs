@@ -4,16 +4,17 @@
 //!          ╱╲                   plane ──────────────      what is left        the cap
 //!         ╱  ╲                          ╱──────╲          of the sides      ┌──────────┐
 //!        ╱    ╲        ──►             ╱        ╲                           │  ┌────┐  │   outline
-//!       ╱──────╲                      ╱──────────╲                          │  └────┘  │   and hole
+//!       ╱──────╲                      ╱──────────╲                          │  └────┘  │ and hole
 //!                                                                           └──────────┘
 //! ```
 //!
-//! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses contributes one
-//! directed edge to the outline of the opening. Neighbours cut the edge they share at the same bits, so the edges
-//! join end to start without a tolerance, and the outline of a closed surface always closes.
+//! Cutting the triangles of a closed surface leaves it open. Every triangle that the plane crosses
+//! contributes one directed edge to the outline of the opening. Neighbours cut the edge they share
+//! at the same bits, so the edges join end to start without a tolerance, and the outline of a
+//! closed surface always closes.
 //!
-//! A corner on the plane counts as inside. So a face that lies in the plane is kept whole, and a solid that only
-//! touches the plane from inside gets no cap.
+//! A corner on the plane counts as inside. So a face that lies in the plane is kept whole, and a
+//! solid that only touches the plane from inside gets no cap.
 
 use crate::sutherland_hodgman::{EdgeFraction, RingStep, clip_ring, crossing_fraction};
 use homog::{Plane, Point, Space};
@@ -27,7 +28,7 @@ pub struct SectionVertex<S: Space> {
     pub weights: [f64; 3],
 }
 
-/// What is left of a triangle on the positive side of a plane, and its edge on the plane.
+/// The part of a triangle on the positive side of a plane, and its edge on the plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct CutTriangle<S: Space> {
     vertices: [SectionVertex<S>; 4],
@@ -42,14 +43,14 @@ impl<S: Space> CutTriangle<S> {
         &self.vertices[..self.count]
     }
 
-    /// What is left as a fan of triangles.
+    /// The part as a fan of triangles.
     pub fn triangles(&self) -> impl Iterator<Item = [SectionVertex<S>; 3]> {
         let vertices = self.vertices();
         vertices.windows(2).skip(1).map(|edge| [vertices[0], edge[0], edge[1]])
     }
 
-    /// The edge that the plane cut into the triangle, directed so that it continues the border of what is left.
-    /// `None` if the plane did not cut it.
+    /// The edge that the plane cut into the triangle, directed so that it continues the border of
+    /// what is left. `None` if the plane did not cut it.
     #[must_use]
     pub const fn edge(&self) -> Option<[Point<S>; 2]> {
         self.edge
@@ -58,14 +59,14 @@ impl<S: Space> CutTriangle<S> {
 
 /// Cuts a triangle with a plane and keeps the positive side, the one the plane's normal points to.
 ///
-/// A triangle with a corner that is not finite, or too far away for its distance from the plane to be a number, gives
-/// nothing.
+/// A triangle with a corner that is not finite, or too far away for its distance from the plane to
+/// be a number, gives nothing.
 ///
 /// ```
 /// use clip::cut_triangle;
 /// use homog::{Normal, Plane, Point, World};
 /// let floor = Plane::<World>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
-/// let corners = [Point::new(0.0, -1.0, 0.0), Point::new(1.0, 1.0, 0.0), Point::new(-1.0, 1.0, 0.0)];
+/// let corners = [(0.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Point::new(x, y, 0.0));
 /// let left = cut_triangle(corners, floor);
 /// assert_eq!(left.vertices().len(), 4);
 /// assert_eq!(left.edge(), Some([Point::new(-0.5, 0.0, 0.0), Point::new(0.5, 0.0, 0.0)]));
@@ -120,7 +121,8 @@ fn cut_edge<S: Space>(corners: [Point<S>; 3], distances: [f64; 3]) -> Option<[Po
     edge.filter(|[from, to]| from != to && from.is_finite() && to.is_finite())
 }
 
-/// The same bits as the vertex of what is left. An inner end on the plane is the crossing itself.
+/// The crossing of an edge with the plane, with the bits of the clipped vertex. An inner end on the
+/// plane is the crossing itself.
 fn edge_crossing<S: Space>(inner: (Point<S>, f64), outer: (Point<S>, f64)) -> Point<S> {
     if inner.1 == 0.0 {
         return inner.0; // The way to the outer end may be too long to be a number.

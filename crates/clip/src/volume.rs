@@ -1,7 +1,7 @@
 //! View volumes as tables of planes in clip space.
 //!
-//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. Borders belong to the volume.
-//! Conventions differ in the two rows of z only:
+//! A plane is a row (a, b, c, d); a point is inside if a x + b y + c z + d w ≥ 0. Borders belong to
+//! the volume. Conventions differ in the two rows of z only:
 //!
 //! | volume | near | far | depth near … far |
 //! | --- | --- | --- | --- |
@@ -17,7 +17,7 @@ use glam::DVec4;
 use homog::{Clip, HPoint, Plane};
 use thiserror::Error;
 
-/// What is wrong with a plane or a guard band.
+/// An error of a plane or a guard band.
 #[derive(Clone, Copy, PartialEq, Debug, Error)]
 #[non_exhaustive]
 pub enum VolumeError {
@@ -65,7 +65,8 @@ impl Volume {
     pub const CHAPTER: Self = Self::canonical(W_MINUS_Z, W_PLUS_Z);
     /// [−1, 1]³ with near at z = −1: OpenGL's volume (CL-1, GL-1).
     pub const OPENGL: Self = Self::canonical(W_PLUS_Z, W_MINUS_Z);
-    /// z in [0, 1] with near at 0: the volume of Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to D3D-6).
+    /// z in [0, 1] with near at 0: the volume of Direct3D, Vulkan, Metal and WebGPU (CL-1, D3D-1 to
+    /// D3D-6).
     pub const ZERO_ONE: Self = Self::canonical(Z, W_MINUS_Z);
     /// z in [0, 1] with near at 1: the same for reversed depth (RV-1).
     pub const ZERO_ONE_REVERSED: Self = Self::canonical(W_MINUS_Z, Z);
@@ -83,8 +84,9 @@ impl Volume {
         Self { planes, active_planes: Outcode::from_bits(BOX_BITS) }
     }
 
-    /// The same volume without its near plane: for what may begin anywhere before the eye. The planes of the sides keep w from going
-    /// below 0; what is cut off by them has w > 0 but where it passes through the eye itself.
+    /// This volume without its near plane: for geometry that may begin anywhere before the eye. The
+    /// planes of the sides keep w from going below 0; what is cut off by them has w > 0 but where
+    /// it passes through the eye itself.
     #[must_use]
     pub fn without_near(mut self) -> Self {
         self.active_planes = self.active_planes.without_plane(PlaneIndex::NEAR);
@@ -100,8 +102,9 @@ impl Volume {
 
     /// The volume with its sides moved out to |x| ≤ `kx` w and |y| ≤ `ky` w (CL-4).
     ///
-    /// Triangles that leave the image but not the band need no cutting there: the rasteriser's bounding box does it.
-    /// A band of k lets screen coordinates reach k times half the image's size from its centre.
+    /// Triangles that leave the image but not the band need no cutting there: the rasteriser's
+    /// bounding box does it. A band of k lets screen coordinates reach k times half the image's
+    /// size from its centre.
     ///
     /// # Errors
     /// [`VolumeError::GuardBand`] unless both factors are from 1 to [`Self::MAX_GUARD_BAND`].
@@ -119,10 +122,11 @@ impl Volume {
 
     /// The volume with one plane more; what is on the plane's negative side is outside.
     ///
-    /// A plane of the world comes here through [`homog::Projective::plane`].
+    /// A plane of the world comes here through [`homog::Projective::transform_plane`].
     ///
     /// # Errors
-    /// [`VolumeError::NoPlane`] if the plane has no two sides, [`VolumeError::TooManyPlanes`] if there is no room.
+    /// [`VolumeError::NoPlane`] if the plane has no two sides, [`VolumeError::TooManyPlanes`] if
+    /// there is no room.
     pub fn with_plane(mut self, plane: Plane<Clip>) -> Result<Self, VolumeError> {
         let largest = plane.raw().abs().max_element();
         if !plane.raw().is_finite() || largest == 0.0 {
@@ -142,8 +146,8 @@ impl Volume {
         self.active_planes
     }
 
-    /// The plane with this index, scaled so that its largest coefficient is 1 (or the guard band's factor);
-    /// `None` if the volume has no such plane.
+    /// The plane with this index, scaled so that its largest coefficient is 1 (or the guard band's
+    /// factor); `None` if the volume has no such plane.
     #[must_use]
     pub fn plane(&self, index: PlaneIndex) -> Option<Plane<Clip>> {
         let present = self.active_planes.contains(index);
@@ -162,7 +166,8 @@ impl Volume {
         if raw.is_finite() { self.full_outcode(raw) } else { self.active_planes }
     }
 
-    /// Whether a point is for certain inside of the six planes of the box, present or not, and finite.
+    /// Whether a point is for certain inside of the six planes of the box, present or not, and
+    /// finite.
     #[inline]
     fn is_in_box(&self, point: DVec4) -> bool {
         /// Beyond this the limit of x and y may not be a number.
@@ -176,8 +181,8 @@ impl Volume {
             & (point.w < SAFE)
     }
 
-    /// The outcode of a finite point. The sums of the box are those of [`Self::distance`] without the coefficients that
-    /// are 0; they have the right sign even where they overflow.
+    /// The outcode of a finite point. The sums of the box are those of [`Self::plane_distance`]
+    /// without the coefficients that are 0; they have the right sign even where they overflow.
     #[inline]
     fn full_outcode(&self, point: DVec4) -> Outcode {
         let [kx, ky] = [self.planes[0].w * point.w, self.planes[2].w * point.w];
@@ -209,7 +214,8 @@ impl Volume {
         added.planes().filter(outside).fold(Outcode::INSIDE, Outcode::with_plane)
     }
 
-    /// True if the point is inside or on the border, finite, and not the zero vector, which is no point.
+    /// True if the point is inside or on the border, finite, and not the zero vector, which is no
+    /// point.
     #[must_use]
     pub fn contains(&self, point: HPoint<Clip>) -> bool {
         point.w() > 0.0 && self.outcode(point).is_inside()
@@ -220,8 +226,8 @@ impl Volume {
         self.planes[index.index()].dot(point)
     }
 
-    /// Puts a computed crossing with a plane onto it exactly, if the plane is one of the box. Planes added by hand are
-    /// oblique as a rule, and have no coordinate that could be set.
+    /// Puts a computed crossing with a plane onto it exactly, if the plane is one of the box.
+    /// Planes added by hand are oblique as a rule, and have no coordinate that could be set.
     pub(crate) fn snap_to_plane(&self, index: PlaneIndex, mut point: DVec4) -> DVec4 {
         if index <= PlaneIndex::FAR {
             let (axis, plane) = (index.index() / 2, self.planes[index.index()]);
@@ -230,7 +236,8 @@ impl Volume {
         point
     }
 
-    /// Puts a point that rounding left a hair outside of the box back onto it, so that clipping is idempotent.
+    /// Puts a point that rounding left a hair outside of the box back onto it, so that clipping is
+    /// idempotent.
     pub(crate) fn clamp_to_box(&self, point: DVec4) -> DVec4 {
         let outside = self.full_outcode(point).planes();
         outside.fold(point, |point, index| self.snap_to_plane(index, point))

@@ -1,7 +1,7 @@
-//! What the sources say about clipping, and the misprints and traps that belong to it.
+//! Clipping as the sources have it, with their misprints and traps.
 //!
-//! The projection is the chapter's, in its form with w > 0 (PE-3), for n = −1, f = −9 and the window [−1, 1]²:
-//! w = −z, and near goes to depth 1, far to −1.
+//! The projection is the chapter's, in its form with w > 0 (PE-3), for n = −1, f = −9 and the
+//! window [−1, 1]²: w = −z, and near goes to depth 1, far to −1.
 
 use clip::{PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
 use glam::{DMat4, DVec4};
@@ -20,8 +20,8 @@ fn seen(x: f64, y: f64, z: f64) -> HPoint<Clip> {
     view_to_clip().transform_point(Point::new(x, y, z))
 }
 
-/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In a cube after it a point behind the eye
-/// looks visible.
+/// M28, C54: clipping is against −w ≤ x, y, z ≤ w, before the division. In a cube after it a point
+/// behind the eye looks visible.
 #[test]
 fn misprint_m28_the_cube_exists_only_after_the_division() {
     let behind = seen(0.1, 0.1, 5.0);
@@ -33,8 +33,8 @@ fn misprint_m28_the_cube_exists_only_after_the_division() {
     assert!(ahead.x() > 1.0 && clip_point(ahead, &Volume::CHAPTER).is_some());
 }
 
-/// C36, PL-2: a segment through the plane of the eye is torn by the divide. Drawn between the divided ends it covers
-/// just what is not visible; clipped first it ends where it leaves the view.
+/// C36, PL-2: a segment through the plane of the eye is torn by the divide. Drawn between the
+/// divided ends it covers just what is not visible; clipped first it ends where it leaves the view.
 #[test]
 fn a_segment_that_passes_the_eye_ends_at_the_border_of_the_view() {
     // On the floor, from three metres ahead to three metres behind.
@@ -47,7 +47,8 @@ fn a_segment_that_passes_the_eye_ends_at_the_border_of_the_view() {
     assert_eq!((end.y(), visible.exit), (-1.0, Some(PlaneIndex::BOTTOM)));
 }
 
-/// C36: z = ±ε. Just ahead of the eye and just behind it the images lie at opposite ends of the picture.
+/// C36: z = ±ε. Just ahead of the eye and just behind it the images lie at opposite ends of the
+/// picture.
 #[test]
 fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     let [ahead, behind] =
@@ -56,8 +57,8 @@ fn points_on_both_sides_of_the_eye_are_far_apart_in_the_picture() {
     assert!(clip_segment(seen(0.5, 0.5, -1e-9), seen(0.5, 0.5, 1e-9), &Volume::CHAPTER).is_none());
 }
 
-/// C31, C47: clipping in four dimensions and in the picture agree: the cut point divides to where the image leaves
-/// the square.
+/// C31, C47: clipping in four dimensions and in the picture agree: the cut point divides to where
+/// the image leaves the square.
 #[test]
 fn the_cut_before_the_division_is_the_cut_after_it() {
     let (p, q) = (seen(0.0, 0.0, -2.0), seen(6.0, 2.0, -4.0));
@@ -88,7 +89,8 @@ fn boxes_and_frusta_go_through_the_same_clipper() {
     }
 }
 
-/// A plane of the camera's space becomes one of clip space, and cuts there as it would have cut here.
+/// A plane of the camera's space becomes one of clip space, and cuts there as it would have cut
+/// here.
 #[test]
 fn planes_can_be_added_from_any_space() {
     let here = Plane::<View>::through(Point::new(0.25, 0.0, 0.0), Normal::new(-1.0, 0.0, 0.0));
@@ -99,7 +101,8 @@ fn planes_can_be_added_from_any_space() {
     assert!((left.t1 - 0.375).abs() < 1e-15, "{}", left.t1);
 }
 
-/// CL-1: the signs of M_per make w negative for what is visible. Taken as it is, everything seen would be clipped away.
+/// CL-1: the signs of M_per make w negative for what is visible. Taken as it is, everything seen
+/// would be clipped away.
 #[test]
 fn the_raw_sign_of_m_per_must_be_turned_first() {
     let raw = HPoint::<Clip>::from_raw(-seen(0.5, 0.5, -2.0).raw());
@@ -107,8 +110,8 @@ fn the_raw_sign_of_m_per_must_be_turned_first() {
     assert!(clip_point(HPoint::from_raw(-raw.raw()), &Volume::CHAPTER).is_some());
 }
 
-/// CL-1: points at infinity are directions. A line that runs to its vanishing point is visible up to the far plane,
-/// or all the way if there is none.
+/// CL-1: points at infinity are directions. A line that runs to its vanishing point is visible up
+/// to the far plane, or all the way if there is none.
 #[test]
 fn lines_to_infinity_end_at_the_far_plane_or_their_vanishing_point() {
     let ahead = view_to_clip().transform_direction(-homog::Vector::Z);

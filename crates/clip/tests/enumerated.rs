@@ -1,5 +1,6 @@
-//! Every small case there is: all triangles and segments with coordinates from five values, two of them on the borders,
-//! two outside and one in the middle, so that every way of touching, crossing and missing occurs.
+//! Every small case there is: all triangles and segments with coordinates from five values, two of
+//! them on the borders, two outside and one in the middle, so that every way of touching, crossing
+//! and missing occurs.
 //!
 //! ```text
 //!    −2  −1   0   1   2
@@ -29,9 +30,9 @@ fn signed_area(ring: &[[f64; 2]]) -> f64 {
     ring.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
 }
 
-/// The area of a triangle's part in [−1, 1]², found in another way: by integrating the length of its horizontal cuts,
-/// which is linear between the heights where something happens. It is exact on trapezoids, so that the midpoint rule
-/// is.
+/// The area of a triangle's part in [−1, 1]², found in another way: by integrating the length of
+/// its horizontal cuts, which is linear between the heights where something happens. It is exact on
+/// trapezoids, so that the midpoint rule is.
 fn area_by_cuts(corners: [[f64; 2]; 3]) -> f64 {
     let edges = [0, 1, 2].map(|i| (corners[i], corners[(i + 1) % 3]));
     let mut heights: Vec<f64> = vec![-1.0, 1.0];
@@ -98,8 +99,8 @@ fn all_triangles_with_one_corner_anywhere_in_four_dimensions_are_sound() {
     }
 }
 
-/// A segment is inside where all six tests hold; between two crossings nothing changes, so that the middles of the
-/// stretches between them tell all.
+/// A segment is inside where all six tests hold; between two crossings nothing changes, so that the
+/// middles of the stretches between them tell all.
 #[test]
 fn all_segments_agree_with_looking_at_every_stretch() {
     for n in 0..5_usize.pow(8) {

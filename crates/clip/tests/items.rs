@@ -4,7 +4,7 @@ use clip::{Outcode, PlaneIndex, Volume, clip_segment};
 use glam::{DMat4, DVec4};
 use homog::{Clip, HPoint, Point, Projective, View};
 
-/// What lies beyond one border only, with near at +1 as the chapter has it.
+/// Points beyond one border only, with near at +1 as the chapter has it.
 const BEYOND: [([f64; 3], PlaneIndex, &str); 6] = [
     ([-1.5, 0.0, 0.0], PlaneIndex::LEFT, "left"),
     ([1.5, 0.0, 0.0], PlaneIndex::RIGHT, "right"),
@@ -18,8 +18,8 @@ fn at(p: [f64; 3], w: f64) -> HPoint<Clip> {
     HPoint::new(p[0] * w, p[1] * w, p[2] * w, w)
 }
 
-/// C4, C7, C85: six planes with names bound the volume, and a point tells by itself which of them it
-/// is beyond, whatever its w.
+/// C4, C7, C85: six planes with names bound the volume, and a point tells by itself which of them
+/// it is beyond, whatever its w.
 #[test]
 fn the_canonical_volume_has_six_named_planes() {
     let volume = Volume::CHAPTER;
@@ -40,8 +40,8 @@ fn the_canonical_volume_has_six_named_planes() {
 /// How far inside of a side of the canonical frustum a place is, in the side's own measure.
 type Side = fn([f64; 3]) -> f64;
 
-/// C87: in the canonical frustum the sides are x = ±z and y = ±z, and clipping there, before depth is
-/// mapped, cuts at the same places: t = d/(d − d′) with d the distance from a side.
+/// C87: in the canonical frustum the sides are x = ±z and y = ±z, and clipping there, before depth
+/// is mapped, cuts at the same places: t = d/(d − d′) with d the distance from a side.
 #[test]
 fn clipping_in_the_canonical_frustum_cuts_at_the_same_places() {
     let (near, far) = (0.25, 1.0);

@@ -1,7 +1,9 @@
-//! Laws of clipping, on random shapes: nothing is lost, nothing is invented, nothing depends on the order of things.
+//! Laws of clipping, on random shapes: nothing is lost, nothing is invented, nothing depends on the
+//! order of things.
 //!
-//! The shapes cross w = 0, lie behind the eye, touch borders and reach far out: coordinates are drawn from a few small
-//! integers as often as from a range, so that ties and degenerate shapes are common.
+//! The shapes cross w = 0, lie behind the eye, touch borders and reach far out: coordinates are
+//! drawn from a few small integers as often as from a range, so that ties and degenerate shapes are
+//! common.
 
 use clip::{
     ClipVertex, PlaneIndex, PlaneOutcome, Volume, clip_convex, clip_point, clip_polyline,
@@ -85,7 +87,8 @@ proptest! {
         }
     }
 
-    /// D8: an edge shared by two triangles is cut at the same bits, whichever way it runs and whatever else they do.
+    /// D8: an edge shared by two triangles is cut at the same bits, whichever way it runs and
+    /// whatever else they do.
     #[test]
     fn shared_edges_are_watertight(
         edge in [moderate(), moderate()],
@@ -196,8 +199,8 @@ proptest! {
         prop_assert_eq!((again.t0, again.t1, again.enter, again.exit), (0.0, 1.0, None, None));
     }
 
-    /// Length is conserved: what lies before, inside and behind makes up the whole, and nothing before or behind is
-    /// inside.
+    /// Length is conserved: what lies before, inside and behind makes up the whole, and nothing
+    /// before or behind is inside.
     #[test]
     fn points_of_a_segment_are_inside_exactly_between_its_cuts(p in place(), q in place(), t in 0.0..1.0) {
         let inside = clip_point(p.lerp(q, t), &Volume::CHAPTER).is_some();

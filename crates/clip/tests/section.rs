@@ -1,6 +1,8 @@
-//! Section cuts of closed solids: the outline closes, nothing of the volume is lost, the cap fills the outline.
+//! Section cuts of closed solids: the outline closes, nothing of the volume is lost, the cap fills
+//! the outline.
 //!
-//! The solids are a cube, a sphere in facets, and a ring whose cuts have holes or come in two pieces.
+//! The solids are a cube, a sphere in facets, and a ring whose cuts have holes or come in two
+//! pieces.
 
 use clip::{CutTriangle, Outline, cut_triangle};
 use glam::DVec3;
@@ -32,7 +34,8 @@ fn squares(m: usize, n: usize, place: impl Fn(usize, usize) -> Point<World>) -> 
         .collect()
 }
 
-/// Eight octants of a sphere, each side divided: its triangles run counter-clockwise seen from outside.
+/// Eight octants of a sphere, each side divided: its triangles run counter-clockwise seen from
+/// outside.
 fn sphere() -> Vec<Triangle> {
     let n = 6;
     let mut triangles = Vec::new();
@@ -80,7 +83,7 @@ fn area(triangles: &[Triangle], normal: DVec3) -> f64 {
     triangles.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a).raw().dot(normal) / 2.0).sum()
 }
 
-/// What is left on the positive side, and the outline of the opening.
+/// The part on the positive side, and the outline of the opening.
 fn cut(solid: &[Triangle], plane: Plane<World>) -> (Vec<Triangle>, Outline<World>) {
     let pieces: Vec<_> = solid.iter().map(|&triangle| cut_triangle(triangle, plane)).collect();
     let left = pieces.iter().flat_map(CutTriangle::triangles);
@@ -101,7 +104,8 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
             cap.iter().all(|&t| area(&[t], -normal) > -1e-12),
             "a triangle is turned over"
         );
-        // Seen from the plane the cap is flat and adds nothing; seen from elsewhere it must close the solid.
+        // Seen from the plane the cap is flat and adds nothing; seen from elsewhere it must close
+        // the solid.
         let half = volume(&left, through);
         let closed: Vec<Triangle> = left.into_iter().chain(cap.iter().copied()).collect();
         let elsewhere = through + homog::Vector::new(3.0, -7.0, 5.0);
@@ -112,7 +116,8 @@ fn check(solid: &[Triangle], through: Point<World>, normal: DVec3) -> Result<(),
     }
     let whole = volume(solid, through);
     prop_assert!((halves - whole).abs() < 1e-9, "the halves make {halves}, not {whole}");
-    // A face in the plane is its own cap on the side of the solid, and lies on the cap of the other side.
+    // A face in the plane is its own cap on the side of the solid, and lies on the cap of the other
+    // side.
     let plane = Plane::through(through, Normal::from_raw(normal));
     let has_face =
         solid.iter().any(|t| t.iter().all(|&corner| plane.evaluate(corner).abs() < 1e-12));

@@ -1,7 +1,19 @@
-//! The canvas: pages as pictures, their strokes and fills through tiny-skia, which nothing else in the workspace names.
+//! Page rasterization: strokes and fills drawn into pictures by tiny-skia, anti-aliased.
 //!
-//! Surfaces never come here. Filling neighbouring triangles with anti-aliased paths would let the background shine
-//! through their seams, and tiny-skia breaks ties the other way round (RA-3).
+//! Only this module depends on tiny-skia. Faces are never drawn here: adjacent triangles filled
+//! with anti-aliased paths would let the background show through their seams, and tiny-skia breaks
+//! ties the other way round (RA-3).
+//!
+//! ```text
+//!   picture  ┌────────┬────────┬───┐   tiles of 4096 × 2048 pixels, from the corner
+//!            │        │        │   │
+//!            ├────────┼────────┼───┤
+//!            │    ████│████    │   │   █ a region
+//!            └────────┴────────┴───┘
+//! ```
+//!
+//! A region is drawn tile by tile, and each tile as a whole, so that pixels do not depend on the
+//! region that was asked for.
 
 use crate::{
     Cap, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, Polyline, to_millimeters,
@@ -13,16 +25,22 @@ use tiny_skia::{
     PremultipliedColorU8, Stroke, StrokeDash, Transform,
 };
 
-/// How many points a path may have before another is begun: long ones are slow to fill, and short ones cost a call each.
+/// The number of points after which a new path is begun: long paths fill slowly, short ones cost a
+/// call each.
 const MAX_PATH_POINTS: usize = 256;
 
-/// The largest piece of a picture that is drawn on at once. Coordinates are rounded from its corner on, so pixels depend on which piece
-/// they are in; as pieces are counted from the corner of the whole picture, they do not depend on the region that is wanted.
+/// Width and height of the tiles in which a picture is drawn.
+///
+/// tiny-skia rounds coordinates relative to the corner of its pixmap, so pixels depend on the tile
+/// they are in. Tiles are counted from the corner of the whole picture and so do not depend on the
+/// region.
 const TILE_SIZE: [u32; 2] = [4096, 2048];
 
 impl Page {
-    /// The page as a picture of this size in pixels, stretched to fill it; transparent where there is no paper. `None` if it
-    /// would have no pixels, or more than memory holds.
+    /// The page as a picture of this size in pixels, stretched to fill it; transparent where there
+    /// is no paper.
+    ///
+    /// `None` if the picture would have no pixels, or a side longer than [`raster::MAX_SIDE`].
     #[must_use]
     pub fn to_picture(&self, width: u32, height: u32) -> Option<Picture> {
         let whole = PixelRect::from_size(width, height);
@@ -52,7 +70,7 @@ impl Page {
     }
 }
 
-/// Draws layers of a page of 96 pixels to the inch over what is a region of a picture of this size.
+/// Draws layers of a page of 96 pixels to the inch over a region of a picture of this size.
 pub fn draw_layers_over<C: Channel>(
     picture: &mut Picture<C>,
     size: [u32; 2],
@@ -67,14 +85,15 @@ pub fn draw_layers_over<C: Channel>(
     );
 }
 
-/// The pixels of a region of a picture, to be drawn over.
+/// A region of a picture, to be drawn over.
 struct RegionCanvas<'a, C> {
     picture: &'a mut Picture<C>,
+    /// Position and size of the region in the whole picture.
     region: PixelRect,
 }
 
 impl<C: Channel> RegionCanvas<'_, C> {
-    /// Draws layers over the region, with this many pixels for a millimetre.
+    /// Draws images and layers over the region, with `scale` pixels for a millimeter in x and y.
     fn draw_tiles(
         &mut self,
         size: [u32; 2],
@@ -94,8 +113,8 @@ impl<C: Channel> RegionCanvas<'_, C> {
                 let (x, y) = (column * TILE_SIZE[0], row * TILE_SIZE[1]);
                 let width = TILE_SIZE[0].min(size[0] - x);
                 let height = TILE_SIZE[1].min(size[1] - y);
-                let piece = PixelRect { x, y, width, height };
-                self.draw_tile(piece, |canvas| {
+                let tile = PixelRect { x, y, width, height };
+                self.draw_tile(tile, |canvas| {
                     pictures.iter().for_each(|pasted| canvas.draw_image(pasted, scale));
                     layers.iter().for_each(|layer| canvas.draw_layer(layer, scale));
                 });
@@ -103,22 +122,24 @@ impl<C: Channel> RegionCanvas<'_, C> {
         }
     }
 
-    /// Draws layers over what a region has of a piece. Also what is not wanted of the piece is drawn: lines are cut at its borders, and
-    /// cut elsewhere they could be rounded to other pixels.
-    fn draw_tile(&mut self, piece: PixelRect, draw: impl FnOnce(&mut Canvas)) {
-        let Some(shown) = piece.intersection(self.region) else { return };
-        let Some(pixmap) = Pixmap::new(piece.width, piece.height) else { return };
-        let mut canvas = Canvas { pixmap, corner: [piece.x, piece.y] };
-        self.for_each_shared_pixel(shown, &mut canvas, |pixel, place| {
-            *place = C::to_canvas(*pixel)
+    /// Draws over the part of the region in one tile.
+    ///
+    /// The whole tile is drawn, also outside the region: lines are clipped at its borders, and
+    /// clipped elsewhere they could be rounded to other pixels.
+    fn draw_tile(&mut self, tile: PixelRect, draw: impl FnOnce(&mut Canvas)) {
+        let Some(shown) = tile.intersection(self.region) else { return };
+        let Some(pixmap) = Pixmap::new(tile.width, tile.height) else { return };
+        let mut canvas = Canvas { pixmap, corner: [tile.x, tile.y] };
+        self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
+            *canvas_pixel = C::to_canvas(*pixel);
         });
         draw(&mut canvas);
-        self.for_each_shared_pixel(shown, &mut canvas, |pixel, place| {
-            *pixel = C::from_canvas(*pixel, *place);
+        self.for_each_shared_pixel(shown, &mut canvas, |pixel, canvas_pixel| {
+            *pixel = C::from_canvas(*pixel, *canvas_pixel);
         });
     }
 
-    /// Goes through the pixels of a region that are on a canvas.
+    /// Calls `each` with the pixels that the region and a canvas have in common, row by row.
     fn for_each_shared_pixel(
         &mut self,
         shown: PixelRect,
@@ -131,21 +152,25 @@ impl<C: Channel> RegionCanvas<'_, C> {
         let ([left, top], [first, skipped]) = (within([region.x, region.y]), within(canvas.corner));
         let (count, high) = (shown.width as usize, shown.height as usize);
         let rows = self.picture.pixels.chunks_exact_mut(across).skip(top).take(high);
-        let places = canvas.pixmap.pixels_mut().chunks_exact_mut(width).skip(skipped);
-        for (row, places) in rows.zip(places) {
-            let places = &mut places[first..first + count];
-            for (pixel, place) in row[left..left + count].iter_mut().zip(places) {
-                each(pixel, place);
+        let canvas_pixels = canvas.pixmap.pixels_mut().chunks_exact_mut(width).skip(skipped);
+        for (row, canvas_pixels) in rows.zip(canvas_pixels) {
+            let canvas_pixels = &mut canvas_pixels[first..first + count];
+            for (pixel, canvas_pixel) in row[left..left + count].iter_mut().zip(canvas_pixels) {
+                each(pixel, canvas_pixel);
             }
         }
     }
 }
 
-/// How pixels come onto a canvas and off it. Those of 8 bits are drawn on; those of 16 stay where they are, and the drawing is laid
-/// over them.
+/// Conversion of pixels to the 8-bit canvas and back.
+///
+/// Pixels of 8 bits are drawn on. Pixels of 16 bits would lose precision: they keep their values,
+/// and the drawing is composited over them.
 trait CanvasChannel: Channel {
+    /// The pixel of the canvas under the drawing.
     fn to_canvas(pixel: [Self; 4]) -> PremultipliedColorU8;
-    fn from_canvas(pixel: [Self; 4], place: PremultipliedColorU8) -> [Self; 4];
+    /// The pixel of the picture with the drawing.
+    fn from_canvas(pixel: [Self; 4], canvas_pixel: PremultipliedColorU8) -> [Self; 4];
 }
 
 impl<C: Channel> CanvasChannel for C {
@@ -157,25 +182,32 @@ impl<C: Channel> CanvasChannel for C {
         ColorU8::from_rgba(r, g, b, alpha).premultiply()
     }
 
-    fn from_canvas(pixel: [C; 4], place: PremultipliedColorU8) -> [C; 4] {
+    fn from_canvas(pixel: [C; 4], canvas_pixel: PremultipliedColorU8) -> [C; 4] {
         if C::BITS > 8 {
-            let over = [place.red(), place.green(), place.blue(), place.alpha()];
+            let over = [
+                canvas_pixel.red(),
+                canvas_pixel.green(),
+                canvas_pixel.blue(),
+                canvas_pixel.alpha(),
+            ];
             return C::composite_under(pixel, over);
         }
-        let straight = place.demultiply();
+        let straight = canvas_pixel.demultiply();
         [straight.red(), straight.green(), straight.blue(), straight.alpha()].map(C::from_byte)
     }
 }
 
-/// A picture to draw pages on.
+/// One tile as a pixmap.
 struct Canvas {
     pixmap: Pixmap,
-    /// Where its corner is in the picture.
+    /// The position of its upper left corner in the picture.
     corner: [u32; 2],
 }
 
 impl Canvas {
-    /// Draws a layer over what is there, with this many pixels for a millimetre.
+    /// Draws the strokes and fills of a layer.
+    ///
+    /// Continuous strokes share paths; dashed ones need a path each, with a pattern of their own.
     fn draw_layer(&mut self, layer: &Layer, scale: [f64; 2]) {
         let mut paint = Paint { anti_alias: true, ..Paint::default() };
         paint.set_color(skia_color(layer.pen.ink));
@@ -197,7 +229,7 @@ impl Canvas {
                     self.pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
                 }
             }
-            // Holes must be in the path of what they are holes of.
+            // The even-odd rule applies within a path: holes must share that of their outline.
             for path in skia_paths(&group.fills, scale, self.corner, usize::MAX) {
                 let rule = FillRule::EvenOdd;
                 self.pixmap.fill_path(&path, &paint, rule, Transform::identity(), None);
@@ -205,13 +237,20 @@ impl Canvas {
         }
     }
 
-    /// Puts a picture under all lines: each pixel is the mean of what it covers.
+    /// Draws an image under all lines: each pixel is the mean of the area it covers (box filter).
+    ///
+    /// ```text
+    ///   canvas pixel ─► image columns [from, to) in real numbers, clamped to the image
+    /// ```
+    ///
+    /// The mean is weighted by area and alpha and composited over what is there, so edges of the
+    /// fill are anti-aliased.
     fn draw_image(&mut self, pasted: &PlacedImage, scale: [f64; 2]) {
         let PlacedImage { corner, size, picture, .. } = pasted;
         let (width, height) = (self.pixmap.width(), self.pixmap.height());
         let first = self.corner;
         let span = |axis: usize, side: u32, sides: u32| {
-            // Pixels of the pasted picture for one of the canvas, and where the canvas begins in it.
+            // Image pixels for one canvas pixel, and where the canvas begins in the image.
             let pixels = f64::from(side) / (f64::from(size[axis]) / 1000.0 * scale[axis]);
             let start = -f64::from(corner[axis]) / 1000.0 * scale[axis] * pixels;
             (first[axis]..first[axis] + sides).map(move |at| {
@@ -221,22 +260,24 @@ impl Canvas {
         };
         let columns: Vec<[f64; 2]> = span(0, picture.width, width).collect();
         let rows = span(1, picture.height, height);
-        let places = self.pixmap.pixels_mut().chunks_exact_mut(width as usize);
-        for (row, places) in rows.zip(places) {
-            for (column, place) in columns.iter().zip(places) {
-                let below = place.demultiply();
+        let canvas_pixels = self.pixmap.pixels_mut().chunks_exact_mut(width as usize);
+        for (row, canvas_pixels) in rows.zip(canvas_pixels) {
+            for (column, canvas_pixel) in columns.iter().zip(canvas_pixels) {
+                let below = canvas_pixel.demultiply();
                 let below = [below.red(), below.green(), below.blue(), below.alpha()];
                 let [r, g, b, alpha] = composite_over(area_mean(picture, *column, row), below);
-                *place = ColorU8::from_rgba(r, g, b, alpha).premultiply();
+                *canvas_pixel = ColorU8::from_rgba(r, g, b, alpha).premultiply();
             }
         }
     }
 }
 
+/// An ink as an opaque color of tiny-skia.
 fn skia_color([r, g, b]: Ink) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
+/// A pen as a stroke of tiny-skia, with lengths in pixels.
 fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
     let dashes = dashes.iter().map(|dash| (dash * scale) as f32).collect::<Vec<_>>();
     Stroke {
@@ -252,12 +293,16 @@ fn skia_stroke(pen: &Pen, dashes: &[f64], scale: f64) -> Stroke {
             Join::Round => LineJoin::Round,
             Join::Bevel => LineJoin::Bevel,
         },
-        // None for no dashes.
+        // `None` for an empty pattern: a continuous stroke.
         dash: StrokeDash::new(dashes, 0.0),
     }
 }
 
-/// The mean of an area of a picture: red, green and blue times alpha, and alpha, from 0 to 255; nothing beside the picture.
+/// The mean of an area of a picture: premultiplied red, green and blue, and alpha, 0 to 255;
+/// transparent outside the picture.
+///
+/// Each image pixel counts with the area it shares with the rectangle. Colors are weighted by
+/// alpha, or the color of transparent pixels would bleed into the edges.
 fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     let cells = |[from, to]: [f64; 2]| {
         let first = from as u32;
@@ -282,7 +327,11 @@ fn area_mean(picture: &Picture, columns: [f64; 2], rows: [f64; 2]) -> [f64; 4] {
     sum
 }
 
-/// A colour times its alpha over a straight one, as a straight one.
+/// Porter–Duff *over*: a premultiplied color over a straight one, as a straight one.
+///
+/// ```text
+///   α = αₐ + α_b (1 − αₐ)        c = (cₐ + c_b α_b (1 − αₐ)) / α
+/// ```
 fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
     let rest = f64::from(below[3]) * (1.0 - alpha / 255.0);
     let whole = alpha + rest;
@@ -295,7 +344,10 @@ fn composite_over([r, g, b, alpha]: [f64; 4], below: [u8; 4]) -> [u8; 4] {
     [mixed(r, below[0]), mixed(g, below[1]), mixed(b, below[2]), libm::round(whole) as u8]
 }
 
-/// The lines as paths of about so many points, in pixels.
+/// Lines as paths of about `most` points, in pixels of the canvas.
+///
+/// Coordinates are subtracted from the corner of the tile in f64 and only then rounded to f32, as
+/// tiny-skia wants them: far from the origin of a large picture f32 has no subpixel bits left.
 fn skia_paths<'a>(
     lines: impl IntoIterator<Item = &'a Polyline>,
     scale: [f64; 2],

@@ -1,4 +1,4 @@
-//! Charts: curves over an axis, as strokes on a page.
+//! Charts: curves over a linear or logarithmic axis, as strokes on a page.
 //!
 //! ```text
 //!   depth    ── normal   - - reversed
@@ -15,109 +15,140 @@ pub use axis::{Axis, Spacing};
 use super::label::{Label, TextAlign};
 use super::line_type::LineType;
 use super::page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
+use super::palette::{INK, LIGHT_GRAY};
 use axis::format_tick;
 use glam::DVec2;
 
-const INK: Ink = [26, 31, 38];
-const GRID: Ink = [222, 225, 229];
-
-/// The height of letters and the length of a tick, in millimetres.
+/// The height of letters in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
+/// The length of a tick in millimeters.
 const TICK_LENGTH: f64 = 1.0;
 
-/// The width of curves, and of axes and grid, in millimetres.
+/// The line width of curves in millimeters.
 const CURVE_WIDTH: f64 = 0.35;
+/// The line width of axes and grid in millimeters.
 const AXIS_WIDTH: f64 = 0.13;
 
-/// How long the sample of a curve is beside its name.
+/// The length of the sample of a curve in the legend, in millimeters.
 const LEGEND_SAMPLE: f64 = 9.0;
 
-/// A chart.
+/// A chart: two axes, curves, and marked values.
+///
+/// ```
+/// use drawing::{Axis, Chart, Curve, Spacing, palette};
+/// use glam::DVec2;
+///
+/// let spacing = Spacing::Linear;
+/// let axis = |title: &str, from, to| Axis { title: title.into(), from, to, spacing };
+/// let parabola = (0..=20).map(|n| f64::from(n) / 10.0).map(|x| [x, x * x]).collect();
+/// let chart = Chart {
+///     id: "parabola".into(),
+///     x: axis("x", 0.0, 2.0),
+///     y: axis("x²", 0.0, 4.0),
+///     curves: vec![Curve {
+///         id: "curve".into(),
+///         title: "x²".into(),
+///         ink: palette::BLUE,
+///         dashed: false,
+///         points: parabola,
+///     }],
+///     marks: Vec::new(),
+/// };
+/// let layers = chart.to_layers(DVec2::new(20.0, 20.0), DVec2::new(100.0, 60.0));
+/// assert!(layers.iter().any(|layer| layer.id == "parabola-curve"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Chart {
-    /// A name for programs: lower case, hyphens, unique on its page.
+    /// An identifier: lower case, hyphens, unique on its page.
     pub id: String,
-    /// The axis to the right.
+    /// The horizontal axis.
     pub x: Axis,
-    /// The axis upwards.
+    /// The vertical axis.
     pub y: Axis,
-    /// The curves.
+    /// The curves, drawn in this order.
     pub curves: Vec<Curve>,
-    /// Places of the x axis that something is to be said of.
+    /// Marked values of the x axis.
     pub marks: Vec<AxisMark>,
 }
 
 /// A curve of a chart.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Curve {
-    /// A name for programs, unique in its chart.
+    /// An identifier, unique in its chart.
     pub id: String,
-    /// A name for people.
+    /// The name in the legend.
     pub title: String,
-    /// Its colour.
+    /// The color.
     pub ink: Ink,
     /// Whether it is dashed, so that another one shows below it.
     pub dashed: bool,
-    /// The places it runs through, in units of the axes. What is beside the axes is brought to their ends.
+    /// The points it runs through, in units of the axes; clamped to their ranges.
     pub points: Vec<[f64; 2]>,
 }
 
-/// A place of the x axis that something is to be said of.
+/// A value of the x axis with a note.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AxisMark {
-    /// Where.
+    /// The value.
     pub value: f64,
-    /// What.
+    /// The note.
     pub text: String,
 }
 
-/// Where the plot is on the page.
+/// A chart with its position on the page.
 #[derive(Clone, Copy)]
 struct Plot<'a> {
     chart: &'a Chart,
-    /// The upper left corner in millimetres.
+    /// The upper left corner in millimeters.
     corner: DVec2,
+    /// Width and height in millimeters.
     size: DVec2,
 }
 
 impl Chart {
-    /// The layers of the chart; its axes take the rectangle of this upper left corner and size, in millimetres, and their
-    /// numbers and titles stand outside of it.
+    /// The layers of the chart. Its axes span the rectangle with this upper left corner and size,
+    /// in millimeters; labels are outside.
     #[must_use]
     pub fn to_layers(&self, corner: DVec2, size: DVec2) -> Vec<Layer> {
         let plot = Plot { chart: self, corner, size };
         let mut layers =
             vec![plot.grid_layer(), plot.axes_layer(), plot.marks_layer(), plot.text_layer()];
-        layers
-            .extend(self.curves.iter().enumerate().map(|(at, curve)| plot.curve_layer(at, curve)));
+        let curves = self.curves.iter().enumerate();
+        layers.extend(curves.map(|(index, curve)| plot.curve_layer(index, curve)));
         layers.retain(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty()));
         layers
     }
 }
 
 impl Plot<'_> {
+    /// A layer of the chart with these strokes.
     fn plot_layer(&self, id: &str, title: &str, pen: Pen, strokes: Vec<Polyline>) -> Layer {
         let mut layer = Layer::new(format!("{}-{id}", self.chart.id), title, pen);
         layer.groups.push(Group { strokes, ..Group::default() });
         layer
     }
 
+    /// The position of an x value on the page.
     fn page_x(&self, value: f64) -> f64 {
         self.corner.x + self.chart.x.fraction_at(value) * self.size.x
     }
 
+    /// The position of a y value on the page.
     fn page_y(&self, value: f64) -> f64 {
         self.corner.y + (1.0 - self.chart.y.fraction_at(value)) * self.size.y
     }
 
+    /// The right end of the plot.
     fn right_edge(&self) -> f64 {
         self.corner.x + self.size.x
     }
 
+    /// The lower end of the plot.
     fn bottom_edge(&self) -> f64 {
         self.corner.y + self.size.y
     }
 
+    /// A line over the height of the plot.
     fn vertical_line(&self, x: f64) -> Option<Polyline> {
         Polyline::through_points(
             &[DVec2::new(x, self.corner.y), DVec2::new(x, self.bottom_edge())],
@@ -125,6 +156,7 @@ impl Plot<'_> {
         )
     }
 
+    /// Grid lines at all ticks.
     fn grid_layer(&self) -> Layer {
         let uprights =
             self.chart.x.ticks().into_iter().filter_map(|x| self.vertical_line(self.page_x(x)));
@@ -134,9 +166,10 @@ impl Plot<'_> {
             Polyline::through_points(&ends, false)
         });
         let strokes = uprights.chain(levels).collect();
-        self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, GRID), strokes)
+        self.plot_layer("grid", "grid", Pen::solid(AXIS_WIDTH, LIGHT_GRAY), strokes)
     }
 
+    /// The two axes with their ticks.
     fn axes_layer(&self) -> Layer {
         let (low, far) = (DVec2::new(self.corner.x, self.bottom_edge()), self.right_edge());
         let cross = [self.corner, low, DVec2::new(far, low.y)];
@@ -153,6 +186,7 @@ impl Plot<'_> {
         self.plot_layer("axes", "axes", Pen::solid(AXIS_WIDTH, INK), strokes.collect())
     }
 
+    /// Dashed lines at the marked values.
     fn marks_layer(&self) -> Layer {
         let lines =
             self.chart.marks.iter().filter_map(|mark| self.vertical_line(self.page_x(mark.value)));
@@ -160,6 +194,7 @@ impl Plot<'_> {
         self.plot_layer("marks", "what is marked", pen, lines.collect())
     }
 
+    /// Numbers at the ticks, titles of the axes, notes and legend.
     fn text_layer(&self) -> Layer {
         let mut strokes = Vec::new();
         let mut write = |text: &str, at: DVec2, align: TextAlign| {
@@ -185,19 +220,20 @@ impl Plot<'_> {
             let at = DVec2::new(self.page_x(mark.value) + by, self.corner.y + LETTER_HEIGHT * 1.8);
             write(&mark.text, at, align);
         }
-        for (place, curve) in self.chart.curves.iter().enumerate() {
+        for (index, curve) in self.chart.curves.iter().enumerate() {
             write(
                 &curve.title,
-                self.legend_point(place) + DVec2::new(LEGEND_SAMPLE + 1.5, 0.0),
+                self.legend_point(index) + DVec2::new(LEGEND_SAMPLE + 1.5, 0.0),
                 TextAlign::Start,
             );
         }
         self.plot_layer("text", "numbers and names", Pen::solid(LETTER_HEIGHT * 0.1, INK), strokes)
     }
 
-    /// Where a curve is named: its sample begins there, on the baseline. The names are flush right above the plot.
-    fn legend_point(&self, place: usize) -> DVec2 {
-        let names = self.chart.curves.iter().skip(place);
+    /// The start of a curve's entry in the legend, on the baseline. The legend is flush right above
+    /// the plot.
+    fn legend_point(&self, index: usize) -> DVec2 {
+        let names = self.chart.curves.iter().skip(index);
         let width = |curve: &Curve| {
             let name = Label::new(&curve.title, DVec2::ZERO, LETTER_HEIGHT);
             LEGEND_SAMPLE + 1.5 + name.width() + 5.0
@@ -208,12 +244,13 @@ impl Plot<'_> {
         )
     }
 
-    fn curve_layer(&self, place: usize, curve: &Curve) -> Layer {
+    /// A curve, and its sample in the legend.
+    fn curve_layer(&self, index: usize, curve: &Curve) -> Layer {
         let on_page = |&[x, y]: &[f64; 2]| DVec2::new(self.page_x(x), self.page_y(y));
-        let places: Vec<DVec2> = curve.points.iter().map(on_page).collect();
-        let sample = self.legend_point(place) - DVec2::new(0.0, LETTER_HEIGHT * 0.5);
+        let points: Vec<DVec2> = curve.points.iter().map(on_page).collect();
+        let sample = self.legend_point(index) - DVec2::new(0.0, LETTER_HEIGHT * 0.5);
         let sample = [sample, sample + DVec2::new(LEGEND_SAMPLE, 0.0)];
-        let line = Polyline::through_points(&places, false);
+        let line = Polyline::through_points(&points, false);
         let strokes = line.into_iter().chain(Polyline::through_points(&sample, false)).collect();
         let line_type = if curve.dashed { LineType::Dashed } else { LineType::Continuous };
         let pen = line_type.to_pen(CURVE_WIDTH, curve.ink, Cap::Butt, Join::Round);
@@ -227,7 +264,7 @@ mod tests {
     use crate::to_millimeters;
 
     #[test]
-    fn a_curve_goes_where_the_axes_say() {
+    fn curve_points_map_through_the_axes() {
         let axis = |from: f64, to: f64, spacing| Axis { title: "t".to_owned(), from, to, spacing };
         let chart = Chart {
             id: "c".to_owned(),
@@ -245,8 +282,8 @@ mod tests {
         let layers = chart.to_layers(DVec2::new(20.0, 30.0), DVec2::new(100.0, 40.0));
         let of = |id: &str| layers.iter().find(|layer| layer.id == id).expect(id);
         let points = &of("c-k").groups[0].strokes[0].points;
-        let places: Vec<[f64; 2]> = points.iter().map(|p| to_millimeters(*p).to_array()).collect();
-        assert_eq!(places, [[20.0, 70.0], [70.0, 40.0], [120.0, 30.0]]);
+        let actual: Vec<[f64; 2]> = points.iter().map(|p| to_millimeters(*p).to_array()).collect();
+        assert_eq!(actual, [[20.0, 70.0], [70.0, 40.0], [120.0, 30.0]]);
         let mark = to_millimeters(of("c-marks").groups[0].strokes[0].points[0]);
         assert_eq!(mark, DVec2::new(70.0, 30.0));
     }

@@ -1,18 +1,42 @@
-//! Dashes that begin and end with a dash.
+//! Dash fitting: patterns scaled so that a line begins and ends with a dash.
 //!
 //! ```text
-//!   as it comes  ━━━━  ━━━━  ━━━━  ━━━━  ━        fitted  ━━━━  ━━━━  ━━━━  ━━━━
+//!   unfitted  ━━━━  ━━━━  ━━━━  ━━━━  ━        fitted  ━━━━  ━━━━  ━━━━  ━━━━
 //! ```
-//! A hidden edge should meet what it ends at with a dash, not with a gap (ISO 128-2). So the whole pattern is stretched or shrunk a
-//! little to fit a whole number of periods and one dash more into each line; a line round about gets a whole number of periods.
+//!
+//! A hidden edge should meet its ends with dashes, not with gaps (ISO 128-2). The pattern is
+//! stretched or shrunk a little so that a whole number n of periods and one more dash fit:
+//!
+//! ```text
+//!   open    length = scale · (n · period + dash)
+//!   closed  length = scale · n · period           n ≥ 2
+//! ```
+//!
+//! n is the nearest integer, so the scale stays within about 0.6 and 1.5; lines too short for that
+//! are drawn without gaps.
 
 use super::page::{Pen, Polyline};
 
-/// A line shorter than this many patterns of two dashes is drawn without a gap; so a pattern shrinks to no less.
+/// The least scale of a pattern: a line shorter than this many patterns of two dashes is drawn
+/// without gaps.
 const MIN_PATTERN_SCALE: f64 = 0.6;
 
 impl Pen {
-    /// The dashes and gaps in millimetres with which a line is drawn; none for a line without gaps.
+    /// The lengths of dashes and gaps in millimeters with which this pen draws a line; empty for a
+    /// line without gaps.
+    ///
+    /// ```
+    /// use drawing::{IsoLineGroup, LineType, Polyline};
+    /// use glam::DVec2;
+    ///
+    /// let pen = LineType::Dashed.to_pen(0.25, [0; 3], Default::default(), Default::default());
+    /// assert_eq!(pen.dashes, [3.0, 0.75]);
+    /// let line = Polyline::through_points(&[DVec2::ZERO, DVec2::new(10.0, 0.0)], false);
+    /// // Two periods and a dash: 2 · 3.75 + 3 = 10.5, so the pattern is shrunk by 10 / 10.5.
+    /// let dashes = pen.fitted_dashes(&line.expect("two points"));
+    /// assert!((dashes[0] - 3.0 * 10.0 / 10.5).abs() < 1e-12);
+    /// assert_eq!(IsoLineGroup::MM_0_5.narrow_width(), 0.25);
+    /// ```
     #[must_use]
     pub fn fitted_dashes(&self, line: &Polyline) -> Vec<f64> {
         let Some(&dash) = self.dashes.first() else { return Vec::new() };
@@ -46,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_with_the_dash_they_begin_with() {
+    fn lines_begin_and_end_with_a_dash() {
         for pattern in [&[3.0, 0.75][..], &[6.0, 0.75, 0.125, 0.75]] {
             let pen = dashed_pen(pattern);
             let period: f64 = pattern.iter().sum();
@@ -66,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_round_about_has_whole_periods() {
+    fn closed_lines_have_whole_periods() {
         let pen = dashed_pen(&[3.0, 0.75]);
         for length in [6.0, 12.0, 33.0, 240.0] {
             let fitted = pen.fitted_dashes(&test_polyline(length, true));
@@ -77,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn short_lines_and_whole_lines_have_no_gap() {
+    fn short_lines_and_continuous_pens_have_no_gaps() {
         assert!(dashed_pen(&[3.0, 0.75]).fitted_dashes(&test_polyline(3.0, false)).is_empty());
         assert!(dashed_pen(&[]).fitted_dashes(&test_polyline(300.0, false)).is_empty());
     }

@@ -1,4 +1,20 @@
-//! From a scene to its line drawing.
+//! Drawing a subject: candidate edges, hatching, hidden-line removal, face fill.
+//!
+//! ```text
+//!   models, sections ─► WeldedSurface          (once, for every view)
+//!                           │
+//!       ┌───────────────────┼───────────────────┐
+//!       ▼                   ▼                   ▼
+//!   candidate edges     hatch lines         occluders
+//!       └─────────┬─────────┘                   │
+//!                 ▼                             │
+//!            EdgeDivider ◄──────────────────────┘
+//!                 ▼
+//!   visible and hidden segments + flat fill = LineDrawing
+//! ```
+//!
+//! The surface depends on models and sections only, everything below it on the viewer too. Edges
+//! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
 use super::edges::{CandidateEdge, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_flat_fill};
@@ -9,113 +25,138 @@ use super::parallel::map_in_order;
 use super::projector::Projector;
 use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
 use crate::{DrawError, Subject};
+use camera::ViewProjection;
 use glam::DVec2;
+use viewport::Viewport;
 
-/// Draws the edges of a subject with up to `threads` threads. Their number does not change the drawing.
+/// Draws the edges of a subject with hidden-line removal, with up to `threads` threads.
+///
+/// The drawing does not depend on the number of threads.
 ///
 /// # Errors
-/// If the picture has no pixels.
+/// If the image has no pixels.
 pub fn draw(
     subject: &Subject<'_>,
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
-    let [width, height] = subject.size;
-    let projector = Projector::new(&subject.view_projection, &subject.viewport()?);
-    let mut surface = WeldedSurface::from_subject(subject);
-    let mut edges = surface.candidate_edges(&projector, options, threads);
+    subject.viewport()?;
+    let surface = WeldedSurface::new(subject.models, subject.sections);
+    draw_surface(&surface, &subject.view_projection, subject.size, options, threads)
+}
+
+/// Draws a welded surface as one camera sees it, on an image of `size` pixels.
+///
+/// A sheet draws the same surface from several sides; see [`draw`] for the rest.
+pub(crate) fn draw_surface(
+    surface: &WeldedSurface,
+    view_projection: &ViewProjection,
+    size: [u32; 2],
+    options: &DrawOptions,
+    threads: usize,
+) -> Result<LineDrawing, DrawError> {
+    let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
+    let key_light = KeyLight::new(view_projection, projector);
+    let (mut edges, is_cut_off) = surface.candidate_edges(&projector, options, threads);
     let mut warnings = surface.warnings().to_vec();
-    for hatching in hatch_surface(&surface, subject, &projector, options) {
+    warnings.extend(is_cut_off.then_some(Warning::IntersectionsIncomplete));
+    for hatching in hatch_surface(surface, &key_light, &projector, options) {
         warnings.extend(hatching.is_cut_off.then_some(Warning::HatchingIncomplete));
         let class = EdgeClass::Hatching;
-        let lines = hatching.segments.into_iter();
-        edges.extend(lines.map(|(ends, object)| CandidateEdge { ends, class, object }));
+        let segments = hatching.segments.into_iter();
+        edges.extend(segments.map(|(ends, object)| CandidateEdge { ends, class, object }));
     }
     edges.sort_by_key(|candidate| candidate.object);
     warnings.sort_unstable();
     warnings.dedup();
     let face_fill = match options.face_fill {
         FaceFill::Flat => {
-            let faces = surface.colored_faces().map(|(corners, _, color)| (corners, color));
-            Some(rasterize_flat_fill(faces, &subject.view_projection, [width, height], options)?)
+            let faces = surface.colored_faces().map(|(vertices, _, color)| (vertices, color));
+            Some(rasterize_flat_fill(faces, view_projection, size, options)?)
         }
         _ => None,
     };
-    let occluders = match options.hidden_edges {
-        HiddenEdges::Ignored => Occluders::new([], projector, surface.touch_tolerance()),
-        _ => Occluders::new(surface.occluder_triangles(), projector, surface.touch_tolerance()),
-    };
-    let drawer = EdgeDivider {
-        projector,
-        occluders,
-        retains_hidden: options.hidden_edges == HiddenEdges::Retained,
-    };
     Ok(LineDrawing {
-        size: DVec2::new(width.into(), height.into()),
-        objects: surface.into_object_names(),
-        segments: drawer.divide_edges(&edges, threads),
+        size: DVec2::from(size.map(f64::from)),
+        objects: surface.object_names().to_vec(),
+        segments: EdgeDivider::new(surface, projector, options).divide_edges(&edges, threads),
         face_fill,
         warnings,
     })
 }
 
-/// The hatching of caps, and that of all other faces if it is wanted.
+/// The hatching of section caps, and that of all other faces if the fill asks for it.
 fn hatch_surface(
     surface: &WeldedSurface,
-    subject: &Subject<'_>,
-    sight: &Projector,
+    key_light: &KeyLight,
+    projector: &Projector,
     options: &DrawOptions,
 ) -> Vec<Hatching> {
     if !options.classes.contains(EdgeClass::Hatching) {
         return Vec::new();
     }
-    let touching = surface.touch_tolerance().world;
-    let mut all =
-        vec![Hatching::hatch_caps(&surface.section_caps(), sight, options.hatch_spacing, touching)];
+    let (spacing, touching) = (options.hatch_spacing, surface.touch_tolerance().world);
+    let caps = Hatching::hatch_caps(&surface.section_caps(), projector, spacing, touching);
+    let mut hatchings = vec![caps];
     if options.face_fill == FaceFill::Hatching {
-        let key_light = KeyLight::new(&subject.view_projection, *sight);
-        let toned = surface
-            .colored_faces_without_caps()
-            .map(|(corners, object, color)| (corners, object, key_light.face_luma(corners, color)));
-        all.push(Hatching::hatch_faces_by_luma(toned, sight, options.hatch_spacing));
+        let faces = surface.colored_faces_without_caps().map(|(vertices, object, color)| {
+            (vertices, object, key_light.face_luma(vertices, color))
+        });
+        hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
     }
-    all
+    hatchings
 }
 
+/// Divides edges into visible and hidden segments against the occluders of one view.
+///
+/// Edges are independent of each other, so this is where threads are used.
 struct EdgeDivider {
     projector: Projector,
     occluders: Occluders,
+    /// Whether hidden segments are part of the drawing.
     retains_hidden: bool,
 }
 
 impl EdgeDivider {
-    /// The pieces of all edges, in the order of the edges.
+    /// A divider with the faces of a surface as occluders, or none where visibility is ignored.
+    fn new(surface: &WeldedSurface, projector: Projector, options: &DrawOptions) -> Self {
+        let tolerance = surface.touch_tolerance();
+        let occluders = match options.hidden_edges {
+            HiddenEdges::Ignored => Occluders::new([], projector, tolerance),
+            _ => Occluders::new(surface.occluder_triangles(), projector, tolerance),
+        };
+        let retains_hidden = options.hidden_edges == HiddenEdges::Retained;
+        Self { projector, occluders, retains_hidden }
+    }
+
+    /// The segments of all edges, in the order of the edges.
     fn divide_edges(&self, edges: &[CandidateEdge], threads: usize) -> Vec<EdgeSegment> {
-        map_in_order(edges.len(), threads, |range, scratch, lines| {
-            for number in range {
-                self.divide_edge(&edges[number], number as u32, scratch, lines);
+        map_in_order(edges.len(), threads, |range, scratch, segments| {
+            for index in range {
+                self.divide_edge(&edges[index], index as u32, scratch, segments);
             }
         })
     }
 
-    /// The pieces of an edge.
+    /// Pushes the visible segments of one edge, and the hidden ones if they are retained.
+    ///
+    /// Hatch lines are never drawn where they are hidden.
     fn divide_edge(
         &self,
         edge: &CandidateEdge,
         edge_index: u32,
         scratch: &mut OcclusionScratch,
-        lines: &mut Vec<EdgeSegment>,
+        segments: &mut Vec<EdgeSegment>,
     ) {
         let Some(projected) = ProjectedEdge::clip_and_project(edge.ends, &self.projector) else {
             return;
         };
         let hidden = self.occluders.hidden_intervals(&projected, scratch);
-        // Hatching is never drawn where it is hidden.
         let retains_hidden = self.retains_hidden && edge.class != EdgeClass::Hatching;
-        let pieces = hidden.divide_unit_interval().filter(|(_, hidden)| !hidden || retains_hidden);
-        lines.extend(pieces.map(|(span, hidden)| EdgeSegment {
-            ends: span.map(|s| projected.screen_at(s)),
-            depths: span.map(|s| projected.depth_at(s)),
+        let parts = hidden.divide_unit_interval().filter(|(_, hidden)| !hidden || retains_hidden);
+        segments.extend(parts.map(|(interval, hidden)| EdgeSegment {
+            ends: interval.map(|s| projected.screen_at(s)),
+            depths: interval.map(|s| projected.depth_at(s)),
             class: edge.class,
             visible: !hidden,
             object: edge.object,

@@ -1,8 +1,17 @@
-//! The edges of the models: which there are, and why each would be drawn.
+//! Feature edges of meshes: silhouettes, boundaries, creases, intersections and section outlines.
 //!
 //! ```text
-//!  primitives ─gather─► points, faces ─weld─► shared points ─sides─► edges with their faces ─classify─► edges to draw
+//!  primitives ─world_mesh─► vertices, faces ─weld─► shared vertices ─seams─► T-junctions closed
+//!                                                         │
+//!      section_cut (once for each section plane) ◄────────┤
+//!                                                         ▼
+//!                             half_edges ─classify─► edges to draw ◄─ intersections
 //! ```
+//!
+//! A file seldom says which edges a draftsman would draw. They follow from the faces at each edge,
+//! once vertices that the file split for texture coordinates or normals are welded; an edge with
+//! one face is a boundary, one between faces on both sides of the viewer a silhouette, one with a
+//! sharp angle a crease.
 
 mod classify;
 mod half_edges;

@@ -1,36 +1,39 @@
-//! Tones of faces: how light each would be in a fixed light, for hatching and for flat tones under the lines.
+//! Flat shading of faces under the lines: a fixed key light, and a z-buffer image of flat colors.
 //!
-//! A flat tone is a picture, not a drawing: faces that overlap in a circle, or cross, cannot be painted one after the other in
-//! any order, and what is seen of each would have to be cut out. So the z-buffer paints them, finer than any screen shows, and
-//! the exact lines go over it.
+//! A flat fill is an image, not vector fills: faces that overlap cyclically, or intersect, cannot
+//! be painted in any order (the painter's algorithm fails), and their visible parts would have to
+//! be cut out. So a z-buffer resolves them, at a higher resolution than any screen, and the exact
+//! lines go over it.
 
+use super::face_raster::rasterize_faces;
 use super::options::DrawOptions;
 use super::projector::Projector;
 use crate::DrawError;
 use camera::ViewProjection;
-use clip::{ClipVertex, Volume, clip_triangle};
 use glam::DVec3;
-use homog::{Point, Vector, View};
-use raster::{Frame, Opacity, Samples, ScreenVertex};
+use homog::{Vector, View};
 use shade::Picture;
 use shade::color::SrgbEncoder;
 use viewport::Viewport;
 
-/// The light that is everywhere; the rest comes from the side.
+/// The fraction of ambient light; the key light adds the rest.
 const AMBIENT_LIGHT: f64 = 0.35;
 
-/// The longest side of a picture of tones in pixels.
+/// The longest side of a fill image in pixels.
 const MAX_FILL_SIDE: f64 = 8192.0;
 
-/// The light from above the viewer's left shoulder.
+/// A directional light from above the viewer's left shoulder, fixed to the camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeyLight {
+    /// The unit vector towards the light, in world space.
     direction: DVec3,
-    sight: Projector,
+    /// For the direction to the viewer: both sides of a face are lit as the visible one.
+    projector: Projector,
 }
 
 impl KeyLight {
-    pub(super) fn new(view_projection: &ViewProjection, sight: Projector) -> Self {
+    /// The key light of a camera.
+    pub(super) fn new(view_projection: &ViewProjection, projector: Projector) -> Self {
         let towards = Vector::<View>::new(-0.5, 0.7, 0.6);
         let direction = view_projection
             .camera
@@ -38,30 +41,39 @@ impl KeyLight {
             .transform_vector(towards)
             .raw()
             .normalize_or_zero();
-        Self { direction, sight }
+        Self { direction, projector }
     }
 
-    /// The linear colour of a face whose surface has this one. Both of its sides are lit as the one that is seen.
+    /// The linear color of a face by Lambert's cosine law: base color · (ambient + (1 − ambient) ·
+    /// max(n·l, 0)).
     pub(super) fn shade_face(&self, [a, b, c]: [DVec3; 3], surface: [f32; 3]) -> [f32; 3] {
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let normal = normal * normal.dot(self.sight.towards_viewer(a)).signum();
+        let normal = normal * normal.dot(self.projector.towards_viewer(a)).signum();
         let light = AMBIENT_LIGHT + (1.0 - AMBIENT_LIGHT) * normal.dot(self.direction).max(0.0);
         surface.map(|channel| (f64::from(channel) * light) as f32)
     }
 
-    /// How light such a face looks, from 0 for black to 1 for white.
-    pub(super) fn face_luma(&self, corners: [DVec3; 3], surface: [f32; 3]) -> f64 {
-        let [r, g, b] = self.shade_face(corners, surface);
+    /// The luma of the shaded face: Rec. 709 weights on sRGB-encoded channels, 0 for black and 1
+    /// for white.
+    ///
+    /// Hatching compares it with thresholds; encoded values are nearly uniform to the eye, linear
+    /// ones are not.
+    pub(super) fn face_luma(&self, vertices: [DVec3; 3], surface: [f32; 3]) -> f64 {
+        let [r, g, b] = self.shade_face(vertices, surface);
         let code = SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]);
         let [r, g, b, _] = code.map(f64::from);
         (r * 0.2126 + g * 0.7152 + b * 0.0722) / 255.0
     }
 }
 
-/// Faces painted in one tone each: a picture of what is seen of them, transparent where there is none.
+/// Renders faces in one flat color each: an image of their visible parts, transparent where there
+/// is none.
+///
+/// The image has `fill_scale` pixels for each pixel of the drawing, but no side above
+/// [`MAX_FILL_SIDE`]; nothing is filtered, as its pixels are finer than those of the output.
 ///
 /// # Errors
-/// If the picture cannot be made.
+/// If the image has no viewport, or there are more faces than ids.
 pub(super) fn rasterize_flat_fill(
     faces: impl Iterator<Item = ([DVec3; 3], [f32; 3])>,
     view_projection: &ViewProjection,
@@ -72,25 +84,14 @@ pub(super) fn rasterize_flat_fill(
     let scale = options.fill_scale.min(MAX_FILL_SIDE / longest);
     let [width, height] = size.map(|side| (f64::from(side) * scale).ceil().max(1.0) as u32);
     let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
-    let lamp = KeyLight::new(view_projection, projector);
-    let mut frame = Frame::new(width, height, Samples::One)?;
-    let mut codes: Vec<[u8; 4]> = Vec::new();
-    for (corners, surface) in faces {
-        let id = u32::try_from(codes.len()).map_err(|_| DrawError::TooManyPrimitives)?;
-        let [r, g, b] = lamp.shade_face(corners, surface);
-        codes.push(SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]));
-        let clip = corners.map(|corner| projector.world_to_clip_point(corner));
-        for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-            let snap = |vertex: ClipVertex| {
-                let screen_point = Point::from_raw(projector.to_screen(vertex.point)?);
-                ScreenVertex::snap(screen_point, vertex.point.w())
-            };
-            if let [Some(p), Some(q), Some(r)] = piece.map(snap) {
-                frame.add_triangle([p, q, r], id, Opacity::Opaque);
-            }
-        }
-    }
-    let seen = frame.visibility_buffer().ids.into_iter();
-    let pixels = seen.map(|id| id.map_or([0; 4], |id| codes[id as usize])).collect();
+    let key_light = KeyLight::new(view_projection, projector);
+    let mut colors: Vec<[u8; 4]> = Vec::new();
+    let triangles = faces.map(|(vertices, surface)| {
+        let [r, g, b] = key_light.shade_face(vertices, surface);
+        colors.push(SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]));
+        vertices
+    });
+    let ids = rasterize_faces(triangles, &projector, [width, height])?;
+    let pixels = ids.into_iter().map(|id| id.map_or([0; 4], |id| colors[id as usize])).collect();
     Ok(Picture { width, height, pixels })
 }

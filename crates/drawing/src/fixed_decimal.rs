@@ -1,8 +1,13 @@
-//! Numbers in files: decimal, with three places at most, the shortest way to write them.
+//! Fixed-point decimals: lengths written exactly with at most three decimals, as short as possible.
 //!
-//! They are written from whole thousandths, so there is nothing to round and no locale to ask.
+//! SVG and PDF count in millimeters, pages in micrometers: a number of thousandths is written digit
+//! by digit, so nothing is rounded, no locale interferes, and both formats show the same digits.
+//! Leading and trailing zeros are omitted, as both grammars allow.
 
 /// Writes a number of thousandths: 12500 as `12.5`, −250 as `-.25`.
+///
+/// Zero is `0`; an integer part of zero is omitted otherwise. All of `i64` is written, including
+/// its least value.
 pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     if number < 0 {
         out.push(b'-');
@@ -17,16 +22,18 @@ pub(super) fn write_thousandths(out: &mut Vec<u8>, number: i64) {
     }
 }
 
-/// The number of thousandths as a text.
+/// A number of thousandths as text.
 pub(super) fn format_thousandths(number: i64) -> String {
     let mut out = Vec::new();
     write_thousandths(&mut out, number);
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// A length in millimetres to the micrometre, as a text.
-pub(super) fn format_millimeters(millimetres: f64) -> String {
-    format_thousandths(libm::round(millimetres * 1000.0) as i64)
+/// A length in millimeters, rounded to the micrometer, as text.
+///
+/// For sizes and line widths, which are not on the grid; halves round away from zero.
+pub(super) fn format_millimeters(millimeters: f64) -> String {
+    format_thousandths(libm::round(millimeters * 1000.0) as i64)
 }
 
 #[cfg(test)]

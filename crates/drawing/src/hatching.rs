@@ -1,12 +1,19 @@
-//! Hatching: lines at equal distances on the paper, laid onto faces in the world.
+//! Hatching: parallel lines at equal distances on the paper, projected back onto faces (ISO
+//! 128-50).
 //!
 //! ```text
-//!    ╱╱╱╱╱╱│╲╲╲╲╲     A line of the paper is the image of a plane through the viewer: where that plane meets a face is a
-//!   ╱╱╱╱╱╱╱│╲╲╲╲╲     segment of the world, found by the signs of a linear function at the corners. It is an edge like
-//!   ───────┴──────    any other then: clipped, projected and divided into what is seen and what is hidden.
+//!    ╱╱╱╱╱╱│╲╲╲╲╲
+//!   ╱╱╱╱╱╱╱│╲╲╲╲╲     two faces, two directions
+//!   ───────┴──────
 //! ```
-//! Cut faces are hatched at 45° (ISO 128-50). Every part has its own direction or distance, the same wherever it is cut, so that
-//! neighbours differ.
+//!
+//! A line of the paper is the image of a plane through the viewer. Where that plane cuts a face is
+//! a segment of the world, found by the signs of a linear function at the vertices. From there on
+//! it is an edge like any other: clipped, projected, and divided by hidden-line removal.
+//!
+//! Section caps are hatched at 45°. Each part has a direction or a spacing of its own, the same
+//! wherever it is cut, so that neighbors differ. Faces under a
+//! [`FaceFill::Hatching`](crate::FaceFill) are hatched by luma: the darker, the denser.
 
 use super::hidden_line::Aabb;
 use super::projector::Projector;
@@ -14,10 +21,10 @@ use clip::{Volume, clip_triangle};
 use glam::{DVec2, DVec3, DVec4};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// So many segments are made at most.
+/// The greatest number of segments of one hatching.
 const MAX_SEGMENTS: usize = 1 << 22;
 
-/// The distances that tell parts of one direction apart, in those of the first.
+/// The spacings that distinguish parts with the same direction, as multiples of the first.
 const SPACING_FACTORS: [f64; 4] = [1.0, 1.5, 0.75, 2.0];
 
 /// A family of parallel lines on the screen.
@@ -30,13 +37,18 @@ pub(super) struct HatchPattern {
 }
 
 impl HatchPattern {
-    /// Lines that rise to the right, or those that fall, under 45°.
+    /// Lines at 45° that rise to the right, or fall.
     pub(super) fn diagonal_lines(rises: bool, spacing: f64) -> Self {
         let normal = DVec2::new(if rises { 1.0 } else { -1.0 }, 1.0) * FRAC_1_SQRT_2;
         Self { normal, spacing }
     }
 
-    /// The pattern of a part by the number of its kind: directions in turn, then other distances.
+    /// The pattern of a part by its index: alternating directions first, then other spacings.
+    ///
+    /// ```text
+    ///   part      0      1      2        3        4         5         6      7
+    ///   lines     ╱      ╲      ╱ 1.5×   ╲ 1.5×   ╱ 0.75×   ╲ 0.75×   ╱ 2×   ╲ 2×
+    /// ```
     fn for_part(kind: usize, distance: f64) -> Self {
         Self::diagonal_lines(
             kind.is_multiple_of(2),
@@ -44,94 +56,92 @@ impl HatchPattern {
         )
     }
 
-    /// The number of the line at or after a place, and of the one at or before another.
+    /// The indices of the lines between two positions along the normal; line i is at i · spacing.
     fn line_range(&self, [from, to]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
-        // Casting cuts off at the ends of the range.
+        // A float-to-int cast saturates.
         libm::ceil(from / self.spacing) as i64..=libm::floor(to / self.spacing) as i64
     }
 
-    /// The function of homogeneous screen coordinates that is zero on a line.
+    /// The function of homogeneous screen coordinates (x, y, z, w) that is zero on a line: n·(x, y)
+    /// − i · spacing · w.
     fn line_function(&self, line: i64) -> DVec4 {
         let at = line as f64 * self.spacing;
         DVec4::new(self.normal.x, self.normal.y, 0.0, -at)
     }
 }
 
-/// The segments of hatching, and whether they are all.
+/// The hatch lines of some faces.
 #[derive(Debug, Default)]
 pub(super) struct Hatching {
-    /// The segments in the world, each with the object it lies on.
+    /// Segments in the world, each with the object it lies on.
     pub(super) segments: Vec<([DVec3; 2], u32)>,
-    /// Whether some are missing, for there were too many.
+    /// Whether segments are missing because there were too many.
     pub(super) is_cut_off: bool,
 }
 
 impl Hatching {
-    /// Hatches the caps of cuts: triangles by object and section, those of one object in a row.
+    /// Hatches section caps: triangles by object and section plane, those of one object in a row.
+    ///
+    /// Collinear segments of a cap's triangles are joined, so that the triangulation does not show.
     pub(super) fn hatch_caps(
         caps: &[(u32, Vec<[DVec3; 3]>)],
-        sight: &Projector,
-        distance: f64,
+        projector: &Projector,
+        spacing: f64,
         touching: f64,
     ) -> Self {
         let mut hatching = Self::default();
-        for ((object, triangles), kind) in caps.iter().zip(assign_cap_patterns(caps, touching)) {
-            let pattern = HatchPattern::for_part(kind, distance);
-            let mut found = Vec::new();
+        for ((object, triangles), part) in caps.iter().zip(assign_cap_patterns(caps, touching)) {
+            let pattern = HatchPattern::for_part(part, spacing);
+            let mut by_line = Vec::new();
             for triangle in triangles {
-                hatching.is_cut_off |= hatching.segments.len() + found.len() > MAX_SEGMENTS;
+                hatching.is_cut_off |= hatching.segments.len() + by_line.len() > MAX_SEGMENTS;
                 if hatching.is_cut_off {
                     return hatching;
                 }
-                hatch_triangle(
-                    *triangle,
-                    sight,
-                    &pattern,
-                    |_| true,
-                    |line, ends| found.push((line, ends)),
-                );
+                let push = |line, ends| by_line.push((line, ends));
+                hatch_triangle(*triangle, projector, &pattern, |_| true, push);
             }
-            let segments = join_collinear_segments(found, touching);
+            let segments = join_collinear_segments(by_line, touching);
             hatching.segments.extend(segments.into_iter().map(|ends| (ends, *object)));
         }
         hatching
     }
 
-    /// Hatches faces by their tones, from 0 for black to 1 for white: the darker, the closer; the darkest twice.
+    /// Hatches faces by their luma, 0 for black to 1 for white: the darker, the denser; the darkest
+    /// in both directions.
     pub(super) fn hatch_faces_by_luma(
         faces: impl Iterator<Item = ([DVec3; 3], u32, f64)>,
-        sight: &Projector,
-        distance: f64,
+        projector: &Projector,
+        spacing: f64,
     ) -> Self {
         let mut hatching = Self::default();
-        let patterns = [true, false].map(|rises| HatchPattern::diagonal_lines(rises, distance));
-        for (corners, object, tone) in faces {
-            for (pattern, lightest) in
-                patterns.iter().zip([MAX_HATCHED_LUMA, MAX_CROSS_HATCHED_LUMA])
-            {
+        let patterns = [true, false].map(|rises| HatchPattern::diagonal_lines(rises, spacing));
+        let limits = [MAX_HATCHED_LUMA, MAX_CROSS_HATCHED_LUMA];
+        for (vertices, object, luma) in faces {
+            for (pattern, limit) in patterns.iter().zip(limits) {
                 if hatching.segments.len() > MAX_SEGMENTS {
                     hatching.is_cut_off = true;
                     return hatching;
                 }
-                let is_drawn = |line: i64| tone < lightest * line_luma_factor(line);
-                let segments = &mut hatching.segments;
-                hatch_triangle(corners, sight, pattern, is_drawn, |_, ends| {
-                    segments.push((ends, object))
-                });
+                let is_drawn = |line: i64| luma < limit * line_luma_factor(line);
+                let push = |_, ends| hatching.segments.push((ends, object));
+                hatch_triangle(vertices, projector, pattern, is_drawn, push);
             }
         }
         hatching
     }
 }
 
-/// Faces lighter than this are not hatched.
+/// Faces with a higher luma are not hatched.
 const MAX_HATCHED_LUMA: f64 = 0.88;
 
-/// Faces darker than this are hatched across as well.
+/// Faces with a lower luma are cross-hatched.
 const MAX_CROSS_HATCHED_LUMA: f64 = 0.4;
 
-/// Of the lightest tone that is hatched, how light a face may be for a line to be drawn on it: every fourth line goes first, then
-/// every second. So the lines of faces that meet go on into each other.
+/// The factor of the luma limit below which a face gets a line: every fourth line comes first, then
+/// every second.
+///
+/// The densities are nested, so lines of adjacent faces continue each other.
 fn line_luma_factor(line: i64) -> f64 {
     match line & 3 {
         0 => 1.0,
@@ -140,68 +150,90 @@ fn line_luma_factor(line: i64) -> f64 {
     }
 }
 
-/// A number for each object with caps, such that those that may touch have different ones: the least that is left.
-fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<usize> {
-    let boxed = |triangles: &Vec<[DVec3; 3]>| {
-        Aabb::from_points(triangles.iter().flatten().copied()).expanded_by(DVec3::splat(touching))
-    };
-    let mut objects: Vec<(u32, Vec<Aabb>, usize)> = Vec::new();
-    for (object, triangles) in caps {
-        match objects.last_mut().filter(|(last, ..)| last == object) {
-            Some((_, boxes, _)) => boxes.push(boxed(triangles)),
-            None => objects.push((*object, vec![boxed(triangles)], 0)),
-        }
-    }
-    for at in 0..objects.len() {
-        let (before, rest) = objects.split_at_mut(at);
-        let meets =
-            |boxes: &[Aabb]| rest[0].1.iter().any(|a| boxes.iter().any(|b| a.intersects(b)));
-        let mut used: Vec<usize> =
-            before.iter().filter(|(_, boxes, _)| meets(boxes)).map(|(.., kind)| *kind).collect();
-        used.sort_unstable();
-        used.dedup();
-        rest[0].2 = used.iter().zip(0..).take_while(|(used, free)| **used == *free).count();
-    }
-    let kind = |object: u32| objects.iter().find(|(other, ..)| *other == object);
-    caps.iter().map(|(object, _)| kind(*object).map_or(0, |(.., kind)| *kind)).collect()
+/// The caps of one object, with the index of its pattern.
+struct HatchedPart {
+    object: u32,
+    /// The boxes around its caps, each with a margin of the touching distance.
+    boxes: Vec<Aabb>,
+    pattern: usize,
 }
 
-/// Where lines meet a triangle: their numbers and the segments in the world.
+/// A pattern index for each cap: greedy coloring such that objects whose caps may touch differ.
+///
+/// Each object takes the least index that no earlier object near it has.
+fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<usize> {
+    let mut parts: Vec<HatchedPart> = Vec::new();
+    for (object, triangles) in caps {
+        let bounds = Aabb::from_points(triangles.iter().flatten().copied());
+        let bounds = bounds.expanded_by(DVec3::splat(touching));
+        match parts.last_mut().filter(|part| part.object == *object) {
+            Some(part) => part.boxes.push(bounds),
+            None => parts.push(HatchedPart { object: *object, boxes: vec![bounds], pattern: 0 }),
+        }
+    }
+    for index in 0..parts.len() {
+        let (colored, rest) = parts.split_at_mut(index);
+        let part = &mut rest[0];
+        let touches = |other: &&HatchedPart| {
+            part.boxes.iter().any(|a| other.boxes.iter().any(|b| a.intersects(b)))
+        };
+        let mut used: Vec<usize> = colored.iter().filter(touches).map(|p| p.pattern).collect();
+        used.sort_unstable();
+        used.dedup();
+        part.pattern = used.iter().zip(0..).take_while(|(used, free)| **used == *free).count();
+    }
+    let pattern_of = |object: u32| parts.iter().find(|part| part.object == object);
+    caps.iter().map(|(object, _)| pattern_of(*object).map_or(0, |part| part.pattern)).collect()
+}
+
+/// Calls `push` with the index and the segment in the world of each line that crosses a triangle.
+///
+/// ```text
+///   n·p on the screen   ├── i ── i+1 ── i+2 ──┤     lines between the least and the greatest
+///                       least           greatest    position of the clipped triangle's vertices
+/// ```
+///
+/// A line is the zero set of a linear function of clip coordinates, so its segment is found in the
+/// world without inverting the projection. The segments reach over the unclipped triangle;
+/// hidden-line removal clips them. Lines that `is_drawn` rejects are skipped.
 fn hatch_triangle(
-    corners: [DVec3; 3],
-    sight: &Projector,
+    vertices: [DVec3; 3],
+    projector: &Projector,
     pattern: &HatchPattern,
     is_drawn: impl Fn(i64) -> bool,
-    mut found: impl FnMut(i64, [DVec3; 2]),
+    mut push: impl FnMut(i64, [DVec3; 2]),
 ) {
-    let clip = corners.map(|corner| sight.world_to_clip_point(corner));
+    let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
     let clipped = clip_triangle(clip, &Volume::CHAPTER);
-    let positions = clipped.vertices().iter().filter_map(|vertex| sight.to_screen(vertex.point));
-    let extent = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], place| {
-        let at = pattern.normal.dot(place.truncate());
+    let positions =
+        clipped.vertices().iter().filter_map(|vertex| projector.project_to_screen(vertex.point));
+    let extent = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], position| {
+        let at = pattern.normal.dot(position.truncate());
         [least.min(at), most.max(at)]
     });
     if extent[0] > extent[1] {
         return;
     }
-    let to_screen = sight.world_to_screen();
-    let images = corners.map(|corner| to_screen * corner.extend(1.0));
+    let to_screen = projector.world_to_screen();
+    let images = vertices.map(|vertex| to_screen * vertex.extend(1.0));
     for line in pattern.line_range(extent).filter(|line| is_drawn(*line)) {
         let function = pattern.line_function(line);
         let heights = images.map(|image| function.dot(image));
-        zero_segment(corners, heights).into_iter().for_each(|ends| found(line, ends));
+        zero_segment(vertices, heights).into_iter().for_each(|ends| push(line, ends));
     }
 }
 
-/// The segment of a triangle where a linear function with these values at its corners is zero.
-fn zero_segment(corners: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
+/// The segment of a triangle where a linear function with these vertex values is zero; `None` if it
+/// is empty or a point.
+fn zero_segment(vertices: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     let mut ends = [None; 2];
     for k in 0..3 {
-        let (one, other) = ((corners[k], heights[k]), (corners[(k + 1) % 3], heights[(k + 1) % 3]));
+        let (one, other) =
+            ((vertices[k], heights[k]), (vertices[(k + 1) % 3], heights[(k + 1) % 3]));
         if (one.1 < 0.0) == (other.1 < 0.0) {
             continue;
         }
-        // From the same end whichever way the side runs, so that neighbours meet at the same bits.
+        // Oriented alike for both faces at the side, so that neighbors meet at the same bits.
         let rises = one.0.to_array() < other.0.to_array();
         let ((p, from), (q, to)) = if rises { (one, other) } else { (other, one) };
         let position = p + (q - p) * (from / (from - to));
@@ -211,31 +243,37 @@ fn zero_segment(corners: [DVec3; 3], heights: [f64; 3]) -> Option<[DVec3; 2]> {
     (a != b && a.is_finite() && b.is_finite()).then_some([a, b])
 }
 
-/// The segments of one plane with those joined that go on into each other on the same line.
-fn join_collinear_segments(mut found: Vec<(i64, [DVec3; 2])>, touching: f64) -> Vec<[DVec3; 2]> {
-    found.sort_by_key(|(line, _)| *line);
-    let mut segments: Vec<[DVec3; 2]> = Vec::new();
-    for of_line in found.chunk_by_mut(|(a, _), (b, _)| a == b) {
-        let longest = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
-        let along = of_line.iter().map(|(_, [a, b])| *b - *a).max_by(longest);
-        let along = along.unwrap_or_default().normalize_or_zero();
-        for (_, ends) in of_line.iter_mut() {
-            if along.dot(ends[1] - ends[0]) < 0.0 {
-                ends.reverse();
-            }
-        }
-        of_line.sort_by(|(_, a), (_, b)| along.dot(a[0]).total_cmp(&along.dot(b[0])));
-        let first = segments.len();
-        for (_, ends) in of_line.iter() {
-            match segments[first..].last_mut() {
-                Some(last) if along.dot(ends[0] - last[1]) <= touching => {
-                    if along.dot(ends[1] - last[1]) > 0.0 {
-                        last[1] = ends[1];
-                    }
-                }
-                _ => segments.push(*ends),
-            }
+/// Joins segments of one plane that continue each other on the same hatch line, up to a gap of
+/// `touching`.
+fn join_collinear_segments(mut by_line: Vec<(i64, [DVec3; 2])>, touching: f64) -> Vec<[DVec3; 2]> {
+    by_line.sort_by_key(|(line, _)| *line);
+    let mut joined = Vec::new();
+    for on_line in by_line.chunk_by_mut(|(a, _), (b, _)| a == b) {
+        join_on_line(on_line, touching, &mut joined);
+    }
+    joined
+}
+
+/// Joins the segments of one hatch line: an interval union along the direction of the longest.
+fn join_on_line(on_line: &mut [(i64, [DVec3; 2])], touching: f64, joined: &mut Vec<[DVec3; 2]>) {
+    let longest = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
+    let along = on_line.iter().map(|(_, [a, b])| *b - *a).max_by(longest);
+    let along = along.unwrap_or_default().normalize_or_zero();
+    for (_, ends) in on_line.iter_mut() {
+        if along.dot(ends[1] - ends[0]) < 0.0 {
+            ends.reverse();
         }
     }
-    segments
+    on_line.sort_by(|(_, a), (_, b)| along.dot(a[0]).total_cmp(&along.dot(b[0])));
+    let first = joined.len();
+    for (_, ends) in on_line.iter() {
+        match joined[first..].last_mut() {
+            Some(last) if along.dot(ends[0] - last[1]) <= touching => {
+                if along.dot(ends[1] - last[1]) > 0.0 {
+                    last[1] = ends[1];
+                }
+            }
+            _ => joined.push(*ends),
+        }
+    }
 }

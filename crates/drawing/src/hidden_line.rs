@@ -1,4 +1,34 @@
-//! Which parts of edges are hidden by faces (HL-1), exactly: by intersecting half-lines, not by sampling.
+//! Hidden-line removal: where each edge is cut into visible and hidden parts (rule HL-1).
+//!
+//! The algorithm works in object space, edge against face, as Roberts (1963) and Appel (*The Notion
+//! of Quantitative Invisibility and the Machine Rendering of Solids*, 1967) introduced it. Nothing
+//! is sampled: every cut is the solution of a linear equation in f64.
+//!
+//! ```text
+//!  edge a─b in the world
+//!    │  clip to the view volume, project      projected_edge   screen segment + map s ↔ u
+//!    ▼
+//!  for each box of the BVH that the edge passes behind          bvh
+//!    │
+//!    ▼
+//!  for each occluder (a clipped face) in it                     occluder
+//!    │    s where the edge is inside the screen triangle   ∩    s where it is behind the plane
+//!    ▼
+//!  union of the intervals                                       occlusion_intervals
+//!    ▼
+//!  [0, 1] = visible │ hidden │ visible …                        Occluders::hidden_intervals
+//! ```
+//!
+//! Appel counts, at each point of an edge, the faces in front of it: the *quantitative
+//! invisibility*. A line drawing only asks whether that count is zero, so this module does not
+//! count; it takes the union of the intervals that single faces hide. Two rules make the union
+//! agree with intuition on meshes:
+//!
+//! - Touching does not hide. An edge that lies in a face, or on its border, belongs to the face and
+//!   stays visible; [`Tolerance`] gives the distances below which an edge touches.
+//! - Two faces that share a side hide together what runs exactly behind the side, although each
+//!   alone would only touch it. Such intervals are collected by the side of the edge on which the
+//!   face lies, and their intersection is hidden.
 
 mod bvh;
 mod occluder;

@@ -1,75 +1,90 @@
-//! Labels: text on a page, as strokes.
+//! Labels: lines of text on a page, as strokes of a pen.
+//!
+//! ```text
+//!    ↑ height
+//!    │  HIM      anchor: the start, middle or end of the text on its baseline
+//!    ●───────►   direction: of the baseline
+//! ```
 
 use super::page::{Ink, Pen, Polyline};
 use super::stroke_font::{CAP_HEIGHT, typeset_line};
 use glam::DVec2;
 
-/// Where text stands from the place it is put at.
+/// The alignment of text about its anchor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum TextAlign {
-    /// It begins there.
+    /// It begins at the anchor.
     #[default]
     Start,
-    /// Its middle is there.
+    /// It is centered on the anchor.
     Middle,
-    /// It ends there.
+    /// It ends at the anchor.
     End,
 }
 
 /// A line of text on a page.
+///
+/// ```
+/// use drawing::{Label, TextAlign};
+/// use glam::DVec2;
+///
+/// let label = Label::new("150", DVec2::new(100.0, 50.0), 3.5).with_align(TextAlign::Middle);
+/// assert!(label.fit_to_width(5.0).width() <= 5.0 + 1e-9);
+/// assert!(!label.strokes().is_empty());
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Label<'a> {
-    /// The text; characters the font has not are boxes.
+    /// The text; characters that the font lacks become boxes.
     pub text: &'a str,
-    /// The place on the baseline, in millimetres.
+    /// The anchor on the baseline, in millimeters.
     pub anchor: DVec2,
-    /// The height of capitals in millimetres.
+    /// The height of capitals in millimeters.
     pub height: f64,
-    /// The direction of the baseline, a unit vector: (1, 0) to the right, (0, −1) upwards.
+    /// The direction of the baseline, a unit vector: (1, 0) to the right, (0, −1) upward.
     pub direction: DVec2,
-    /// Which part of the text is at that place.
+    /// The part of the text that is at the anchor.
     pub align: TextAlign,
 }
 
 impl<'a> Label<'a> {
-    /// A label that begins at a place and runs to the right.
+    /// A label that begins at a point and runs to the right.
     #[must_use]
     pub const fn new(text: &'a str, anchor: DVec2, height: f64) -> Self {
         Self { text, anchor, height, direction: DVec2::X, align: TextAlign::Start }
     }
 
-    /// The same with another part of the text at its place.
+    /// The label with another alignment.
     #[must_use]
     pub const fn with_align(self, align: TextAlign) -> Self {
         Self { align, ..self }
     }
 
-    /// The same in another direction.
+    /// The label in another direction.
     #[must_use]
     pub const fn with_direction(self, along: DVec2) -> Self {
         Self { direction: along, ..self }
     }
 
-    /// The same, made smaller where it would be wider than this, in millimetres.
+    /// The label, reduced in height where it would be wider than this, in millimeters.
     #[must_use]
     pub fn fit_to_width(self, width: f64) -> Self {
         let own = self.width();
         if own > width { Self { height: self.height * width / own, ..self } } else { self }
     }
 
-    /// The width of the text in millimetres, from the middle of the first stroke to that of the last.
+    /// The width of the text in millimeters, between the centers of the first and the last stroke.
     #[must_use]
     pub fn width(&self) -> f64 {
         typeset_line(self.text).width * self.height / CAP_HEIGHT
     }
 
-    /// The pen that goes with its height: a tenth of it.
+    /// The pen for its height: a stroke of a tenth of it.
     #[must_use]
     pub fn pen(&self, ink: Ink) -> Pen {
         Pen::solid(self.height / CAP_HEIGHT, ink)
     }
 
-    /// The strokes of the text.
+    /// The strokes of the text on the page.
     #[must_use]
     pub fn strokes(&self) -> Vec<Polyline> {
         let set = typeset_line(self.text);
@@ -102,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_stand_where_they_are_put() {
+    fn labels_align_at_their_anchor() {
         let at = DVec2::new(100.0, 50.0);
         let label = Label::new("HIM", at, 5.0);
         let [low, high] = bounds(&label);
@@ -110,14 +125,14 @@ mod tests {
         assert!((high.x - low.x - label.width()).abs() < 1e-3);
         let [low, high] = bounds(&label.with_align(TextAlign::End));
         assert!((high.x - 100.0).abs() < 1e-3 && (low.x - 100.0 + label.width()).abs() < 1e-3);
-        // Upwards: what was above the baseline is at its left.
+        // Upward: above the baseline is at its left.
         let [low, high] = bounds(&label.with_direction(-DVec2::Y).with_align(TextAlign::Middle));
         assert!((low.x - 95.0).abs() < 1e-3 && (high.x - 100.0).abs() < 1e-3);
         assert!((low.y + high.y - 100.0).abs() < 2e-3);
     }
 
     #[test]
-    fn a_label_is_made_to_fit() {
+    fn a_wide_label_is_reduced_to_fit() {
         let label = Label::new("a rather long title", DVec2::ZERO, 5.0);
         assert!((label.fit_to_width(20.0).width() - 20.0).abs() < 1e-9);
         assert_eq!(label.fit_to_width(1e3), label);

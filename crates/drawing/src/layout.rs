@@ -1,4 +1,19 @@
-//! From a line drawing to the layers of a page: a layer for each kind of line, a group for each object.
+//! Layout of a line drawing in layers: one for each kind of line, and in it one group for each
+//! object.
+//!
+//! ```text
+//!   segments ─► kinds (hidden, depth band, class) ─► overlap removal ─► chains ─► layers
+//!
+//!   kinds by importance       layers in drawing order
+//!   0  visible silhouette     hidden crease
+//!   1  visible boundary       hidden silhouette
+//!   2  visible crease         …
+//!   …  hidden silhouette      visible silhouette    last, so on top
+//! ```
+//!
+//! The order of kinds has two effects. A layer of a more important kind is drawn over the others,
+//! and where segments coincide on the page only that of the most important kind remains. Layers
+//! have stable ids, such as `hidden-crease`, by which style sheets and scripts can address them.
 
 use super::line_style::{EdgeSelection, HiddenLines, LineStyle};
 use super::line_type::LineType;
@@ -6,16 +21,18 @@ use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::page::{
     Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, to_micrometers,
 };
+use super::palette::{INK, LIGHT_INK};
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
 
-/// Where a drawing goes on a page: millimetres = pixels × `scale` + `corner`.
+/// The map from pixels of a drawing to millimeters of a page: millimeters = pixels × `scale` +
+/// `corner`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Placement {
-    /// Where the upper left corner of the drawing comes to lie, in millimetres.
+    /// The position of the drawing's upper left corner, in millimeters.
     pub corner: DVec2,
-    /// Millimetres for each pixel, in both directions.
+    /// Millimeters for each pixel, in x and y.
     pub scale: DVec2,
 }
 
@@ -24,24 +41,29 @@ impl Placement {
     pub const PICTURE: Self =
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
-    fn to_page(&self, pixels: DVec2) -> DVec2 {
+    /// The drawing as a page of its own, 96 pixels to the inch.
+    ///
+    /// `title` is that of the document; `paper` fills the background, and decides between dark and
+    /// light ink if the style has none.
+    fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
 }
 
-/// The most bands of depth that are told apart.
+/// The number of depth bands of a drawing with a depth cue, each with an ink of its own.
 const DEPTH_BANDS: u32 = 8;
 
-/// A kind of line: what a layer is made of. The most important kind comes first.
+/// A kind of line: the lines that make one layer.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 struct LineKind {
+    /// Whether it is hidden.
     hidden: bool,
-    /// 0 is nearest; always 0 without depth cue.
+    /// The depth band, 0 nearest; always 0 without a depth cue.
     band: u32,
     class: EdgeClass,
 }
 
-/// The kinds of lines of a look, and the numbers the rest of the way knows them by.
+/// The kinds of lines of a style, most important first; other modules know them by their indices.
 struct LineKinds<'a> {
     style: &'a LineStyle,
     kinds: Vec<LineKind>,
@@ -50,52 +72,60 @@ struct LineKinds<'a> {
 }
 
 impl LineDrawing {
-    /// The drawing as a picture of its own.
+    /// The drawing as a page of its own, 96 pixels to the inch.
     #[must_use]
-    pub fn to_page(&self, look: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
+    pub fn to_page(&self, style: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
         page.images.extend(self.face_fill_image(Placement::PICTURE, ""));
-        page.layers = self.to_layers(look, Placement::PICTURE, "", page.ink_for_style(look));
+        page.layers = self.to_layers(style, Placement::PICTURE, "", page.ink_for_style(style));
         page.warnings.clone_from(&self.warnings);
         page
     }
 
-    /// The tones of the faces, to be pasted under the lines, if there are any.
+    /// The flat fill as an image on a page, if the drawing has one.
+    ///
+    /// Its rectangle is that of the whole drawing, rounded to micrometers, so that lines and fill
+    /// stay in register.
     #[must_use]
     pub fn face_fill_image(&self, placement: Placement, prefix: &str) -> Option<PlacedImage> {
         let picture = self.face_fill.clone()?;
-        let (corner, end) = (to_micrometers(placement.corner), placement.to_page(self.size));
+        let (corner, end) = (to_micrometers(placement.corner), placement.pixels_to_page(self.size));
         let end = to_micrometers(end);
         let size = [0, 1].map(|axis| (end[axis] - corner[axis]).max(1));
         Some(PlacedImage { id: format!("{prefix}tone"), corner, size, picture })
     }
 
-    /// The layers of the drawing, the lowest first. `prefix` begins their names, so that several drawings go on one page.
+    /// The layers of the drawing, the lowest first; `prefix` begins their ids, so that several
+    /// drawings can share a page.
+    ///
+    /// Kinds without lines have no layer. The drawing must be made with the options of the same
+    /// style, see [`LineStyle::to_draw_options`].
     #[must_use]
     pub fn to_layers(
         &self,
-        look: &LineStyle,
+        style: &LineStyle,
         placement: Placement,
         prefix: &str,
         ink: Ink,
     ) -> Vec<Layer> {
-        let kinds = LineKinds::new(self, look);
-        let mut pieces = Vec::new();
-        for line in &self.segments {
-            kinds.for_each_segment(line, |kind, ends, object| {
-                pieces.push(PageSegment {
-                    ends: ends.map(|end| placement.to_page(end)),
+        let kinds = LineKinds::new(self, style);
+        let mut segments = Vec::new();
+        for segment in &self.segments {
+            kinds.for_each_segment(segment, |kind, ends, object| {
+                segments.push(PageSegment {
+                    ends: ends.map(|end| placement.pixels_to_page(end)),
                     layer: kind,
                     object,
                 });
             });
         }
-        let chains = join_into_chains(&remove_overlaps(&pieces));
+        let chains = join_into_chains(&remove_overlaps(&segments));
         let layers = chains.chunk_by(|a, b| a.layer == b.layer);
         let layer = |chains: &[PolylineChain]| self.layer_of_kind(&kinds, chains, prefix, ink);
         layers.rev().map(layer).collect()
     }
 
+    /// One layer from the chains of one kind.
     fn layer_of_kind(
         &self,
         kinds: &LineKinds<'_>,
@@ -118,20 +148,24 @@ impl LineDrawing {
 }
 
 impl Page {
-    /// The ink of a look on this page: its own, or one that stands out from the paper.
+    /// The ink of a style on this page: its own, or a dark or light one that contrasts with the
+    /// paper.
+    ///
+    /// Paper is dark if its luma (Rec. 601 weights) is below 118 of 255.
     #[must_use]
-    pub fn ink_for_style(&self, look: &LineStyle) -> Ink {
+    pub fn ink_for_style(&self, style: &LineStyle) -> Ink {
         let is_dark = self.paper.is_some_and(|[r, g, b]| {
             let [r, g, b] = [r, g, b].map(u32::from);
             r * 299 + g * 587 + b * 114 < 118_000
         });
-        look.ink.unwrap_or(if is_dark { [240, 243, 246] } else { [26, 31, 38] })
+        style.ink.unwrap_or(if is_dark { LIGHT_INK } else { INK })
     }
 }
 
 impl<'a> LineKinds<'a> {
+    /// The kinds of lines that a style draws, and the range of depths.
     fn new(drawing: &LineDrawing, style: &'a LineStyle) -> Self {
-        let depths = drawing.segments.iter().flat_map(|line| line.depths);
+        let depths = drawing.segments.iter().flat_map(|segment| segment.depths);
         let nearest = depths.clone().fold(0.0, f64::max);
         let farthest = depths.fold(nearest, f64::min);
         let bands = if style.depth_cue > 0.0 { DEPTH_BANDS } else { 1 };
@@ -143,43 +177,50 @@ impl<'a> LineKinds<'a> {
                 kinds.extend(classes.map(|class| LineKind { hidden, band, class }));
             }
         }
-        // A line that is only there in thought is less than one that is hidden.
+        // Facets are construction lines: even hidden feature edges take precedence over them.
         kinds.sort_by_key(|kind| (kind.class == EdgeClass::Facet, kind.hidden, kind.band));
         Self { style, kinds, depths: [nearest, farthest] }
     }
 
-    /// Hands on the parts of a line that are drawn, with the number of their kind.
-    fn for_each_segment(&self, line: &EdgeSegment, mut hand_on: impl FnMut(u32, [DVec2; 2], u32)) {
-        let hidden = !line.visible && self.style.hidden_lines != HiddenLines::Drawn;
+    /// Calls `push` with each part of a segment that is drawn, and the index of its kind.
+    ///
+    /// Kinds that the style does not draw have no index, and their segments are skipped.
+    fn for_each_segment(&self, segment: &EdgeSegment, mut push: impl FnMut(u32, [DVec2; 2], u32)) {
+        let hidden = !segment.visible && self.style.hidden_lines != HiddenLines::Drawn;
         let kind_index = |band: u32| {
-            let kind = LineKind { hidden, band, class: line.class };
+            let kind = LineKind { hidden, band, class: segment.class };
             self.kinds.iter().position(|other| *other == kind).map(|at| at as u32)
         };
         if self.style.depth_cue == 0.0 {
-            let number = kind_index(0);
-            return number.into_iter().for_each(|kind| hand_on(kind, line.ends, line.object));
+            let kind = kind_index(0);
+            return kind.into_iter().for_each(|kind| push(kind, segment.ends, segment.object));
         }
-        for (band, ends) in self.split_by_depth(line) {
-            kind_index(band).into_iter().for_each(|kind| hand_on(kind, ends, line.object));
+        for (band, ends) in self.split_by_depth(segment) {
+            kind_index(band).into_iter().for_each(|kind| push(kind, ends, segment.object));
         }
     }
 
-    /// The parts of a line in each band of depth. Depth is linear on the screen.
-    fn split_by_depth(&self, line: &EdgeSegment) -> Vec<(u32, [DVec2; 2])> {
+    /// The parts of a segment in each depth band.
+    ///
+    /// Depth is linear on the screen, so band borders cut a segment at fixed fractions: t = (border
+    /// − from) / (to − from).
+    fn split_by_depth(&self, segment: &EdgeSegment) -> Vec<(u32, [DVec2; 2])> {
         let [nearest, farthest] = self.depths;
         let span = nearest - farthest;
         let scaled = |depth: f64| {
             let part = if span > 0.0 { (nearest - depth) / span } else { 0.0 };
             part.clamp(0.0, 1.0) * f64::from(DEPTH_BANDS)
         };
-        let [from, to] = line.depths.map(scaled);
+        let [from, to] = segment.depths.map(scaled);
         let mut cuts = vec![0.0, 1.0];
         if from != to {
             let within = (1..DEPTH_BANDS).map(|border| (f64::from(border) - from) / (to - from));
             cuts.extend(within.filter(|t| *t > 0.0 && *t < 1.0));
             cuts.sort_by(f64::total_cmp);
         }
-        let at = |t: f64| if t == 1.0 { line.ends[1] } else { line.ends[0].lerp(line.ends[1], t) };
+        let at = |t: f64| {
+            if t == 1.0 { segment.ends[1] } else { segment.ends[0].lerp(segment.ends[1], t) }
+        };
         let part = |pair: &[f64]| {
             let middle = from + (to - from) * (pair[0] + pair[1]) * 0.5;
             ((middle as u32).min(DEPTH_BANDS - 1), [at(pair[0]), at(pair[1])])
@@ -187,19 +228,22 @@ impl<'a> LineKinds<'a> {
         cuts.windows(2).map(part).collect()
     }
 
+    /// The pen of a kind: narrow for hidden, tangent and hatch lines, dashed for hidden ones, faded
+    /// by depth.
     fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
-        let look = self.style;
-        let [wide, narrow] = look.line_widths.wide_and_narrow();
+        let style = self.style;
+        let [wide, narrow] = style.line_widths.wide_and_narrow();
         let is_narrow =
             kind.hidden || matches!(kind.class, EdgeClass::Tangent | EdgeClass::Hatching);
         let width = if is_narrow { narrow } else { wide };
         let line_type = if kind.hidden { LineType::Dashed } else { LineType::Continuous };
-        let ink = if kind.band == 0 { ink } else { faded_ink(ink, look.depth_cue, kind.band) };
-        line_type.to_pen(width, ink, look.cap, look.join)
+        let ink = if kind.band == 0 { ink } else { faded_ink(ink, style.depth_cue, kind.band) };
+        line_type.to_pen(width, ink, style.cap, style.join)
     }
 }
 
-/// Ink with some of its contrast to white paper lost, or with dark paper in mind to black.
+/// Ink with a part of its contrast removed, towards white, or towards black for light inks on dark
+/// paper.
 fn faded_ink(ink: Ink, most: f64, band: u32) -> Ink {
     let part = most * f64::from(band) / f64::from(DEPTH_BANDS - 1);
     let ground = if ink.iter().map(|c| u32::from(*c)).sum::<u32>() > 384 { 0.0 } else { 255.0 };
@@ -207,20 +251,21 @@ fn faded_ink(ink: Ink, most: f64, band: u32) -> Ink {
     ink.map(|channel| libm::round(mixed(channel)) as u8)
 }
 
-/// Whether a look draws lines of a class.
-fn selects_class(look: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
-    if hidden && look.hidden_lines == HiddenLines::Removed {
+/// Whether a style draws edges of a class.
+fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
+    if hidden && style.hidden_lines == HiddenLines::Removed {
         return false;
     }
     match class {
         EdgeClass::Silhouette | EdgeClass::Boundary => true,
-        EdgeClass::Facet => look.edges == EdgeSelection::Facets,
-        EdgeClass::Hatching => !hidden && look.edges != EdgeSelection::Silhouette,
-        // What is only there in thought is not drawn where it is hidden.
+        EdgeClass::Facet => style.edges == EdgeSelection::Facets,
+        EdgeClass::Hatching => !hidden && style.edges != EdgeSelection::Silhouette,
+        // Tangent edges have no bend to show: hidden ones are left out.
         EdgeClass::Tangent => {
-            look.edges == EdgeSelection::Tangents && !hidden || look.edges == EdgeSelection::Facets
+            style.edges == EdgeSelection::Tangents && !hidden
+                || style.edges == EdgeSelection::Facets
         }
-        _ => look.edges != EdgeSelection::Silhouette,
+        _ => style.edges != EdgeSelection::Silhouette,
     }
 }
 
@@ -239,7 +284,7 @@ impl EdgeClass {
         Self::Facet,
     ];
 
-    /// The name of lines of this class, in lower case.
+    /// The name of the class, in lower case.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -258,16 +303,17 @@ impl EdgeClass {
 }
 
 impl LineKind {
-    /// The names of the layer, for programs and for people.
-    fn layer_names(self, look: &LineStyle) -> (String, String) {
+    /// The id and the title of the layer.
+    fn layer_names(self, style: &LineStyle) -> (String, String) {
         let class = self.class.name();
-        let sight = match (self.hidden, look.hidden_lines) {
+        let visibility = match (self.hidden, style.hidden_lines) {
             (true, _) => "hidden",
             (false, HiddenLines::Drawn) => "all",
             (false, _) => "visible",
         };
-        let (mut id, mut title) = (format!("{sight}-{class}"), format!("{sight}: {class}"));
-        if look.depth_cue > 0.0 {
+        let (mut id, mut title) =
+            (format!("{visibility}-{class}"), format!("{visibility}: {class}"));
+        if style.depth_cue > 0.0 {
             id += &format!("-{}", self.band + 1);
             title += &format!(", depth {} of {DEPTH_BANDS}", self.band + 1);
         }

@@ -1,9 +1,26 @@
-//! Line drawings: the edges of the models, divided exactly into what is seen and what is hidden.
+//! Hidden-line drawings of meshes: feature edges, exact visibility, sections, drawing sheets; SVG,
+//! PDF and PNG.
 //!
 //! ```text
-//!  meshes ─► edges with their classes ─► visible and hidden pieces ─► chains ─► SVG, PDF, PNG
+//!   models ─► edges ─► visible and hidden segments ─► polylines by pen ─► SVG, PDF, PNG
+//!             edges       hidden_line                 layout            svg, pdf, canvas
 //! ```
-//! Everything is computed in f64 from the same stages as the pictures (HL-1); nothing is sampled.
+//!
+//!  module | technique |
+//!  --- | --- |
+//!  `edges` | vertex welding, T-junctions, silhouettes and creases, section cuts with caps |
+//!  `hidden_line` | hidden-line removal by interval arithmetic over a BVH (Roberts, Appel 1967) |
+//!  `hatching` | ISO 128-50 hatching of caps, hatching by luma of faces |
+//!  `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
+//!  `line_style`, `line_type`, `dash_pattern` | pens, line widths and dashes of ISO 128 |
+//!  `page`, `svg`, `pdf`, `canvas` | pages in micrometers, and their three formats |
+//!  `sheet` | orthographic views in first or third angle, title block, dimensions |
+//!  `overlay`, `chart`, `panels` | teaching material: axes, vanishing points, curves, figures |
+//!  `z_buffer_check` | a drawing checked against the z-buffer image of its scene |
+//!
+//! All geometry is f64 and runs through the stages of the pictures (`camera`, `projection`, `clip`,
+//! `viewport`), so a line drawing lies exactly over a picture of the same scene. Results do not
+//! depend on the number of threads.
 
 mod canvas;
 mod chart;
@@ -12,6 +29,7 @@ mod draw;
 mod edges;
 mod error;
 mod face_fill;
+mod face_raster;
 mod fixed_decimal;
 mod hatching;
 mod hidden_line;
@@ -20,10 +38,12 @@ mod layout;
 mod line_drawing;
 mod line_style;
 mod line_type;
+mod markup;
 mod options;
 mod overlap_removal;
 mod overlay;
 mod page;
+pub mod palette;
 mod panels;
 mod parallel;
 mod pdf;
@@ -46,6 +66,7 @@ pub use layout::Placement;
 pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
 pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 pub use line_type::{IsoLineGroup, LineType};
+pub use markup::escape_markup;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges};
 pub use overlay::{Overlay, overlay_layers};
 pub use page::{
@@ -59,3 +80,8 @@ pub use sheet::{Sheet, SheetError, TitleBlockText};
 pub use subject::Subject;
 pub use warning::Warning;
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,62 +1,67 @@
-//! What the hidden-line engine hands to the outputs: pieces of edges on the screen.
+//! Line drawing: the result of hidden-line removal as segments on the screen.
+//!
+//! ```text
+//!   edge 7   ●━━━━━━━━━━●╌╌╌╌╌╌╌●━━━━━━━●     three segments: visible, hidden, visible;
+//!            0         s₁      s₂       1     neighbors share their end points bit for bit
+//! ```
 
 use super::Warning;
 use glam::DVec2;
 use shade::Picture;
 
-/// Why an edge is drawn.
+/// The reason why an edge is drawn; the first that applies, in order of importance.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum EdgeClass {
-    /// Between a face that looks to the viewer and one that does not.
+    /// Between a front-facing and a back-facing face.
     Silhouette,
-    /// The border of a surface: only one face ends there.
+    /// The border of a surface: an edge with a single face.
     Boundary,
     /// Two faces meet at more than the crease angle.
     Crease,
-    /// Two surfaces cross.
+    /// Two faces intersect.
     Intersection,
-    /// The border of a cut through the model.
+    /// The outline of a section through a model.
     Section,
     /// The file marks it as an edge to be drawn.
     Marked,
-    /// Two smooth surfaces meet without a visible bend.
+    /// Two surfaces of different materials meet smoothly.
     Tangent,
     /// A line primitive of the model.
     Line,
-    /// A line of hatching: on a cut face, or for the tone of any face.
+    /// A hatch line, on a section cap or by the luma of a face.
     Hatching,
-    /// Any other side of a triangle; only wireframes show it.
+    /// Any other side of a triangle; drawn by wireframes only.
     Facet,
 }
 
-/// A piece of an edge that is visible, or hidden, from end to end.
+/// A segment of an edge that is visible, or hidden, from end to end.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct EdgeSegment {
-    /// The ends on the screen: pixels, y down, in f64.
+    /// The ends on the screen: pixels, y down.
     pub ends: [DVec2; 2],
-    /// The depths of the ends, from 0 at the far plane to 1 at the near plane.
+    /// The depths of the ends, 0 at the far plane and 1 at the near plane.
     pub depths: [f64; 2],
     /// Why the edge is drawn.
     pub class: EdgeClass,
-    /// Whether nothing is in front of it.
+    /// Whether no face is in front of it.
     pub visible: bool,
-    /// The object it belongs to: a place in [`LineDrawing::objects`].
+    /// The object it belongs to: an index into [`LineDrawing::objects`].
     pub object: u32,
-    /// The edge it is a piece of, counted through the drawing; all pieces of an edge have the same number.
+    /// The index of its edge in the drawing; all segments of an edge share it.
     pub edge: u32,
 }
 
-/// All lines of a scene in a fixed order: by object, by edge, along the edge.
+/// All segments of a scene in a fixed order: by object, by edge, along the edge.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct LineDrawing {
-    /// The width and height of the picture in pixels.
+    /// The width and height of the image in pixels.
     pub size: DVec2,
-    /// The names of the objects, as the nodes of the models have them.
+    /// The names of the objects, from the nodes of the models.
     pub objects: Vec<String>,
-    /// The pieces.
+    /// Visible segments, and hidden ones if the options retain them.
     pub segments: Vec<EdgeSegment>,
-    /// The tones of the faces under the lines, if the options want them flat: a picture that fills the drawing.
+    /// The flat fill under the lines, if the options ask for it: an image that fills the drawing.
     pub face_fill: Option<Picture>,
-    /// What could not be drawn as it should, each once.
+    /// Warnings of the drawing, each once.
     pub warnings: Vec<Warning>,
 }

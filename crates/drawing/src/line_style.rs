@@ -1,83 +1,96 @@
-//! How a line drawing looks: which lines are drawn, how hidden ones show, and with what pens.
+//! Line style: the selection of edges, hidden lines, pens and fills of a line drawing.
 
 use super::EdgeClass;
 use super::line_type::IsoLineGroup;
 use super::options::{DrawOptions, EdgeClasses, HiddenEdges};
 use super::page::{Cap, Ink, Join, MILLIMETERS_PER_PIXEL};
 
-/// How a line drawing looks.
+/// The appearance of a line drawing.
+///
+/// Constants are complete styles; change one with the update syntax:
+///
+/// ```
+/// use drawing::{HiddenLines, IsoLineGroup, LineStyle, LineWidths};
+///
+/// let style = LineStyle {
+///     line_widths: LineWidths::Iso(IsoLineGroup::MM_0_35),
+///     ..LineStyle::TECHNICAL
+/// };
+/// assert_eq!(style.hidden_lines, HiddenLines::Dashed);
+/// assert_eq!(style.line_widths.wide_and_narrow(), [0.35, 0.18]);
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LineStyle {
-    /// Which lines are drawn.
+    /// The edges that are drawn.
     pub edges: EdgeSelection,
-    /// What becomes of hidden lines.
+    /// The treatment of hidden lines.
     pub hidden_lines: HiddenLines,
     /// Two faces that meet at more than this angle, in radians, have an edge between them.
     pub crease_angle: f64,
-    /// How much of its contrast the farthest line loses: 0 for none, 1 for all.
+    /// The part of its contrast that the farthest line loses: 0 for none, 1 for all.
     pub depth_cue: f64,
-    /// How wide lines are.
+    /// The widths of the lines.
     pub line_widths: LineWidths,
-    /// The colour of the lines; `None` for a dark or a light one, as the paper wants it.
+    /// The color of the lines; `None` for one that contrasts with the paper.
     pub ink: Option<Ink>,
-    /// How lines end.
+    /// The ends of lines.
     pub cap: Cap,
-    /// How lines turn corners.
+    /// The corners of lines.
     pub join: Join,
-    /// The distance between lines of hatching in millimetres.
+    /// The distance between hatch lines in millimeters.
     pub hatch_spacing: f64,
-    /// What is on the faces under the lines.
+    /// The fill of faces under the lines.
     pub face_fill: FaceFill,
 }
 
-/// Which lines are drawn.
+/// The edges that a style draws.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EdgeSelection {
     /// The sides of all triangles: a wireframe.
     Facets,
-    /// What a draughtsman would draw: outlines, borders, creases, where bodies cross.
+    /// Silhouettes, boundaries, creases, intersections, section outlines and marked edges.
     Features,
-    /// Features, and where one smooth surface goes over into another.
+    /// Features, and tangent edges, where one smooth surface continues another.
     Tangents,
-    /// Outlines and borders only.
+    /// Silhouettes and boundaries only.
     Silhouette,
 }
 
-/// What becomes of hidden lines.
+/// The treatment of hidden lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum HiddenLines {
     /// They are not drawn.
     Removed,
     /// They are dashed.
     Dashed,
-    /// They are drawn as if the bodies were of glass.
+    /// They are drawn like visible ones, as if the bodies were of glass.
     Drawn,
 }
 
-/// What is on the faces under the lines.
+/// The fill of faces under the lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FaceFill {
-    /// Nothing.
+    /// No fill.
     None,
-    /// A picture in which each face has one tone.
+    /// An image in which each face has one color, shaded by a fixed key light.
     Flat,
-    /// Lines, the closer the darker the face is.
+    /// Hatch lines on the faces, the denser the darker a face is.
     Hatching,
 }
 
-/// How wide lines are.
+/// The widths of lines.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum LineWidths {
-    /// All alike, in pixels of 1/96 inch.
+    /// One width for all, in pixels of 1/96 inch.
     Pixels(f64),
-    /// All alike, in millimetres.
+    /// One width for all, in millimeters.
     Millimeters(f64),
-    /// Wide and narrow lines as in technical drawing.
+    /// A wide and a narrow width, as in technical drawings.
     Iso(IsoLineGroup),
 }
 
 impl LineStyle {
-    /// Features, hidden lines removed, 1.25 pixels wide.
+    /// Features with hidden lines removed, 1.25 pixels wide.
     pub const HIDDEN_REMOVED: Self = Self {
         edges: EdgeSelection::Features,
         hidden_lines: HiddenLines::Removed,
@@ -90,16 +103,16 @@ impl LineStyle {
         hatch_spacing: 2.0,
         face_fill: FaceFill::None,
     };
-    /// The same with hidden lines dashed.
+    /// Features with hidden lines dashed.
     pub const HIDDEN_DASHED: Self =
         Self { hidden_lines: HiddenLines::Dashed, ..Self::HIDDEN_REMOVED };
-    /// The sides of all triangles, seen through.
+    /// The sides of all triangles, none hidden.
     pub const WIREFRAME: Self = Self {
         edges: EdgeSelection::Facets,
         hidden_lines: HiddenLines::Drawn,
         ..Self::HIDDEN_REMOVED
     };
-    /// A wireframe that is paler the farther away it is.
+    /// A wireframe whose lines fade with depth.
     pub const DEPTH_CUED: Self = Self { depth_cue: 0.8, ..Self::WIREFRAME };
     /// The outline alone.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
@@ -113,12 +126,14 @@ impl LineStyle {
 }
 
 impl LineStyle {
-    /// What must be drawn for it.
+    /// The options with which a drawing for this style is made.
+    ///
+    /// Hatch spacing is converted to pixels of 1/96 inch; a drawing at another scale sets it anew.
     #[must_use]
     pub fn to_draw_options(&self) -> DrawOptions {
         DrawOptions {
             classes: match self.edges {
-                // Where surfaces cross there is no side of a triangle.
+                // Intersection edges are not sides of triangles, so a wireframe omits them.
                 EdgeSelection::Facets => EdgeClasses::ALL.without(EdgeClass::Intersection),
                 EdgeSelection::Features => EdgeClasses::FEATURES.without(EdgeClass::Tangent),
                 EdgeSelection::Tangents => EdgeClasses::FEATURES,
@@ -138,7 +153,7 @@ impl LineStyle {
 }
 
 impl LineWidths {
-    /// The widths of wide and of narrow lines in millimetres.
+    /// The widths of wide and of narrow lines in millimeters.
     #[must_use]
     pub fn wide_and_narrow(self) -> [f64; 2] {
         match self {

@@ -1,34 +1,40 @@
-//! What a drawing shows.
+//! Options of hidden-line removal: the edge classes, the hidden parts and the faces that go into a
+//! drawing.
+//!
+//! They say what is computed. Pens, widths and the selection of layers are a
+//! [`LineStyle`](crate::LineStyle), which yields fitting options by
+//! [`LineStyle::to_draw_options`](crate::LineStyle::to_draw_options).
 
 use super::page::MILLIMETERS_PER_PIXEL;
 use super::{EdgeClass, FaceFill};
 
-/// What a drawing shows.
+/// The content of a line drawing; its appearance is a [`LineStyle`](crate::LineStyle).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DrawOptions {
-    /// The edges that are drawn.
+    /// The edge classes that are drawn.
     pub classes: EdgeClasses,
-    /// What becomes of hidden parts.
+    /// The treatment of hidden parts.
     pub hidden_edges: HiddenEdges,
-    /// Two faces that meet at more than this angle make a crease: in radians, 0 for faces that go on straight.
-    /// Default: 30 degrees.
+    /// Two faces that meet at more than this angle make a crease: in radians, 0 between coplanar
+    /// faces. Default: 30 degrees.
     pub crease_angle: f64,
-    /// The distance between lines of hatching in pixels, greater than 0. Default: 2 mm at 96 pixels to the inch.
+    /// The distance between hatch lines in pixels, greater than 0. Default: 2 mm at 96 pixels to
+    /// the inch.
     pub hatch_spacing: f64,
-    /// What is on the faces under the lines. Default: nothing.
+    /// The fill of faces under the lines. Default: none.
     pub face_fill: FaceFill,
-    /// Pixels of the picture of tones for each pixel of the drawing. Default: 3.
+    /// Pixels of the fill image for each pixel of the drawing. Default: 3.
     pub fill_scale: f64,
 }
 
-/// What becomes of the hidden parts of edges.
+/// The treatment of the hidden parts of edges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum HiddenEdges {
     /// They are left out.
     Removed,
-    /// They are kept, and marked as hidden.
+    /// They are drawn as segments that are not visible, to be dashed.
     Retained,
-    /// Nobody asks: all edges are drawn as visible from end to end.
+    /// Visibility is not computed: all edges are visible from end to end, as in a wireframe.
     Ignored,
 }
 
@@ -39,9 +45,10 @@ impl Default for DrawOptions {
 }
 
 impl DrawOptions {
+    /// 30 degrees, in radians.
     const DEFAULT_CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 
-    /// The edges one would draw by hand, where they can be seen.
+    /// The edges a draftsman would draw, where they are visible.
     #[must_use]
     pub const fn hidden_edges_removed() -> Self {
         Self {
@@ -54,13 +61,13 @@ impl DrawOptions {
         }
     }
 
-    /// The same with the hidden parts, to be dashed.
+    /// Those edges with their hidden parts.
     #[must_use]
     pub const fn hidden_edges_retained() -> Self {
         Self { hidden_edges: HiddenEdges::Retained, ..Self::hidden_edges_removed() }
     }
 
-    /// Silhouettes and borders, where they can be seen.
+    /// Silhouettes and boundaries, where they are visible.
     #[must_use]
     pub const fn silhouettes() -> Self {
         let classes = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
@@ -78,12 +85,20 @@ impl DrawOptions {
     }
 }
 
-/// A set of classes of edges.
+/// A set of edge classes, one bit for each.
+///
+/// ```
+/// use drawing::{EdgeClass, EdgeClasses};
+///
+/// let outlines = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
+/// assert!(outlines.contains(EdgeClass::Boundary) && !outlines.contains(EdgeClass::Crease));
+/// assert!(!EdgeClasses::FEATURES.contains(EdgeClass::Facet));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct EdgeClasses(u16);
 
 impl EdgeClasses {
-    /// No class.
+    /// The empty set.
     pub const NONE: Self = Self(0);
 
     /// Every class.
@@ -92,13 +107,13 @@ impl EdgeClasses {
     /// All but facets.
     pub const FEATURES: Self = Self::ALL.without(EdgeClass::Facet);
 
-    /// The set with a class.
+    /// The set with a class added.
     #[must_use]
     pub const fn with(self, class: EdgeClass) -> Self {
         Self(self.0 | 1 << class as u16)
     }
 
-    /// The set without a class.
+    /// The set with a class removed.
     #[must_use]
     pub const fn without(self, class: EdgeClass) -> Self {
         Self(self.0 & !(1 << class as u16))

@@ -1,100 +1,116 @@
-//! Each line once: where pieces lie on each other, only the most important is drawn.
+//! Overlap removal: of collinear segments that cover each other, only the most important is drawn.
 //!
 //! ```text
 //!   visible  ├────────┤                     ├────────┤
 //!   hidden       ├────────────┤      ─►              ├────┤
-//!   hidden                ├───────┤                       ├──┤   one piece with the one before, if of one object
+//!   hidden                ├───────┤                       ├──┤   merged with the one before
 //! ```
-//! In a front view the edges of the back run exactly behind those of the front; drawn twice they would be darker, and their
-//! dashes would fill each other's gaps. The order of importance is that of technical drawing: visible lines go before hidden ones
-//! (ISO 128-2). Pieces of one object and layer that continue each other become one.
+//!
+//! In a front view the edges of the back run exactly behind those of the front. Drawn twice they
+//! would be darker, and their dashes would fill each other's gaps. Precedence is that of technical
+//! drawing: visible lines before hidden ones (ISO 128-2). Adjacent segments of one object and layer
+//! are merged.
+//!
+//! Segments are grouped by their supporting line, rounded to a grid; the cost is that of sorting,
+//! O(n log n).
 
 use glam::DVec2;
 use std::collections::BTreeMap;
 
-/// A straight piece of a line on the page, in millimetres.
+/// A straight segment on the page, in millimeters.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PageSegment {
     pub(super) ends: [DVec2; 2],
-    /// The layer, the most important first.
+    /// The layer; lower ones are more important.
     pub(super) layer: u32,
     /// The object it belongs to.
     pub(super) object: u32,
 }
 
-/// Pieces nearer to each other than this are one, in millimetres. It is the size of a step of the page's grid.
+/// Segments nearer than this, in millimeters, coincide: one step of the page's grid.
 const GRID_STEP: f64 = 1e-3;
 
-/// Slopes that differ by less are one: over the longest sheet, 1.2 m, that is less than a step.
+/// Slopes that differ by less coincide: over the longest sheet, 1.2 m, the difference is less than
+/// a grid step.
 const SLOPE_STEP: f64 = 0.5e-6;
 
-/// What is shorter, in millimetres, is left alone: its direction says too little.
+/// A shorter segment, in millimeters, is left as it is: its direction is too uncertain.
 const MIN_LENGTH: f64 = 0.02;
 
-/// A piece on its supporting line: from `start` to `end` along the axis the line runs along.
+/// A segment on its supporting line: from `from` to `to` along the dominant axis.
 #[derive(Clone, Copy, Debug)]
 struct LineInterval {
     layer: u32,
     object: u32,
-    /// Where the piece stands in the input.
+    /// The position of the segment in the input, which the output restores.
     input_index: usize,
     ends: [DVec2; 2],
     from: f64,
     to: f64,
 }
 
-/// The supporting line, rounded so that pieces of one line share it: whether it is steep, its slope, where it meets the axis.
+/// A supporting line rounded to a grid, so that collinear segments share it: steepness, slope,
+/// intercept.
 type SupportLine = (bool, i64, i64);
 
-/// Removes what is covered by something more important, and joins what continues each other. The result is in the order of the
-/// input.
-pub(super) fn remove_overlaps(pieces: &[PageSegment]) -> Vec<PageSegment> {
-    let center = bounds_center(pieces);
-    let mut retained: Vec<(usize, PageSegment)> = Vec::with_capacity(pieces.len());
-    let mut spans: Vec<(SupportLine, LineInterval)> = Vec::new();
-    for (place, piece) in pieces.iter().enumerate() {
-        match support_line(piece, center) {
+/// Removes what more important segments cover, and merges adjacent segments; the result is in the
+/// order of the input.
+pub(super) fn remove_overlaps(segments: &[PageSegment]) -> Vec<PageSegment> {
+    let center = bounds_center(segments);
+    let mut retained: Vec<(usize, PageSegment)> = Vec::with_capacity(segments.len());
+    let mut intervals: Vec<(SupportLine, LineInterval)> = Vec::new();
+    for (index, segment) in segments.iter().enumerate() {
+        match support_line(segment, center) {
             Some((support, from, to, ends)) => {
-                let PageSegment { layer, object, .. } = *piece;
-                spans.push((
+                let PageSegment { layer, object, .. } = *segment;
+                intervals.push((
                     support,
-                    LineInterval { layer, object, input_index: place, ends, from, to },
+                    LineInterval { layer, object, input_index: index, ends, from, to },
                 ));
             }
-            None => retained.push((place, *piece)),
+            None => retained.push((index, *segment)),
         }
     }
-    spans.sort_unstable_by(|(one, a), (two, b)| {
-        let of_span = |span: &LineInterval| (span.layer, span.object);
+    intervals.sort_unstable_by(|(one, a), (two, b)| {
+        let of_span = |interval: &LineInterval| (interval.layer, interval.object);
         one.cmp(two)
             .then(of_span(a).cmp(&of_span(b)))
             .then(a.from.total_cmp(&b.from))
             .then(a.input_index.cmp(&b.input_index))
     });
-    for line in spans.chunk_by(|(a, _), (b, _)| a == b) {
+    for line in intervals.chunk_by(|(a, _), (b, _)| a == b) {
         push_uncovered_segments(line, &mut retained);
     }
-    retained.sort_by_key(|(place, _)| *place);
-    retained.into_iter().map(|(_, piece)| piece).collect()
+    retained.sort_by_key(|(index, _)| *index);
+    retained.into_iter().map(|(_, segment)| segment).collect()
 }
 
-/// A middle of everything, about which errors of slope count least.
-fn bounds_center(pieces: &[PageSegment]) -> DVec2 {
+/// The center of all segments, about which rounding of slopes matters least.
+fn bounds_center(segments: &[PageSegment]) -> DVec2 {
     let bounds = |f: fn(DVec2, DVec2) -> DVec2, start: f64| {
-        pieces.iter().flat_map(|piece| piece.ends).fold(DVec2::splat(start), f)
+        segments.iter().flat_map(|segment| segment.ends).fold(DVec2::splat(start), f)
     };
     let (least, greatest) = (bounds(DVec2::min, f64::INFINITY), bounds(DVec2::max, -f64::INFINITY));
     let middle = (least + greatest) * 0.5;
     if middle.is_finite() { middle } else { DVec2::ZERO }
 }
 
-/// The line that carries a piece, and from where to where the piece goes on it.
-fn support_line(piece: &PageSegment, centre: DVec2) -> Option<(SupportLine, f64, f64, [DVec2; 2])> {
-    let [a, b] = piece.ends.map(|end| end - centre);
+/// The supporting line of a segment, and its interval on it; `None` for segments without a clear
+/// direction.
+///
+/// Lines are written y = slope · x + height, or with x and y swapped if they are steep, so that
+/// slopes stay within ±1. Slope and height are rounded to a grid: collinear segments from different
+/// computations then share a key. Two collinear segments whose values fall on both sides of a
+/// rounding border are missed, and both are drawn, which does no harm.
+fn support_line(
+    segment: &PageSegment,
+    center: DVec2,
+) -> Option<(SupportLine, f64, f64, [DVec2; 2])> {
+    let [a, b] = segment.ends.map(|end| end - center);
     let along = b - a;
     let steep = along.y.abs() > along.x.abs();
-    let turned = |v: DVec2| if steep { DVec2::new(v.y, v.x) } else { v };
-    let (a, along) = (turned(a), turned(along));
+    let swap_axes = |v: DVec2| if steep { DVec2::new(v.y, v.x) } else { v };
+    let (a, along) = (swap_axes(a), swap_axes(along));
     if !(along.x.abs() >= MIN_LENGTH && along.is_finite()) {
         return None;
     }
@@ -103,66 +119,87 @@ fn support_line(piece: &PageSegment, centre: DVec2) -> Option<(SupportLine, f64,
     let round = |value: f64, step: f64| libm::round(value / step) as i64;
     let support = (steep, round(slope, SLOPE_STEP), round(height, GRID_STEP));
     let (from, to) = (a.x, a.x + along.x);
-    let [start, end] = piece.ends;
+    let [start, end] = segment.ends;
     let forward = from <= to;
     let ends = if forward { [start, end] } else { [end, start] };
     Some((support, from.min(to), from.max(to), ends))
 }
 
-/// The parts of one line's spans, sorted by importance and then along the line, that nothing before them covers.
+/// Pushes the parts of one line's intervals that no more important interval covers.
+///
+/// Intervals come sorted by importance and then along the line. All of one importance are merged
+/// and compared with those before, then they cover in turn.
 fn push_uncovered_segments(
     line: &[(SupportLine, LineInterval)],
-    kept: &mut Vec<(usize, PageSegment)>,
+    retained: &mut Vec<(usize, PageSegment)>,
 ) {
     let mut covered = CoveredIntervals::default();
     for equals in line.chunk_by(|(_, a), (_, b)| (a.layer, a.object) == (b.layer, b.object)) {
-        let joined = merge_touching(equals.iter().map(|(_, span)| *span));
-        joined.iter().for_each(|span| covered.push_uncovered_parts(span, kept));
-        joined.into_iter().for_each(|span| covered.cover_interval(span));
+        let joined = merge_touching(equals.iter().map(|(_, interval)| *interval));
+        joined.iter().for_each(|interval| covered.push_uncovered_parts(interval, retained));
+        joined.into_iter().for_each(|interval| covered.cover_interval(interval));
     }
 }
 
-/// The covered parts of a line by their beginnings; none touches another.
+/// The covered parts of a line by their starts; no two touch.
 #[derive(Default)]
 struct CoveredIntervals(BTreeMap<i64, LineInterval>);
 
-/// A whole number that is ordered as the number is.
+/// An integer that is ordered as the number is (IEEE 754 total order), so that it can be a key of a
+/// map.
+///
+/// Negative numbers have descending bit patterns; flipping all bits but the sign makes them ascend.
 fn total_order_key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 impl CoveredIntervals {
-    /// Covers a span too.
-    fn cover_interval(&mut self, mut span: LineInterval) {
+    /// Adds an interval, merged with those it touches.
+    ///
+    /// Merging takes intervals out of the map for good, so the total time is O(n log n).
+    fn cover_interval(&mut self, mut interval: LineInterval) {
         while let Some((&at, last)) =
-            self.0.range(..=total_order_key(span.to + GRID_STEP)).next_back()
+            self.0.range(..=total_order_key(interval.to + GRID_STEP)).next_back()
         {
-            if last.to + GRID_STEP < span.from {
+            if last.to + GRID_STEP < interval.from {
                 break;
             }
-            if last.from < span.from {
-                (span.from, span.ends[0]) = (last.from, last.ends[0]);
+            if last.from < interval.from {
+                (interval.from, interval.ends[0]) = (last.from, last.ends[0]);
             }
-            if last.to > span.to {
-                (span.to, span.ends[1]) = (last.to, last.ends[1]);
+            if last.to > interval.to {
+                (interval.to, interval.ends[1]) = (last.to, last.ends[1]);
             }
             self.0.remove(&at);
         }
-        self.0.insert(total_order_key(span.from), span);
+        self.0.insert(total_order_key(interval.from), interval);
     }
 
-    /// Keeps what of a span is beside all that is covered.
-    fn push_uncovered_parts(&self, span: &LineInterval, kept: &mut Vec<(usize, PageSegment)>) {
-        let mut rest = *span;
+    /// Pushes the parts of an interval that are not covered and longer than two grid steps.
+    ///
+    /// ```text
+    ///   covered       ├────┤     ├──┤
+    ///   interval   ├───────────────────┤
+    ///   pushed     ├──┤    ├─────┤  ├──┤
+    /// ```
+    ///
+    /// A part begins exactly at the end point of the interval that covers its neighbor, so lines
+    /// meet without a gap.
+    fn push_uncovered_parts(
+        &self,
+        interval: &LineInterval,
+        retained: &mut Vec<(usize, PageSegment)>,
+    ) {
+        let mut rest = *interval;
         let mut keep = |from: f64, to: f64, ends| {
             if to - from > 2.0 * GRID_STEP {
-                let piece = PageSegment { ends, layer: span.layer, object: span.object };
-                kept.push((span.input_index, piece));
+                let segment = PageSegment { ends, layer: interval.layer, object: interval.object };
+                retained.push((interval.input_index, segment));
             }
         };
-        let (from, to) = (total_order_key(span.from), total_order_key(span.to));
-        let before = self.0.range(..from).next_back().filter(|(_, cover)| cover.to > span.from);
+        let (from, to) = (total_order_key(interval.from), total_order_key(interval.to));
+        let before = self.0.range(..from).next_back().filter(|(_, cover)| cover.to > interval.from);
         for (_, cover) in before.into_iter().chain(self.0.range(from..to.max(from))) {
             keep(rest.from, cover.from, [rest.ends[0], cover.ends[0]]);
             (rest.from, rest.ends[0]) = (cover.to, cover.ends[1]);
@@ -171,18 +208,18 @@ impl CoveredIntervals {
     }
 }
 
-/// Spans in order of their beginnings, those that touch made one.
-fn merge_touching(spans: impl Iterator<Item = LineInterval>) -> Vec<LineInterval> {
+/// Merges intervals that touch; they come in order of their starts.
+fn merge_touching(intervals: impl Iterator<Item = LineInterval>) -> Vec<LineInterval> {
     let mut joined: Vec<LineInterval> = Vec::new();
-    for span in spans {
+    for interval in intervals {
         match joined.last_mut() {
-            Some(last) if span.from <= last.to + GRID_STEP => {
-                last.input_index = last.input_index.min(span.input_index);
-                if span.to > last.to {
-                    (last.to, last.ends[1]) = (span.to, span.ends[1]);
+            Some(last) if interval.from <= last.to + GRID_STEP => {
+                last.input_index = last.input_index.min(interval.input_index);
+                if interval.to > last.to {
+                    (last.to, last.ends[1]) = (interval.to, interval.ends[1]);
                 }
             }
-            _ => joined.push(span),
+            _ => joined.push(interval),
         }
     }
     joined
@@ -196,17 +233,17 @@ mod tests {
         PageSegment { ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)], layer, object }
     }
 
-    /// The pieces on the line y = x/2, by their x.
-    fn remaining_on_line(pieces: &[(u32, u32, f64, f64)]) -> Vec<(u32, u32, f64, f64)> {
+    /// The segments on the line y = x/2, by their x.
+    fn remaining_on_line(segments: &[(u32, u32, f64, f64)]) -> Vec<(u32, u32, f64, f64)> {
         let on_line = |&(layer, object, a, b): &_| segment(layer, object, [a, a / 2.0, b, b / 2.0]);
         let round = |x: f64| libm::round(x * 1e6) / 1e6;
-        let pieces: Vec<PageSegment> = pieces.iter().map(on_line).collect();
-        let rest = remove_overlaps(&pieces);
+        let segments: Vec<PageSegment> = segments.iter().map(on_line).collect();
+        let rest = remove_overlaps(&segments);
         rest.iter().map(|p| (p.layer, p.object, round(p.ends[0].x), round(p.ends[1].x))).collect()
     }
 
     #[test]
-    fn what_is_visible_covers_what_is_hidden() {
+    fn visible_segments_cover_hidden_ones() {
         let rest = remaining_on_line(&[(1, 0, 4.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 8.0, 12.0)]);
         assert_eq!(rest, [(1, 0, 5.0, 9.0), (0, 0, 0.0, 5.0), (1, 1, 9.0, 12.0)]);
         // From both sides, and from the middle; backwards too.
@@ -222,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_continues_itself_is_one_and_equal_lines_are_drawn_once() {
+    fn touching_segments_merge_and_duplicates_are_drawn_once() {
         assert_eq!(
             remaining_on_line(&[(0, 0, 0.0, 1.0), (0, 0, 1.0, 2.0), (0, 0, 0.5, 3.0)]),
             [(0, 0, 0.0, 3.0)]
@@ -234,28 +271,29 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_thousand_pieces_on_one_line_take_no_long_time() {
+    fn a_hundred_thousand_collinear_segments_take_little_time() {
         let count = 100_000_u32;
         let at = |k: u32| f64::from(k) * 0.25;
         let many: Vec<PageSegment> =
             (0..count).map(|k| segment(0, count - k, [at(k), 0.0, at(k) + 0.5, 0.0])).collect();
         let rest = remove_overlaps(&many);
-        // The object with the least number is the last: it goes before the one it overlaps, and so on.
+        // Objects are in falling order: each one takes precedence over the one before it.
         assert_eq!(rest.len(), many.len());
-        let length: f64 = rest.iter().map(|piece| (piece.ends[1] - piece.ends[0]).length()).sum();
+        let length: f64 =
+            rest.iter().map(|segment| (segment.ends[1] - segment.ends[0]).length()).sum();
         assert!((length - at(count) - 0.25).abs() < 1e-6, "{length}");
     }
 
     #[test]
-    fn neighbours_and_crossings_are_left_alone() {
-        let pieces = [
+    fn parallel_and_crossing_segments_are_retained() {
+        let segments = [
             segment(0, 0, [0.0, 0.0, 10.0, 0.0]),
             segment(1, 0, [0.0, 0.01, 10.0, 0.01]),
             segment(1, 0, [5.0, -5.0, 5.0, 5.0]),
             segment(1, 0, [0.0, 0.0, 10.0, 0.01]),
             segment(1, 0, [3.0, 0.0, 3.001, 0.0]),
         ];
-        assert_eq!(remove_overlaps(&pieces), pieces);
+        assert_eq!(remove_overlaps(&segments), segments);
         assert_eq!(remove_overlaps(&[]), []);
     }
 }

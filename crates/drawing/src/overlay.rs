@@ -1,13 +1,15 @@
-//! Overlays: what a lesson draws into a picture to explain it.
+//! Overlays: axes, ground grid, horizon, vanishing points and view volumes, drawn over a picture.
 //!
 //! ```text
 //!    ──────────●─ · ─ · ─ horizon ─ · ─ · ─●──     axes of the world, a grid on the ground,
 //!              V  ╲  ╲             ╱   ╱   V       the horizon, vanishing points with the lines
-//!               x   ╲ ┌───────────┐ ╱       z      that run to them, and what another camera sees
-//!                     │           │
+//!               x   ╲ ┌───────────┐ ╱       z      that run to them, the view volume of another
+//!                     │           │                camera
 //! ```
-//! Axes, grid and view volume stand in the world, and the models hide them; the others are drawn on the picture. What is behind the
-//! eye is cut off before the divide; the near and the far plane do not count.
+//!
+//! Axes, grid and view volume stand in the world, and the models hide them; horizon and vanishing
+//! points are drawn on the picture plane. What is behind the eye is clipped before the divide; the
+//! near and the far plane do not clip.
 
 mod perspective;
 mod view_volume;
@@ -18,40 +20,37 @@ use super::label::{Label, TextAlign};
 use super::line_style::HiddenLines;
 use super::line_type::LineType;
 use super::page::{Cap, Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline};
+use super::palette::{BLUE, GRAY, GREEN, RED};
 use super::projector::Projector;
 use crate::Subject;
 use camera::ViewProjection;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use homog::{Bounds, Clip, Point, Projective, Vector, World};
 
-/// Something drawn over a picture.
+/// Something drawn over a picture to explain it.
 #[derive(Clone, Debug)]
 pub enum Overlay {
-    /// The axes of the world from its origin, of this length; `None` for one that goes with the models.
+    /// The axes of the world from its origin, of this length; `None` for a length relative to the
+    /// models.
     Axes(Option<f64>),
-    /// A grid on the ground, y = 0, with this distance of its lines; `None` for a round one that goes with the models.
+    /// A grid on the ground, y = 0, with this spacing; `None` for a round one relative to the
+    /// models.
     Grid(Option<f64>),
-    /// Where horizontal directions vanish.
+    /// The vanishing line of horizontal planes.
     Horizon,
-    /// Where the axes vanish, with lines from the corners of the box around the models.
+    /// The vanishing points of the axes, with lines from the corners of the models' bounding box.
     VanishingPoints,
-    /// What another camera sees: its view volume, and the eye.
+    /// The view volume of another camera, with its eye.
     Volume(Box<ViewProjection>),
-    /// The edges of the surfaces, where they can be seen; line drawings have them anyway.
+    /// The visible feature edges of the surfaces; line drawings have them anyway.
     Edges,
 }
 
-const RED: Ink = [179, 38, 30];
-const GREEN: Ink = [30, 122, 52];
-const BLUE: Ink = [26, 86, 176];
-const GRAY: Ink = [150, 156, 163];
-const BROWN: Ink = [140, 90, 20];
-
-/// The axes of the world, their names and their colours.
+/// The axes of the world, their names and their colors.
 const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
-/// The width of lines, the height of letters, the length of arrowheads, in millimetres.
+/// The width of lines, the height of letters, the length of arrowheads, in millimeters.
 const LINE_WIDTH: f64 = 0.25;
 const LETTER_HEIGHT: f64 = 3.0;
 const ARROW_LENGTH: f64 = 2.4;
@@ -70,42 +69,43 @@ pub fn overlay_layers(
         return Vec::new();
     }
     let Some(glass) = PicturePlane::new(subject, hidden) else { return Vec::new() };
-    let layers = overlays.iter().enumerate().flat_map(|(number, overlay)| {
+    let layers = overlays.iter().enumerate().flat_map(|(index, overlay)| {
         let layers = match overlay {
             Overlay::Axes(length) => glass.axes_layers(*length),
             Overlay::Grid(step) => glass.grid_layers(*step),
             Overlay::Horizon => glass.horizon_layers(),
             Overlay::VanishingPoints => glass.vanishing_point_layers(),
             Overlay::Volume(view_projection) => glass.view_volume_layers(view_projection),
-            // They are of the surfaces, and are drawn with them.
+            // Feature edges are drawn with the surfaces, not here.
             Overlay::Edges => Vec::new(),
         };
         layers
             .into_iter()
-            .map(move |layer| Layer { id: format!("overlay-{}-{}", number + 1, layer.id), ..layer })
+            .map(move |layer| Layer { id: format!("overlay-{}-{}", index + 1, layer.id), ..layer })
     });
     layers.filter(|layer| layer.groups.iter().any(|group| !group.strokes.is_empty())).collect()
 }
 
-/// The picture as a sheet of glass before the eye, on which one draws.
+/// The picture plane: projects points, directions and lines of the world to the page.
 struct PicturePlane {
     world_to_clip: Projective<World, Clip>,
-    /// Half the width and height of the page in millimetres.
+    /// Half the width and height of the page in millimeters.
     half: DVec2,
-    /// The box around the models.
+    /// The bounding box of the models.
     bounds: Bounds<World>,
-    /// What hides; `None` if one sees through everything.
+    /// The faces that hide overlays; `None` if none do.
     occluders: Option<Occluders>,
 }
 
-/// The parts of lines that can be seen, and those that cannot.
+/// The visible and the hidden parts of lines, on the page.
 #[derive(Default)]
 struct DividedStrokes {
     visible: Vec<Polyline>,
     hidden: Vec<Polyline>,
 }
 
-/// How much farther than the depths of the models one sees, before and behind them.
+/// The factor by which the depth range around the models is extended, so that overlays are not
+/// clipped in depth.
 const DEPTH_RANGE_FACTOR: f64 = 1000.0;
 
 impl PicturePlane {
@@ -121,23 +121,26 @@ impl PicturePlane {
         })
     }
 
-    /// The image of a place: x and y before the divide, and w.
-    fn project_point(&self, place: Point<World>) -> DVec3 {
-        drop_depth(self.world_to_clip.transform_point(place).raw())
+    /// The image of a point: x, y and w of its clip coordinates.
+    fn project_point(&self, point: Point<World>) -> DVec3 {
+        drop_depth(self.world_to_clip.transform_point(point).raw())
     }
 
-    /// The image of a direction, w not negative.
+    /// The image of a direction, a vanishing point with w ≥ 0.
     fn project_direction(&self, direction: Vector<World>) -> DVec3 {
         let image = drop_depth(self.world_to_clip.transform_direction(direction).raw());
         if image.z < 0.0 { -image } else { image }
     }
 
-    /// Where a place after the divide is on the page.
+    /// From normalized device coordinates to millimeters of the page.
     fn ndc_to_page(&self, ndc: DVec2) -> DVec2 {
         self.half + DVec2::new(ndc.x, -ndc.y) * self.half
     }
 
-    /// The part of a segment that is in the picture, on the page.
+    /// Clips a homogeneous segment to the picture, divides, and maps it to the page.
+    ///
+    /// The four planes w ± x ≥ 0, w ± y ≥ 0 imply w ≥ 0, so nothing behind the eye is divided
+    /// (Liang–Barsky in homogeneous coordinates).
     fn clip_to_picture(&self, a: DVec3, b: DVec3) -> Option<[DVec2; 2]> {
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for side in [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y] {
@@ -158,7 +161,10 @@ impl PicturePlane {
         if from < to { Some([at(from)?, at(to)?]) } else { None }
     }
 
-    /// A line of the world as strokes.
+    /// Divides a line of the world into visible and hidden strokes.
+    ///
+    /// Without occluders the whole line is visible. The parts come as fractions of the line in the
+    /// world, and each is clipped to the picture and projected by itself.
     fn divide_line(&self, from: Point<World>, to: Point<World>, strokes: &mut DividedStrokes) {
         let stroke = |[a, b]: [f64; 2]| {
             let [a, b] = [a, b].map(|t| self.project_point(from.lerp(to, t)));
@@ -172,28 +178,29 @@ impl PicturePlane {
         strokes.hidden.extend(parts.hidden.into_iter().filter_map(stroke));
     }
 
-    /// Where a place is on the page, if it is in the picture.
+    /// The position of a homogeneous point on the page, if it is within the picture.
     fn point_in_picture(&self, image: DVec3) -> Option<DVec2> {
         let inside = image.z > 0.0 && image.x.abs() <= image.z && image.y.abs() <= image.z;
         inside.then(|| self.ndc_to_page(image.truncate() / image.z))
     }
 
+    /// The three axes of the world.
     fn axes_layers(&self, length: Option<f64>) -> Vec<Layer> {
-        let reach = self.bounds.diagonal();
-        let length = length.unwrap_or(if reach > 0.0 { 0.6 * reach } else { 1.0 });
+        let diagonal = self.bounds.diagonal();
+        let length = length.unwrap_or(if diagonal > 0.0 { 0.6 * diagonal } else { 1.0 });
         let axes = AXES.into_iter();
         axes.flat_map(|(direction, name, ink)| self.axis_layers(direction * length, name, ink))
             .collect()
     }
 
-    /// The line in its visible and its hidden parts, and its arrowhead with its name.
-    fn axis_layers(&self, reach: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
-        let tip = Point::ORIGIN + reach;
+    /// One axis: its visible and its hidden part, and its arrowhead with its name.
+    fn axis_layers(&self, direction: Vector<World>, name: &str, ink: Ink) -> [Layer; 3] {
+        let tip = Point::ORIGIN + direction;
         let [visible, hidden] =
             self.line_layers(&format!("axis-{name}"), ink, &[[Point::ORIGIN, tip]]);
         let mut head =
             overlay_layer(&format!("axis-{name}-name"), &format!("axis {name}: name"), ink);
-        let ends = [Point::ORIGIN, tip].map(|place| self.project_point(place));
+        let ends = [Point::ORIGIN, tip].map(|point| self.project_point(point));
         let ends = self
             .clip_to_picture(ends[0], ends[1])
             .filter(|_| self.point_in_picture(ends[1]).is_some());
@@ -220,6 +227,10 @@ impl PicturePlane {
         [visible, hidden]
     }
 
+    /// The ground grid under the models, one cell larger than their bounding box on each side.
+    ///
+    /// Lines are at multiples of the step, so grids of different scenes coincide. A given step is
+    /// raised where it would give more than [`MAX_GRID_LINES`] lines.
     fn grid_layers(&self, step: Option<f64>) -> Vec<Layer> {
         let (min, max) = (self.bounds.min(), self.bounds.max());
         let size = (max.x() - min.x()).max(max.z() - min.z()).max(self.bounds.diagonal() * 0.1);
@@ -242,38 +253,44 @@ impl PicturePlane {
     }
 }
 
-/// The faces of the models, unless the scene is drawn as if they were of glass.
+/// The faces of the models as occluders, unless the style draws hidden lines like visible ones.
+///
+/// The third row of the projection is divided by [`DEPTH_RANGE_FACTOR`], which flattens depths
+/// without changing their order: points far before and behind the models stay within the view
+/// volume.
 fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occluders> {
     if hidden == HiddenLines::Drawn {
         return None;
     }
     let viewport = subject.viewport().ok()?;
-    // Depth does not decide what is seen beside the models, only its order counts.
+    // Only the order of depths counts, so the range may be extended to hold the overlays.
     let deep = DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0 / DEPTH_RANGE_FACTOR, 1.0));
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
-    let sight =
+    let projector =
         Projector::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
-    let surface = WeldedSurface::from_subject(subject);
-    Some(Occluders::new(surface.occluder_triangles(), sight, surface.touch_tolerance()))
+    let surface = WeldedSurface::new(subject.models, subject.sections);
+    Some(Occluders::new(surface.occluder_triangles(), projector, surface.touch_tolerance()))
 }
 
-/// x, y and w.
+/// The components x, y and w.
 fn drop_depth(image: DVec4) -> DVec3 {
     DVec3::new(image.x, image.y, image.w)
 }
 
+/// An empty layer with the pen of overlays.
 fn overlay_layer(id: &str, title: &str, ink: Ink) -> Layer {
     Layer::new(id, title, Pen { cap: Cap::Butt, ..Pen::solid(LINE_WIDTH, ink) })
 }
 
-/// An arrowhead whose tip is at a place, for a line that comes along a direction.
+/// An arrowhead with this tip, at the end of a line in direction `along`.
 fn arrowhead(tip: DVec2, along: DVec2) -> Option<Polyline> {
     let across = DVec2::new(-along.y, along.x) * (ARROW_LENGTH / 6.0);
     let base = tip - along * ARROW_LENGTH;
     Polyline::through_points(&[tip, base + across, base - across], true)
 }
 
-/// The greatest of 1, 2 and 5 times a power of ten that is no longer than this.
+/// The greatest length of the form 1, 2 or 5 · 10ⁿ that is not above `most`; 1 if that is not
+/// positive.
 fn round_grid_step(most: f64) -> f64 {
     if !(most > 0.0 && most.is_finite()) {
         return 1.0;

@@ -1,118 +1,135 @@
-//! A page: strokes and fills on paper, as every output writes them.
+//! Page model: strokes and fills on paper, common to SVG, PDF and PNG.
 //!
-//! Coordinates are whole micrometres from the upper left corner, y down. Being whole they are the same in SVG, PDF and PNG, and
-//! relative steps between them add up without error.
+//! Coordinates are whole micrometers from the upper left corner, y down. Integers are the same in
+//! every format, and relative steps between them add up without error.
+//!
+//! ```text
+//!   Page ─┬─ PlacedImage …
+//!         └─ Layer (pen) ─── Group (object) ─┬─ strokes: Polyline …
+//!                                            └─ fills:   Polyline …
+//! ```
 
 use super::Warning;
 use glam::DVec2;
 use shade::Picture;
 
-/// Millimetres of a picture's pixel on paper: 96 of them make an inch, as in CSS.
+/// The size of an image pixel on paper in millimeters: 96 to the inch, as in CSS.
 pub const MILLIMETERS_PER_PIXEL: f64 = viewport::MILLIMETERS_PER_INCH / 96.0;
 
-/// A colour of ink: sRGB, opaque.
+/// A color of ink: sRGB, opaque.
 pub type Ink = [u8; 3];
 
-/// A place on the page in micrometres.
+/// A point of the page in micrometers.
 pub type PagePoint = [i32; 2];
 
-/// A page with everything on it, in the order in which it is drawn.
+/// A page and everything on it, in drawing order.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Page {
-    /// Width and height in millimetres.
+    /// Width and height in millimeters.
     pub size: DVec2,
-    /// What the page shows.
+    /// The title of the document.
     pub title: String,
-    /// The colour of the paper; `None` for no colour.
+    /// The color of the paper; `None` for a transparent background.
     pub paper: Option<Ink>,
-    /// Pictures on the paper, under the lines.
+    /// Images on the paper, under the lines.
     pub images: Vec<PlacedImage>,
-    /// What is drawn, one layer over the other.
+    /// Layers, each drawn over the ones before.
     pub layers: Vec<Layer>,
-    /// What could not be drawn as it should, each once.
+    /// Warnings of the drawings on the page, each once.
     pub warnings: Vec<Warning>,
 }
 
-/// A picture on a page.
+/// An image on a page.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PlacedImage {
-    /// A name for programs: lower case, hyphens, unique on its page.
+    /// An identifier: lower case, hyphens, unique on its page.
     pub id: String,
-    /// The upper left corner in micrometres.
+    /// The upper left corner in micrometers.
     pub corner: PagePoint,
-    /// Width and height in micrometres, greater than 0.
+    /// Width and height in micrometers, greater than 0.
     pub size: PagePoint,
-    /// The picture, stretched to this size.
+    /// The pixels, stretched to this size.
     pub picture: Picture,
 }
 
 /// Lines of one kind, drawn with one pen.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Layer {
-    /// A name for programs: lower case, hyphens, unique on its page.
+    /// An identifier: lower case, hyphens, unique on its page.
     pub id: String,
-    /// A name for people.
+    /// A title for the reader.
     pub title: String,
-    /// What its lines are drawn with.
+    /// The pen of its lines.
     pub pen: Pen,
-    /// Its lines, by what they belong to.
+    /// Its lines, grouped by object.
     pub groups: Vec<Group>,
 }
 
 /// The lines of a layer that belong to one object.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Group {
-    /// A name for programs, unique in its layer; empty if the layer is not divided.
+    /// An identifier, unique in its layer; empty if the layer is not divided.
     pub id: String,
     /// The object's name.
     pub title: String,
     /// Lines.
     pub strokes: Vec<Polyline>,
-    /// Areas filled with the pen's ink, such as arrowheads; even ones inside odd ones are holes.
+    /// Areas filled with the pen's ink, such as arrowheads, by the even-odd rule.
     pub fills: Vec<Polyline>,
 }
 
 /// Points joined by straight lines.
+///
+/// ```
+/// use drawing::Polyline;
+/// use glam::DVec2;
+///
+/// let [a, b] = [DVec2::ZERO, DVec2::new(3.0, 4.0)];
+/// let line = Polyline::through_points(&[a, a, b], false).expect("two different points");
+/// assert_eq!((line.points.len(), line.length()), (2, 5.0));
+/// // Nearer than half a micrometer, points coincide on the grid.
+/// assert_eq!(Polyline::through_points(&[a, a + 1e-4], false), None);
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Polyline {
-    /// The points, at least two, neighbours different.
+    /// At least two points; neighbors differ.
     pub points: Vec<PagePoint>,
-    /// Whether the last one is joined to the first, which is not there twice.
+    /// Whether the last point is joined to the first, which is not repeated.
     pub closed: bool,
 }
 
-/// What lines are drawn with.
+/// The attributes with which lines are stroked.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Pen {
-    /// The width of the line in millimetres.
+    /// The line width in millimeters.
     pub width: f64,
-    /// The colour.
+    /// The color.
     pub ink: Ink,
-    /// Lengths of dashes and gaps in turn, in millimetres; none for a continuous line. Each polyline begins anew, with a pattern
-    /// fitted to its length: [`Pen::fitted_dashes`].
+    /// Alternating lengths of dashes and gaps in millimeters; empty for a continuous line. Each
+    /// polyline starts anew, with a pattern fitted to its length: [`Pen::fitted_dashes`].
     pub dashes: Vec<f64>,
-    /// How lines end.
+    /// The ends of lines.
     pub cap: Cap,
-    /// How lines turn corners.
+    /// The corners of lines.
     pub join: Join,
 }
 
-/// How lines end.
+/// The shape of the ends of lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Cap {
-    /// At the end.
+    /// Cut off at the end point.
     Butt,
-    /// With a half disc around the end.
+    /// With a half disc around the end point.
     #[default]
     Round,
-    /// Half a width beyond the end.
+    /// Extended by half a line width.
     Square,
 }
 
-/// How lines turn corners.
+/// The shape of the corners of lines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Join {
-    /// Outer sides meet in a point, unless it is four widths away.
+    /// Outer sides extended to a point, up to a miter limit of 4.
     Miter,
     /// With a disc around the corner.
     #[default]
@@ -122,7 +139,7 @@ pub enum Join {
 }
 
 impl Page {
-    /// An empty page.
+    /// An empty page; the size is in millimeters.
     #[must_use]
     pub fn new(size: DVec2, title: impl Into<String>, paper: Option<Ink>) -> Self {
         let (images, layers, warnings) = (Vec::new(), Vec::new(), Vec::new());
@@ -139,7 +156,7 @@ impl Layer {
 }
 
 impl Pen {
-    /// A pen for continuous lines with round ends and corners.
+    /// A pen for continuous lines with round caps and joins.
     #[must_use]
     pub fn solid(width: f64, ink: Ink) -> Self {
         Self { width, ink, dashes: Vec::new(), cap: Cap::Round, join: Join::Round }
@@ -147,11 +164,13 @@ impl Pen {
 }
 
 impl Polyline {
-    /// The polyline through points given in millimetres, without those that repeat their neighbour; `None` if fewer than two
-    /// are left.
+    /// The polyline through points given in millimeters, without points that repeat their neighbor
+    /// on the grid.
+    ///
+    /// `None` if fewer than two are left.
     #[must_use]
-    pub fn through_points(millimetres: &[DVec2], closed: bool) -> Option<Self> {
-        let mut points: Vec<PagePoint> = millimetres.iter().copied().map(to_micrometers).collect();
+    pub fn through_points(millimeters: &[DVec2], closed: bool) -> Option<Self> {
+        let mut points: Vec<PagePoint> = millimeters.iter().copied().map(to_micrometers).collect();
         points.dedup();
         if closed && points.first() == points.last() {
             points.pop();
@@ -159,7 +178,7 @@ impl Polyline {
         (points.len() >= 2).then_some(Self { points, closed })
     }
 
-    /// The length in millimetres.
+    /// The length in millimeters.
     #[must_use]
     pub fn length(&self) -> f64 {
         let last = self.closed.then(|| [self.points[self.points.len() - 1], self.points[0]]);
@@ -168,14 +187,16 @@ impl Polyline {
     }
 }
 
-/// The nearest place of the grid; what is too far away for it is brought to its border.
+/// The nearest point of the grid; saturates for points too far away for it.
+///
+/// Ties round away from zero. The grid reaches to ±2147 m, beyond any paper.
 #[must_use]
-pub fn to_micrometers(millimetres: DVec2) -> PagePoint {
-    // Casting is exact for whole numbers and cuts off at the ends of the range.
-    (millimetres * 1000.0).to_array().map(|c| libm::round(c) as i32)
+pub fn to_micrometers(millimeters: DVec2) -> PagePoint {
+    // A float-to-int cast is exact for whole numbers and saturates.
+    (millimeters * 1000.0).to_array().map(|c| libm::round(c) as i32)
 }
 
-/// A place of the grid in millimetres.
+/// A point of the grid in millimeters.
 #[must_use]
 pub fn to_millimeters([x, y]: PagePoint) -> DVec2 {
     DVec2::new(f64::from(x), f64::from(y)) / 1000.0

@@ -1,9 +1,9 @@
-//! Panels: drawings side by side on one page, each with its name and what is to be said of it.
+//! Panels: drawings side by side on one page, with captions.
 //!
 //! ```text
 //!  ┌───────────┐ ┌───────────┐ ┌───────────┐
-//!  │           │ │           │ │           │     rows from the left; cells of a column are as wide,
-//!  └───────────┘ └───────────┘ └───────────┘     those of a row as high, as the largest
+//!  │           │ │           │ │           │     row by row; a column is as wide, and
+//!  └───────────┘ └───────────┘ └───────────┘     a row as high, as its largest
 //!   isometric     dimetric      cavalier
 //!   AX-1 …        AX-1 …        OB-1 …
 //! ```
@@ -12,61 +12,78 @@ mod html;
 
 use super::Warning;
 use super::label::Label;
-use super::page::{Group, Ink, Layer, Page, Pen, PlacedImage, Polyline};
+use super::page::{Group, Layer, Page, Pen, PlacedImage, Polyline};
 use super::page::{PagePoint, to_micrometers};
+use super::palette::{GRAY, INK, WHITE};
 use glam::DVec2;
 
-const INK: Ink = [26, 31, 38];
-const GRAY: Ink = [150, 156, 163];
-
-/// The room around all panels and between two of them, in millimetres.
+/// The margin around all panels, in millimeters.
 const MARGIN: f64 = 8.0;
+/// The gap between two panels, in millimeters.
 const PANEL_GAP: f64 = 7.0;
 
-/// Heights of letters in millimetres: of the page's title, of a panel's, and of its notes; and the distance of baselines in them.
+/// The height of letters of the page's title, in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
+/// The height of letters of a panel's title, in millimeters.
 const TITLE_HEIGHT: f64 = 3.0;
+/// The height of letters of a panel's notes, in millimeters.
 const NOTE_HEIGHT: f64 = 2.0;
+/// The distance of baselines, in heights of letters.
 const LEADING: f64 = 1.75;
 
-/// A drawing with its name and what is to be said of it.
+/// A drawing with a caption.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panel {
-    /// A name for programs: lower case, hyphens, unique among its neighbours.
+    /// An identifier: lower case, hyphens, unique among its neighbors.
     pub id: String,
-    /// A name for people.
+    /// The title of the caption.
     pub title: String,
-    /// Lines of text below it.
+    /// Lines of text below the title.
     pub notes: Vec<String>,
     /// The drawing.
     pub page: Page,
 }
 
 /// Drawings side by side.
+///
+/// ```
+/// use drawing::{Page, Panel, Panels};
+/// use glam::DVec2;
+///
+/// let panel = |id: &str| Panel {
+///     id: id.to_owned(),
+///     title: id.to_owned(),
+///     notes: Vec::new(),
+///     page: Page::new(DVec2::new(40.0, 30.0), id, None),
+/// };
+/// let panels = Panels::new("four views", ["a", "b", "c", "d"].map(panel).to_vec());
+/// assert_eq!(panels.columns, 2);
+/// assert!(panels.to_page().size.x > 80.0 && panels.to_html().contains("<figure id=\"d\">"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panels {
-    /// What they show together.
+    /// The title of the page.
     pub title: String,
-    /// How many stand in a row, at least 1.
+    /// The number of panels in a row, at least 1.
     pub columns: usize,
     /// The panels, row by row from the left.
     pub panels: Vec<Panel>,
 }
 
 impl Panel {
-    /// The same with lines of text below it.
+    /// The panel with other notes.
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
-    /// Width and height with the text, in millimetres.
+    /// Width and height with the caption, in millimeters.
     fn outer_size(&self) -> DVec2 {
         let text = TITLE_HEIGHT * LEADING + self.notes.len() as f64 * NOTE_HEIGHT * LEADING;
         self.page.size + DVec2::new(0.0, text)
     }
 
-    /// Title and notes, their upper left corner at `at`.
+    /// Title and notes as strokes, with their upper left corner at `at`.
     fn text_groups(&self, at: DVec2) -> [Group; 2] {
         let group = |strokes: Vec<Polyline>| Group {
             id: self.id.clone(),
@@ -86,7 +103,7 @@ impl Panel {
 }
 
 impl Panels {
-    /// As many columns as make the page about as wide as high.
+    /// Panels in a single row up to three, otherwise in a grid about as wide as high.
     #[must_use]
     pub fn new(title: impl Into<String>, panels: Vec<Panel>) -> Self {
         let count = panels.len();
@@ -94,7 +111,7 @@ impl Panels {
         Self { title: title.into(), columns: columns.max(1), panels }
     }
 
-    /// What could not be drawn as it should, each once.
+    /// The warnings of all drawings, each once.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
         let all = self.panels.iter().flat_map(|panel| panel.page.warnings.iter().cloned());
@@ -104,7 +121,10 @@ impl Panels {
         warnings
     }
 
-    /// All of them on one white page.
+    /// All panels on one white page.
+    ///
+    /// Rows and columns are as large as their largest panel; the captions are strokes, so the page
+    /// can be written in every format.
     #[must_use]
     pub fn to_page(&self) -> Page {
         let sizes: Vec<DVec2> = self.panels.iter().map(Panel::outer_size).collect();
@@ -120,13 +140,13 @@ impl Panels {
             sum(&widths) - PANEL_GAP + 2.0 * MARGIN,
             top + sum(&heights) - PANEL_GAP + MARGIN,
         );
-        let mut page = Page::new(size, self.title.clone(), Some([255; 3]));
+        let mut page = Page::new(size, self.title.clone(), Some(WHITE));
         let pen = Pen::solid(0.13, GRAY);
         let mut frames = Layer::new("frames", "the borders of the pictures", pen);
         let mut names = Layer::new("names", "names", Pen::solid(TITLE_HEIGHT * 0.1, INK));
         let mut notes = Layer::new("notes", "notes", Pen::solid(NOTE_HEIGHT * 0.1, INK));
-        for (number, panel) in self.panels.iter().enumerate() {
-            let (x, y) = (number % columns, number / columns);
+        for (index, panel) in self.panels.iter().enumerate() {
+            let (x, y) = (index % columns, index / columns);
             let corner = DVec2::new(MARGIN + sum(&widths[..x]), top + sum(&heights[..y]));
             page.paste_page(&panel.page, corner, &format!("{}-", panel.id));
             frames.groups.push(frame_group(panel, corner));
@@ -145,10 +165,12 @@ impl Panels {
     }
 }
 
+/// The greatest of some lengths, 0 if there are none.
 fn largest_side(sides: impl Iterator<Item = f64>) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
+/// The border of a panel.
 fn frame_group(panel: &Panel, corner: DVec2) -> Group {
     let [w, h] = panel.page.size.to_array();
     let corners = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]].map(|c| corner + DVec2::from(c));
@@ -157,10 +179,13 @@ fn frame_group(panel: &Panel, corner: DVec2) -> Group {
 }
 
 impl Page {
-    /// Puts what is on another page onto this one, its upper left corner at `corner` in millimetres. `prefix` begins the names.
+    /// Puts the content of another page onto this one, with its upper left corner at `corner` in
+    /// millimeters.
+    ///
+    /// `prefix` begins the ids of images and layers, so that they stay unique.
     pub fn paste_page(&mut self, other: &Self, corner: DVec2, prefix: &str) {
         let by = to_micrometers(corner);
-        let moved = |place: PagePoint| [place[0] + by[0], place[1] + by[1]];
+        let moved = |point: PagePoint| [point[0] + by[0], point[1] + by[1]];
         self.images.extend(other.images.iter().cloned().map(|pasted| PlacedImage {
             id: format!("{prefix}{}", pasted.id),
             corner: moved(pasted.corner),
@@ -171,7 +196,7 @@ impl Page {
             layer.id = format!("{prefix}{}", layer.id);
             for group in &mut layer.groups {
                 let lines = group.strokes.iter_mut().chain(&mut group.fills);
-                lines.flat_map(|line| &mut line.points).for_each(|place| *place = moved(*place));
+                lines.flat_map(|line| &mut line.points).for_each(|point| *point = moved(*point));
             }
             self.layers.push(layer);
         }
@@ -196,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn panels_stand_in_rows_without_touching() {
+    fn panels_form_rows_without_touching() {
         let panels = Panels::new("five", ["a", "b", "c", "d", "e"].map(panel).to_vec());
         assert_eq!(panels.columns, 3);
         let page = panels.to_page();
@@ -212,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_page_of_panels_needs_no_other_file_and_no_id_is_there_twice() {
+    fn html_of_panels_is_self_contained_with_unique_ids() {
         let html = Panels::new("<two>", vec![panel("a"), panel("b")]).to_html();
         assert!(html.contains("<h1>&lt;two&gt;</h1>") && html.contains("a &lt; b"));
         assert!(!html.contains("src=") && !html.contains("<two>"));

@@ -1,13 +1,27 @@
-//! Work for several threads whose results come in the order of the work.
+//! Parallel map over index ranges with results in the order of the indices.
+//!
+//! ```text
+//!   next ──► 0..512    thread A ─► results   ╮
+//!            512..1024 thread B ─► results   ├─ sorted by start, concatenated
+//!            …                               ╯
+//! ```
+//!
+//! Threads take chunks from an atomic counter, so uneven work balances itself; since chunks are
+//! sorted by their start afterwards, the result does not depend on the number of threads or on
+//! their timing.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Items that a thread takes at a time.
+/// Items that a thread takes at a time: enough that the counter is never contended.
 const CHUNK_SIZE: usize = 512;
 
-/// Does the work of `count` items with up to `threads` threads, each with memory of its own, and puts what it pushes
-/// together in the order of the items: it does not depend on the number of threads.
+/// Does the work of `count` items with up to `threads` threads, and concatenates what it pushes in
+/// the order of the items.
+///
+/// Each thread has scratch memory `M` of its own, made when it starts. The calling thread works
+/// too, so one thread spawns none, and 0 counts as 1. A panic in `work` is raised again in the
+/// caller.
 pub(super) fn map_in_order<M: Default, T: Send>(
     count: usize,
     threads: usize,

@@ -1,24 +1,38 @@
-//! PDF: pages as a Portable Document Format file, in millimetres.
+//! PDF output: pages as a Portable Document Format 1.7 file (ISO 32000-1), in millimeters.
 //!
-//! The unit of a page is brought from points to millimetres once, at its beginning, and y is turned down; from there on its numbers
-//! are those of the SVG. Layers are optional content, so that a reader can switch them. Nothing in the file depends on the day or
-//! on chance: no dates, no identifiers.
+//! ```text
+//!   1 catalog ─► 2 page tree ─► 4 page ─► 5 content stream      (two objects for each page)
+//!       │                         │
+//!       │ OCProperties            └─ resources ─► layers, images
+//!       ▼
+//!   optional content groups, one for each layer;  3 document information
+//! ```
+//!
+//! At its beginning each page scales its unit from points to millimeters and flips y; from there on
+//! its numbers are those of the SVG. Layers are optional content groups, which a viewer can switch
+//! on and off. Streams are compressed by DEFLATE.
+//!
+//! The file holds no dates and no random identifiers: equal pages give equal bytes, on every
+//! machine.
 
 use super::fixed_decimal::write_thousandths;
 use super::page::{Cap, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
 use pdf_writer::{Dict, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use shade::Picture;
 
-/// Points in a millimetre: an inch has 72.
+/// An inch has 72 points.
 const POINTS_PER_MILLIMETER: f64 = 72.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// How hard streams are compressed, of 10: beyond this it takes longer and gains little.
+/// The compression level of streams, of 10: higher levels take longer and gain little.
 const DEFLATE_LEVEL: u8 = 6;
 
 /// The longest name of a layer that is written, in characters.
 const MAX_LAYER_NAME: usize = 200;
 
-/// The numbers of the objects of a file: three at the beginning, two for each page, one for each layer, two for each picture.
+/// The ids of a file's indirect objects: three fixed ones, two for each page, one for each layer,
+/// two for each image.
+///
+/// Ids follow from counts alone, so that objects can refer to others that are not yet written.
 struct ObjectIds {
     pages: usize,
     layers: usize,
@@ -29,40 +43,52 @@ impl ObjectIds {
     const PAGE_TREE: Ref = Ref::new(2);
     const INFO: Ref = Ref::new(3);
 
-    fn page_id(number: usize) -> Ref {
-        Ref::new(4 + 2 * number as i32)
+    /// The page object.
+    fn page_id(index: usize) -> Ref {
+        Ref::new(4 + 2 * index as i32)
     }
 
-    fn content_id(number: usize) -> Ref {
-        Ref::new(5 + 2 * number as i32)
+    /// The content stream of a page.
+    fn content_id(index: usize) -> Ref {
+        Ref::new(5 + 2 * index as i32)
     }
 
-    fn layer_id(&self, number: usize) -> Ref {
-        Ref::new(4 + 2 * self.pages as i32 + number as i32)
+    /// The optional content group of a layer.
+    fn layer_id(&self, index: usize) -> Ref {
+        Ref::new(4 + 2 * self.pages as i32 + index as i32)
     }
 
-    /// A picture's colours and its alpha.
-    fn image_ids(&self, number: usize) -> [Ref; 2] {
-        let first = 4 + 2 * self.pages + self.layers + 2 * number;
-        [first, first + 1].map(|number| Ref::new(number as i32))
+    /// The image object with the colors, and that with the alpha as its soft mask.
+    fn image_ids(&self, index: usize) -> [Ref; 2] {
+        let first = 4 + 2 * self.pages + self.layers + 2 * index;
+        [first, first + 1].map(|id| Ref::new(id as i32))
     }
 }
 
-/// The pages as a PDF file; its title is that of the first.
+/// The pages as a PDF file; its title is that of the first page.
+///
+/// ```
+/// use drawing::{Page, to_pdf};
+/// use glam::DVec2;
+///
+/// let a4 = Page::new(DVec2::new(210.0, 297.0), "empty", Some([255; 3]));
+/// let file = to_pdf(&[a4]);
+/// assert!(file.starts_with(b"%PDF-1.7"));
+/// ```
 #[must_use]
 pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut pdf = Pdf::new();
     let layers = pages.iter().map(|page| page.layers.len()).sum();
-    let numbers = ObjectIds { pages: pages.len(), layers };
+    let ids = ObjectIds { pages: pages.len(), layers };
     let (mut layers, mut pictures) = (0, 0);
-    for (number, page) in pages.iter().enumerate() {
-        write_page(&mut pdf, &numbers, number, page, [layers, pictures]);
+    for (index, page) in pages.iter().enumerate() {
+        write_page(&mut pdf, &ids, index, page, [layers, pictures]);
         for (at, pasted) in page.images.iter().enumerate() {
-            write_image(&mut pdf, numbers.image_ids(pictures + at), &pasted.picture);
+            write_image(&mut pdf, ids.image_ids(pictures + at), &pasted.picture);
         }
         pictures += page.images.len();
         for (at, layer) in page.layers.iter().enumerate() {
-            let mut group = pdf.indirect(numbers.layer_id(layers + at)).dict();
+            let mut group = pdf.indirect(ids.layer_id(layers + at)).dict();
             group.pair(Name(b"Type"), Name(b"OCG"));
             let name: String = layer.title.chars().take(MAX_LAYER_NAME).collect();
             group.pair(Name(b"Name"), TextStr(&name));
@@ -74,7 +100,7 @@ pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut catalog = pdf.catalog(ObjectIds::CATALOG);
     catalog.pages(ObjectIds::PAGE_TREE);
     if layers > 0 {
-        write_optional_content(&mut catalog, (0..layers).map(|layer| numbers.layer_id(layer)));
+        write_optional_content(&mut catalog, (0..layers).map(|layer| ids.layer_id(layer)));
     }
     catalog.finish();
     let mut info = pdf.document_info(ObjectIds::INFO);
@@ -84,6 +110,8 @@ pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     pdf.finish()
 }
 
+/// Writes the list of layers into the catalog, in drawing order: `OCProperties` with its required
+/// default configuration `D`.
 fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = Ref> + Clone) {
     let mut properties = catalog.insert(Name(b"OCProperties")).dict();
     properties.insert(Name(b"OCGs")).array().items(layers.clone());
@@ -91,7 +119,10 @@ fn write_optional_content(catalog: &mut Dict<'_>, layers: impl Iterator<Item = R
     default_config.insert(Name(b"Order")).array().items(layers);
 }
 
-/// The colours of a picture, and its alpha as a mask.
+/// Writes an image as two XObjects: RGB, and alpha as its soft mask.
+///
+/// PDF has no interleaved alpha, so the channels are compressed apart, which also makes them
+/// smaller.
 fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     let (width, height) = (picture.width as i32, picture.height as i32);
     let packed = |bytes: Vec<u8>| miniz_oxide::deflate::compress_to_vec_zlib(&bytes, DEFLATE_LEVEL);
@@ -108,40 +139,50 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
     image.filter(Filter::FlateDecode);
 }
 
-/// A page; its first layer and its first picture have these numbers.
+/// Writes the page object, its resources and its content stream.
+///
+/// Resource names are local to the page: `L0`, `L1` … for layers and `P0`, `P1` … for images.
+/// `layers` and `pictures` count those of the pages before, for the ids of the objects.
 fn write_page(
     pdf: &mut Pdf,
-    numbers: &ObjectIds,
-    number: usize,
+    ids: &ObjectIds,
+    index: usize,
     page: &Page,
     [layers, pictures]: [usize; 2],
 ) {
     let [width, height] = page.size.to_array().map(|side| (side * POINTS_PER_MILLIMETER) as f32);
-    let mut entry = pdf.page(ObjectIds::page_id(number));
+    let mut entry = pdf.page(ObjectIds::page_id(index));
     entry.media_box(Rect::new(0.0, 0.0, width, height));
     entry.parent(ObjectIds::PAGE_TREE);
-    entry.contents(ObjectIds::content_id(number));
+    entry.contents(ObjectIds::content_id(index));
     let mut resources = entry.resources();
     if !page.layers.is_empty() {
         let mut properties = resources.insert(Name(b"Properties")).dict();
         for at in 0..page.layers.len() {
             let name = format!("L{at}");
-            properties.pair(Name(name.as_bytes()), numbers.layer_id(layers + at));
+            properties.pair(Name(name.as_bytes()), ids.layer_id(layers + at));
         }
     }
     if !page.images.is_empty() {
         let mut objects = resources.x_objects();
         for at in 0..page.images.len() {
-            objects.pair(Name(format!("P{at}").as_bytes()), numbers.image_ids(pictures + at)[0]);
+            objects.pair(Name(format!("P{at}").as_bytes()), ids.image_ids(pictures + at)[0]);
         }
     }
     resources.finish();
     entry.finish();
     let content = miniz_oxide::deflate::compress_to_vec_zlib(&page_content(page), DEFLATE_LEVEL);
-    pdf.stream(ObjectIds::content_id(number), &content).filter(Filter::FlateDecode);
+    pdf.stream(ObjectIds::content_id(index), &content).filter(Filter::FlateDecode);
 }
 
-/// The commands that draw a page.
+/// The content stream of a page, uncompressed.
+///
+/// ```text
+///   2.83… 0 0 −2.83… 0 height cm      points to millimeters, y down
+///   1 1 1 rg  0 0 210 297 re f        the paper
+///   q  w 0 0 −h x y+h cm  /P0 Do  Q   an image
+///   /OC /L0 BDC  …  EMC               a layer
+/// ```
 fn page_content(page: &Page) -> Vec<u8> {
     let mut out = ContentStream(Vec::new());
     let height = page.size.y * POINTS_PER_MILLIMETER;
@@ -156,7 +197,7 @@ fn page_content(page: &Page) -> Vec<u8> {
         out.push_text("re f\n");
     }
     for (at, PlacedImage { corner, size, .. }) in page.images.iter().enumerate() {
-        // The unit square of pictures has y up.
+        // PDF maps images to the unit square with y up.
         out.push_text("q ");
         out.push_point([size[0], 0]);
         out.push_point([0, -size[1]]);
@@ -171,28 +212,34 @@ fn page_content(page: &Page) -> Vec<u8> {
     out.0
 }
 
-/// A content stream being written.
+/// A content stream under construction: operands in postfix order, one operator to a line.
 struct ContentStream(Vec<u8>);
 
 impl ContentStream {
+    /// Appends operators.
     fn push_text(&mut self, text: &str) {
         self.0.extend_from_slice(text.as_bytes());
     }
 
+    /// Appends a number, given in thousandths, and a space.
     fn push_number(&mut self, thousandth: i64) {
         write_thousandths(&mut self.0, thousandth);
         self.0.push(b' ');
     }
 
-    fn push_length(&mut self, millimetres: f64) {
-        self.push_number(libm::round(millimetres * 1000.0) as i64);
+    /// Appends a length in millimeters.
+    fn push_length(&mut self, millimeters: f64) {
+        self.push_number(libm::round(millimeters * 1000.0) as i64);
     }
 
+    /// Appends a point of the page in millimeters.
     fn push_point(&mut self, [x, y]: PagePoint) {
         self.push_number(x.into());
         self.push_number(y.into());
     }
 
+    /// Sets a color: `RG` for strokes, `rg` for fills. Channels are rounded to thousandths of 0 to
+    /// 1.
     fn set_color(&mut self, ink: Ink, command: &str) {
         for channel in ink {
             self.push_number((i64::from(channel) * 1000 + 127) / 255);
@@ -201,6 +248,10 @@ impl ContentStream {
         self.0.push(b'\n');
     }
 
+    /// Draws the strokes and fills of a layer.
+    ///
+    /// All continuous strokes of a group are one path and one `S`; dashed ones are stroked each
+    /// with its own pattern. Fills use the even-odd rule (`f*`).
     fn draw_layer(&mut self, layer: &Layer) {
         self.set_pen(&layer.pen);
         for group in &layer.groups {
@@ -217,6 +268,7 @@ impl ContentStream {
         }
     }
 
+    /// Sets colors, line width, cap, join and miter limit.
     fn set_pen(&mut self, pen: &Pen) {
         self.set_color(pen.ink, "RG");
         self.set_color(pen.ink, "rg");
@@ -236,19 +288,21 @@ impl ContentStream {
         self.push_text(&format!("{cap} J {join} j 4 M\n"));
     }
 
+    /// Sets the dash pattern.
     fn set_dashes(&mut self, dashes: &[f64]) {
         self.push_text("[");
         dashes.iter().for_each(|&dash| self.push_length(dash));
         self.push_text("] 0 d\n");
     }
 
-    /// A line by itself, with dashes that fit it.
+    /// Strokes one line with dashes that fit its length.
     fn stroke_dashed(&mut self, line: &Polyline, pen: &Pen) {
         self.set_dashes(&pen.fitted_dashes(line));
         self.push_path(line);
         self.push_text("S\n");
     }
 
+    /// Appends a path.
     fn push_path(&mut self, line: &Polyline) {
         for (at, point) in line.points.iter().enumerate() {
             self.push_point(*point);
@@ -267,7 +321,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn a_page_says_what_is_on_it() {
+    fn a_page_has_the_expected_content_stream() {
         let mut page = Page::new(DVec2::new(210.0, 297.0), "A (page) \\ Ä", Some([255, 128, 0]));
         let mut pen = Pen::solid(0.25, [0; 3]);
         pen.dashes = vec![3.0, 0.75];

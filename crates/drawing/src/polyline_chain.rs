@@ -1,6 +1,14 @@
-//! Chains: pieces that share their ends become polylines, so that corners are joined, dashes go on around them, and files are small.
+//! Polyline chaining: segments with common ends become polylines.
 //!
-//! Ends are the same if they are the same place of the page's grid. Where more than two pieces meet, the straightest way is taken.
+//! Corners are joined, dashes continue around them, and files are smaller. Ends are equal if they
+//! are the same point of the page's micrometer grid. At a junction of more than two segments a
+//! chain continues in the straightest direction.
+//!
+//! ```text
+//!             │                     │
+//!    ─────────●─────────    ─►   ═══╪═══   two chains cross: each is continued straight ahead
+//!             │                     │
+//! ```
 
 use super::overlap_removal::PageSegment;
 use super::page::{PagePoint, Polyline, to_micrometers};
@@ -13,19 +21,22 @@ pub(super) struct PolylineChain {
     pub(super) polyline: Polyline,
 }
 
-/// At a place where more than two pieces meet, a turn with a smaller cosine ends the chain: 60°.
+/// At a junction of more than two segments, a turn with a smaller cosine ends the chain: 60°.
 const MIN_TURN_COSINE: f64 = 0.5;
 
-/// How far, in micrometres, a point may be beside the line of its neighbours and be left out.
+/// A point no farther, in micrometers, from the line of its neighbors is removed.
 const COLLINEAR_TOLERANCE: f64 = 1.0;
 
-/// The most points in a row that are left out; more of them take too long to look at again and again.
+/// The most consecutive points that are removed; each is tested again for every further one, so the
+/// time grows with the square.
 const MAX_DROPPED_RUN: usize = 64;
 
-/// Chains the pieces: by layer, by object, and in the order of their first pieces.
-pub(super) fn join_into_chains(pieces: &[PageSegment]) -> Vec<PolylineChain> {
-    let mut order: Vec<&PageSegment> = pieces.iter().collect();
-    order.sort_by_key(|piece| (piece.layer, piece.object));
+/// Joins segments into chains: by layer, by object, and in the order of their first segments.
+///
+/// Time is O(n log n) for the sort of ends, plus the run limit of [`remove_collinear`].
+pub(super) fn join_into_chains(segments: &[PageSegment]) -> Vec<PolylineChain> {
+    let mut order: Vec<&PageSegment> = segments.iter().collect();
+    order.sort_by_key(|segment| (segment.layer, segment.object));
     let alike = order.chunk_by(|a, b| (a.layer, a.object) == (b.layer, b.object));
     alike
         .flat_map(|group| {
@@ -36,37 +47,42 @@ pub(super) fn join_into_chains(pieces: &[PageSegment]) -> Vec<PolylineChain> {
         .collect()
 }
 
-/// The pieces of one layer and object on the grid, and which of them meet where.
+/// The segments of one layer and object on the grid, with their incidence at each point.
 struct SegmentGraph {
-    /// The two ends of each piece.
+    /// The two ends of each segment.
     segments: Vec<[PagePoint; 2]>,
-    /// Every end: its place, its piece, and which end of it. Sorted, so that those of one place are neighbours.
+    /// Each end as its point, its segment and which end it is; sorted, so that ends at one point
+    /// are neighbors.
     ends: Vec<(PagePoint, u32, u8)>,
+    /// Whether a segment is in a chain already.
     is_used: Vec<bool>,
 }
 
 impl SegmentGraph {
-    fn new(pieces: &[&PageSegment]) -> Self {
-        let on_grid = |piece: &&PageSegment| piece.ends.map(to_micrometers);
-        let sides: Vec<_> = pieces.iter().map(on_grid).filter(|[a, b]| a != b).collect();
-        let segments = drop_duplicate_segments(&sides);
+    /// Snaps segments to the grid, and drops those without length and duplicates.
+    fn new(segments: &[&PageSegment]) -> Self {
+        let on_grid = |segment: &&PageSegment| segment.ends.map(to_micrometers);
+        let on_page: Vec<_> = segments.iter().map(on_grid).filter(|[a, b]| a != b).collect();
+        let segments = drop_duplicate_segments(&on_page);
         let mut ends: Vec<_> = (0_u32..)
             .zip(&segments)
-            .flat_map(|(side, [a, b])| [(*a, side, 0), (*b, side, 1)])
+            .flat_map(|(index, [a, b])| [(*a, index, 0), (*b, index, 1)])
             .collect();
         ends.sort_unstable();
         let is_used = vec![false; segments.len()];
-        Self { segments: segments, ends, is_used }
+        Self { segments, ends, is_used }
     }
 
+    /// Covers the graph with polylines: each unused segment is extended forward, then backward
+    /// unless it closed.
     fn into_polylines(mut self) -> Vec<Polyline> {
         let mut lines = Vec::new();
-        for side in 0..self.segments.len() {
-            if self.is_used[side] {
+        for index in 0..self.segments.len() {
+            if self.is_used[index] {
                 continue;
             }
-            self.is_used[side] = true;
-            let mut points = self.segments[side].to_vec();
+            self.is_used[index] = true;
+            let mut points = self.segments[index].to_vec();
             self.extend_chain(&mut points);
             let closed = points.len() > 3 && points.first() == points.last();
             if closed {
@@ -81,12 +97,14 @@ impl SegmentGraph {
         lines
     }
 
-    /// Goes on from the last point as far as there is a way.
+    /// Extends a chain from its last point until no segment continues it or it closes.
+    ///
+    /// `points` has at least two points, whose segment is used already.
     fn extend_chain(&mut self, points: &mut Vec<PagePoint>) {
-        while let Some((side, next)) =
+        while let Some((index, next)) =
             self.next_segment(points[points.len() - 2], points[points.len() - 1])
         {
-            self.is_used[side] = true;
+            self.is_used[index] = true;
             points.push(next);
             if next == points[0] {
                 return;
@@ -94,46 +112,62 @@ impl SegmentGraph {
         }
     }
 
-    /// The piece that goes on from `here`, where one comes from `before`, and where it leads.
+    /// The unused segment that continues a chain from `before` through `here` best, and its far
+    /// end.
+    ///
+    /// ```text
+    ///             ╱ best: the smallest turn
+    ///   before ──● here
+    ///             ╲ also incident: at a junction a candidate only below 60°
+    /// ```
+    ///
+    /// Where only two segments meet, the other one is taken whatever the angle.
     fn next_segment(&self, before: PagePoint, here: PagePoint) -> Option<(usize, PagePoint)> {
-        let first = self.ends.partition_point(|(place, ..)| *place < here);
-        let incident = self.ends[first..].iter().take_while(|(place, ..)| *place == here);
+        let first = self.ends.partition_point(|(point, ..)| *point < here);
+        let incident = self.ends[first..].iter().take_while(|(point, ..)| *point == here);
         let is_crossing = incident.clone().nth(2).is_some();
         let mut best: Option<(f64, usize, PagePoint)> = None;
-        for &(_, side, end) in incident {
-            let (side, next) = (side as usize, self.segments[side as usize][usize::from(1 - end)]);
+        for &(_, index, end) in incident {
+            let (index, next) =
+                (index as usize, self.segments[index as usize][usize::from(1 - end)]);
             let cosine = turn_cosine(before, here, next);
-            let is_way = !self.is_used[side] && (!is_crossing || cosine >= MIN_TURN_COSINE);
-            if is_way && best.is_none_or(|(other, ..)| cosine > other) {
-                best = Some((cosine, side, next));
+            let continues = !self.is_used[index] && (!is_crossing || cosine >= MIN_TURN_COSINE);
+            if continues && best.is_none_or(|(other, ..)| cosine > other) {
+                best = Some((cosine, index, next));
             }
         }
-        best.map(|(_, side, next)| (side, next))
+        best.map(|(_, index, next)| (index, next))
     }
 }
 
-/// The sides without those that are there before, in either direction.
-fn drop_duplicate_segments(sides: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
-    let sorted = |side: &[PagePoint; 2]| [side[0].min(side[1]), side[0].max(side[1])];
-    let mut order: Vec<u32> = (0..sides.len() as u32).collect();
-    order.sort_by_key(|&at| (sorted(&sides[at as usize]), at));
-    order.dedup_by_key(|at| sorted(&sides[*at as usize]));
+/// The segments without later duplicates, in either direction, in their order.
+fn drop_duplicate_segments(segments: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
+    let sorted = |[a, b]: [PagePoint; 2]| [a.min(b), a.max(b)];
+    let mut order: Vec<u32> = (0..segments.len() as u32).collect();
+    order.sort_by_key(|&at| (sorted(segments[at as usize]), at));
+    order.dedup_by_key(|at| sorted(segments[*at as usize]));
     order.sort_unstable();
-    order.into_iter().map(|at| sides[at as usize]).collect()
+    order.into_iter().map(|at| segments[at as usize]).collect()
 }
 
+/// The vector from one grid point to another, in micrometers.
 fn grid_offset([x0, y0]: PagePoint, [x1, y1]: PagePoint) -> [f64; 2] {
     [f64::from(x1) - f64::from(x0), f64::from(y1) - f64::from(y0)]
 }
 
-/// The cosine of the turn at `b` on the way from `a` to `c`.
+/// The cosine of the angle by which a path from `a` to `c` turns at `b`.
 fn turn_cosine(a: PagePoint, b: PagePoint, c: PagePoint) -> f64 {
     let ([x0, y0], [x1, y1]) = (grid_offset(a, b), grid_offset(b, c));
     let squares = (x0 * x0 + y0 * y0) * (x1 * x1 + y1 * y1);
     (x0 * x1 + y0 * y1) / libm::sqrt(squares)
 }
 
-/// The points without those that lie on the straight line between points that stay.
+/// Removes points that lie on the segment between the points around them.
+///
+/// A greedy pass: as long as all points dropped since the last retained one lie within
+/// [`COLLINEAR_TOLERANCE`] of the segment to the next point, the run grows. Since every dropped
+/// point is tested against the *final* segment, the error does not accumulate along a curve of many
+/// small steps, as it would if each were compared only with its neighbors.
 fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     let mut retained = vec![points[0]];
     let mut dropped: Vec<PagePoint> = Vec::new();
@@ -157,7 +191,10 @@ fn remove_collinear(points: Vec<PagePoint>, closed: bool) -> Vec<PagePoint> {
     if retained.len() < 2 { points } else { retained }
 }
 
-/// Whether a point lies on the segment from `from` to `to`, but for less than a step of the grid.
+/// Whether a point lies on the segment from `from` to `to`, up to the tolerance.
+///
+/// With d = to − from and p = point − from it tests 0 ≤ d·p ≤ |d|² and |d × p| ≤ tolerance · |d|,
+/// squared to avoid the root.
 fn lies_on_segment(from: PagePoint, point: PagePoint, to: PagePoint) -> bool {
     let ([dx, dy], [px, py]) = (grid_offset(from, to), grid_offset(from, point));
     let square = dx * dx + dy * dy;
@@ -171,19 +208,19 @@ mod tests {
     use super::*;
     use glam::DVec2;
 
-    /// The chains of segments given in millimetres, all of one layer and object.
+    /// The chains of segments given in millimeters, all of one layer and object.
     fn chains_in_millimeters(segments: &[[f64; 4]]) -> Vec<(Vec<[i32; 2]>, bool)> {
-        let piece = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
+        let segment = |&[x0, y0, x1, y1]: &[f64; 4]| PageSegment {
             ends: [DVec2::new(x0, y0), DVec2::new(x1, y1)],
             layer: 0,
             object: 0,
         };
-        let pieces: Vec<PageSegment> = segments.iter().map(piece).collect();
-        let in_millimetres =
+        let segments: Vec<PageSegment> = segments.iter().map(segment).collect();
+        let in_millimeters =
             |line: Polyline| line.points.iter().map(|p| p.map(|c| c / 1000)).collect();
-        join_into_chains(&pieces)
+        join_into_chains(&segments)
             .into_iter()
-            .map(|chain| (in_millimetres(chain.polyline.clone()), chain.polyline.closed))
+            .map(|chain| (in_millimeters(chain.polyline.clone()), chain.polyline.closed))
             .collect()
     }
 
@@ -200,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_line_grows_to_both_sides_and_straight_joints_vanish() {
+    fn an_open_chain_grows_at_both_ends_and_loses_collinear_points() {
         let line = [
             [2.0, 0.0, 3.0, 0.0],
             [1.0, 0.0, 2.0, 0.0],
@@ -211,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_crossing_the_straight_way_is_taken() {
+    fn at_a_junction_the_straightest_segment_continues() {
         let cross = [
             [0.0, 5.0, 5.0, 5.0],
             [5.0, 0.0, 5.0, 5.0],
@@ -226,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_that_is_there_twice_or_too_short_for_the_grid_is_not_drawn_again() {
+    fn duplicates_and_segments_below_the_grid_are_dropped() {
         let twice = [[0.0, 0.0, 1.0, 2.0], [1.0, 2.0, 0.0, 0.0], [0.0, 0.0, 0.0001, 0.0]];
         assert_eq!(chains_in_millimeters(&twice), [(vec![[0, 0], [1, 2]], false)]);
     }
@@ -242,7 +279,7 @@ mod tests {
             [x0, y0, x1, y1]
         };
         let sides: Vec<[f64; 4]> = (0..1000).map(side).collect();
-        let pieces: Vec<PageSegment> = sides
+        let segments: Vec<PageSegment> = sides
             .iter()
             .map(|s| PageSegment {
                 ends: [DVec2::new(s[0], s[1]), DVec2::new(s[2], s[3])],
@@ -250,7 +287,7 @@ mod tests {
                 object: 7,
             })
             .collect();
-        let chains = join_into_chains(&pieces);
+        let chains = join_into_chains(&segments);
         assert_eq!(chains.len(), 1);
         let Polyline { points, closed } = &chains[0].polyline;
         assert!(*closed && points.len() > 400 && points.len() <= 1000, "{}", points.len());

@@ -1,55 +1,54 @@
-//! What the engine needs of camera, projection and viewport.
+//! Projector: [`ViewTransform`] for points given as [`DVec3`], with clipping of edges.
+//!
+//! ```text
+//!   world ──world_to_clip──► clip space ──divide──► NDC ──ndc_to_screen──► pixels, y down; depth
+//! ```
+//!
+//! Hidden-line removal does linear algebra on plain vectors; this type keeps the steps between
+//! spaces in one place. The viewer is homogeneous, so facing tests read the same in perspective,
+//! where it is the eye, and in parallel projection, where it is a point at infinity: the vector to
+//! the viewer v from p is v.xyz − p · v.w.
 
-use camera::ViewProjection;
+use camera::{ViewProjection, ViewTransform};
 use clip::{ClippedSegment, Volume, clip_segment};
-use glam::{DMat4, DVec3, DVec4};
-use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, World};
+use glam::{DMat4, DVec3};
+use homog::{Clip, HPoint, Point};
 use viewport::Viewport;
 
-/// The way from the world to the screen, and where the viewer is.
+/// World → clip → screen, and the viewer, for points given as [`DVec3`].
 #[derive(Clone, Copy, Debug)]
-pub struct Projector {
-    world_to_clip: Projective<World, Clip>,
-    ndc_to_screen: Affine<Ndc, Screen>,
-    /// The eye, or the direction towards it: a point at infinity of length 1.
-    viewer: DVec4,
-}
+pub struct Projector(ViewTransform);
 
 impl Projector {
-    /// A shot on a viewport. The viewport's depths must run from 0 at the far plane to 1 at the near plane.
+    /// The transform of a camera on a viewport, whose depths must run from 0 at the far plane to 1
+    /// at the near plane.
     #[must_use]
     pub fn new(view_projection: &ViewProjection, viewport: &Viewport) -> Self {
-        let viewer = view_projection.viewer().raw();
-        let length = viewer.truncate().length();
-        let far = viewer.w == 0.0 && length > 0.0;
-        Self {
-            world_to_clip: view_projection.world_to_clip(),
-            ndc_to_screen: viewport.ndc_to_screen(),
-            viewer: if far { viewer / length } else { viewer },
-        }
+        Self(ViewTransform::new(view_projection, viewport.ndc_to_screen()))
     }
 
+    /// World space to clip space.
     pub(super) fn world_to_clip_point(&self, point: DVec3) -> HPoint<Clip> {
-        self.world_to_clip.transform_point(Point::from_raw(point))
+        self.0.project_to_clip(Point::from_raw(point))
     }
 
-    /// The divide and the viewport; `None` where there is no image.
-    pub(super) fn to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
-        let screen = self.ndc_to_screen.transform_point(point.divide()?).raw();
+    /// Perspective divide and viewport transform; `None` where there is no finite image.
+    pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<DVec3> {
+        let screen = self.0.project_to_screen(point)?.raw();
         screen.is_finite().then_some(screen)
     }
 
-    /// From the world to the screen and its depth, before the divide.
+    /// World to pixels and depth as one matrix, before the divide.
     pub(super) fn world_to_screen(&self) -> DMat4 {
-        self.ndc_to_screen.raw() * self.world_to_clip.raw()
+        self.0.world_to_screen().raw()
     }
 
-    /// The vector from a point towards the viewer: to the eye itself, or of length 1.
+    /// The vector from a point to the eye; of length 1 in a parallel view.
     pub(super) fn towards_viewer(&self, from: DVec3) -> DVec3 {
-        self.viewer.truncate() - from * self.viewer.w
+        self.0.vector_to_viewer(Point::from_raw(from)).raw()
     }
 
-    /// The part of an edge within the view volume, before the divide.
+    /// The part of a segment inside the view volume, clipped before the divide.
     pub(super) fn clip_edge(&self, ends: [DVec3; 2]) -> Option<ClippedSegment> {
         let [a, b] = ends.map(|end| self.world_to_clip_point(end));
         clip_segment(a, b, &Volume::CHAPTER)

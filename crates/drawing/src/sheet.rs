@@ -1,4 +1,5 @@
-//! Sheets: the views of an object on paper, to scale, with frame, title block and overall dimensions.
+//! Drawing sheets: orthographic views of an object on paper, to scale, with title block and overall
+//! dimensions.
 //!
 //! ```text
 //!   first angle                              third angle
@@ -13,8 +14,10 @@
 //!   │ 0──1──2 m       ┌────────────┤         │ 0──1──2 m       ┌────────────┤
 //!   └─────────────────┴────────────┘         └─────────────────┴────────────┘
 //! ```
-//! Views of one row have the same heights at the same places, those of one column the same widths (ISO 5456-2); the scale is one of
-//! the standard series (ISO 5455); frame and title block follow ISO 5457 and ISO 7200, dimensions ISO 129-1.
+//!
+//! Views are aligned: those of one row have the same heights, those of one column the same widths
+//! (ISO 5456-2). The scale is one of the standard series (ISO 5455). Frame and title block follow
+//! ISO 5457 and ISO 7200, dimensions ISO 129-1.
 
 mod dimension;
 mod frame;
@@ -22,6 +25,7 @@ mod projection_symbol;
 mod scale_bar;
 mod section_line;
 mod sheet_view;
+mod surface_cache;
 mod title_block;
 mod view_layout;
 
@@ -30,58 +34,71 @@ use super::layout::Placement;
 use super::line_style::{HiddenLines, LineStyle, LineWidths};
 use super::line_type::IsoLineGroup;
 use super::page::{Group, Ink, Layer, Page};
-use crate::DrawError;
+use super::palette::{BLACK, WHITE};
+use crate::{DrawError, LineDrawing};
 use camera::NamedView;
 use glam::DVec2;
 use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
 use projection::SheetAngle;
 use sheet_view::SheetView;
+use surface_cache::SurfaceCache;
 use view_layout::{PlacedView, ViewLayout};
 use viewport::{DrawingScale, Paper, Rectangle};
 
-/// The ink of sheets.
-const INK: Ink = [0, 0, 0];
-
-/// A sheet: what is on it, and how.
+/// A drawing sheet: the views on it and their appearance.
+///
+/// ```
+/// use drawing::{Sheet, TitleBlockText};
+/// use viewport::Paper;
+///
+/// let sheet = Sheet {
+///     title_block: TitleBlockText { author: "L. B. Alberti".to_owned(), ..Default::default() },
+///     ..Sheet::for_paper(Paper::A4, "A4")
+/// };
+/// assert!(sheet.dimensions && sheet.scale.is_none());
+/// // Without models there is nothing to draw.
+/// let error = sheet.draw(&[], &[], 1).expect_err("no models");
+/// assert!(error.to_string().contains("nothing to draw"));
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Sheet {
-    /// The paper as it lies.
+    /// The paper in its orientation.
     pub paper: Paper,
-    /// Its name, such as A3.
+    /// The name of the paper, such as A3.
     pub paper_name: String,
-    /// Where views lie.
+    /// First-angle or third-angle projection: the layout of the views.
     pub projection_angle: SheetAngle,
     /// The scale; `None` for the largest of the standard series that fits.
     pub scale: Option<DrawingScale>,
-    /// Millimetres in a unit of the scene.
+    /// Millimeters in a unit of the scene.
     pub millimeters_per_unit: f64,
-    /// Which side stands beside the front view.
+    /// The view beside the front view.
     pub side_view: NamedView,
-    /// From where the axonometric view is; `None` for no such view.
+    /// The axonometric view in the free corner; `None` for no such view.
     pub axonometric_view: Option<NamedView>,
-    /// How the lines of the views look.
+    /// The line style of the views.
     pub style: LineStyle,
     /// Whether overall dimensions are drawn.
     pub dimensions: bool,
-    /// What the title block says.
+    /// The texts of the title block.
     pub title_block: TitleBlockText,
 }
 
-/// What the title block says.
+/// The texts of a title block (ISO 7200).
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct TitleBlockText {
-    /// What the drawing shows; empty for the names of the models.
+    /// The title of the drawing; empty for the names of the models.
     pub title: String,
-    /// Who made it.
+    /// The author.
     pub author: String,
-    /// When, as a text.
+    /// The date as text.
     pub date: String,
-    /// The drawing's number.
+    /// The drawing number.
     pub number: String,
 }
 
-/// Why there is no sheet.
+/// A sheet that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SheetError {
@@ -96,31 +113,33 @@ pub enum SheetError {
     View {
         /// The view.
         view: NamedView,
-        /// What is wrong.
+        /// The reason.
         reason: String,
     },
-    /// The views are too large for the paper.
     #[error(
-        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm and there are {:.0} x {:.0} mm{remedy}",
-        need[0], need[1], room[0], room[1]
+        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available{remedy}",
+        need[0], need[1], available[0], available[1]
     )]
+    /// The views are too large for the paper.
     TooLarge {
-        /// The paper.
+        /// The name of the paper.
         paper: String,
         /// The scale.
         scale: DrawingScale,
-        /// The width and height of the views at this scale, in millimetres.
+        /// Width and height of the views at this scale, in millimeters.
         need: [f64; 2],
-        /// The width and height there is for them.
-        room: [f64; 2],
-        /// What would do.
+        /// Width and height that are available to them, in millimeters.
+        available: [f64; 2],
+        /// A change that would make them fit.
         remedy: String,
     },
 }
 
 impl Sheet {
-    /// Technical drawing on paper of this size: first angle, the view from the left, an isometric view, dimensions; lines wider
-    /// on larger paper.
+    /// A technical drawing on this paper: first angle, the view from the left, an isometric view,
+    /// overall dimensions.
+    ///
+    /// Line groups grow with the paper: 0.35 mm up to A5, 0.5 mm up to A2, 0.7 mm beyond.
     #[must_use]
     pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
         let group = match paper.width().max(paper.height()) {
@@ -142,7 +161,8 @@ impl Sheet {
         }
     }
 
-    /// The sheet of models, cut open by sections, with up to `threads` threads; their number does not change it.
+    /// Draws models, cut open by section planes, with up to `threads` threads; their number does
+    /// not change the page.
     ///
     /// # Errors
     /// If there is nothing to draw, a view cannot be drawn, or the views are larger than the paper.
@@ -158,52 +178,59 @@ impl Sheet {
         let [front, top, side] =
             [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side_view)?];
         let axonometric = self.axonometric_view.map(view).transpose()?;
-        let arrangement =
-            ViewLayout::arrange_views(self, [&front, &top, &side], axonometric.as_ref())?;
+        let layout = ViewLayout::arrange_views(self, [&front, &top, &side], axonometric.as_ref())?;
         let title = if self.title_block.title.is_empty() {
             model_names(models)
         } else {
             self.title_block.title.clone()
         };
         let size = DVec2::new(self.paper.width(), self.paper.height());
-        let mut page = Page::new(size, title, Some([255; 3]));
-        let ink = self.style.ink.unwrap_or(INK);
-        for placed in &arrangement.views {
-            self.draw_view(&mut page, placed, (models, sections), threads)?;
+        let mut page = Page::new(size, title, Some(WHITE));
+        let ink = self.style.ink.unwrap_or(BLACK);
+        let mut surfaces = SurfaceCache::new(models);
+        for placed in &layout.views {
+            let shown = sections.iter().copied().filter(|plane| placed.shows_section(*plane));
+            let shown: Vec<Plane<World>> = shown.collect();
+            let style = self.style_of_view(placed, !shown.is_empty());
+            let drawing =
+                placed.view.draw(surfaces.cut_by(&shown), &style, placed.scale, threads)?;
+            self.add_view(&mut page, placed, drawing, &style);
         }
-        page.layers.extend(section_line::section_line_layers(self, sections, &arrangement, ink));
-        self.draw_annotations(&mut page, &arrangement, ink);
+        page.layers.extend(section_line::section_line_layers(self, sections, &layout, ink));
+        self.draw_annotations(&mut page, &layout, ink);
         Ok(page)
     }
 
-    /// The lines of a view. Hidden ones would only confuse in an axonometric view, and where a cut shows what is inside.
-    fn draw_view(
+    /// The style of a view's lines.
+    ///
+    /// Hidden lines are removed from axonometric views and from sectional views, where they would
+    /// only confuse (ISO 128-3).
+    fn style_of_view(&self, placed: &PlacedView<'_>, is_cut: bool) -> LineStyle {
+        let is_outside = NamedView::PRINCIPAL.contains(&placed.view.name) && !is_cut;
+        let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
+        LineStyle { hidden_lines, ..self.style }
+    }
+
+    /// Puts the drawing of a view onto the page, with the name of the view before its layers' ids.
+    fn add_view(
         &self,
         page: &mut Page,
         placed: &PlacedView<'_>,
-        (models, sections): (&[ModelInstance], &[Plane<World>]),
-        threads: usize,
-    ) -> Result<(), SheetError> {
-        let view = placed.view;
-        let mut sections = sections.to_vec();
-        sections.retain(|plane| placed.shows_section(*plane));
-        let is_outside = NamedView::PRINCIPAL.contains(&view.name) && sections.is_empty();
-        let hidden = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
-        let look = LineStyle { hidden_lines: hidden, ..self.style };
-        let drawing = view.draw((models, &sections), &look, placed.scale, threads)?;
-        let placement = view.placement(&drawing, placed.scale, placed.center);
-        let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(INK));
+        drawing: LineDrawing,
+        style: &LineStyle,
+    ) {
+        let placement = placed.view.placement(&drawing, placed.scale, placed.center);
+        let (prefix, ink) = (format!("{}-", placed.view.name), self.style.ink.unwrap_or(BLACK));
         page.images.extend(drawing.face_fill_image(placement, &prefix));
-        page.layers.extend(drawing.to_layers(&look, placement, &prefix, ink));
+        page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));
         page.warnings.extend(drawing.warnings);
         page.warnings.sort_unstable();
         page.warnings.dedup();
-        Ok(())
     }
 
-    /// What says that a view has another scale than the sheet, below it.
-    fn scale_note_layer(&self, arrangement: &ViewLayout<'_>, ink: Ink) -> Option<Layer> {
-        let other = arrangement.views.iter().find(|placed| placed.scale != arrangement.scale)?;
+    /// The scale below a view whose scale is not that of the sheet.
+    fn scale_note_layer(&self, layout: &ViewLayout<'_>, ink: Ink) -> Option<Layer> {
+        let other = layout.views.iter().find(|placed| placed.scale != layout.scale)?;
         let (area, height) = (other.object_area(), self.lettering_height());
         let at = DVec2::new(other.center.x, area.y() + area.height() + 1.8 * height);
         let text = other.scale.to_string();
@@ -213,26 +240,20 @@ impl Sheet {
         Some(layer)
     }
 
-    /// Dimensions, scale bar, frame and title block.
-    fn draw_annotations(&self, page: &mut Page, arrangement: &ViewLayout<'_>, ink: Ink) {
+    /// Draws dimensions, scale bar, frame and title block.
+    fn draw_annotations(&self, page: &mut Page, layout: &ViewLayout<'_>, ink: Ink) {
         if self.dimensions {
-            page.layers.extend(dimension::overall_dimension_layers(self, arrangement, ink));
+            page.layers.extend(dimension::overall_dimension_layers(self, layout, ink));
         }
-        page.layers.extend(self.scale_note_layer(arrangement, ink));
-        page.layers.push(scale_bar::scale_bar_layer(self, arrangement.scale, ink));
+        page.layers.extend(self.scale_note_layer(layout, ink));
+        page.layers.push(scale_bar::scale_bar_layer(self, layout.scale, ink));
         let block = self.title_block_area();
         page.layers.push(frame::frame_layer(self.paper, block, ink));
         let title = page.title.clone();
-        page.layers.extend(title_block::title_block_layers(
-            self,
-            &title,
-            arrangement.scale,
-            block,
-            ink,
-        ));
+        page.layers.extend(title_block::title_block_layers(self, &title, layout.scale, block, ink));
     }
 
-    /// The group of line widths.
+    /// The line group, 0.5 mm if the style has other widths.
     fn line_width_group(&self) -> IsoLineGroup {
         match self.style.line_widths {
             LineWidths::Iso(group) => group,
@@ -240,7 +261,7 @@ impl Sheet {
         }
     }
 
-    /// The height of letters: a standard size (ISO 3098) that goes with the paper.
+    /// The height of letters in millimeters: a standard size (ISO 3098) for the line group.
     fn lettering_height(&self) -> f64 {
         match self.line_width_group().wide_width() {
             wide if wide < 0.4 => 2.5,
@@ -254,18 +275,19 @@ impl Sheet {
         frame::area_within_frame(self.paper)
     }
 
-    /// Where the scale bar is: in the lower left corner of the frame, or above the title block where that takes the whole width.
+    /// The area of the scale bar: the lower left corner of the frame, or above a title block as
+    /// wide as the frame.
     fn scale_bar_area(&self) -> Rectangle {
         scale_bar::scale_bar_area(self)
     }
 
-    /// Where the title block is: in the lower right corner of the frame.
+    /// The area of the title block: the lower right corner of the frame.
     fn title_block_area(&self) -> Rectangle {
         title_block::title_block_area(self.drawing_area())
     }
 }
 
-/// A rectangle by numbers that are known to be right.
+/// A rectangle from values that are finite by construction; its sides are made positive.
 fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
     let fallback = || Rectangle::from_size(1.0, 1.0);
     let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());

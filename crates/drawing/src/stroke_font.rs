@@ -1,42 +1,50 @@
-//! A font of single strokes, as a pen draws letters, made for this program: labels need no font file and have the same bytes
-//! everywhere.
+//! Stroke font: letters as single strokes of a pen, made for this program.
+//!
+//! Labels need no font file and have the same bytes on every machine.
 //!
 //! ```text
-//!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ height of capitals      widths of strokes are a tenth of the height,
-//!    7 ├ ─╱─ ╲ ╭──╮ ─ ┤ of small letters        letters a fourth apart and words six tenths,
-//!      │ ╱────╲│  │   │                         about as ISO 3098 has it for lettering B
+//!   10 ┌ ─ ╱╲ ─ ─ ─ ─ ┐ cap height              strokes are a tenth of the height wide,
+//!    7 ├ ─╱─ ╲ ╭──╮ ─ ┤ x-height                letters a fourth apart and words six tenths,
+//!      │ ╱────╲│  │   │                         about as in ISO 3098, lettering B
 //!    0 └╱─ ─ ─ ╰──╯╲ ─┘ baseline
 //!   −3                  descenders
 //! ```
-//! A glyph is a text: `m x,y` moves, `l x,y` is a straight line, `h x,y` a quarter of an ellipse that leaves horizontally and
-//! arrives vertically, `v x,y` one the other way round, `c x,y x,y x,y` a cubic. Round letters are four quarters and the lines
-//! between them.
+//!
+//! A glyph is a text: `m x,y` moves, `l x,y` is a straight line, `h x,y` a quarter of an ellipse
+//! that leaves horizontally and arrives vertically, `v x,y` the converse, `c x,y x,y x,y` a cubic
+//! Bézier curve. Round letters are four quarters and the lines between them.
 
 mod accents;
 mod glyphs;
 
 use glam::DVec2;
 
-/// The height of capitals in the units of the glyphs.
+/// The height of capitals in units of the glyphs.
 pub(super) const CAP_HEIGHT: f64 = 10.0;
 
-/// The room between letters.
+/// The distance between letters.
 const LETTER_SPACING: f64 = 2.4;
 
-/// The width of a space, with the room before and after it the distance of words.
+/// The width of a space; with the letter spacing at both of its sides it makes the distance of
+/// words.
 const SPACE_WIDTH: f64 = 1.6;
 
-/// The straight lines a quarter or a cubic is drawn with.
+/// The number of straight lines that approximate a quarter ellipse or a cubic.
 const CURVE_STEPS: u32 = 6;
 
-/// A character as strokes: x from its left side, y up from the baseline.
+/// A character, or a line of them, as strokes: x from its left side, y up from the baseline.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Glyph {
+    /// The advance width without letter spacing.
     pub(super) width: f64,
+    /// Polylines.
     pub(super) strokes: Vec<Vec<DVec2>>,
 }
 
-/// A line of text as strokes: x from its beginning, y up from the baseline, with its width.
+/// A line of text as strokes: x from its beginning, y up from the baseline.
+///
+/// There is no kerning; each character of the text is one glyph, and combining characters become
+/// boxes.
 pub(super) fn typeset_line(text: &str) -> Glyph {
     let mut line = Glyph { width: 0.0, strokes: Vec::new() };
     let mut x = 0.0;
@@ -51,7 +59,7 @@ pub(super) fn typeset_line(text: &str) -> Glyph {
     line
 }
 
-/// The glyph of a character; a box for what the font has not.
+/// The glyph of a character; a box for characters that the font lacks.
 fn glyph_for_char(character: char) -> Glyph {
     if character.is_whitespace() {
         return Glyph { width: SPACE_WIDTH, strokes: Vec::new() };
@@ -63,7 +71,7 @@ fn glyph_for_char(character: char) -> Glyph {
         .unwrap_or_else(|| Glyph { width: 5.0, strokes: parse_strokes(glyphs::MISSING_GLYPH) })
 }
 
-/// The strokes of a glyph's path.
+/// The strokes of a glyph's path, curves as polylines.
 fn parse_strokes(path: &str) -> Vec<Vec<DVec2>> {
     let mut strokes: Vec<Vec<DVec2>> = Vec::new();
     let mut words = path.split_ascii_whitespace();
@@ -86,21 +94,25 @@ fn parse_strokes(path: &str) -> Vec<Vec<DVec2>> {
     strokes
 }
 
+/// A point written as `x,y`.
 fn parse_point(word: &str) -> DVec2 {
     let number = |text: &str| text.parse().unwrap_or(0.0);
     word.split_once(',').map_or(DVec2::ZERO, |(x, y)| DVec2::new(number(x), number(y)))
 }
 
-/// A quarter of an ellipse about `centre`.
-fn quarter_ellipse(from: DVec2, to: DVec2, centre: DVec2) -> impl Iterator<Item = DVec2> {
+/// A quarter of an ellipse about `center`, without its first point.
+///
+/// From `from` to `to` it is center + (from − center) cos φ + (to − center) sin φ for φ from 0 to
+/// 90°.
+fn quarter_ellipse(from: DVec2, to: DVec2, center: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let angle = core::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(CURVE_STEPS);
         let (sin, cos) = libm::sincos(angle);
-        if step == CURVE_STEPS { to } else { centre + (from - centre) * cos + (to - centre) * sin }
+        if step == CURVE_STEPS { to } else { center + (from - center) * cos + (to - center) * sin }
     })
 }
 
-/// A cubic by its control points.
+/// A cubic Bézier curve by de Casteljau's algorithm, without its first point.
 fn cubic_bezier(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> impl Iterator<Item = DVec2> {
     (1..=CURVE_STEPS).map(move |step| {
         let t = f64::from(step) / f64::from(CURVE_STEPS);
@@ -134,11 +146,11 @@ mod tests {
         }
         let mut characters: Vec<char> = glyphs::GLYPHS.iter().map(|(c, ..)| *c).collect();
         characters.sort_unstable();
-        assert!(characters.windows(2).all(|pair| pair[0] != pair[1]), "a character is there twice");
+        assert!(characters.windows(2).all(|pair| pair[0] != pair[1]), "a character has two glyphs");
     }
 
     #[test]
-    fn all_of_ascii_and_latin_is_there() {
+    fn ascii_and_latin_letters_have_glyphs() {
         let tofu = parse_strokes(glyphs::MISSING_GLYPH);
         let latin =
             (0xa1..=0xff).filter(|c| ![0xa4, 0xa6, 0xa8, 0xad, 0xaf, 0xb4, 0xb8].contains(c));
@@ -152,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_as_wide_as_its_letters_and_what_is_between_them() {
+    fn a_line_is_as_wide_as_its_letters_and_their_spacing() {
         let [a, i] = ["A", "i"].map(|text| typeset_line(text).width);
         assert_eq!(typeset_line("AiA").width, 2.0 * a + i + 4.8);
         assert_eq!(typeset_line("A A").width, 2.0 * a + 6.4);

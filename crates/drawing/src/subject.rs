@@ -1,25 +1,25 @@
-//! The input of a line drawing: models, a camera with its projection, the size of the picture, and sections.
+//! Subject of a line drawing: models, camera with projection, image size and section planes.
 
 use camera::ViewProjection;
 use homog::{Plane, World};
 use model::ModelInstance;
 use viewport::{Viewport, ViewportError};
 
-/// What is drawn, from where, how large, and what cuts it open.
+/// The input of a line drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject<'a> {
     /// The models in the world.
     pub models: &'a [ModelInstance],
     /// Camera and projection.
     pub view_projection: ViewProjection,
-    /// Width and height of the picture in pixels.
+    /// Width and height of the image in pixels.
     pub size: [u32; 2],
-    /// Planes that cut the models open; their unit normals point to the side that is kept.
+    /// Section planes; the side to which their unit normals point is retained.
     pub sections: &'a [Plane<World>],
 }
 
 impl Subject<'_> {
-    /// The viewport of the whole picture.
+    /// The viewport of the whole image.
     pub(crate) fn viewport(&self) -> Result<Viewport, ViewportError> {
         Viewport::image(self.size[0], self.size[1])
     }

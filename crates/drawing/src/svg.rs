@@ -1,16 +1,45 @@
-//! SVG: a page as Scalable Vector Graphics, in millimetres.
+//! SVG output: a page as Scalable Vector Graphics 1.1, in millimeters.
 //!
-//! A layer is a group with its pen, an object a group in it with one path; both have ids and titles. Paths go by relative steps of
-//! whole micrometres, so they are short, and their sums are exact.
+//! ```text
+//!  <svg width="210mm" viewBox="0 0 210 297">      user units are millimeters
+//!    <title>…</title>
+//!    <rect fill="#fff"/>                          the paper, if it has a color
+//!    <image href="data:image/png;base64,…"/>      flat fills
+//!    <g id="visible-crease" stroke="#1a1f26" …>   one group for each layer, with its pen
+//!      <g id="visible-crease.1">                  one group for each object
+//!        <title>cube</title>
+//!        <path d="M10 5h20v20h-20z"/>             one path for all continuous strokes
+//!      </g>
+//!    </g>
+//!  </svg>
+//! ```
+//!
+//! Path data use relative commands (`m`, `l`, `h`, `v`) with steps of whole micrometers. They are
+//! shorter than absolute coordinates, and since each step is an exact decimal their sums have no
+//! error: a closed outline of a thousand points ends where it began. Text is drawn as strokes, so
+//! the file needs no font; names from files are escaped by [`escape_markup`].
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
+use super::markup::escape_markup;
 use super::page::{Cap, Group, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
 impl Page {
-    /// The page as an SVG file.
+    /// The page as the text of an SVG file.
+    ///
+    /// ```
+    /// use drawing::{Group, Layer, Page, Pen, Polyline};
+    /// use glam::DVec2;
+    ///
+    /// let mut page = Page::new(DVec2::new(40.0, 30.0), "a line", None);
+    /// let mut layer = Layer::new("lines", "lines", Pen::solid(0.5, [0, 0, 0]));
+    /// let line = Polyline::through_points(&[DVec2::new(5.0, 5.0), DVec2::new(35.0, 5.0)], false);
+    /// layer.groups.push(Group { strokes: line.into_iter().collect(), ..Group::default() });
+    /// page.layers.push(layer);
+    /// assert!(page.to_svg().contains(r#"<path d="M5 5h30"/>"#));
+    /// ```
     #[must_use]
     pub fn to_svg(&self) -> String {
         let [width, height] = self.size.to_array().map(format_millimeters);
@@ -19,7 +48,7 @@ impl Page {
             svg,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
              viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n",
-            escape_xml(&self.title)
+            escape_markup(&self.title)
         );
         if let Some(paper) = self.paper {
             let paper = css_color(paper);
@@ -36,7 +65,10 @@ impl Page {
     }
 }
 
-/// A picture, within the file.
+/// Writes an image element with its pixels as an embedded PNG.
+///
+/// `preserveAspectRatio="none"` stretches the image to its rectangle, which is rounded to
+/// micrometers.
 fn write_image(svg: &mut String, pasted: &PlacedImage) {
     let [x, y, width, height] =
         [pasted.corner[0], pasted.corner[1], pasted.size[0], pasted.size[1]]
@@ -45,28 +77,32 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
         svg,
         "<image id=\"{}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
          preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
-        escape_xml(&pasted.id)
+        escape_markup(&pasted.id)
     );
     STANDARD.encode_string(pasted.picture.to_png(), svg);
     *svg += "\"/>\n";
 }
 
+/// Writes a layer as a group, with a group in it for each object.
+///
+/// Ids are unique because that of an object is prefixed by that of its layer; titles become
+/// tooltips in browsers.
 fn write_layer(svg: &mut String, layer: &Layer) {
-    let id = escape_xml(&layer.id);
+    let id = escape_markup(&layer.id);
     let _ = write!(
         svg,
         "<g id=\"{id}\" {}>\n<title>{}</title>\n",
         pen_attributes(&layer.pen),
-        escape_xml(&layer.title)
+        escape_markup(&layer.title)
     );
     for group in &layer.groups {
         if group.id.is_empty() {
             write_paths(svg, group, &layer.pen);
             continue;
         }
-        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escape_xml(&group.id));
+        let _ = writeln!(svg, "<g id=\"{id}.{}\">", escape_markup(&group.id));
         if !group.title.is_empty() {
-            let _ = writeln!(svg, "<title>{}</title>", escape_xml(&group.title));
+            let _ = writeln!(svg, "<title>{}</title>", escape_markup(&group.title));
         }
         write_paths(svg, group, &layer.pen);
         *svg += "</g>\n";
@@ -74,6 +110,11 @@ fn write_layer(svg: &mut String, layer: &Layer) {
     *svg += "</g>\n";
 }
 
+/// Writes the strokes and fills of a group: one path for all continuous strokes, one for each
+/// dashed stroke.
+///
+/// A dashed stroke has a dash pattern of its own, which fits its length. Fills come last, over the
+/// strokes.
 fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     let (dashed, whole): (Vec<_>, Vec<_>) = group
         .strokes
@@ -98,7 +139,8 @@ fn write_paths(svg: &mut String, group: &Group, pen: &Pen) {
     }
 }
 
-/// What a pen is in the words of SVG; what is SVG's own default is left out.
+/// The presentation attributes of a pen; defaults of SVG (butt caps, miter joins with limit 4) are
+/// left out.
 fn pen_attributes(pen: &Pen) -> String {
     let mut words = format!(
         "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"",
@@ -118,7 +160,7 @@ fn pen_attributes(pen: &Pen) -> String {
     words
 }
 
-/// A colour as `#rrggbb`, or `#rgb` where that says the same.
+/// A color as `#rrggbb`, or as `#rgb` where that is the same.
 fn css_color([r, g, b]: Ink) -> String {
     if [r, g, b].iter().all(|c| c % 17 == 0) {
         return format!("#{:x}{:x}{:x}", r / 17, g / 17, b / 17);
@@ -126,7 +168,7 @@ fn css_color([r, g, b]: Ink) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The `d` of a path through all these lines.
+/// The `d` attribute of a path through all these lines.
 fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     let mut path = PathWriter { out: Vec::new(), position: [0, 0], has_started: false };
     for line in lines {
@@ -135,14 +177,20 @@ fn path_data<'a>(lines: impl IntoIterator<Item = &'a Polyline>) -> String {
     String::from_utf8_lossy(&path.out).into_owned()
 }
 
-/// A path being written.
+/// Path data under construction, as ASCII bytes.
 struct PathWriter {
     out: Vec<u8>,
+    /// The current point in micrometers.
     position: PagePoint,
+    /// Whether a `M` command was written; the first one is absolute.
     has_started: bool,
 }
 
 impl PathWriter {
+    /// Appends a subpath.
+    ///
+    /// The first subpath starts with an absolute `M`; later ones with `m`, relative to the current
+    /// point, which after `z` is the start of the closed subpath.
     fn push_polyline(&mut self, line: &Polyline) {
         let [start, rest @ ..] = line.points.as_slice() else { return };
         self.out.push(if self.has_started { b'm' } else { b'M' });
@@ -158,7 +206,13 @@ impl PathWriter {
         }
     }
 
-    /// A straight line to a place, and the command that was used; a command that is the same as the one before is not repeated.
+    /// Appends a straight line with the shortest command, and returns that command.
+    ///
+    /// ```text
+    ///   dy = 0   h dx        a command letter equal to the last one is omitted, and so is
+    ///   dx = 0   v dy        the space before a minus sign:  l.5 .5-.5 .5
+    ///   else     l dx dy
+    /// ```
     fn push_line_to(&mut self, to: PagePoint, last: u8) -> u8 {
         let (dx, dy) = (self.relative_step(0, to), self.relative_step(1, to));
         let command = match (dx, dy) {
@@ -180,15 +234,18 @@ impl PathWriter {
         command
     }
 
+    /// The step along one axis from the current point.
     fn relative_step(&self, axis: usize, to: PagePoint) -> i64 {
         i64::from(to[axis]) - i64::from(self.position[axis])
     }
 
+    /// Appends the coordinates of a move.
     fn push_move_to(&mut self, to: PagePoint) {
         self.push_pair(self.relative_step(0, to), self.relative_step(1, to));
         self.position = to;
     }
 
+    /// Appends two numbers; a minus sign separates as well as a space.
     fn push_pair(&mut self, x: i64, y: i64) {
         write_thousandths(&mut self.out, x);
         if y >= 0 {
@@ -196,23 +253,6 @@ impl PathWriter {
         }
         write_thousandths(&mut self.out, y);
     }
-}
-
-/// A text that is safe between tags and in quotation marks. Characters that XML has no place for are left out.
-pub(super) fn escape_xml(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe += "&amp;",
-            '<' => safe += "&lt;",
-            '>' => safe += "&gt;",
-            '"' => safe += "&quot;",
-            '\u{fffe}' | '\u{ffff}' => {}
-            c if (c as u32) < 0x20 && !matches!(c, '\t' | '\n' | '\r') => {}
-            c => safe.push(c),
-        }
-    }
-    safe
 }
 
 #[cfg(test)]
@@ -225,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_are_short_and_come_back_to_the_micrometre() {
+    fn path_data_is_short_and_exact() {
         let lines = [
             polyline(
                 &[
@@ -249,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn names_cannot_break_the_file() {
+    fn names_are_escaped() {
         let nasty = "</title><script>\u{0}\u{1b}alert(\"1 & 2\")</script>\u{ffff}";
         let mut page = Page::new(DVec2::new(10.0, 10.0), nasty, Some([255; 3]));
         let mut layer = Layer::new("a\"b", nasty, Pen::solid(0.1, [1, 2, 3]));
@@ -265,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_as_on_a_web_page() {
+    fn colors_are_as_on_a_web_page() {
         assert_eq!(css_color([255, 0, 0x33]), "#f03");
         assert_eq!(css_color([1, 0, 0x33]), "#010033");
     }

@@ -1,28 +1,31 @@
-//! What a drawing could not show as it should: told to whoever asked for it.
+//! Warnings: what a drawing leaves out, returned along with it.
 
 use core::fmt;
 
-/// What a drawing leaves out, and why.
+/// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
+///
+/// Warnings are sorted and each is reported once, so their order does not depend on threads. They
+/// are part of the result, not logged: the caller decides whether and where to print them.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[non_exhaustive]
 pub enum Warning {
-    /// The cut through an object does not close.
+    /// The outline of a section does not close.
     SectionOpen {
-        /// The object.
+        /// The name of the object.
         object: String,
     },
-    /// The cut through an object has too many points for a cap.
+    /// The outline of a section has too many points for a cap.
     SectionTooComplex {
-        /// The object.
+        /// The name of the object.
         object: String,
     },
-    /// The style shows surfaces, and only line drawings are cut open.
+    /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
-    /// Only pixels have viewports.
+    /// The format has no viewports; only PNG images have.
     ViewportsIgnored,
-    /// Not all crossings of surfaces were looked for.
+    /// The search for intersection edges was cut off.
     IntersectionsIncomplete,
-    /// Not all of the hatching was drawn.
+    /// The hatching was cut off.
     HatchingIncomplete,
 }
 
@@ -31,24 +34,29 @@ impl fmt::Display for Warning {
         match self {
             Self::SectionOpen { object } => write!(
                 f,
-                "the cut through `{object}` does not close, for its surface is open: it has no cap and no hatching there"
+                "the cut through `{object}` does not close, because its surface is open: \
+                 the section has no cap and no hatching there"
             ),
             Self::SectionTooComplex { object } => write!(
                 f,
-                "the cut through `{object}` has too many points: it has no cap and no hatching"
+                "the cut through `{object}` has too many points: \
+                 the section has no cap and no hatching"
             ),
             Self::SectionsIgnored => f.write_str(
-                "sections cut line drawings only: this style shows the models whole; choose another, such as `--style lines`",
+                "sections cut line drawings only: this style shows whole models; \
+                 choose another, such as `--style lines`",
             ),
             Self::ViewportsIgnored => f.write_str(
-                "only PNG pictures have viewports and pairs of eyes: this one shows the scene's own camera alone",
+                "only PNG pictures have viewports and stereo pairs: \
+                 this one shows the view of the scene's camera alone",
             ),
             Self::IntersectionsIncomplete => f.write_str(
-                "so many surfaces may cross that not all were compared: some lines where they cross may be missing",
+                "so many faces may intersect that not all were compared: \
+                 some intersection edges may be missing",
             ),
-            Self::HatchingIncomplete => {
-                f.write_str("there is too much hatching: some of it is missing; make it wider")
-            }
+            Self::HatchingIncomplete => f.write_str(
+                "there are too many hatch lines, and some are missing: increase their spacing",
+            ),
         }
     }
 }

@@ -1,45 +1,50 @@
-//! The self-check: a drawing against the z-buffer image of the same scene.
+//! Verification of a line drawing against the z-buffer image of the same scene.
 //!
-//! The two have the welded surfaces and the stages up to clip space in common and nothing after: here is rounding to a grid,
-//! coverage of samples and a depth for each pixel, there are crossings of lines. Where a line is drawn as visible, the z-buffer must show, within half
-//! a pixel, something that is not in front of it: the face beside the edge, one behind it, or nothing.
+//! The two share the welded surface and the stages up to clip space, and nothing after: on one side
+//! rounding to a grid, coverage of samples and a depth for each pixel, on the other intersections
+//! of lines. Where a segment is drawn as visible, the z-buffer must show, within half a pixel,
+//! something that is not in front of it: the face at the edge, one behind it, or nothing.
+//!
+//! ```text
+//!   drawing       ●───────●───────●   points half a pixel apart
+//!   z-buffer  ▓▓▓▓░░░░░░░░░░░░▒▒▒▒    ids of the nearest faces, at 4 × the resolution
+//! ```
 
 use super::LineDrawing;
 use super::edges::WeldedSurface;
+use super::face_raster::rasterize_faces;
 use super::projector::Projector;
 use crate::{DrawError, Subject};
-use clip::{ClipVertex, Volume, clip_triangle};
 use glam::{DMat4, DVec2, DVec3};
 use homog::Point;
-use raster::{Frame, Opacity, Samples, ScreenVertex};
 use viewport::Viewport;
 
 /// The longest side of the z-buffer image in pixels.
 const MAX_Z_BUFFER_SIDE: u32 = 8192;
 
-/// How much finer than the drawing the z-buffer image is, if it may be.
+/// Pixels of the z-buffer image for each pixel of the drawing, if its side allows it.
 const SUPERSAMPLING: u32 = 4;
 
-/// How far from the edge the z-buffer may show it, in pixels of the drawing.
+/// The distance from a point at which the z-buffer may show it, in pixels of the drawing.
 const SEARCH_RADIUS: f64 = 0.5;
 
-/// How well a drawing agrees with the z-buffer image: lengths on the screen in pixels.
+/// The agreement of a drawing with the z-buffer image: lengths on the screen in pixels.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Agreement {
-    /// The length of all visible lines.
+    /// The length of all visible segments.
     pub visible_length: f64,
-    /// The length of those of them that the z-buffer hides.
+    /// The length of visible segments that the z-buffer hides.
     pub denied_length: f64,
-    /// The length of all hidden lines in the drawing.
+    /// The length of all hidden segments of the drawing.
     pub hidden_length: f64,
-    /// The length of those of them that the z-buffer shows.
+    /// The length of hidden segments that the z-buffer shows.
     pub contradicted_length: f64,
-    /// Where visible lines are denied: by the line's place in the drawing, the length.
+    /// Visible segments with a denied part: their indices, and the length of that part.
     pub denied_segments: Vec<(usize, f64)>,
 }
 
 impl Agreement {
-    /// The share of the visible length that the z-buffer hides.
+    /// The fraction of the visible length that the z-buffer hides.
     #[must_use]
     pub fn disagreement_ratio(&self) -> f64 {
         if self.visible_length > 0.0 { self.denied_length / self.visible_length } else { 0.0 }
@@ -48,31 +53,36 @@ impl Agreement {
 
 /// Compares a drawing with the z-buffer image of its scene, at points half a pixel apart.
 ///
+/// Each point is unprojected with its depth and compared with the planes of the faces that the
+/// image shows within half a pixel. A visible point is denied if all of them are in front of it; a
+/// hidden one is contradicted if none is. Disagreement below about 0.2 % of the length is normal:
+/// the image resolves a quarter of a pixel.
+///
 /// # Errors
-/// If the picture has no pixels or is larger than can be drawn.
+/// If the image has no pixels or is larger than a z-buffer may be.
 pub fn verify_with_z_buffer(
     subject: &Subject<'_>,
     drawing: &LineDrawing,
 ) -> Result<Agreement, DrawError> {
     let image = ZBufferImage::rasterize_subject(subject)?;
     let mut agreement = Agreement::default();
-    for (place, line) in drawing.segments.iter().enumerate() {
-        let [a, b] = line.ends;
+    for (index, segment) in drawing.segments.iter().enumerate() {
+        let [a, b] = segment.ends;
         let length = (b - a).length();
         let count = (length / SEARCH_RADIUS).ceil().max(1.0);
         let step = length / count;
         let at = |n: f64| {
             let s = (n + 0.5) / count;
-            (a + (b - a) * s, line.depths[0] + (line.depths[1] - line.depths[0]) * s)
+            (a + (b - a) * s, segment.depths[0] + (segment.depths[1] - segment.depths[0]) * s)
         };
         let samples = (0..count as usize).map(|n| at(n as f64));
-        if line.visible {
+        if segment.visible {
             let denied =
                 samples.filter(|&(p, depth)| !image.shows_point(p, depth)).count() as f64 * step;
             agreement.visible_length += length;
             agreement.denied_length += denied;
             if denied > 0.0 {
-                agreement.denied_segments.push((place, denied));
+                agreement.denied_segments.push((index, denied));
             }
         } else {
             let shown =
@@ -84,21 +94,22 @@ pub fn verify_with_z_buffer(
     Ok(agreement)
 }
 
-/// Which face is seen in each pixel.
+/// The face that is visible in each pixel, at a multiple of the drawing's resolution.
 struct ZBufferImage {
     width: i64,
     height: i64,
-    /// Pixels to a pixel of the drawing.
+    /// Pixels for each pixel of the drawing.
     scale: f64,
     ids: Vec<Option<u32>>,
+    /// The planes of the faces by id.
     planes: Vec<FacePlane>,
-    /// From places of the drawing and their depths to the world.
+    /// From points of the drawing with their depth to the world.
     to_world: DMat4,
-    /// How near is touching, in lengths of the world.
+    /// The distance below which a point lies in a plane, in world units.
     touching: f64,
 }
 
-/// The plane of a face: the normal towards the viewer, and its distance from the origin along it.
+/// The plane of a face: the normal towards the viewer, and the distance from the origin along it.
 #[derive(Clone, Copy, Debug)]
 struct FacePlane {
     normal: DVec3,
@@ -106,82 +117,76 @@ struct FacePlane {
 }
 
 impl FacePlane {
-    fn from_triangle([a, b, c]: [DVec3; 3], sight: &Projector) -> Self {
+    /// The plane of a triangle, oriented towards the viewer.
+    fn from_triangle([a, b, c]: [DVec3; 3], projector: &Projector) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let normal = normal * normal.dot(sight.towards_viewer(a)).signum();
+        let normal = normal * normal.dot(projector.towards_viewer(a)).signum();
         Self { normal, offset: normal.dot(a) }
     }
 }
 
 impl ZBufferImage {
+    /// Rasterizes the welded surface of a subject.
     fn rasterize_subject(subject: &Subject<'_>) -> Result<Self, DrawError> {
         let [width, height] = subject.size;
         let drawing_projector = Projector::new(&subject.view_projection, &subject.viewport()?);
         let finer = (MAX_Z_BUFFER_SIDE / width.max(height)).clamp(1, SUPERSAMPLING);
         let (width, height) = (width * finer, height * finer);
         let projector = Projector::new(&subject.view_projection, &Viewport::image(width, height)?);
-        let mut frame = Frame::new(width, height, Samples::One)?;
+        let surface = WeldedSurface::new(subject.models, subject.sections);
         let mut planes = Vec::new();
-        let surface = WeldedSurface::from_subject(subject);
-        for triangle in surface.occluder_triangles() {
-            let corners = triangle.map(Point::raw);
-            let id = u32::try_from(planes.len()).map_err(|_| DrawError::TooManyPrimitives)?;
-            planes.push(FacePlane::from_triangle(corners, &projector));
-            let clip = corners.map(|corner| projector.world_to_clip_point(corner));
-            for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-                let snap = |vertex: ClipVertex| {
-                    let place = Point::from_raw(projector.to_screen(vertex.point)?);
-                    ScreenVertex::snap(place, vertex.point.w())
-                };
-                if let [Some(p), Some(q), Some(r)] = piece.map(snap) {
-                    frame.add_triangle([p, q, r], id, Opacity::Opaque);
-                }
-            }
-        }
+        let triangles = surface.occluder_triangles().map(|triangle| {
+            let vertices = triangle.map(Point::raw);
+            planes.push(FacePlane::from_triangle(vertices, &projector));
+            vertices
+        });
+        let ids = rasterize_faces(triangles, &projector, [width, height])?;
         Ok(Self {
             width: width.into(),
             height: height.into(),
             scale: f64::from(finer),
-            ids: frame.visibility_buffer().ids,
+            ids,
             planes,
             to_world: drawing_projector.world_to_screen().inverse(),
             touching: surface.touch_tolerance().world,
         })
     }
 
-    /// Whether something that is not in front of a point is seen near it.
-    fn shows_point(&self, place: DVec2, depth: f64) -> bool {
-        let at = self.unproject_point(place, depth);
-        self.face_ids_near(place).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
+    /// Whether something that is not in front of a point is visible near it.
+    fn shows_point(&self, point: DVec2, depth: f64) -> bool {
+        let at = self.unproject_point(point, depth);
+        self.face_ids_near(point).any(|id| id.is_none_or(|id| !self.is_face_in_front(id, at)))
     }
 
-    /// Whether something in front of a point is seen near it.
-    fn hides_point(&self, place: DVec2, depth: f64) -> bool {
-        let at = self.unproject_point(place, depth);
-        self.face_ids_near(place).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
+    /// Whether something in front of a point is visible near it.
+    fn hides_point(&self, point: DVec2, depth: f64) -> bool {
+        let at = self.unproject_point(point, depth);
+        self.face_ids_near(point).any(|id| id.is_some_and(|id| self.is_face_in_front(id, at)))
     }
 
-    fn unproject_point(&self, place: DVec2, depth: f64) -> DVec3 {
-        let at = self.to_world * place.extend(depth).extend(1.0);
+    /// A point of the drawing with its depth in world space.
+    fn unproject_point(&self, point: DVec2, depth: f64) -> DVec3 {
+        let at = self.to_world * point.extend(depth).extend(1.0);
         at.truncate() / at.w
     }
 
-    /// Whether the plane of a face is in front of a point.
+    /// Whether the plane of a face is in front of a point, by more than a touching distance.
     fn is_face_in_front(&self, id: u32, at: DVec3) -> bool {
         let FacePlane { normal, offset } = self.planes[id as usize];
         normal.dot(at) - offset < -self.touching
     }
 
-    /// What is seen within [`NEAR`] of a place of the drawing, which is nothing where there is no face.
-    fn face_ids_near(&self, place: DVec2) -> impl Iterator<Item = Option<u32>> {
-        let at = place * self.scale;
-        let reach = SEARCH_RADIUS * self.scale;
-        let (left, right) = ((at.x - reach).floor() as i64, (at.x + reach).floor() as i64);
-        let (top, bottom) = ((at.y - reach).floor() as i64, (at.y + reach).floor() as i64);
+    /// The ids in the pixels within [`SEARCH_RADIUS`] of a point of the drawing; `None` where there
+    /// is no face.
+    fn face_ids_near(&self, point: DVec2) -> impl Iterator<Item = Option<u32>> {
+        let at = point * self.scale;
+        let radius = SEARCH_RADIUS * self.scale;
+        let (left, right) = ((at.x - radius).floor() as i64, (at.x + radius).floor() as i64);
+        let (top, bottom) = ((at.y - radius).floor() as i64, (at.y + radius).floor() as i64);
         let pixels = (top..=bottom).flat_map(move |y| (left..=right).map(move |x| (x, y)));
         pixels.filter_map(move |(x, y)| {
             let center = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-            let is_near = (center - at).length() <= reach + std::f64::consts::FRAC_1_SQRT_2;
+            let is_near = (center - at).length() <= radius + std::f64::consts::FRAC_1_SQRT_2;
             let is_inside = (0..self.width).contains(&x) && (0..self.height).contains(&y);
             let id = || self.ids[(y * self.width + x) as usize];
             (is_near && is_inside).then(id)

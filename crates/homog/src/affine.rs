@@ -14,7 +14,7 @@ use glam::{DMat3, DMat4, DVec3, DVec4};
 /// use homog::{Affine, Model, Point, Vector, World};
 /// let turned = Affine::<Model, Model>::rotation_y(90_f64.to_radians());
 /// let placed = turned.then(Affine::<Model, World>::translation(Vector::new(5.0, 0.0, 0.0)));
-/// let p = placed.point(Point::new(1.0, 0.0, 0.0));
+/// let p = placed.transform_point(Point::new(1.0, 0.0, 0.0));
 /// assert!((p - Point::new(5.0, 0.0, -1.0)).length() < 1e-15);
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -126,7 +126,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     }
 
     /// Writes the images of `points` to `images`, as many as both have: the same bits as
-    /// [`point`](Self::point), in one pass.
+    /// [`transform_point`](Self::transform_point), in one pass.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [Point<B>]) {
         for (point, image) in points.iter().zip(images) {
             *image = self.transform_point(*point);

@@ -5,13 +5,13 @@ use crate::{Affine, Point, Space, Vector};
 /// A closed box along the axes of space `S`, never empty: `min ≤ max` in every coordinate, all of
 /// them finite.
 ///
-/// One point has bounds of size zero; no points have none, which is why [`Bounds::of`] returns an
-/// `Option`.
+/// One point has bounds of size zero; no points have none, which is why [`Bounds::from_points`]
+/// returns an `Option`.
 ///
 /// ```
 /// use homog::{Bounds, Point, World};
 /// let corners = [[0.0, 3.0, 1.0], [2.0, -1.0, 1.0]].map(Point::<World>::from);
-/// let bounds = Bounds::of(corners).expect("two finite points");
+/// let bounds = Bounds::from_points(corners).expect("two finite points");
 /// assert_eq!(bounds.center(), Point::new(1.0, 1.0, 1.0));
 /// assert_eq!(<[f64; 3]>::from(bounds.size()), [2.0, 4.0, 0.0]);
 /// ```

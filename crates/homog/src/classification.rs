@@ -1,4 +1,4 @@
-//! What kind of map a matrix is, and why: linear, affine or projective (HO-3).
+//! Classification of maps: linear, affine or projective, with the reason (HO-3).
 //!
 //! ```text
 //!   [ a a a t ]     linear      t = 0, bottom row (0, 0, 0, 1): the origin stays
@@ -48,7 +48,8 @@ pub enum KindReason {
 ///
 /// ```
 /// use homog::{Clip, MapKind, Projective, View};
-/// let rows = [[2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, -1.0, 0.0]];
+/// let [x, y, z] = [[2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 1.0, 1.0]];
+/// let rows = [x, y, z, [0.0, 0.0, -1.0, 0.0]];
 /// let found = Projective::<View, Clip>::from_rows(rows).classify();
 /// assert_eq!((found.kind, found.rank), (MapKind::Projective, 4));
 /// assert_eq!(found.finite_vanishing_points(), 1);
@@ -165,13 +166,13 @@ impl fmt::Display for Classification {
 }
 
 impl<A: Space, B: Space> Projective<A, B> {
-    /// What kind of map this is, by the exact entries.
+    /// Classifies this map, by the exact entries.
     #[must_use]
     pub fn classify(self) -> Classification {
         self.classify_within(0.0)
     }
 
-    /// What kind of map this is, where entries of the bottom row of up to `relative` times h count
+    /// Classifies this map, where entries of the bottom row of up to `relative` times h count
     /// as 0, and likewise those of the translation against the linear part: for matrices that were
     /// computed.
     #[must_use]
@@ -196,7 +197,7 @@ impl<A: Space, B: Space> Projective<A, B> {
 }
 
 impl<A: Space, B: Space> Affine<A, B> {
-    /// What kind of map this is: affine, or linear if the origin stays.
+    /// Classifies this map: affine, or linear if the origin stays.
     #[must_use]
     pub fn classify(self) -> Classification {
         Projective::from(self).classify()
@@ -204,7 +205,7 @@ impl<A: Space, B: Space> Affine<A, B> {
 }
 
 impl Homography {
-    /// What kind of map of the plane this is, by the exact entries.
+    /// The kind of this map of the plane, by the exact entries.
     #[must_use]
     pub fn kind(self) -> MapKind {
         let [[_, _, x], [_, _, y], [p, q, h]] = self.rows();

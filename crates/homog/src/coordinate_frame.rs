@@ -15,9 +15,10 @@ use crate::{Affine, Point, Space, Vector};
 /// An origin and three independent axes in space `S`.
 ///
 /// ```
-/// use homog::{Frame, Model, Point, Vector, World};
-/// let desk = Frame::new(Point::<World>::new(2.0, 0.75, 0.0), [Vector::Z, Vector::Y, -Vector::X])?;
-/// let cup = desk.coordinates::<Model>().point(Point::new(2.0, 0.75, 0.5));
+/// use homog::{CoordinateFrame, Model, Point, Vector, World};
+/// let origin = Point::<World>::new(2.0, 0.75, 0.0);
+/// let desk = CoordinateFrame::new(origin, [Vector::Z, Vector::Y, -Vector::X])?;
+/// let cup = desk.parent_to_local::<Model>().transform_point(Point::new(2.0, 0.75, 0.5));
 /// assert_eq!(cup, Point::new(0.5, 0.0, 0.0)); // half a unit along the desk
 /// # Ok::<(), homog::FrameError>(())
 /// ```

@@ -8,7 +8,7 @@
 /// A pivot of a balanced matrix up to this size is rounding noise.
 const ROUNDING_NOISE: f64 = 4.0 * f64::EPSILON;
 
-/// What elimination finds.
+/// The result of elimination.
 pub(crate) struct Elimination<const N: usize> {
     /// The number of pivots above the noise.
     pub(crate) rank: usize,

@@ -32,10 +32,10 @@ pub struct SegmentCrossesEyePlane {
 /// ```
 /// use homog::Foreshortening;
 /// let f = Foreshortening::new(1.0, 3.0)?;
-/// assert_eq!(f.image(0.5), Some(0.75));
-/// assert_eq!(f.source(0.75), Some(0.5));
+/// assert_eq!(f.image_parameter(0.5), Some(0.75));
+/// assert_eq!(f.source_parameter(0.75), Some(0.5));
 /// assert_eq!(f.derivative(0.0), Some(3.0));
-/// # Ok::<(), homog::SegmentTorn>(())
+/// # Ok::<(), homog::SegmentCrossesEyePlane>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Foreshortening {

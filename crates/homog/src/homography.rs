@@ -19,15 +19,16 @@ use glam::{DMat3, DVec3};
 /// A projective map of the plane (HO-3).
 ///
 /// ```
-/// use homog::{Hom2, Homography};
+/// use homog::{HPoint2, Homography};
 /// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 /// let photo = [[-3.0, 0.0], [3.0, 0.0], [1.0, 3.0], [-1.0, 3.0]];
 /// let map = Homography::from_unit_square(photo).expect("four corners of a quadrilateral");
-/// let middle = map.apply(Hom2::place(0.5, 0.5)).divide().expect("finite");
-/// assert!((middle[1] - 2.25).abs() < 1e-14); // the middle of the square is seen above half the height
+/// let middle = map.transform_point(HPoint2::from_xy(0.5, 0.5)).divide().expect("finite");
+/// // The middle of the square is seen above half the height.
+/// assert!((middle[1] - 2.25).abs() < 1e-14);
 /// let rectify = map.inverse().expect("a quadrilateral with four corners");
 /// # for (p, q) in photo.into_iter().zip(square) {
-/// #     let back = rectify.apply(p.into()).divide().expect("finite");
+/// #     let back = rectify.transform_point(p.into()).divide().expect("finite");
 /// #     assert!((back[0] - q[0]).abs() + (back[1] - q[1]).abs() < 1e-14);
 /// # }
 /// ```

@@ -6,8 +6,8 @@ use glam::DVec4;
 
 /// A homogeneous point (x, y, z, w) of space `S` (HO-1).
 ///
-/// With w ≠ 0 it stands for the place (x/w, y/w, z/w); with w = 0 for the direction (x, y, z), a point at
-/// infinity. Any non-zero multiple stands for the same. (0, 0, 0, 0) stands for nothing.
+/// With w ≠ 0 it stands for the place (x/w, y/w, z/w); with w = 0 for the direction (x, y, z), a
+/// point at infinity. Any non-zero multiple stands for the same. (0, 0, 0, 0) stands for nothing.
 ///
 /// ```
 /// use homog::{Clip, HPoint, Ndc, Point};
@@ -67,15 +67,17 @@ impl<S: Space> HPoint<S> {
 
     /// The place this stands for: the one divide of the pipeline.
     ///
-    /// `None` where there is no finite place: w = 0, a coordinate that is not finite, or a quotient too large to
-    /// represent. A point behind the eye (w < 0) divides like any other, so clip before.
+    /// `None` where there is no finite place: w = 0, a coordinate that is not finite, or a quotient
+    /// too large to represent. A point behind the eye (w < 0) divides like any other, so clip
+    /// before.
     #[must_use]
     pub fn divide(self) -> Option<Point<S::Divided>> {
         let place = self.raw.truncate() / self.raw.w;
         (self.raw.w.is_finite() && place.is_finite()).then_some(Point::from_raw(place))
     }
 
-    /// The homogeneous point at fraction `t` of the straight way to `end` in four dimensions (CL-2).
+    /// The homogeneous point at fraction `t` of the straight way to `end` in four dimensions
+    /// (CL-2).
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
         Self::from_raw(self.raw + (end.raw - self.raw) * t)

@@ -18,10 +18,10 @@ use crate::hpoint_kind::are_proportional;
 /// A homogeneous point [x, h] of a line: the number x/h, or the point at infinity if h = 0.
 ///
 /// ```
-/// use homog::Hom1;
-/// assert_eq!(Hom1::new(3.0, 2.0).divide(), Some(1.5));
-/// assert_eq!(Hom1::new(3.0, 2.0).equivalent(Hom1::new(-1.5, -1.0), 0.0), Some(true));
-/// assert_eq!(Hom1::new(1.0, 0.0).divide(), None);
+/// use homog::HPoint1;
+/// assert_eq!(HPoint1::new(3.0, 2.0).divide(), Some(1.5));
+/// assert_eq!(HPoint1::new(3.0, 2.0).equivalent(HPoint1::new(-1.5, -1.0), 0.0), Some(true));
+/// assert_eq!(HPoint1::new(1.0, 0.0).divide(), None);
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HPoint1 {

@@ -20,11 +20,11 @@ use glam::DVec3;
 /// A homogeneous point [x, y, h] of the plane: the place (x/h, y/h), or a direction if h = 0.
 ///
 /// ```
-/// use homog::Hom2;
-/// let point = Hom2::new(-2.0, -1.0, 2.0);
+/// use homog::HPoint2;
+/// let point = HPoint2::new(-2.0, -1.0, 2.0);
 /// assert_eq!(point.divide(), Some([-1.0, -0.5]));
-/// assert_eq!(point.equivalent(Hom2::new(4.0, 2.0, -4.0), 0.0), Some(true));
-/// assert_eq!(Hom2::new(1.0, 0.0, 0.0).divide(), None); // a direction
+/// assert_eq!(point.equivalent(HPoint2::new(4.0, 2.0, -4.0), 0.0), Some(true));
+/// assert_eq!(HPoint2::new(1.0, 0.0, 0.0).divide(), None); // a direction
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct HPoint2 {

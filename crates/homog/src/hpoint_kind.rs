@@ -1,21 +1,22 @@
-//! What a homogeneous point stands for, and when two stand for the same (HO-1, HO-2).
+//! Kinds of homogeneous points, finite or at infinity, and their equivalence (HO-1, HO-2).
 
 use crate::{HPoint, Point, Projective, Space, Vector};
 use core::fmt;
 
-/// What four numbers stand for.
+/// The kind of a homogeneous point: finite, at infinity or invalid.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum HPointKind<S: Space> {
-    /// w ≠ 0: a place. It is given divided.
+    /// w ≠ 0: a point of space, given after the divide.
     Finite(Point<S::Divided>),
     /// w = 0: a direction, a point at infinity. Its opposite is the same point at infinity.
     AtInfinity(Vector<S>),
-    /// All four are 0, or one is not finite, or the place is too far to represent: nothing.
+    /// No point: all four coordinates are 0, or one is not finite, or the point is too far to
+    /// represent.
     Invalid,
 }
 
 impl<S: Space> HPointKind<S> {
-    /// The one word for it: "point", "direction" or "none".
+    /// The name of the kind: "point", "direction" or "none".
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -43,21 +44,21 @@ impl<S: Space> fmt::Display for HPointKind<S> {
 }
 
 impl<S: Space> HPoint<S> {
-    /// What this stands for, by the exact value of w.
+    /// The kind of this point, by the exact value of w.
     ///
     /// ```
-    /// use homog::{HPoint, Meaning, Point, Vector, World};
-    /// let meaning = |x, y, z, w| HPoint::<World>::new(x, y, z, w).meaning();
-    /// assert_eq!(meaning(2.0, 8.0, 14.0, 2.0), Meaning::Place(Point::new(1.0, 4.0, 7.0)));
-    /// assert_eq!(meaning(1.0, 4.0, 7.0, 0.0), Meaning::Direction(Vector::new(1.0, 4.0, 7.0)));
-    /// assert_eq!(meaning(0.0, 0.0, 0.0, 0.0), Meaning::Nothing);
+    /// use homog::{HPoint, HPointKind, Point, Vector, World};
+    /// let meaning = |x, y, z, w| HPoint::<World>::new(x, y, z, w).kind();
+    /// assert_eq!(meaning(2.0, 8.0, 14.0, 2.0), HPointKind::Finite(Point::new(1.0, 4.0, 7.0)));
+    /// assert_eq!(meaning(1.0, 4.0, 7.0, 0.0), HPointKind::AtInfinity(Vector::new(1.0, 4.0, 7.0)));
+    /// assert_eq!(meaning(0.0, 0.0, 0.0, 0.0), HPointKind::Invalid);
     /// ```
     #[must_use]
     pub fn kind(self) -> HPointKind<S> {
         self.kind_within(0.0)
     }
 
-    /// What this stands for if w may be off by `relative` times the greatest coordinate: rounding
+    /// The kind of this point if w may be off by `relative` times the greatest coordinate: rounding
     /// leaves 10⁻¹⁷ where a turned camera ought to give 0.
     #[must_use]
     pub fn kind_within(self, relative: f64) -> HPointKind<S> {
@@ -73,7 +74,8 @@ impl<S: Space> HPoint<S> {
 
     /// True if both stand for the same place or direction, that is if one is a multiple of the
     /// other (HO-2):
-    /// |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. 10⁻¹² is a good `relative` for computed points.
+    /// |aᵢ bⱼ − aⱼ bᵢ| ≤ `relative` · ‖a‖ ‖b‖ for all i, j. 10⁻¹² is a good `relative` for computed
+    /// points.
     ///
     /// `None` if one of them stands for nothing, being zero or not finite.
     ///
@@ -116,18 +118,19 @@ impl<A: Space, B: Space> Projective<A, B> {
     /// Where the images of all lines along `direction` meet (VN-1): the image of their point at
     /// infinity, as a place, or as a direction if the images stay parallel.
     ///
-    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::meaning_within`]:
+    /// `relative` is how far from 0 a w may be that counts as 0, as in [`HPoint::kind_within`]:
     /// 10⁻¹² says yes to lines across the gaze of a turned camera.
     ///
     /// ```
-    /// use homog::{Meaning, Ndc, Point, Projective, Clip, Vector, View};
+    /// use homog::{HPointKind, Ndc, Point, Projective, Clip, Vector, View};
     /// // One-point perspective: the eye at distance 1 before the plane z = 0.
-    /// let rows = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, -1.0, 1.0]];
+    /// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    /// let rows = [x, y, z, [0.0, 0.0, -1.0, 1.0]];
     /// let map = Projective::<View, Clip>::from_rows(rows);
     /// let rails = map.vanishing_point(Vector::new(0.0, 0.0, -1.0), 0.0);
-    /// assert_eq!(rails, Meaning::Place(Point::<Ndc>::new(0.0, 0.0, -1.0)));
+    /// assert_eq!(rails, HPointKind::Finite(Point::<Ndc>::new(0.0, 0.0, -1.0)));
     /// let sleepers = map.vanishing_point(Vector::X, 0.0);
-    /// assert_eq!(sleepers, Meaning::Direction(Vector::X));
+    /// assert_eq!(sleepers, HPointKind::AtInfinity(Vector::X));
     /// ```
     #[must_use]
     pub fn vanishing_point(self, direction: Vector<A>, relative: f64) -> HPointKind<B> {

@@ -4,7 +4,7 @@
 //! from and the space it ends in, and the compiler refuses a chain that does not fit:
 //!
 //! ```text
-//!  Model ──Affine──► World ──Affine──► View ──Projective──► Clip ──divide──► Ndc ──Affine──► Screen
+//!  Model ─Affine─► World ─Affine─► View ─Projective─► Clip ─divide─► Ndc ─Affine─► Screen
 //! ```
 //!
 //! | type | is | under a translation |
@@ -13,7 +13,8 @@
 //! | [`Vector`] | a difference of places | stays |
 //! | [`Normal`] | a direction perpendicular to a surface | stays |
 //! | [`HPoint`] | the place (x/w, y/w, z/w), or a direction if w = 0 | moves by w times as much |
-//! | [`Plane`], [`Bounds`], [`Frame`] | a x + b y + c z + d = 0; a box; an origin with three axes | move |
+//! | [`Plane`], [`Ray`], [`Bounds`] | a x + b y + c z + d = 0; a half-line; a box | move |
+//! | [`CoordinateFrame`] | an origin with three axes | moves |
 //! | [`Affine`] | a map that keeps parallels: points to points | |
 //! | [`Projective`] | a map that keeps lines: points to homogeneous points | |
 //!
@@ -31,14 +32,15 @@
 //! ]);
 //! let model_to_clip = model_to_world.then(world_to_view).then_project(view_to_clip);
 //!
-//! let corner = model_to_clip.point(Point::new(2.0, 1.0, 0.0)); // not divided yet: this is what one clips
+//! // Not divided yet: clipping comes first.
+//! let corner = model_to_clip.transform_point(Point::new(2.0, 1.0, 0.0));
 //! assert_eq!(corner.w(), 6.0);
 //! let seen = corner.divide().expect("six ahead of the eye");
 //! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
 //! ```
 //!
 //! There is one divide, [`HPoint::divide`], and it returns an `Option`: no place hides a division
-//! by zero. Four numbers that cannot be divided still mean something, and [`HPoint::meaning`] says
+//! by zero. Four numbers that cannot be divided still mean something, and [`HPoint::kind`] says
 //! what; so the point in which railway tracks meet is the image of a direction,
 //! [`Projective::vanishing_point`].
 //!
@@ -48,7 +50,7 @@
 //! use homog::{Affine, Model, Point, View, World};
 //! let world_to_view = Affine::<World, View>::IDENTITY;
 //! let p = Point::<Model>::new(1.0, 2.0, 3.0);
-//! let wrong = world_to_view.point(p); // a model point where a world point is due
+//! let wrong = world_to_view.transform_point(p); // a model point where a world point is due
 //! ```
 //!
 //! # Conventions
@@ -63,9 +65,9 @@
 //! - Tags cost nothing: a `Point<World>` is a `glam::DVec3`, by [`Point::from_raw`] and
 //!   [`Point::raw`].
 //!
-//! Beside the three-dimensional types stand those of the line and the plane, [`Hom1`], [`Hom2`],
-//! [`Line2`] and [`Homography`], on which the textbook explains homogeneous coordinates.
-//! `cargo run -p homog --example railway` shows the crate at work.
+//! Beside the three-dimensional types stand those of the line and the plane, [`HPoint1`],
+//! [`HPoint2`], [`HLine2`] and [`Homography`], on which the textbook explains homogeneous
+//! coordinates. `cargo run -p homog --example railway` shows the crate at work.
 //!
 //! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
 //! *Viewing*. Formula ids such as HO-2 or IN-1 in the documentation name entries of the project's
@@ -88,10 +90,12 @@ mod hpoint_kind;
 mod inversion;
 mod matrix_display;
 mod normal;
+mod pixel_convention;
 mod pixel_rect;
 mod plane;
 mod point;
 mod projective;
+mod ray;
 mod remap;
 mod space;
 mod vector;
@@ -109,10 +113,17 @@ pub use hpoint2::{HLine2, HPoint2};
 pub use inversion::{Inversion, InversionError};
 pub use matrix_display::MatrixDisplay;
 pub use normal::Normal;
+pub use pixel_convention::{PixelCenters, PixelConvention, YAxis};
 pub use pixel_rect::PixelRect;
 pub use plane::Plane;
 pub use point::Point;
 pub use projective::Projective;
+pub use ray::Ray;
 pub use remap::{RemapError, remap_interval};
 pub use space::{Clip, Model, Ndc, Screen, Space, View, World};
 pub use vector::Vector;
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

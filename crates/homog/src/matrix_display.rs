@@ -48,7 +48,8 @@ impl Homography {
     ///
     /// ```
     /// use homog::Homography;
-    /// let map = Homography::from_rows([[2.0, 0.0, -1.0], [0.0, 3.0, 0.0], [0.0, 2.0 / 3.0, 1.0 / 3.0]]);
+    /// let w = [0.0, 2.0 / 3.0, 1.0 / 3.0];
+    /// let map = Homography::from_rows([[2.0, 0.0, -1.0], [0.0, 3.0, 0.0], w]);
     /// assert_eq!(map.display().to_string(), "\
     /// [ 2    0   -1 ]
     /// [ 0    3    0 ]

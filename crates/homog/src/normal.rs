@@ -39,7 +39,7 @@ impl<S: Space> Normal<S> {
         self.raw.dot(vector.raw())
     }
 
-    /// The same direction with length 1; `None` if it has none.
+    /// The normal with length 1; `None` if it is zero or not finite.
     #[must_use]
     pub fn normalized(self) -> Option<Self> {
         Some(Self::from_raw(Vector::<S>::from_raw(self.raw).normalized()?.raw()))

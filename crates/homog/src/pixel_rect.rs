@@ -37,7 +37,8 @@ impl PixelRect {
         (width > 0 && height > 0).then_some(Self { x, y, width, height })
     }
 
-    /// Band `index` of `count` horizontal bands, from the top, whose heights differ by one row at most.
+    /// Band `index` of `count` horizontal bands, from the top, whose heights differ by one row at
+    /// most.
     ///
     /// A rectangle with fewer rows than bands has empty ones.
     #[must_use]
@@ -50,7 +51,8 @@ impl PixelRect {
         Self { y: self.y + from, height: to - from, ..self }
     }
 
-    /// Horizontal bands of at most `rows` rows, from the top, cut at multiples of `rows` in the image.
+    /// Horizontal bands of at most `rows` rows, from the top, cut at multiples of `rows` in the
+    /// image.
     pub fn bands(self, rows: u32) -> impl Iterator<Item = Self> {
         let rows = rows.max(1);
         let mut next = self.y;

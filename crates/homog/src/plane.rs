@@ -20,7 +20,8 @@ impl<S: Space> Plane<S> {
         Self { raw, space: PhantomData }
     }
 
-    /// The plane through `point` perpendicular to `normal`, its positive side where the normal points.
+    /// The plane through `point` perpendicular to `normal`, its positive side where the normal
+    /// points.
     #[must_use]
     pub fn through(point: Point<S>, normal: Normal<S>) -> Self {
         let n: DVec3 = normal.raw();
@@ -39,8 +40,8 @@ impl<S: Space> Plane<S> {
         Normal::from_raw(self.raw.truncate())
     }
 
-    /// a x + b y + c z + d w: positive on the side of the normal, 0 on the plane. It is the distance for a place
-    /// (w = 1) if the normal has length 1.
+    /// a x + b y + c z + d w: positive on the side of the normal, 0 on the plane. It is the
+    /// distance for a place (w = 1) if the normal has length 1.
     #[must_use]
     pub fn evaluate(self, point: impl Into<HPoint<S>>) -> f64 {
         self.raw.dot(point.into().raw())

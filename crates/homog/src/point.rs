@@ -62,7 +62,8 @@ impl<S: Space> Point<S> {
         self.raw.z
     }
 
-    /// The point at fraction `t` of the way to `end`: this point at 0, `end` at 1, beyond them outside [0, 1].
+    /// The point at fraction `t` of the way to `end`: this point at 0, `end` at 1, beyond them
+    /// outside [0, 1].
     #[must_use]
     pub fn lerp(self, end: Self, t: f64) -> Self {
         self + (end - self) * t

@@ -37,7 +37,7 @@ impl<A: Space, B: Space> Projective<A, B> {
     }
 
     /// Writes the images of `points` to `images`, as many as both have: the same bits as
-    /// [`point`](Self::point), in one pass.
+    /// [`transform_point`](Self::transform_point), in one pass.
     pub fn transform_points_into(self, points: &[Point<A>], images: &mut [HPoint<B>]) {
         let DMat4 { x_axis, y_axis, z_axis, w_axis } = self.raw;
         for (point, image) in points.iter().zip(images) {

@@ -26,6 +26,14 @@ pub enum RemapError {
         /// Its value.
         value: f64,
     },
+    /// A size is zero or negative.
+    #[error("{name} = {value} is not allowed: it must be greater than 0")]
+    NotPositive {
+        /// Which size.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// The interval to map from has no length.
     #[error("the {interval} to map from is empty: it begins and ends at {at}")]
     Empty {
@@ -51,10 +59,10 @@ pub enum RemapError {
 /// A number that is not finite; `from` of no length; a result out of range.
 ///
 /// ```
-/// use homog::remap;
-/// assert_eq!(remap(0.25, [0.0, 1.0], [5.0, 9.0]), Ok(6.0));
-/// assert_eq!(remap(-3.0, [-1.0, 1.0], [0.0, 10.0]), Ok(-10.0));
-/// assert!(remap(1.0, [2.0, 2.0], [0.0, 1.0]).is_err());
+/// use homog::remap_interval;
+/// assert_eq!(remap_interval(0.25, [0.0, 1.0], [5.0, 9.0]), Ok(6.0));
+/// assert_eq!(remap_interval(-3.0, [-1.0, 1.0], [0.0, 10.0]), Ok(-10.0));
+/// assert!(remap_interval(1.0, [2.0, 2.0], [0.0, 1.0]).is_err());
 /// ```
 pub fn remap_interval(x: f64, from: [f64; 2], to: [f64; 2]) -> Result<f64, RemapError> {
     check_finite("the number to map", x)?;
@@ -91,7 +99,7 @@ fn check_intervals(interval: &'static str, from: [f64; 2], to: [f64; 2]) -> Resu
     Ok(())
 }
 
-fn check_finite(name: &'static str, value: f64) -> Result<(), RemapError> {
+pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), RemapError> {
     if value.is_finite() { Ok(()) } else { Err(RemapError::NotFinite { name, value }) }
 }
 
@@ -100,7 +108,7 @@ impl Homography {
     /// `to` (WI-2).
     ///
     /// # Errors
-    /// As [`remap`], for either axis.
+    /// As [`remap_interval`], for either axis.
     pub fn windowing(from: [[f64; 2]; 2], to: [[f64; 2]; 2]) -> Result<Self, RemapError> {
         let axis =
             |name, i: usize| scale_and_offset(name, [from[0][i], from[1][i]], [to[0][i], to[1][i]]);
@@ -114,7 +122,7 @@ impl<A: Space, B: Space> Affine<A, B> {
     /// (WI-3). A box to map to may be flat or mirrored.
     ///
     /// # Errors
-    /// As [`remap`], for any of the three axes.
+    /// As [`remap_interval`], for any of the three axes.
     pub fn windowing(from: [Point<A>; 2], to: [Point<B>; 2]) -> Result<Self, RemapError> {
         let (from, to) = (from.map(<[f64; 3]>::from), to.map(<[f64; 3]>::from));
         let axis =

@@ -4,8 +4,8 @@
 //! Model ──► World ──► View ──► Clip ──÷w──► Ndc ──► Screen
 //! ```
 //!
-//! A space is a tag without values. It costs nothing at run time and makes it a compile error to add a
-//! world vector to a view point or to hand clip coordinates to the viewport.
+//! A space is a tag without values. It costs nothing at run time and makes it a compile error to
+//! add a world vector to a view point or to hand clip coordinates to the viewport.
 
 use core::fmt::Debug;
 

@@ -80,7 +80,8 @@ impl<S: Space> Vector<S> {
         largest * (self.raw / largest).length()
     }
 
-    /// The vector of length 1 in the same direction; `None` for the zero vector and for non-finite ones.
+    /// The vector of length 1 in the same direction; `None` for the zero vector and for non-finite
+    /// ones.
     #[must_use]
     pub fn normalized(self) -> Option<Self> {
         let largest = self.raw.abs().max_element();

@@ -184,7 +184,8 @@ fn c3_a_chain_is_the_product_of_its_factors() {
     assert_eq!(chain.raw(), view_to_clip.raw() * (world_to_view.raw() * model_to_world.raw()));
 }
 
-/// Finite numbers whose products are beyond the range of f64: there is no answer, not an infinite one.
+/// Finite numbers whose products are beyond the range of f64: there is no answer, not an infinite
+/// one.
 #[test]
 fn what_overflows_is_none() {
     let stretch = Affine::<World, World>::scale(1e-200, 1.0, 1.0);

@@ -1,76 +1,86 @@
-//! Animations: which numbers of a model change with time. [`Model::pose`](super::Model::pose) sets them.
+//! Keyframe animations: channels that change nodes, morph weights, materials, lights and cameras.
+//!
+//! [`Model::apply_animation`](crate::Model::apply_animation) sets a model to the pose at a given
+//! time.
 
-use super::{AnimationCurve, ObjectProperty, UvTransformPart};
+mod curve;
+pub(crate) mod object_model;
+mod pose;
 
-/// An animation of the file.
+pub use curve::{AnimationCurve, Interpolation};
+pub use object_model::ObjectProperty;
+
+use crate::UvTransformPart;
+
+/// A keyframe animation of the file.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Animation {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// What changes.
+    /// Channels, applied in this order.
     pub channels: Vec<AnimationChannel>,
-    /// The time of the last key in seconds.
+    /// Time of the last keyframe of any channel in seconds.
     pub duration_seconds: f64,
 }
 
-/// Something that changes with time.
+/// An animation channel: a property and the curve it follows.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AnimationChannel {
-    /// What it is.
+    /// The property that changes.
     pub target: AnimationTarget,
-    /// How it changes.
+    /// Its value over time.
     pub curve: AnimationCurve,
 }
 
-/// What a channel changes. All numbers in it are those of existing things.
+/// The target of an animation channel. All indices are in range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum AnimationTarget {
-    /// A property of a node.
+    /// A TRS property or the morph weights of a node.
     Node {
-        /// The node.
+        /// Index of the node.
         node: usize,
-        /// Its property.
+        /// The property of the node.
         property: NodeProperty,
     },
-    /// One of the weights of a node.
+    /// A single morph weight of a node.
     NodeMorphWeight {
-        /// The node.
+        /// Index of the node.
         node: usize,
-        /// The morph target.
+        /// Index of the morph target.
         target: usize,
     },
-    /// The weights of a mesh, for all nodes that have none of their own.
+    /// Morph weights of a mesh, for all nodes without weights of their own.
     MeshMorphWeights {
-        /// The mesh.
+        /// Index of the mesh.
         mesh: usize,
-        /// The morph target, or all of them.
+        /// Index of the morph target; `None` for all of them.
         target: Option<usize>,
     },
-    /// Numbers of a material, light or camera.
+    /// A property of a material, light or camera (KHR_animation_pointer).
     ObjectProperty {
-        /// Which numbers.
+        /// The property.
         property: ObjectProperty,
-        /// The number of the material, light or camera.
+        /// Index of the material, light or camera.
         index: usize,
     },
-    /// The way a texture lies.
+    /// A texture transform.
     TextureTransform {
-        /// The entry of [`Model::uv_transforms`](super::Model::uv_transforms).
+        /// Index into [`Model::uv_transforms`](crate::Model::uv_transforms).
         transform: usize,
-        /// Which part of it.
+        /// The property of the transform.
         part: UvTransformPart,
     },
 }
 
-/// What of a node an animation changes.
+/// An animatable property of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum NodeProperty {
-    /// The translation, three numbers.
+    /// Translation, three numbers.
     Translation,
-    /// The rotation, a quaternion.
+    /// Rotation, a quaternion.
     Rotation,
-    /// The scale, three numbers.
+    /// Scale, three numbers.
     Scale,
-    /// The weights of the morph targets, a number for each.
+    /// Weights of the morph targets, one number for each.
     Weights,
 }

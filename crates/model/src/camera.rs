@@ -1,37 +1,40 @@
-//! Cameras of a file.
+//! Cameras of a file: perspective and orthographic projections (glTF 2.0 §3.10).
 
-/// A camera of the file: its projection only, the node that carries it gives the view.
+/// A camera of the file: only its projection; the node that carries it gives the view.
+///
+/// A camera looks along its node's −z with +y up. Where the file gives no aspect ratio, or another
+/// than that of the picture, the renderer decides how the two are fitted.
 #[derive(Clone, Debug)]
 pub struct ModelCamera {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// What kind of projection, with its parameters, already checked for sense.
+    /// The projection with its parameters, already validated.
     pub projection: CameraProjection,
 }
 
-/// The two kinds of camera that glTF has.
+/// The two camera types of glTF.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum CameraProjection {
     /// Perspective projection.
     Perspective {
-        /// The vertical opening angle in radians, in (0, π).
+        /// Vertical field of view in radians, in (0, π).
         fov_y: f64,
-        /// Width over height, if the file fixes it.
+        /// Aspect ratio (width over height), if the file fixes it.
         aspect: Option<f64>,
-        /// The distance of the near plane, > 0.
+        /// Distance of the near plane, > 0.
         near: f64,
-        /// The distance of the far plane, > near; infinite if the file gives none.
+        /// Distance of the far plane, > `near`; infinite if the file gives none.
         far: f64,
     },
     /// Orthographic projection.
     Orthographic {
-        /// Half the width of the view volume, > 0.
+        /// Half the width of the view volume (`xmag`), > 0.
         half_width: f64,
-        /// Half the height of the view volume, > 0.
+        /// Half the height of the view volume (`ymag`), > 0.
         half_height: f64,
-        /// The distance of the near plane, ≥ 0.
+        /// Distance of the near plane, ≥ 0.
         near: f64,
-        /// The distance of the far plane, > near.
+        /// Distance of the far plane, > `near`.
         far: f64,
     },
 }

@@ -1,139 +1,115 @@
-//! From a glTF file to a [`Model`]: nothing in the file is trusted.
+//! Import: reads a file into a [`Model`] without trusting anything in it.
 //!
-//! ```text
-//!  bytes ──container──► JSON ──json──► Root ──scene, material, primitive, …──► Model
-//!                       binary chunk ─┐          │
-//!  other files ──resolver──► buffers ─┴─► accessor, elements, image
-//! ```
+//! Files come from strangers. Every index, length and size is checked before it is used, URIs refer
+//! to files below one folder only, and everything a file can declare has a [limit](Limits). A
+//! [`Diagnostic`](crate::Diagnostic) says where the file is wrong, what is wrong and what to do.
 //!
-//! The `gltf` crate lends its JSON types and nothing else: its own importer panics on malformed files and reads any
-//! file a URI names. Here every index, length and size is checked before it is used, URIs name files below one folder
-//! only, everything a file can declare has a [limit](Limits), and a fault says where it is, what is wrong and what to
-//! do. What makes the shape unreadable refuses the file; what only spoils the look is a [`Warning`](crate::Warning).
-//! A lenient reader has warnings of both, as long as something is left to load. [`check`] tells all that is wrong.
+//! Faults in the shape (positions, indices, the node hierarchy) are errors; faults in the look
+//! (materials, normals, images) are [warnings](Model::warnings), and the file is drawn without what
+//! is broken. With [`ImportOptions::lenient`] most errors become warnings too, as long as something
+//! is left to load. [`check_file`] lists everything that is wrong instead of stopping at the first
+//! error.
+//!
+//! | option | error by default | with `lenient` |
+//! | --- | --- | --- |
+//! | broken shape | yes | the primitive is left out |
+//! | missing buffer file | yes | what uses it is left out |
+//! | unknown required extension | yes | it is ignored |
+//! | not glTF, other version | yes | yes |
+//! | exceeded limit | yes | yes |
+//!
+//! The modules here serve every format; `gltf` reads glTF 2.0.
 
-mod accessor;
-mod animation;
-mod animation_pointer;
-mod attribute;
-mod buffers;
-mod camera;
-mod check;
-mod container;
-mod document;
-mod draco;
-mod edge_visibility;
-mod elements;
 mod error;
-mod extensions;
-mod gpu_instancing;
-mod image_decoder;
-mod images;
-mod jpeg;
-mod json_repair;
-#[cfg(feature = "basisu")]
-mod ktx2;
-mod lights;
+pub(crate) mod gltf;
+pub(crate) mod image_decoder;
 mod limits;
-mod material;
-mod memory_budget;
-mod meshopt;
-mod model_builder;
-mod morph_target;
-mod node_transform;
+pub(crate) mod memory_budget;
+mod name_or_index;
 mod normals;
 mod parallel_decoding;
-mod primitive;
-mod scene_graph;
-mod selection;
-mod skin;
-mod texture;
-mod topology;
-mod untyped_members;
-mod uri_resolver;
+pub(crate) mod uri_resolver;
 mod warnings;
-mod webp;
 
+pub use crate::check::{CheckReport, check_bytes, check_file};
+pub use error::ImportError;
+pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;
-
-pub use check::{CheckReport, Problem, Severity, check_bytes, check_file};
-pub use error::{Diagnostic, ImportError, ImportErrorKind};
-pub use extensions::{ExtensionUse, extension_use};
 pub use limits::Limits;
-pub use selection::NameOrIndex;
+pub use name_or_index::NameOrIndex;
 
 use crate::Model;
 use crate::Timings;
-use accessor::AccessorReader;
-use buffers::Buffers;
-use container::Container;
-use document::GltfDocument;
+use gltf::import_gltf;
 use std::path::{Path, PathBuf};
 use uri_resolver::UriResolver;
-use warnings::ImportWarnings;
 
-/// How a file is loaded.
+/// Options for loading a file.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
     /// The largest sizes that are accepted.
     pub limits: Limits,
-    /// The folder that all files the glTF file refers to must be below. Default: the folder of the glTF file.
+    /// The folder below which all referenced files must be. Default: the folder of the file itself.
     pub root: Option<PathBuf>,
-    /// Other folders that files may be below: `..` and symbolic links may lead there. Default: none.
+    /// Further folders that may hold referenced files: `..` and symbolic links may lead there.
+    /// Default: none.
     pub allow_outside: Vec<PathBuf>,
-    /// Whether what is broken, missing or unknown is left out with a warning wherever something else is left to load, in place
-    /// of an error. Limits hold all the same. Default: no.
+    /// Whether broken, missing or unknown data is left out with a warning instead of an error, as
+    /// long as something else is left to load. Limits hold all the same. Default: no.
     pub lenient: bool,
-    /// The scene of the file that is shown. Default: its default scene, else its first.
+    /// The active scene. Default: the file's default scene, else its first.
     pub scene: Option<NameOrIndex>,
-    /// The variant of the file that is shown (KHR_materials_variants). Default: none.
+    /// The active material variant (KHR_materials_variants). Default: none.
     pub variant: Option<NameOrIndex>,
-    /// What is done with images.
+    /// Whether images are decoded. Default: those that are visible.
     pub images: ImageLoading,
-    /// What the stages of loading are measured with. Default: not at all.
+    /// Stopwatch for the stages of loading. Default: none.
     pub timings: Timings,
 }
 
-/// What is done with the images of a file.
+/// Treatment of a file's images.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ImageLoading {
-    /// Those that visible surfaces show are decoded; no other is read.
+    /// Images that visible surfaces use are decoded; no other is read.
     #[default]
     Decode,
-    /// None is decoded, but the headers of all are read.
+    /// No image is decoded, but the headers of all are read.
     Headers,
 }
 
-/// Loads a `.gltf` or `.glb` file; which of the two it is, its content says.
+/// Loads a `.gltf` or `.glb` file; its content decides which of the two it is.
 ///
-/// Soft faults do not stop it: they are in [`Model::warnings`]. A file with nothing to draw loads as well.
+/// Faults that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
+/// without anything to draw loads as well.
 ///
 /// ```no_run
 /// use model::{ImportOptions, load};
 /// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
-/// let triangles: usize = model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|p| p.count()).sum();
+/// let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+/// println!("{} triangles", primitives.map(|primitive| primitive.item_count()).sum::<usize>());
 /// for warning in &model.warnings {
-///     println!("{}: {}", warning.pointer, warning.message);
+///     println!("{warning}");
 /// }
 /// # Ok::<(), model::ImportError>(())
 /// ```
 ///
 /// # Errors
-/// The file, or one it refers to, cannot be read or may not be; is not glTF 2.0 or breaks its rules; requires an
-/// unknown extension; exceeds a limit; has no such scene or variant as the options ask for.
+/// The file, or one it refers to, cannot be read or is forbidden; is not glTF 2.0 or breaks its
+/// rules; requires an unsupported extension; exceeds a limit; has no such scene or variant as the
+/// options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || uri_resolver::read_file(path, &options.limits, "");
     let loaded = options.timings.measure("read", read).and_then(|bytes| {
         let resolver = UriResolver::new(path, bytes.len(), options)?;
         import_gltf(path, &bytes, &resolver, options)
     });
-    loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
+    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
 }
 
-/// Loads a model whose file is in memory, as [`load`] does; `name` stands for its path in messages.
+/// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
 ///
-/// Without a [root](ImportOptions::root) the file must be complete in itself: no other file is read, whatever it says. With
-/// one, the files it names begin at that folder.
+/// Without a [root](ImportOptions::root) the file must be self-contained: no other file is read.
+/// With one, relative URIs are resolved against that folder.
 ///
 /// # Errors
 /// As for [`load`].
@@ -141,27 +117,5 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
         .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
-    loaded.map_err(|fault| ImportError { file: path.to_owned(), diagnostic: fault })
-}
-
-fn import_gltf(
-    path: &Path,
-    bytes: &[u8],
-    resolver: &UriResolver<'_>,
-    options: &ImportOptions,
-) -> Result<Model, Diagnostic> {
-    let limits = resolver.limits;
-    let mut warnings = ImportWarnings::new(options.lenient);
-    let container = Container::from_bytes(bytes, &mut warnings)?;
-    let json = &bytes[container.json];
-    let parse = || GltfDocument::parse_json(json, limits, &mut warnings);
-    let document = options.timings.measure("parse", parse)?;
-    let chunk = container.binary.map(|range| &bytes[range]);
-    extensions::check_extensions(&document.root, &mut warnings)?;
-    let buffers = Buffers::new(&document.root, resolver, chunk, limits);
-    let source = AccessorReader::new(&document.root, &buffers, limits);
-    let mut model = model_builder::build_model(&document, &source, options, &mut warnings)?;
-    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    model.warnings = warnings.into_list();
-    Ok(model)
+    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
 }

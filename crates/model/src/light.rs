@@ -1,46 +1,54 @@
-//! Lights of a file (KHR_lights_punctual): without size, each carried by nodes that place it and point it along −z.
+//! Punctual lights of a file (KHR_lights_punctual): directional, point and spot lights.
 //!
-//! Scenes have lights of their own too ([`shade::Light`](shade::Light)).
+//! They have no size. The node that carries a light gives its position, and its direction along −z.
+//! Lights that scene files add are a type of their own, in the crate `shade`.
 
 use super::{MeshInstance, Model};
 
-/// A light of the file.
+/// A directional, point or spot light of the file.
+///
+/// The extension attenuates point and spot lights by 1 / d² and, with a finite range, by a window
+/// that reaches 0 at it; spots fall off smoothly between the two cone angles. The crate `shade` has
+/// the formulas.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PunctualLight {
     /// The name in the file, if it has one.
     pub name: Option<String>,
     /// Red, green and blue, linear, each in [0, 1].
     pub color: [f32; 3],
-    /// How bright it is, at least 0: the illuminance in lux for [`Directional`](LightKind::Directional), the luminous
-    /// intensity in candela for the others.
+    /// Brightness, at least 0: illuminance in lux for [`Directional`](LightKind::Directional),
+    /// luminous intensity in candela for point and spot lights.
     pub intensity: f32,
-    /// Where it goes.
+    /// The type of the light, with its distribution.
     pub kind: LightKind,
 }
 
-/// Where the light of a punctual light goes.
+/// Type and spatial distribution of a punctual light.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum LightKind {
-    /// From very far away along the node's −z.
+    /// Parallel light from infinity along the node's −z.
     Directional,
-    /// From the node's place everywhere, weaker with the square of the distance.
+    /// Light from the node's position in all directions, attenuated by the square of the distance.
     Point {
-        /// The distance in the world at which nothing arrives any more, above 0; infinite unless the file gives it.
+        /// Distance in world units at which the light has faded to nothing, > 0; infinite by
+        /// default.
         range: f32,
     },
-    /// From the node's place into a cone around its −z.
+    /// Light from the node's position into a cone around its −z.
     Spot {
-        /// As for a point.
+        /// As for a point light.
         range: f32,
-        /// The angle from the axis in radians up to which the light is full: at least 0, less than `outer`.
+        /// Angle from the axis in radians up to which the light has full strength: at least 0, less
+        /// than `outer_cone_angle`.
         inner_cone_angle: f32,
-        /// The angle from the axis in radians at which the light ends, at most π/2.
+        /// Angle from the axis in radians at which the light has fallen off to nothing, at most
+        /// π/2.
         outer_cone_angle: f32,
     },
 }
 
 impl LightKind {
-    /// The name that glTF has for it.
+    /// The value of `type` in glTF: `directional`, `point` or `spot`.
     #[must_use]
     pub const fn gltf_name(self) -> &'static str {
         match self {
@@ -52,7 +60,7 @@ impl LightKind {
 }
 
 impl Model {
-    /// The lights of the shown scene, each with the place of the node that carries it.
+    /// Lights of the active scene, each with the instance of the node that carries it.
     pub fn scene_lights(&self) -> impl Iterator<Item = (MeshInstance, &PunctualLight)> {
         self.node_instances().into_iter().filter_map(|instance| {
             let light = self.nodes[instance.node].light?;

@@ -1,66 +1,79 @@
-//! Materials: what a surface looks like, as the file has it.
+//! Materials: metallic-roughness PBR with the KHR_materials extensions, as the file declares them.
 
-use super::MaterialExtensions;
+mod extensions;
+mod texture_slot;
+mod uv_transform;
 
-/// What a surface looks like: glTF's metallic-roughness model, and what extensions add to it.
+pub use extensions::{
+    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Specular, SpecularGlossiness,
+    Transmission, Volume,
+};
+pub use texture_slot::TextureSlot;
+pub use uv_transform::{UvTransform, UvTransformPart};
+
+/// A surface material: glTF's metallic-roughness model (glTF 2.0 §3.9) and its extensions.
 ///
-/// All factors are linear, not sRGB, and in the ranges that the comments name. A texture multiplies the factor it stands
-/// beside; the comments say which of its channels count, and whether its colours are sRGB.
+/// All factors are linear, not sRGB, and in the ranges given here. A texture multiplies the factor
+/// beside it; the comments name the channels that count, and whether the texture is sRGB encoded.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Material {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// Red, green, blue and alpha of the surface, each in [0, 1]; multiplies texture and vertex colour.
+    /// Base color factor, red, green, blue and alpha in [0, 1]; multiplies texture and vertex
+    /// color.
     pub base_color: [f32; 4],
-    /// The texture of the base colour (sRGB, alpha linear).
+    /// Base color texture (sRGB, alpha linear).
     pub base_color_texture: Option<TextureInfo>,
-    /// 0 for dielectrics, 1 for metals.
+    /// Metalness: 0 for dielectrics, 1 for metals.
     pub metallic: f32,
-    /// 0 for mirrors, 1 for chalk; its square is the α of the microfacet formulas.
+    /// Perceptual roughness: 0 for mirrors, 1 for chalk; its square is the α of the GGX
+    /// distribution.
     pub roughness: f32,
-    /// The texture of metalness (blue) and roughness (green), linear.
+    /// Texture of metalness (blue) and roughness (green), linear.
     pub metallic_roughness_texture: Option<TextureInfo>,
-    /// Small slopes of the surface.
+    /// Normal map.
     pub normal_texture: Option<NormalTexture>,
-    /// How much of the ambient light arrives.
+    /// Ambient occlusion map.
     pub occlusion_texture: Option<OcclusionTexture>,
-    /// Light the surface gives off by itself: `emission`'s colour times its strength.
+    /// Emitted radiance: the product of `emission`'s color and strength.
     pub emissive: [f32; 3],
-    /// The texture of that light (sRGB); multiplies it.
+    /// Texture of the emitted light (sRGB).
     pub emissive_texture: Option<TextureInfo>,
-    /// What `emissive` is made of; animations change one or the other.
+    /// The factors of `emissive`, which animations change one at a time.
     pub emission: Emission,
-    /// What alpha means.
+    /// Use of alpha: opaque, alpha test or blending.
     pub alpha_mode: AlphaMode,
-    /// Whether the back of the surface is shown too.
+    /// Whether back faces are drawn too.
     pub double_sided: bool,
-    /// Whether the base colour is shown as it is, without light (KHR_materials_unlit).
+    /// Whether the base color is shown without lighting (KHR_materials_unlit).
     pub unlit: bool,
-    /// What the extensions of glTF add.
+    /// Parameters of the KHR_materials extensions.
     pub extensions: MaterialExtensions,
 }
 
 impl Material {
-    /// Whether light passes through the surface.
+    /// Whether light passes through the surface (KHR_materials_transmission).
+    ///
+    /// Masked and unlit materials are drawn opaque, whatever their transmission.
     #[must_use]
     pub fn is_transmissive(&self) -> bool {
         let transmission = self.extensions.transmission.as_ref();
         let masked = matches!(self.alpha_mode, AlphaMode::Mask { .. });
-        transmission.is_some_and(|share| share.factor > 0.0) && !masked && !self.unlit
+        transmission.is_some_and(|layer| layer.factor > 0.0) && !masked && !self.unlit
     }
 
-    /// Whether a texture bends the surface's normals, so that its tangents count.
+    /// Whether shading needs a tangent frame: for a normal map or for anisotropic highlights.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {
-        let coat = self.extensions.clearcoat.as_ref();
+        let clearcoat = self.extensions.clearcoat.as_ref();
         self.normal_texture.is_some()
             || self.extensions.anisotropy.is_some()
-            || coat.is_some_and(|coat| coat.normal_texture.is_some())
+            || clearcoat.is_some_and(|clearcoat| clearcoat.normal_texture.is_some())
     }
 }
 
 impl Default for Material {
-    /// The material of primitives that name none (glTF 2.0 §3.9): white, opaque, one-sided.
+    /// The default material (glTF 2.0 §3.9): white, opaque, metallic, rough, single-sided.
     fn default() -> Self {
         Self {
             name: None,
@@ -82,18 +95,18 @@ impl Default for Material {
     }
 }
 
-/// Light a surface gives off by itself.
+/// Emission color and strength.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Emission {
     /// Red, green and blue, each in [0, 1].
     pub color: [f32; 3],
-    /// What the colour is multiplied by, at least 0; the product is in candela per square metre
-    /// (KHR_materials_emissive_strength).
+    /// Multiplier of the color, at least 0 (KHR_materials_emissive_strength); the product is a
+    /// luminance in candela per square meter.
     pub strength: f32,
 }
 
 impl Emission {
-    /// Colour times strength.
+    /// Color times strength.
     #[must_use]
     pub fn scaled_color(self) -> [f32; 3] {
         self.color.map(|channel| channel * self.strength)
@@ -106,53 +119,53 @@ impl Default for Emission {
     }
 }
 
-/// A texture of slopes: red, green and blue (linear) are 2x − 1 of a vector in the tangent space of the surface, red along the
-/// tangent, green along the bitangent, blue along the normal.
+/// A normal map: red, green and blue (linear) encode 2x − 1 of a vector in tangent space, with red
+/// along the tangent, green along the bitangent and blue along the normal.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct NormalTexture {
     /// The texture.
     pub texture: TextureInfo,
-    /// Multiplies the first two components of the vector before it is brought to length 1; any number.
+    /// Multiplies the first two components of the vector before it is normalized; any number.
     pub scale: f32,
 }
 
-/// A texture of the ambient light that arrives: red (linear), 1 for all of it.
+/// An ambient occlusion map: red (linear) is the fraction of ambient light that arrives.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct OcclusionTexture {
     /// The texture.
     pub texture: TextureInfo,
-    /// In [0, 1]: light arrives as 1 + strength · (red − 1).
+    /// Strength in [0, 1]: the light is multiplied by 1 + strength · (red − 1).
     pub strength: f32,
 }
 
-/// A texture in use: which one, and by which coordinates.
+/// A reference to a texture, with the texture coordinates to use (glTF's `textureInfo`).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct TextureInfo {
-    /// The texture's number in the model.
+    /// Index of the texture in the model.
     pub texture: usize,
-    /// The set of texture coordinates (`TEXCOORD_n`).
+    /// The set of texture coordinates, n of `TEXCOORD_n`.
     pub uv_set: usize,
-    /// The first two rows of the map from the mesh's (u, v, 1) to the texture's (u, v); the identity unless the file
-    /// uses KHR_texture_transform.
+    /// Texture transform: the first two rows of the matrix from the mesh's (u, v, 1) to the
+    /// texture's (u, v). The identity unless the file uses KHR_texture_transform.
     pub uv_matrix: [[f32; 3]; 2],
 }
 
 impl TextureInfo {
-    /// The map that keeps texture coordinates as they are.
+    /// The transform that leaves texture coordinates unchanged.
     pub const IDENTITY_UV: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 }
 
-/// What the alpha of a surface means.
+/// Use of alpha: opaque, alpha test or blending (glTF 2.0 §3.9.4).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub enum AlphaMode {
-    /// Nothing: the surface is solid.
+    /// Alpha is ignored.
     #[default]
     Opaque,
-    /// The surface is solid where alpha is at least the cutoff, and absent elsewhere.
+    /// Alpha test: the surface is opaque where alpha is at least the cutoff, and absent elsewhere.
     Mask {
-        /// The smallest alpha that is solid.
+        /// The smallest alpha that is opaque.
         cutoff: f32,
     },
-    /// The share of the surface's colour over what is behind it.
+    /// Alpha is the coverage with which the surface is blended over what is behind it.
     Blend,
 }

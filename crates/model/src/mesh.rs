@@ -1,99 +1,117 @@
-//! Meshes: arrays of vertices, and lists of points, lines or triangles over them.
+//! Meshes: vertex attributes and index lists of triangles, lines or points.
 
-use super::PrimitiveEdges;
+mod edge_visibility;
+mod tangents;
+
+pub use edge_visibility::{EdgeList, EdgeVisibility, PrimitiveEdges};
+
 use raster::Clusters;
 use std::sync::OnceLock;
 
-/// A named group of primitives.
+/// A mesh: a named group of primitives that a node carries as one.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// The name in the file, if it has one.
     pub name: Option<String>,
-    /// The parts, each with one material.
+    /// The primitives, each with one material.
     pub primitives: Vec<Primitive>,
-    /// How much of each morph target is shown, unless a node says otherwise; targets beyond the list are not shown.
+    /// Default weights of the morph targets, used by nodes without weights of their own. Targets
+    /// beyond the list have weight 0.
     pub morph_weights: Vec<f32>,
 }
 
-/// Vertices with one material, and what to draw of them.
+/// A mesh primitive: vertex attributes, indices and a material; the unit that is drawn at once.
 ///
-/// Strips, loops and fans have become plain lists, in the winding the specification gives them. Every array that is
-/// present has one entry per vertex, every index is below the number of vertices, every position is finite.
+/// Strips, loops and fans have been expanded to plain lists, with the winding that the
+/// specification gives them. Every attribute that is present has one entry for each vertex, every
+/// index is less than the number of vertices, and every position is finite: the importer has
+/// dropped what is not.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
-    /// What the indices mean.
+    /// Whether the indices form points, lines or triangles.
     pub topology: Topology,
-    /// One index a point, two a line, three a triangle (counter-clockwise seen from the front).
+    /// Vertex indices: one for each point, two a line, three a triangle. The front face is the one
+    /// whose vertices run counter-clockwise.
     pub indices: Vec<u32>,
     /// Positions in the mesh's coordinates.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals; `None` where the file has none: faces are then flat.
+    /// Unit normals; `None` where the file has none: faces are shaded flat then.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Unit tangents, and in w the side of the bitangent, 1 or −1. `None` where the file has none (see
-    /// [`derived_tangents`](Self::derived_tangents)) and where no material of the primitive needs them.
+    /// Unit tangents with the handedness of the bitangent, 1 or −1, in w.
+    ///
+    /// `None` where the file has none ([`mikktspace_tangents`](Self::mikktspace_tangents) generates
+    /// them) and where no material of the primitive needs a tangent frame.
     pub tangents: Option<Vec<[f32; 4]>>,
-    /// Sets of texture coordinates, (0, 0) at the upper left of the image; `uvs[n]` is `TEXCOORD_n`.
+    /// Sets of texture coordinates with (0, 0) at the upper left of the image; `uvs[n]` is
+    /// `TEXCOORD_n`.
     pub uvs: Vec<Vec<[f32; 2]>>,
-    /// Vertex colours, linear, with alpha.
+    /// Vertex colors, linear, with alpha (`COLOR_0`).
     pub colors: Option<Vec<[f32; 4]>>,
-    /// Sets of four joints of the skin for each vertex.
+    /// Joint indices of the skin: sets of four for each vertex; entry n is `JOINTS_n`.
     pub joint_indices: Vec<Vec<[u16; 4]>>,
-    /// The weights of those joints, as many sets.
+    /// Weights of those joints, as many sets; entry n is `WEIGHTS_n`.
     pub joint_weights: Vec<Vec<[f32; 4]>>,
-    /// Differences that can be added to the vertices.
+    /// Morph targets (blend shapes): deltas that are added to the vertices.
     pub morph_targets: Vec<MorphTarget>,
-    /// The material's number in the model; `None` for the default material.
+    /// Index of the material in the model; `None` for the default material.
     pub material: Option<usize>,
-    /// The materials it has in variants of the model instead.
+    /// Materials in variants of the model that replace `material`.
     pub material_variants: Vec<VariantMaterial>,
-    /// The edges its maker wants to see, if the file says so.
+    /// Edges that the file marks for line drawings, if it does.
     pub edges: Option<Box<PrimitiveEdges>>,
-    /// What is worked out of the other fields when it is first asked for: nothing in a new primitive.
+    /// Cache of what follows from the other fields; empty in a new primitive.
     pub derived: DerivedData,
 }
 
-/// What a primitive keeps that follows from its other fields. Who changes these must begin again with [`Derived::default`].
+/// Lazily computed data that follows from the other fields of a primitive.
+///
+/// After changing those fields, reset this with [`DerivedData::default`]: the cache does not
+/// notice.
 #[derive(Clone, Debug, Default)]
 pub struct DerivedData {
-    /// The clusters of its triangles, without and with cones around their normals.
+    /// Clusters of the triangles, without and with normal cones.
     clusters: [OnceLock<Clusters>; 2],
-    /// The tangents of its corners for the set of texture coordinates that was asked for first, if they can be derived.
+    /// MikkTSpace tangents for the first set of texture coordinates that was asked for; `None`
+    /// inside if the algorithm fails.
     pub(super) tangents: OnceLock<(usize, Option<Vec<[f32; 4]>>)>,
 }
 
-/// The material of a primitive in a variant of the model.
+/// Material of a primitive in one variant of the model (KHR_materials_variants).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct VariantMaterial {
-    /// The variant's number in the model.
+    /// Index of the variant in the model.
     pub variant: usize,
-    /// The material's number in the model.
+    /// Index of the material in the model.
     pub material: usize,
 }
 
-/// Differences that are added, each times a weight, to the vertices of a primitive. Arrays that are present have one
-/// entry per vertex.
+/// A morph target (blend shape): deltas that are added to the vertices of a primitive, times a
+/// weight.
+///
+/// Arrays that are present have one entry for each vertex.
 #[derive(Clone, Debug, Default)]
 pub struct MorphTarget {
-    /// Differences of positions.
+    /// Deltas of positions.
     pub positions: Option<Vec<[f32; 3]>>,
-    /// Differences of normals.
+    /// Deltas of normals.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Differences of tangents, without w.
+    /// Deltas of tangents, without w.
     pub tangents: Option<Vec<[f32; 3]>>,
-    /// Differences of texture coordinates, by set; sets that stay have none.
+    /// Deltas of texture coordinates by set; `None` for sets that do not change.
     pub uvs: Vec<Option<Vec<[f32; 2]>>>,
-    /// Differences of vertex colours.
+    /// Deltas of vertex colors.
     pub colors: Option<Vec<[f32; 4]>>,
 }
 
 impl Primitive {
-    /// How many points, lines or triangles there are.
+    /// Number of points, lines or triangles.
     #[must_use]
     pub fn item_count(&self) -> usize {
         self.indices.len() / self.topology.vertices_per_item()
     }
 
-    /// The clusters of its triangles, with cones where it matters which side they show.
+    /// Clusters of the triangles for culling, computed once; with normal cones if back faces are
+    /// culled.
     pub fn clusters(&self, cones: bool) -> &Clusters {
         let triangles = self.indices.as_chunks::<3>().0;
         self.derived.clusters[usize::from(cones)]
@@ -101,20 +119,20 @@ impl Primitive {
     }
 }
 
-/// What a list of indices draws.
+/// Primitive topology: how indices are grouped.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Topology {
-    /// A point for each index.
+    /// Points: each index is one.
     Points,
-    /// A line for each two indices.
+    /// Line list: each two indices are a line.
     Lines,
-    /// A triangle for each three indices.
+    /// Triangle list: each three indices are a triangle.
     #[default]
     Triangles,
 }
 
 impl Topology {
-    /// Indices per item: 1, 2 or 3.
+    /// Indices for each point, line or triangle: 1, 2 or 3.
     #[must_use]
     pub const fn vertices_per_item(self) -> usize {
         match self {

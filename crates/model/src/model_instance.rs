@@ -1,4 +1,4 @@
-//! Models in the world: a shared model, and its transform.
+//! Instances of models in the world: a shared model and its transform.
 
 use crate::Model;
 use homog::{Affine, Model as ModelSpace, Point, World};
@@ -7,13 +7,13 @@ use std::sync::Arc;
 /// A model placed in the world.
 #[derive(Clone, Debug)]
 pub struct ModelInstance {
-    /// The model; scenes that show it several times share it.
+    /// The model; all its instances share it.
     pub model: Arc<Model>,
-    /// From the model's own coordinates to the world.
+    /// From model space to world space.
     pub model_to_world: Affine<ModelSpace, World>,
 }
 
-/// Every vertex that some point, line or triangle of the models uses, in the world.
+/// World positions of every vertex that a point, line or triangle of the models uses.
 #[must_use]
 pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
     let mut points = Vec::new();
@@ -23,7 +23,7 @@ pub fn world_points(models: &[ModelInstance]) -> Vec<Point<World>> {
     points
 }
 
-/// The names of the models, each once, joined by commas.
+/// Names of the models, without repetition, joined by commas.
 #[must_use]
 pub fn model_names(models: &[ModelInstance]) -> String {
     let mut names: Vec<&str> = Vec::new();

@@ -1,38 +1,64 @@
-//! The pose: where the vertices of a mesh are in the model, with morph targets added and the bending of a skin applied.
+//! Vertex skinning and morph targets: the deformed vertices of a mesh in the current pose.
 //!
-//! Weights of the morph targets come first, in the mesh's coordinates (glTF 2.0 §3.7.2.2):
-//!
-//! ```text
-//!  v' = v + Σ wᵢ · differenceᵢ
-//! ```
-//!
-//! A skinned vertex then does not follow the node that carries its mesh but the joints of the skin (§3.7.3.3):
+//! Morph targets are added first, in the mesh's coordinates (glTF 2.0 §3.7.2.2):
 //!
 //! ```text
-//!  v" = Σ wᵢ · (inverse_bindᵢ, then jointᵢ's place in the model) v'
+//!  v' = v + Σ wᵢ · deltaᵢ
 //! ```
 //!
-//! Sums and products in f64 and in the order of the file.
+//! A skinned vertex then follows the joints of the skin instead of the node that carries its mesh
+//! (§3.7.3.3). This is linear blend skinning: the joint matrices are blended, not the positions.
+//!
+//! ```text
+//!  v" = Σ wᵢ · Jᵢ v'      Jᵢ = inverse bind matrixᵢ, then the joint's global transform
+//! ```
+//!
+//! Normals are transformed by the inverse transpose of the blended matrix and normalized. Sums and
+//! products are formed in f64 and in the order of the file, so that every machine computes equal
+//! bits.
 
 use super::{MeshInstance, Model, MorphTarget, Primitive, Skin};
 use glam::{DMat3, DMat4, DVec3};
 use homog::{Affine, Model as ModelSpace};
 use std::borrow::Cow;
 
-/// The vertices of a primitive, ready to be placed.
+/// Deformed vertices of a primitive: positions and normals after morphing and skinning.
+///
+/// Arrays are borrowed from the primitive where nothing deforms them.
 #[derive(Clone, Debug)]
 pub struct SkinnedPrimitive<'a> {
     /// Positions, one for each vertex, finite.
     pub positions: Cow<'a, [[f32; 3]]>,
     /// Unit normals, if the primitive has normals.
     pub normals: Option<Cow<'a, [[f32; 3]]>>,
-    /// From these positions to the model.
+    /// From these positions to model space: the identity for a skinned primitive.
     pub to_model: Affine<ModelSpace, ModelSpace>,
 }
 
 impl Model {
-    /// A primitive of an instance's mesh as its nodes stand. Without weights and skin the arrays are as they are, and
-    /// `to_model` is the node's place; with a skin they are in the model's coordinates, and `to_model` is the identity.
+    /// Deforms the vertices of one of the instance's primitives: applies morph targets, then the
+    /// skin.
+    ///
+    /// Without a skin the result is in the mesh's coordinates and `to_model` is the instance's
+    /// transform; with one it is in model space, for the joints place it there, and `to_model` is
+    /// the identity. A vertex whose joint weights are all zero follows the node like an unskinned
+    /// one.
+    ///
+    /// ```
+    /// # use model::{Model, SkinnedPrimitive};
+    /// fn model_positions(model: &Model) -> Vec<[f64; 3]> {
+    ///     let mut positions = Vec::new();
+    ///     for (instance, primitive) in model.scene_primitives() {
+    ///         let skinned = model.skin_primitive(instance, primitive);
+    ///         for position in skinned.positions.iter() {
+    ///             let point = skinned.to_model.point(position.map(f64::from).into());
+    ///             positions.push(point.into());
+    ///         }
+    ///     }
+    ///     positions
+    /// }
+    /// # assert!(model_positions(&Model::default()).is_empty());
+    /// ```
     #[must_use]
     pub fn skin_primitive<'a>(
         &self,
@@ -46,17 +72,21 @@ impl Model {
         let skin = self.nodes.get(instance.node).and_then(|node| self.skins.get(node.skin?));
         match skin {
             Some(skin) if !primitive.joint_indices.is_empty() => {
-                let (bones, rigid) = (self.joint_matrices(skin), instance.node_to_model.raw());
+                let (joint_transforms, rigid) =
+                    (self.joint_matrices(skin), instance.node_to_model.raw());
                 skin_vertices(&morphed, |vertex| {
-                    blend_joint_matrices(&bones, primitive, vertex).unwrap_or(rigid)
+                    blend_joint_matrices(&joint_transforms, primitive, vertex).unwrap_or(rigid)
                 })
             }
             _ => morphed,
         }
     }
 
-    /// The tangents of a primitive of an instance's mesh as its nodes stand, for [`Posed::to_model`], if it has tangents.
-    /// They are of unit length; w is as it was.
+    /// Deforms the tangents of one of the instance's primitives; `None` if the primitive has none.
+    ///
+    /// The tangents go with [`SkinnedPrimitive::to_model`]. They have unit length; w, the
+    /// handedness of the bitangent, is unchanged. Unlike normals, tangents are transformed by the
+    /// matrix itself.
     #[must_use]
     pub fn skin_tangents<'a>(
         &self,
@@ -65,21 +95,21 @@ impl Model {
     ) -> Option<Cow<'a, [[f32; 4]]>> {
         let mut tangents = Cow::Borrowed(primitive.tangents.as_deref()?);
         for (target, weight) in active_morph_targets(primitive, self.morph_weights(instance.node)) {
-            let Some(differences) = &target.tangents else { continue };
-            for ([x, y, z, _], difference) in tangents.to_mut().iter_mut().zip(differences) {
+            let Some(deltas) = &target.tangents else { continue };
+            for ([x, y, z, _], delta) in tangents.to_mut().iter_mut().zip(deltas) {
                 let mut tangent = [[*x, *y, *z]];
-                add_weighted_deltas(&mut tangent, &[*difference], weight);
+                add_weighted_deltas(&mut tangent, &[*delta], weight);
                 [[*x, *y, *z]] = tangent;
             }
         }
         let skin = self.nodes.get(instance.node).and_then(|node| self.skins.get(node.skin?));
-        let bones = skin
+        let joint_transforms = skin
             .filter(|_| !primitive.joint_indices.is_empty())
             .map(|skin| self.joint_matrices(skin));
-        if bones.is_some() || matches!(tangents, Cow::Owned(_)) {
+        if joint_transforms.is_some() || matches!(tangents, Cow::Owned(_)) {
             let rigid = instance.node_to_model.raw();
             for (vertex, [x, y, z, _]) in tangents.to_mut().iter_mut().enumerate() {
-                let map = bones
+                let map = joint_transforms
                     .as_ref()
                     .map(|b| blend_joint_matrices(b, primitive, vertex).unwrap_or(rigid));
                 let tangent = to_f64([*x, *y, *z]);
@@ -89,7 +119,7 @@ impl Model {
         Some(tangents)
     }
 
-    /// The vertex colours of a primitive of an instance's mesh with its morph targets added, each in [0, 1].
+    /// Vertex colors with the morph targets added, each channel clamped to [0, 1].
     #[must_use]
     pub fn morph_colors<'a>(
         &self,
@@ -98,8 +128,8 @@ impl Model {
     ) -> Option<Cow<'a, [[f32; 4]]>> {
         let mut colors = Cow::Borrowed(primitive.colors.as_deref()?);
         for (target, weight) in active_morph_targets(primitive, self.morph_weights(instance.node)) {
-            if let Some(differences) = &target.colors {
-                add_weighted_deltas(colors.to_mut(), differences, weight);
+            if let Some(deltas) = &target.colors {
+                add_weighted_deltas(colors.to_mut(), deltas, weight);
             }
         }
         if let Cow::Owned(colors) = &mut colors {
@@ -111,7 +141,7 @@ impl Model {
         Some(colors)
     }
 
-    /// A set of texture coordinates of a primitive of an instance's mesh with its morph targets added.
+    /// Texture coordinates of set `set` (`TEXCOORD_n`) with the morph targets added.
     #[must_use]
     pub fn morph_uvs<'a>(
         &self,
@@ -121,21 +151,21 @@ impl Model {
     ) -> Option<Cow<'a, [[f32; 2]]>> {
         let mut uvs = Cow::Borrowed(primitive.uvs.get(set)?.as_slice());
         for (target, weight) in active_morph_targets(primitive, self.morph_weights(instance.node)) {
-            if let Some(Some(differences)) = target.uvs.get(set) {
-                add_weighted_deltas(uvs.to_mut(), differences, weight);
+            if let Some(Some(deltas)) = target.uvs.get(set) {
+                add_weighted_deltas(uvs.to_mut(), deltas, weight);
             }
         }
         Some(uvs)
     }
 
-    /// How much of each morph target a node shows.
+    /// The morph weights in effect at a node: its own, else those of its mesh.
     pub(super) fn morph_weights(&self, node: usize) -> &[f32] {
         let Some(node) = self.nodes.get(node) else { return &[] };
         let mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh));
         node.morph_weights.as_deref().or(mesh.map(|mesh| &*mesh.morph_weights)).unwrap_or(&[])
     }
 
-    /// For each joint of a skin the map from the mesh to the model.
+    /// Joint matrices of a skin: for each joint, from the mesh's coordinates to the model's.
     fn joint_matrices(&self, skin: &Skin) -> Vec<DMat4> {
         let bone = |(&joint, bind): (&usize, &Affine<ModelSpace, ModelSpace>)| {
             self.nodes.get(joint).map_or(DMat4::IDENTITY, |node| bind.then(node.to_model).raw())
@@ -144,7 +174,7 @@ impl Model {
     }
 }
 
-/// The morph targets that are shown, each with how much of it is.
+/// The morph targets whose weight is finite and not zero, each with its weight.
 fn active_morph_targets<'a>(
     primitive: &'a Primitive,
     weights: &[f32],
@@ -153,16 +183,16 @@ fn active_morph_targets<'a>(
     targets.filter(|(_, weight)| *weight != 0.0 && weight.is_finite())
 }
 
-/// The vertices with the differences of the morph targets added.
+/// Positions and normals with the weighted deltas of the morph targets added.
 fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimitive<'a> {
     let (mut positions, mut normals) =
         (Cow::Borrowed(&*primitive.positions), primitive.normals.as_deref().map(Cow::Borrowed));
     for (target, weight) in active_morph_targets(primitive, weights) {
-        if let Some(differences) = &target.positions {
-            add_weighted_deltas(positions.to_mut(), differences, weight);
+        if let Some(deltas) = &target.positions {
+            add_weighted_deltas(positions.to_mut(), deltas, weight);
         }
-        if let (Some(normals), Some(differences)) = (&mut normals, &target.normals) {
-            add_weighted_deltas(normals.to_mut(), differences, weight);
+        if let (Some(normals), Some(deltas)) = (&mut normals, &target.normals) {
+            add_weighted_deltas(normals.to_mut(), deltas, weight);
         }
     }
     if let Some(Cow::Owned(normals)) = &mut normals {
@@ -171,15 +201,11 @@ fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimi
     SkinnedPrimitive { positions, normals, to_model: Affine::IDENTITY }
 }
 
-fn add_weighted_deltas<const N: usize>(
-    values: &mut [[f32; N]],
-    differences: &[[f32; N]],
-    weight: f32,
-) {
-    for (value, difference) in values.iter_mut().zip(differences) {
-        let sum: [f64; N] = std::array::from_fn(|k| {
-            f64::from(value[k]) + f64::from(difference[k]) * f64::from(weight)
-        });
+/// Adds `weight` times the deltas of a morph target; a delta that is not finite changes nothing.
+fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; N]], weight: f32) {
+    for (value, delta) in values.iter_mut().zip(deltas) {
+        let sum: [f64; N] =
+            std::array::from_fn(|k| f64::from(value[k]) + f64::from(delta[k]) * f64::from(weight));
         // A difference that is no number changes nothing.
         if sum.iter().all(|x| x.is_finite()) {
             *value = sum.map(saturate_f32);
@@ -187,12 +213,18 @@ fn add_weighted_deltas<const N: usize>(
     }
 }
 
-/// The weighted mean of the maps of a vertex's joints; `None` if it has no weight.
-fn blend_joint_matrices(bones: &[DMat4], primitive: &Primitive, vertex: usize) -> Option<DMat4> {
+/// Weighted mean of the joint matrices of a vertex; `None` if its weights are all zero.
+///
+/// Dividing by the sum of the weights accepts files whose weights do not add up to 1.
+fn blend_joint_matrices(
+    joint_transforms: &[DMat4],
+    primitive: &Primitive,
+    vertex: usize,
+) -> Option<DMat4> {
     let (mut sum, mut total) = (DMat4::ZERO, 0.0);
     for (joints, weights) in primitive.joint_indices.iter().zip(&primitive.joint_weights) {
         for (joint, weight) in joints[vertex].into_iter().zip(weights[vertex]) {
-            if let Some(bone) = bones.get(usize::from(joint)).filter(|_| weight > 0.0) {
+            if let Some(bone) = joint_transforms.get(usize::from(joint)).filter(|_| weight > 0.0) {
                 sum += *bone * f64::from(weight);
                 total += f64::from(weight);
             }
@@ -202,18 +234,18 @@ fn blend_joint_matrices(bones: &[DMat4], primitive: &Primitive, vertex: usize) -
     (total > 0.0 && mean.is_finite()).then_some(mean)
 }
 
-/// The vertices with a map applied to each.
+/// Transforms each vertex by a matrix of its own, and its normal by the inverse transpose.
 fn skin_vertices<'a>(
-    shape: &SkinnedPrimitive<'_>,
+    morphed: &SkinnedPrimitive<'_>,
     map: impl Fn(usize) -> DMat4,
 ) -> SkinnedPrimitive<'a> {
-    let mut positions = Vec::with_capacity(shape.positions.len());
-    let mut normals = shape.normals.as_ref().map(|normals| Vec::with_capacity(normals.len()));
-    for (vertex, &position) in shape.positions.iter().enumerate() {
+    let mut positions = Vec::with_capacity(morphed.positions.len());
+    let mut normals = morphed.normals.as_ref().map(|normals| Vec::with_capacity(normals.len()));
+    for (vertex, &position) in morphed.positions.iter().enumerate() {
         let map = map(vertex);
         positions.push(to_f32_saturating(map.transform_point3(to_f64(position))));
-        if let (Some(bent), Some(normals)) = (&mut normals, &shape.normals) {
-            bent.push(unit_or_z(normal_matrix(&map).mul_vec3(to_f64(normals[vertex]))));
+        if let (Some(skinned), Some(normals)) = (&mut normals, &morphed.normals) {
+            skinned.push(unit_or_z(normal_matrix(&map).mul_vec3(to_f64(normals[vertex]))));
         }
     }
     SkinnedPrimitive {
@@ -227,7 +259,7 @@ fn to_f64(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-/// In single precision, where what is too large becomes the largest number.
+/// Rounds to single precision; what is too large becomes the largest finite number.
 fn to_f32_saturating(v: DVec3) -> [f32; 3] {
     v.to_array().map(saturate_f32)
 }
@@ -237,11 +269,15 @@ fn saturate_f32(x: f64) -> f32 {
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) as f32 }
 }
 
+/// The vector scaled to length 1; +z if it has no direction.
 fn unit_or_z(v: DVec3) -> [f32; 3] {
     to_f32_saturating(v.normalize_or(DVec3::Z))
 }
 
-/// The matrix that maps normals: the inverse transposed, but for a positive factor.
+/// Normal matrix: the inverse transpose up to a positive factor, as the matrix of cofactors.
+///
+/// Unlike the inverse it exists for singular matrices too. The sign keeps normals on the outside
+/// when the map is a reflection.
 fn normal_matrix(map: &DMat4) -> DMat3 {
     let (x, y, z) = (map.x_axis.truncate(), map.y_axis.truncate(), map.z_axis.truncate());
     let mirror = if x.dot(y.cross(z)) < 0.0 { -1.0 } else { 1.0 };
@@ -316,22 +352,26 @@ mod tests {
         model.nodes[0].skin = Some(0);
         let posed = model.skin_primitive(instance, &model.meshes[0].primitives[0]);
         assert_eq!(posed.to_model, Affine::IDENTITY);
-        let near = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
-        assert!(near(posed.positions[0], [0.0, 0.0, 0.0]), "it hangs on the node that is at rest");
-        assert!(near(posed.positions[1], [0.0, 1.0, 0.0]), "the elbow itself stays");
-        assert!(near(posed.positions[2], [-1.0, 1.0, 0.0]), "weights count by their share");
+        let nearly_equal =
+            |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(
+            nearly_equal(posed.positions[0], [0.0, 0.0, 0.0]),
+            "it hangs on the node that is at rest"
+        );
+        assert!(nearly_equal(posed.positions[1], [0.0, 1.0, 0.0]), "the elbow itself stays");
+        assert!(nearly_equal(posed.positions[2], [-1.0, 1.0, 0.0]), "weights count by their share");
         let normals = posed.normals.unwrap();
-        assert!(near(normals[0], [1.0, 0.0, 0.0]));
-        assert!(near(normals[2], [0.0, 1.0, 0.0]));
+        assert!(nearly_equal(normals[0], [1.0, 0.0, 0.0]));
+        assert!(nearly_equal(normals[2], [0.0, 1.0, 0.0]));
     }
 
     #[test]
     fn morph_targets_add_by_the_nodes_weights_or_else_the_meshs() {
         let mut primitive = triangle();
-        let difference = |x: f32| Some(vec![[x, 0.0, 0.0]; 3]);
+        let delta = |x: f32| Some(vec![[x, 0.0, 0.0]; 3]);
         primitive.morph_targets = vec![
-            MorphTarget { positions: difference(2.0), ..MorphTarget::default() },
-            MorphTarget { positions: difference(f32::NAN), ..MorphTarget::default() },
+            MorphTarget { positions: delta(2.0), ..MorphTarget::default() },
+            MorphTarget { positions: delta(f32::NAN), ..MorphTarget::default() },
             MorphTarget { normals: Some(vec![[-1.0, 1.0, 0.0]; 3]), ..MorphTarget::default() },
         ];
         let (mut model, instance) = model_with_joint(primitive, Affine::IDENTITY);
@@ -350,7 +390,8 @@ mod tests {
     fn eight_joints_of_two_sets_count_by_their_weights() {
         let mut arm = triangle();
         arm.joint_indices = vec![vec![[0, 1, 0, 1]; 3], vec![[1, 1, 1, 0]; 3]];
-        // Joint 0 has moved by 3, joint 1 (the mesh's own node) stands: in all 0.75 and 0.25 of the weight.
+        // Joint 0 has moved by 3, joint 1 (the mesh's own node) stands: in all 0.75 and 0.25 of the
+        // weight.
         arm.joint_weights =
             vec![vec![[0.25, 0.125, 0.25, 0.0]; 3], vec![[0.0625, 0.0625, 0.0, 0.25]; 3]];
         let (mut model, instance) = model_with_joint(arm, translation_by(3.0, 1.0, 0.0));

@@ -1,4 +1,4 @@
-//! Why a pixel has its colour: the triangles seen in it, the place, every stage on the way there.
+//! The color of a pixel explained: its triangles, the nearest surface point, and every stage to it.
 //!
 //! Run it with `cargo run -p pipeline --example explain -- model.glb 480 360`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
     let chain =
         TransformChain::new(&scene.view_projection, file.image.size, ApiConventions::Alberti)?;
-    let told = explain_pixel(&chain, &scene, column.parse()?, row.parse()?)?;
-    println!("{told}\nas JSON it has {} bytes", told.to_json().to_string().len());
+    let explanation = explain_pixel(&chain, &scene, column.parse()?, row.parse()?)?;
+    println!("{explanation}\nas JSON it has {} bytes", explanation.to_json().to_string().len());
     Ok(())
 }

@@ -11,9 +11,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (origin, mut file) = Origin::from_model_path(model.as_ref());
     file.image.size = (320, 240);
     let scene = Scene::resolve(&origin, &file, &Default::default())?;
-    let turn = Motion::Turntable { angle: std::f64::consts::TAU };
-    let film = Sequence::new(&origin, &file, scene, turn, 12)?;
-    film.render_frames(2, |frame, picture| {
+    let motion = Motion::Turntable { angle: std::f64::consts::TAU };
+    let sequence = Sequence::new(&origin, &file, scene, motion, 12)?;
+    sequence.render_frames(2, |frame, picture| {
         picture.write_png(format!("{folder}/{frame:02}.png").as_ref())
     })?;
     Ok(())

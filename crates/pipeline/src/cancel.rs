@@ -1,24 +1,28 @@
-//! Stopping a picture that nobody waits for any more.
+//! Cancellation: ends a rendering early from another thread.
+//!
+//! The rasterizer polls the flag once per row of tiles, so that a cancelled picture costs at most a
+//! few milliseconds more. Line drawings and shadow maps run to their end first.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A wish that work end early. Its copies are one wish: one is given to a [`Renderer`](crate::Renderer), another is kept.
+/// A flag that ends a rendering early. Clones share it: one goes into a
+/// [`RenderContext`](crate::RenderContext), another stays with the thread that may cancel.
 ///
 /// ```no_run
-/// # use pipeline::{Cancel, Picture, RenderError, Renderer, Scene, Textures, Timings};
+/// # use pipeline::{CancelToken, Picture, RenderContext, RenderError, Renderer, Scene, Textures};
 /// # fn wait_for_the_window_to_close() {}
 /// # fn draw(scene: &Scene) {
-/// let cancel = Cancel::default();
-/// let mut renderer = Renderer::default().cancelled_by(cancel.clone());
+/// let cancel = CancelToken::default();
 /// std::thread::scope(|scope| {
-///     let work = scope.spawn(move || {
-///         let textures = Textures::of(&scene.models);
-///         renderer.render(scene, &textures, 2, &Timings::default(), &mut Picture::<u8>::default())
+///     let work = scope.spawn(|| {
+///         let textures = Textures::for_scene(scene);
+///         let context = RenderContext::new(scene, &textures, 2).with_cancel(&cancel);
+///         Renderer::default().render(&context, &mut Picture::<u8>::default())
 ///     });
 ///     wait_for_the_window_to_close();
 ///     cancel.cancel();
-///     assert!(matches!(work.join(), Ok(Ok(()) | Err(RenderError::Cancelled))));
+///     assert!(matches!(work.join(), Ok(Ok(_) | Err(RenderError::Cancelled))));
 /// });
 /// # }
 /// ```
@@ -26,18 +30,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct CancelToken(Arc<AtomicBool>);
 
 impl CancelToken {
-    /// Asks for the end. Work ends within the time that a few rows of tiles take, and the wish stays.
+    /// Requests the end. Rendering stops within the time of a few rows of tiles; the request is
+    /// permanent.
     pub fn cancel(&self) {
+        // Relaxed: the flag orders nothing else, and a row of tiles more or less does not matter.
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the end was asked for.
+    /// Whether the end was requested.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// What drawing looks at.
+    /// The flag as the rasterizer polls it.
     pub(crate) fn stop_flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }

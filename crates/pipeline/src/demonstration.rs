@@ -1,14 +1,14 @@
-//! Demonstrations: what lessons show of the viewing pipeline, computed by its stages.
+//! Demonstrations of the viewing pipeline for lessons, computed by its own stages.
 //!
-//! | what | begin with |
+//! | subject | begin with |
 //! | --- | --- |
-//! | one subject in every projection of the textbooks | [`compared`] |
+//! | one subject in every projection of the textbooks | [`projection_panels`] |
 //! | one parameter of camera or lens, step by step | [`Sweep`] |
 //! | how distance becomes depth, and how finely (C48, C68) | [`DepthTable`] |
-//! | why clipping comes before the divide (C36) | [`tear`] |
+//! | wrap-around at w = 0: why clipping comes before the divide (C36) | [`wraparound_panels`] |
 //!
-//! Each gives [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF or PNG; panels go
-//! into a web page as well. None depends on the number of threads.
+//! Each returns [`Panels`](drawing::Panels) or a [`Page`](drawing::Page), to be written as SVG, PDF
+//! or PNG; panels can be an HTML page as well. None depends on the number of threads.
 
 mod depth_chart;
 mod depth_table;
@@ -27,38 +27,38 @@ pub use wraparound::wraparound_panels;
 use crate::render::RenderError;
 use crate::scene::ResolveError;
 
-/// Why there is no demonstration.
+/// A demonstration that cannot be computed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DemonstrationError {
-    /// The scene makes no sense with a projection.
+    /// The scene cannot be resolved with a projection.
     #[error(transparent)]
     Resolve(#[from] ResolveError),
     /// A panel cannot be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// A camera cannot be had.
+    /// A camera is impossible.
     #[error(transparent)]
     Camera(#[from] camera::CameraError),
-    /// A projection cannot be had.
+    /// A projection is impossible.
     #[error(transparent)]
     Projection(#[from] projection::ProjectionError),
-    /// The parameter is none of this scene's projection.
+    /// The scene's projection does not have the parameter.
     #[error("`{vary}` cannot be varied: {reason}")]
     UnsupportedParameter {
         /// The parameter.
         vary: SweepParameter,
-        /// Why not, and what to do.
+        /// The reason and the remedy.
         reason: String,
     },
-    /// A value makes no sense.
+    /// A value is out of the parameter's range.
     #[error("`{vary}` cannot be {value}: {reason}")]
     InvalidValue {
         /// The parameter.
         vary: SweepParameter,
-        /// Its value.
+        /// The value.
         value: String,
-        /// Why not.
+        /// The range.
         reason: String,
     },
 }

@@ -1,9 +1,20 @@
-//! `explain`: the viewing pipeline, told step by step for one point, segment, triangle or matrix.
+//! `explain`: the viewing pipeline step by step for one point, segment, triangle, node, pixel or
+//! matrix.
 //!
 //! ```text
-//!  subject ─► steps, each with its formula ─► items: matrices, coordinates, words ─► text, JSON, page
+//!  subject ─► steps, each with its formula ─► items: matrices, coordinates ─► text, JSON, HTML
 //! ```
-//! Nothing is computed in a way of its own here: every number comes from the stage that a picture goes through.
+//! Every number comes from the stage that a picture goes through; nothing is computed differently
+//! here.
+//!
+//! | subject | file |
+//! | --- | --- |
+//! | the transform chain and its steps, shared by all | `transform_chain.rs` |
+//! | conventions of OpenGL, Vulkan, Direct3D, WebGPU | `conventions.rs` |
+//! | points and vertices, segments, triangles | `point.rs`, `segment.rs`, `triangle.rs` |
+//! | why a node is invisible; why a pixel has its color | `node.rs`, `pixel.rs` |
+//! | the kind of an arbitrary matrix, and known misprints | `matrix.rs`, `projection_factors.rs` |
+//! | output | `plain_text.rs`, `json.rs`, `html.rs`, `diagrams.rs` |
 
 mod conventions;
 mod diagrams;
@@ -30,59 +41,61 @@ pub use segment::explain_segment;
 pub use transform_chain::TransformChain;
 pub use triangle::explain_triangle;
 
-/// What happens to a subject, step by step.
+/// The stages that a subject passes, and the result.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Explanation {
-    /// What is explained.
+    /// The subject in words.
     pub subject: String,
-    /// The steps in the order of the pipeline.
+    /// The steps in pipeline order.
     pub steps: Vec<Step>,
-    /// What comes out, in a sentence.
+    /// The result in a sentence.
     pub verdict: String,
 }
 
-/// A step of the pipeline.
+/// One stage of the pipeline.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Step {
-    /// A name for programs.
+    /// A stable identifier for programs.
     pub id: &'static str,
-    /// What is done.
+    /// A heading for people.
     pub title: String,
-    /// The formulas, by their ids in the chapter.
+    /// The ids of its formulas in the chapter, such as `PE-1, VV-2`.
     pub formula: Option<&'static str>,
-    /// What there is to see.
+    /// Its inputs and results.
     pub items: Vec<Item>,
 }
 
-/// Something with a name and a value.
+/// A named value of a step.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Item {
-    /// A name for programs.
+    /// A stable identifier for programs.
     pub id: String,
-    /// A name for people.
+    /// A label for people.
     pub name: String,
     /// The value.
     pub value: ItemValue,
 }
 
-/// What an item is.
+/// The value of an item.
 #[derive(Clone, PartialEq, Debug)]
 pub enum ItemValue {
-    /// A matrix for column vectors, row by row.
+    /// A matrix for column vectors, by rows.
     Matrix([[f64; 4]; 4]),
     /// Coordinates, or another list of numbers.
     Numbers(Vec<f64>),
     /// A number.
     Number(f64),
-    /// Words.
+    /// Text.
     Text(String),
 }
 
 impl Step {
+    /// A step without items.
     fn new(id: &'static str, title: impl Into<String>, formula: Option<&'static str>) -> Self {
         Self { id, title: title.into(), formula, items: Vec::new() }
     }
 
+    /// The step with one more item.
     fn with_item(
         mut self,
         id: impl Into<String>,
@@ -93,6 +106,7 @@ impl Step {
         self
     }
 
+    /// Adds an item.
     fn add_item(
         &mut self,
         id: impl Into<String>,

@@ -1,14 +1,66 @@
 //! Rendering: from a resolved scene to a picture.
 //!
-//! The stages are those of the textbooks, one after the other (PL-1):
+//! # Tour: one triangle of one model, from file to pixel
 //!
-//! ```text
-//!  positions ─model_to_clip─► clip space ─clip─► pieces ─÷w, viewport, snap─► raster ─► shading ─► pixels
-//! ```
+//! The stages follow the textbooks (PL-1). Paths are below `crates/`; `render/` is this folder.
+//!
+//! 1. **Preparation.** [`Renderer::render`] (`render/renderer.rs`) makes a [`PreparedScene`]
+//!    (`render/prepared_scene.rs`): lines, overlays, insets. [`Textures`] (`render/mip_chains.rs`)
+//!    holds the mip chains; `render/shadow_maps.rs` renders a depth map for each light.
+//! 2. **Image tiles.** A picture beyond 16,384 pixels is rendered in tiles, each with the view
+//!    volume narrowed to it: `tile_regions` (`render/image_tiles.rs`).
+//! 3. **Draw calls.** `PrimitiveAssembler::draw_primitive` (`render/primitive_assembly.rs`) visits
+//!    each primitive of each mesh instance and allocates its primitive ids.
+//! 4. **Skinning, morphing, model matrix.** `Model::skin_primitive` (`model/src/skinning.rs`) poses
+//!    the vertices; node and instance transforms make up `model_to_world`.
+//! 5. **Frustum culling and back-face culling of clusters.** `ProjectedMesh::cull_clusters`
+//!    (`render/projected_mesh.rs`) tests boxes by `ScreenTransform::classify_bounds`
+//!    (`render/screen_transform.rs`) and normal cones by `Cluster::is_back_facing`
+//!    (`raster/src/clusters.rs`).
+//! 6. **Vertex transform, perspective divide, viewport, snapping.**
+//!    `ProjectedMesh::project_vertices` multiplies by the model-view-projection matrix, divides by
+//!    w, maps to pixels and snaps to 1/256 pixel (`raster/src/vertex_projection.rs`,
+//!    `raster/src/screen_vertex.rs`).
+//! 7. **Clipping against near, far and guard band.** `DrawCall::submit_triangle`
+//!    (`render/draw_call.rs`) culls back faces that cross the guard band and clips in homogeneous
+//!    space (`clip/src/triangle.rs`). Other back faces are culled by the sign of their area as they
+//!    enter the frame: `Frame::add_mesh_runs` (`raster/src/frame.rs`).
+//! 8. **Vertex processing for shading.** `VertexArrays::write_vertices`
+//!    (`render/vertex_processing.rs`): positions, normals and tangents in the world.
+//! 9. **Binning into tiles.** `bin_triangles` (`raster/src/tile_bins.rs`) sorts triangles into
+//!    tiles of 64 × 64 pixels, which threads take by turns (`raster/src/tile_loop.rs`).
+//! 10. **Coverage and depth test.** `rasterize_triangle` (`raster/src/rasterize.rs`) evaluates edge
+//!     functions by the top-left rule and keeps the nearest depth of each sample; at equal depth
+//!     (depth ties) the first primitive wins.
+//! 11. **Visibility buffer.** A tile stores only the nearest triangle of each sample
+//!     (`raster/src/tile_visibility.rs`); masked materials are alpha-tested, translucent layers
+//!     collected and sorted.
+//! 12. **Attribute interpolation.** Each visible triangle is shaded once per pixel, eight fragments
+//!     at a time (`raster/src/tile_resolve.rs`), with perspective-correct barycentric weights
+//!     (`shade/src/attributes.rs`).
+//! 13. **BRDF and lights.** `Shading` (`shade/src/lib.rs`, set up in `render/fragment_shading.rs`)
+//!     samples textures and evaluates the layered BRDF (`shade/src/layered_brdf.rs`,
+//!     `shade/src/base_brdf.rs`) for lights, shadow maps and prefiltered environment.
+//! 14. **Tone mapping.** `ToneMapper` (`shade/src/tone_mapping.rs`), for each fragment.
+//! 15. **Resolve and sRGB encoding.** Translucent layers are blended back to front
+//!     (`raster/src/layer_blending.rs`), samples averaged in linear light, and the result encoded
+//!     as sRGB (`shade/src/color.rs`).
+//! 16. **Overlays and insets.** `PreparedScene::render_region` draws lines over the surfaces and
+//!     composites the insets (`render/insets.rs`).
+//!
+//! | subject | file |
+//! | --- | --- |
+//! | fragments of one pixel | `render/pixel_inspection.rs` |
+//! | passes: depth, normal, id | `render/passes.rs` |
+//! | pictures larger than memory | `render/write_png.rs` |
+//! | ground, environment and backdrop | `render/ground.rs`, `render/background.rs` |
+//! | screen-space ambient occlusion | `render/ambient_occlusion.rs` |
 
 mod ambient_occlusion;
 mod background;
-mod banded_renderer;
+mod context;
+mod draw_call;
+mod fragment_shading;
 mod ground;
 mod image_tiles;
 mod insets;
@@ -17,6 +69,7 @@ mod mip_chains;
 mod panel;
 pub mod passes;
 mod pixel_inspection;
+mod prepared_scene;
 mod primitive_assembly;
 mod projected_mesh;
 mod renderer;
@@ -26,20 +79,21 @@ mod shadow_maps;
 mod tests;
 mod vertex_inputs;
 mod vertex_processing;
+mod write_png;
 
-pub use banded_renderer::{BandedRenderer, WritePngError, rows_per_band};
+pub use context::RenderContext;
 pub use image_tiles::MAX_IMAGE_SIDE;
 pub use line_drawing::draw_lines;
 pub use mip_chains::Textures;
 pub use panel::render_panel;
 pub use passes::{Pass, PassBuffer, render_passes};
 pub use pixel_inspection::{FragmentSource, PixelFragments, ShadedFragment, inspect_pixel};
+pub use prepared_scene::PreparedScene;
 pub use renderer::Renderer;
+pub use write_png::{WritePngError, rows_per_band};
 
+use crate::Picture;
 use crate::scene::Scene;
-use crate::{Picture, Timings};
-use drawing::Warning;
-use image_tiles::validate_region;
 
 /// A scene that cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -51,51 +105,31 @@ pub enum RenderError {
     /// The picture has no viewport.
     #[error(transparent)]
     Viewport(#[from] viewport::ViewportError),
-    /// Its lines cannot be drawn.
+    /// The lines of the scene cannot be drawn.
     #[error(transparent)]
     Draw(#[from] drawing::DrawError),
-    /// Somebody asked for its end by a [`Cancel`](crate::Cancel).
+    /// The rendering was cancelled by a [`CancelToken`](crate::CancelToken).
     #[error("the picture was cancelled")]
     Cancelled,
-    /// Ambient occlusion reads the whole picture, which has more pixels than can be held.
+    /// Ambient occlusion needs the whole depth buffer, and the picture is larger than one tile.
     #[error("ambient occlusion is for pictures of {} pixels a side at most", raster::MAX_SIDE)]
     OcclusionTooLarge,
-    /// There are more points, lines and triangles than can be told apart.
+    /// There are more points, lines and triangles than primitive ids.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
 }
 
-/// Renders a scene with up to `threads` threads. Their number does not change the picture.
+/// Renders a scene with up to `threads` threads, whose number does not change the picture.
+///
+/// A shortcut for one picture; a [`Renderer`] renders several faster, measures, and can be
+/// cancelled.
 ///
 /// # Errors
-/// If the picture's size is out of range or the scene holds too much.
+/// If the picture's size is out of range or the scene has too many primitives.
 pub fn render(scene: &Scene, threads: usize) -> Result<Picture, RenderError> {
-    render_timed(scene, threads, &Timings::default())
-}
-
-/// Renders a scene, and measures how long each stage takes.
-///
-/// # Errors
-/// As [`render`].
-pub fn render_timed(
-    scene: &Scene,
-    threads: usize,
-    timings: &Timings,
-) -> Result<Picture, RenderError> {
-    render_reported(scene, threads, timings).map(|(picture, _)| picture)
-}
-
-/// Renders a scene, and tells what could not be drawn as it should.
-///
-/// # Errors
-/// As [`render`].
-pub fn render_reported(
-    scene: &Scene,
-    threads: usize,
-    timings: &Timings,
-) -> Result<(Picture, Vec<Warning>), RenderError> {
-    let image_rect = scene.image.pixel_rect();
-    validate_region(scene.image, image_rect)?;
-    let mut paint = BandedRenderer::new(scene, threads, timings)?;
-    Ok((paint.render_region(image_rect)?, paint.into_warnings()))
+    image_tiles::validate_region(scene.image, scene.image.pixel_rect())?;
+    let textures = Textures::for_scene(scene);
+    let mut picture = Picture::default();
+    Renderer::default().render(&RenderContext::new(scene, &textures, threads), &mut picture)?;
+    Ok(picture)
 }

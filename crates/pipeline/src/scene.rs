@@ -1,11 +1,19 @@
-//! Scenes: what is drawn, from where, in what light.
+//! The scene language: parsing, validation and resolution of scene files.
 //!
-//! A scene is written in a file ([`SceneFile`], RON, by people) and resolved ([`Scene`]): models are loaded, angles are
-//! radians, every default is decided, and what does not make sense has become an error that points at its place.
+//! ```text
+//!  text ─► syntax tree ─► SceneFile ─► Scene ─► renderer, line drawings
+//!           syntax       schema, file   resolve
+//!               mistakes with carets ◄── validate
+//! ```
+//! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]): models are loaded, angles
+//! are radians, every default is decided, and every mistake is an error that points into the file.
+//! `file` declares the language; [`reference`] lists the declarations; `vocabulary` knows the words of
+//! other programs.
 
 mod backdrop;
 mod camera_path;
 mod classical;
+mod color;
 pub(crate) mod depth_span;
 mod error;
 pub mod file;
@@ -18,27 +26,31 @@ mod instances;
 mod lights;
 mod lints;
 mod material_overrides;
-mod messages;
+mod mistake;
 #[cfg(test)]
 mod mistakes;
 mod number;
+pub mod options;
 mod origin;
 mod outputs;
 mod parse;
 pub mod reference;
 mod resolve;
+mod schema;
 mod section;
 mod shadows;
 mod sheet;
-mod source_span;
 mod style;
+mod suggest;
 mod surrounding_light;
+mod syntax;
 mod validate;
 mod view_projection;
+mod vocabulary;
 
 pub use camera_path::CameraPath;
 pub(crate) use depth_span::DepthSpan;
-pub use error::SceneError;
+pub use error::{SceneError, SceneErrors};
 pub use file::SceneFile;
 pub use format::format_source;
 pub use ground::Ground;
@@ -61,22 +73,23 @@ use shade::{Backdrop, Environment, Light, ToneMapper};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A resolved scene: all that drawing needs.
+/// A resolved scene: the complete input of a renderer.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The models in their places.
+    /// The models with their transforms.
     pub models: Vec<ModelInstance>,
     /// Camera and projection.
     pub view_projection: ViewProjection,
     /// The lights.
     pub lights: Vec<Light>,
-    /// What is below the models.
+    /// The ground below the models.
     pub ground: Option<Ground>,
     /// Light from all around.
     pub environment: Option<Arc<Environment>>,
-    /// How far away things still take light from all around, in the units of the world; `None` if they do not.
+    /// How far away things still take light from all around, in the units of the world; `None` if
+    /// they do not.
     pub occlusion_radius: Option<f64>,
-    /// How light becomes colours.
+    /// Exposure and tone mapping.
     pub tone_mapper: ToneMapper,
     /// How surfaces are drawn.
     pub style: Style,
@@ -84,9 +97,9 @@ pub struct Scene {
     pub image: ImageSpec,
     /// Views of their own in parts of the picture, in the order in which they are drawn over it.
     pub insets: Vec<Inset>,
-    /// What is painted behind the models, over the picture's background.
+    /// The gradient or image behind the models, over the background color.
     pub backdrop: Option<Arc<Backdrop>>,
-    /// What is drawn over it.
+    /// The overlays, drawn over the picture.
     pub overlays: Vec<Overlay>,
     /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
     pub sections: Vec<Plane<World>>,
@@ -105,7 +118,7 @@ impl Scene {
         model::model_names(&self.models)
     }
 
-    /// What the line drawing of the scene is made of.
+    /// The input of a line drawing of the scene.
     #[must_use]
     pub fn drawing_subject(&self) -> drawing::Subject<'_> {
         drawing::Subject {
@@ -175,13 +188,14 @@ pub struct ImageSpec {
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// What is seen where no model is: linear, multiplied by alpha.
+    /// The background color: linear, premultiplied by alpha.
     pub background: [f32; 4],
-    /// How blurred the environment is seen there, from 0 to 1; `None` if it is not seen.
+    /// How blurred the environment is as the background, from 0 to 1; `None` if it is not visible.
     pub environment_blur: Option<f32>,
     /// Coverage samples per pixel.
     pub samples: Samples,
-    /// How many places textures are read at along the longer side of what a pixel covers of them, from 1 to 8.
+    /// The most samples of anisotropic texture filtering, along the longer axis of a pixel's
+    /// footprint, from 1 to 8.
     pub max_anisotropy: u32,
 }
 
@@ -193,13 +207,13 @@ impl ImageSpec {
     }
 }
 
-/// A scene that cannot be resolved.
+/// The reason why a scene cannot be resolved.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResolveError {
-    /// The scene file says something that makes no sense.
+    /// Mistakes in the scene file.
     #[error(transparent)]
-    Scene(#[from] SceneError),
+    Scene(#[from] SceneErrors),
     /// A model cannot be loaded.
     #[error(transparent)]
     Model(#[from] ImportError),
@@ -211,4 +225,20 @@ pub enum ResolveError {
         /// Why it could not be read.
         cause: std::io::Error,
     },
+}
+
+impl From<SceneError> for ResolveError {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error.into())
+    }
+}
+
+impl ResolveError {
+    /// For a mistake of the scene, all mistakes that `find` finds instead of the first one alone.
+    fn or_all(self, find: impl FnOnce() -> Vec<SceneError>) -> Self {
+        match self {
+            Self::Scene(first) => Self::Scene(SceneErrors::from_list(find()).unwrap_or(first)),
+            other => other,
+        }
+    }
 }

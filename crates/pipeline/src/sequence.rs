@@ -1,14 +1,15 @@
-//! Films: many pictures of one scene, several at a time, handed over in their order.
+//! Frame sequences: turntables and animations, rendered several frames at a time and delivered in
+//! order.
 //!
 //! ```text
-//!  motion ─► frame 0, 1, 2 … ─► as many at a time as there are threads ─► in order ─► files, APNG, GIF, a pipe
+//!  motion ─► frame 0, 1, 2 … ─► one worker per thread ─► reorder queue ─► files, APNG, GIF, a pipe
 //! ```
-//! Models are loaded, and the mip chains of their textures built, once. Each thread poses a copy of its own and renders in
-//! the memory of its picture before.
+//! Models are loaded and mip chains built once. Each worker poses its own copy of the models and
+//! reuses the buffers of its last frame; frames, not tiles, are what runs in parallel.
 
-use crate::render::{RenderError, Renderer, Textures};
+use crate::Picture;
+use crate::render::{RenderContext, RenderError, Renderer, Textures};
 use crate::scene::{CameraPath, Origin, ResolveError, Scene, SceneFile};
-use crate::{Picture, Timings, render};
 use camera::ViewProjection;
 use homog::{Affine, Point, World};
 use model::Model;
@@ -16,57 +17,62 @@ use model::ModelInstance;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// What moves.
+/// The motion of a sequence.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Motion {
-    /// The models turn about the vertical line through their middle, by this angle in radians from the first frame to the one
-    /// after the last: counter-clockwise seen from above.
+    /// The models rotate about the vertical axis through the center of their bounding box:
+    /// counterclockwise seen from above, evenly from the first frame to the one after the last.
     Turntable {
-        /// The angle; 2π for a whole turn.
+        /// The whole angle in radians; 2π for a full turn.
         angle: f64,
     },
-    /// The models move as their animations have them.
+    /// The models follow their glTF animations.
     Animations {
-        /// For each model of the scene, which of its animations.
+        /// For each model of the scene the index of its animation; `None` keeps it still.
         animations: Vec<Option<usize>>,
-        /// The time of the first frame, in seconds.
+        /// The time of the first frame in seconds.
         from: f64,
-        /// The time of the frame after the last.
+        /// The time of the frame after the last in seconds.
         to: f64,
     },
 }
 
-/// A film ready to be drawn.
+/// A frame sequence, ready to be rendered.
 #[derive(Debug)]
 pub struct Sequence {
+    /// The scene at the start of the motion.
     scene: Scene,
+    /// The motion of the models.
     motion: Motion,
+    /// The number of frames.
     frame_count: usize,
-    /// What a turntable turns about.
+    /// The point that a turntable's axis passes through.
     pivot: Point<World>,
-    /// The camera of each picture, if it moves.
+    /// The camera of each frame, if it moves; otherwise empty.
     view_projections: Vec<ViewProjection>,
 }
 
-/// A film that cannot be drawn to its end.
+/// A sequence that could not be rendered to its end.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SequenceError<E> {
-    /// A picture cannot be rendered.
+    /// A frame cannot be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// Whoever gets the pictures cannot take more.
+    /// The function that takes the frames failed.
     #[error("{0}")]
     Output(E),
 }
 
-/// Moments at which a framed camera makes sure that everything is in the picture.
+/// Moments of the motion that an automatic camera is fitted to.
 const FRAMING_SAMPLES: usize = 16;
-/// Pictures that may be ready before their turn, for each thread.
+/// Frames per worker that may be started before the oldest one is delivered. It bounds the memory
+/// of frames that finish out of order.
 const FRAMES_AHEAD: usize = 2;
 
 impl Sequence {
-    /// A film of `frames` pictures of a scene that `file` describes. A camera that frames everything frames all of the motion.
+    /// A sequence of `frames` pictures of a scene that `file` describes. An automatic camera is
+    /// fitted to the whole motion.
     ///
     /// # Errors
     /// If the scene cannot be framed.
@@ -78,7 +84,7 @@ impl Sequence {
         frames: usize,
     ) -> Result<Self, ResolveError> {
         let middle = bounds_center(&model::world_points(&scene.models));
-        let mut film = Self {
+        let mut sequence = Self {
             scene,
             motion,
             frame_count: frames,
@@ -86,25 +92,25 @@ impl Sequence {
             view_projections: Vec::new(),
         };
         let sampled_models = (0..FRAMING_SAMPLES)
-            .flat_map(|at| film.models_at_fraction(at as f64 / FRAMING_SAMPLES as f64));
-        // The surroundings have been read before: whoever was allowed to then is so now.
+            .flat_map(|at| sequence.models_at_fraction(at as f64 / FRAMING_SAMPLES as f64));
+        // The environment and backdrop files passed the access check when the scene was resolved.
         let known: Vec<_> = file.image_paths().map(|path| origin.folder.join(path)).collect();
         let framed = Scene::resolve_with_models(origin, file, sampled_models.collect(), &known)?;
-        (film.scene.view_projection, film.scene.lights) = (framed.view_projection, framed.lights);
-        film.scene.ground = framed.ground;
-        for (view, framed) in film.scene.insets.iter_mut().zip(framed.insets) {
-            (view.scene.view_projection, view.scene.lights) =
+        (sequence.scene.view_projection, sequence.scene.lights) =
+            (framed.view_projection, framed.lights);
+        sequence.scene.ground = framed.ground;
+        for (inset, framed) in sequence.scene.insets.iter_mut().zip(framed.insets) {
+            (inset.scene.view_projection, inset.scene.lights) =
                 (framed.scene.view_projection, framed.scene.lights);
-            view.scene.ground = framed.scene.ground;
+            inset.scene.ground = framed.scene.ground;
         }
-        Ok(film)
+        Ok(sequence)
     }
 
-    /// The same film with a camera that moves: along its way from one time to another, in seconds. Views with cameras of their own keep
-    /// them.
+    /// Moves the camera along a path between two times in seconds. Insets keep their cameras.
     ///
     /// # Errors
-    /// If it cannot see on its way, such as where the eye is in the place that it looks at.
+    /// If there is no view at some time, such as where the eye coincides with its target.
     pub fn with_camera_path(
         mut self,
         origin: &Origin,
@@ -132,44 +138,44 @@ impl Sequence {
         Ok(self)
     }
 
-    /// How many pictures it has.
+    /// The number of frames.
     #[must_use]
     pub const fn frame_count(&self) -> usize {
         self.frame_count
     }
 
-    /// Width and height in pixels.
+    /// Width and height of each frame in pixels.
     #[must_use]
     pub const fn image_size(&self) -> (u32, u32) {
         (self.scene.image.width, self.scene.image.height)
     }
 
-    /// Whether the background is opaque, and with it every picture.
+    /// Whether the background is opaque, and with it every frame.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
         self.scene.has_opaque_background()
     }
 
-    /// Draws all pictures with up to `threads` threads and hands them to `sink` in their order. The pictures do not depend on
-    /// the number of threads.
+    /// Renders all frames with up to `threads` workers and hands them to `sink` in order, on the
+    /// calling thread. The number of threads does not change a frame.
     ///
     /// # Errors
-    /// If a picture cannot be rendered, or the sink fails; no further picture is begun then.
+    /// If a frame cannot be rendered, or the sink fails; no further frame is started then.
     pub fn render_frames<E>(
         &self,
         threads: usize,
         mut sink: impl FnMut(usize, &Picture) -> Result<(), E>,
     ) -> Result<(), SequenceError<E>> {
-        let textures = Textures::for_models(&self.scene.models);
+        let textures = Textures::for_scene(&self.scene);
         let (queue, progress) = (Mutex::new(Queue::default()), Condvar::new());
         let workers = threads.clamp(1, self.frame_count.max(1));
         let lock = || queue.lock().unwrap_or_else(PoisonError::into_inner);
         let work = || {
-            let mut camera = FrameWorker::new(self);
+            let mut worker = FrameWorker::new(self);
             while let Some(frame) =
                 next_frame(lock(), &progress, self.frame_count, FRAMES_AHEAD * workers)
             {
-                let picture = camera.render_frame(frame, &textures);
+                let picture = worker.render_frame(frame, &textures);
                 lock().finished.insert(frame, picture);
                 progress.notify_all();
             }
@@ -187,11 +193,11 @@ impl Sequence {
         })
     }
 
-    /// Waits for each picture in its turn.
+    /// Waits for each frame in order, and delivers it.
     fn deliver_frames<'a, E>(
         &self,
         lock: &impl Fn() -> MutexGuard<'a, Queue>,
-        turned: &Condvar,
+        progress: &Condvar,
         sink: &mut impl FnMut(usize, &Picture) -> Result<(), E>,
     ) -> Result<(), SequenceError<E>> {
         for frame in 0..self.frame_count {
@@ -200,36 +206,40 @@ impl Sequence {
                 if let Some(picture) = queue.finished.remove(&frame) {
                     break picture;
                 }
-                queue = turned.wait(queue).unwrap_or_else(PoisonError::into_inner);
+                queue = progress.wait(queue).unwrap_or_else(PoisonError::into_inner);
             };
             queue.delivered = frame + 1;
             drop(queue);
-            turned.notify_all();
+            progress.notify_all();
             sink(frame, &picture?).map_err(SequenceError::Output)?;
         }
         Ok(())
     }
 
-    /// The models at a part of the way, from 0 to 1.
-    fn models_at_fraction(&self, part: f64) -> Vec<ModelInstance> {
+    /// The models at a fraction of the motion, from 0 to 1.
+    fn models_at_fraction(&self, fraction: f64) -> Vec<ModelInstance> {
         let mut models = self.scene.models.clone();
-        self.motion.pose_models(&mut models, &self.scene.models, self.pivot, part);
+        self.motion.pose_models(&mut models, &self.scene.models, self.pivot, fraction);
         models
     }
 }
 
-/// Pictures on their way.
+/// The frames between start and delivery.
 #[derive(Default)]
 struct Queue {
+    /// The next frame to start.
     started: usize,
+    /// The next frame to deliver.
     delivered: usize,
+    /// Rendered frames that wait for earlier ones.
     finished: BTreeMap<usize, Result<Picture, RenderError>>,
 }
 
-/// The next frame to be drawn, once it is not too far ahead; `None` if all are begun.
+/// Waits until the next frame is at most `ahead` frames before the one delivered last, and starts
+/// it; `None` if all are started.
 fn next_frame(
     mut queue: MutexGuard<'_, Queue>,
-    turned: &Condvar,
+    progress: &Condvar,
     frames: usize,
     ahead: usize,
 ) -> Option<usize> {
@@ -241,145 +251,122 @@ fn next_frame(
             queue.started += 1;
             return Some(queue.started - 1);
         }
-        queue = turned.wait(queue).unwrap_or_else(PoisonError::into_inner);
+        queue = progress.wait(queue).unwrap_or_else(PoisonError::into_inner);
     }
 }
 
-/// What a thread renders with: models of its own, and the memory of its last picture.
+/// The state of one thread: a scene with models of its own, and the buffers of its last frame.
 struct FrameWorker<'a> {
+    /// The sequence, whose scene stays unposed.
     sequence: &'a Sequence,
     scene: Scene,
+    /// The buffers of the worker.
     renderer: Renderer,
 }
 
 impl<'a> FrameWorker<'a> {
+    /// Copies the models that animations pose. Instances of one model share one copy, and all
+    /// copies share the images.
     fn new(sequence: &'a Sequence) -> Self {
         let mut scene = sequence.scene.clone();
         if matches!(sequence.motion, Motion::Animations { .. }) {
-            let copies = shared_models(&sequence.scene.models);
-            for placed in &mut scene.models {
-                placed.model = Arc::new(clone_without_images(&placed.model));
+            let shared = shared_models(&sequence.scene.models);
+            for instance in &mut scene.models {
+                instance.model = Arc::new(Model::clone(&instance.model));
             }
-            for (at, first) in copies {
-                scene.models[at].model = Arc::clone(&scene.models[first].model);
+            for (index, first) in shared {
+                scene.models[index].model = Arc::clone(&scene.models[first].model);
             }
         }
         Self { sequence, scene, renderer: Renderer::default() }
     }
 
+    /// Poses the models for a frame and renders it on this thread.
     fn render_frame(
         &mut self,
         frame: usize,
         textures: &Textures<'_>,
     ) -> Result<Picture, RenderError> {
-        let Sequence { scene, motion, frame_count: frames, pivot: middle, view_projections: shots } =
-            self.sequence;
-        let fraction = frame as f64 / (*frames).max(1) as f64;
-        // Views let go of the models that they share, so that those are not copied before they are posed.
-        self.scene.insets.iter_mut().for_each(|view| view.scene.models.clear());
-        motion.pose_models(&mut self.scene.models, &scene.models, *middle, fraction);
-        if let Some(view_projection) = shots.get(frame) {
+        let Sequence { scene, motion, frame_count, pivot, view_projections } = self.sequence;
+        let fraction = frame as f64 / (*frame_count).max(1) as f64;
+        // Insets release the shared models first: posing a model in use elsewhere would copy it.
+        self.scene.insets.iter_mut().for_each(|inset| inset.scene.models.clear());
+        motion.pose_models(&mut self.scene.models, &scene.models, *pivot, fraction);
+        for inset in &mut self.scene.insets {
+            inset.scene.models.clone_from(&self.scene.models);
+        }
+        if let Some(view_projection) = view_projections.get(frame) {
             self.scene.view_projection = *view_projection;
         }
-        if !scene.insets.is_empty() {
-            for view in &mut self.scene.insets {
-                view.scene.models.clone_from(&self.scene.models);
-            }
-            return render(&self.scene, 1);
-        }
-        if !scene.style.draws_surfaces() || scene.style.has_outlines() || !scene.overlays.is_empty()
-        {
-            return render(&self.scene, 1);
-        }
         let mut picture = Picture::default();
-        self.renderer.render(&self.scene, textures, 1, &Timings::default(), &mut picture)?;
+        self.renderer.render(&RenderContext::new(&self.scene, textures, 1), &mut picture)?;
         Ok(picture)
     }
 }
 
 impl Motion {
-    /// Whether nothing moves.
+    /// Whether no model moves.
     fn is_still(&self) -> bool {
         matches!(self, Self::Turntable { angle } if *angle == 0.0)
     }
 
-    /// Brings models to a part of the way; `start` has them where they are without motion.
+    /// Poses models at a fraction of the motion; `start` holds them unposed.
     fn pose_models(
         &self,
         models: &mut [ModelInstance],
         start: &[ModelInstance],
-        middle: Point<World>,
-        part: f64,
+        pivot: Point<World>,
+        fraction: f64,
     ) {
         match self {
             Self::Turntable { angle } => {
-                let translate_back = Affine::<World, World>::translation(middle - Point::ORIGIN);
+                let translate_back = Affine::<World, World>::translation(pivot - Point::ORIGIN);
                 let translate_to_origin =
-                    Affine::<World, World>::translation(Point::ORIGIN - middle);
-                let rotation =
-                    translate_to_origin.then(Affine::rotation_y(angle * part)).then(translate_back);
-                for (placed, start) in models.iter_mut().zip(start) {
-                    placed.model_to_world = start.model_to_world.then(rotation);
+                    Affine::<World, World>::translation(Point::ORIGIN - pivot);
+                let rotation = translate_to_origin
+                    .then(Affine::rotation_y(angle * fraction))
+                    .then(translate_back);
+                for (instance, start) in models.iter_mut().zip(start) {
+                    instance.model_to_world = start.model_to_world.then(rotation);
                 }
             }
             Self::Animations { animations, from, to } => {
-                let time = from + (to - from) * part;
-                let copies = shared_models(start);
-                // Copies let go of the model that they share, so that it is not copied before it is posed.
+                let time = from + (to - from) * fraction;
+                let shared = shared_models(start);
+                // Instances release the shared model first: `make_mut` would copy one in use.
                 let empty_model = Arc::new(Model::default());
-                for &(at, _) in &copies {
-                    models[at].model = Arc::clone(&empty_model);
+                for &(index, _) in &shared {
+                    models[index].model = Arc::clone(&empty_model);
                 }
-                for (placed, animation) in models.iter_mut().zip(animations) {
+                for (instance, animation) in models.iter_mut().zip(animations) {
                     if let Some(animation) = animation {
-                        Arc::make_mut(&mut placed.model).apply_animation(*animation, time);
+                        Arc::make_mut(&mut instance.model).apply_animation(*animation, time);
                     }
                 }
-                for (at, first) in copies {
-                    models[at].model = Arc::clone(&models[first].model);
+                for (index, first) in shared {
+                    models[index].model = Arc::clone(&models[first].model);
                 }
             }
         }
     }
 }
 
-/// Models that are the same as the one before them, with the first of their row.
+/// Instances that share their model with their predecessor: pairs of index and the first index of
+/// the run.
 fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
     let mut first = 0;
-    let mut copies = Vec::new();
-    for (at, pair) in (1..).zip(models.windows(2)) {
+    let mut shared = Vec::new();
+    for (index, pair) in (1..).zip(models.windows(2)) {
         if Arc::ptr_eq(&pair[0].model, &pair[1].model) {
-            copies.push((at, first));
+            shared.push((index, first));
         } else {
-            first = at;
+            first = index;
         }
     }
-    copies
+    shared
 }
 
-/// A copy that can be posed: the textures are kept elsewhere.
-fn clone_without_images(model: &Model) -> Model {
-    let mut copy = Model { images: vec![None; model.images.len()], ..Model::default() };
-    let Model {
-        name, meshes, materials, textures, nodes, roots, scenes, active_scene: scene, ..
-    } = model;
-    copy.name.clone_from(name);
-    copy.meshes.clone_from(meshes);
-    copy.materials.clone_from(materials);
-    copy.textures.clone_from(textures);
-    copy.nodes.clone_from(nodes);
-    copy.roots.clone_from(roots);
-    copy.scenes.clone_from(scenes);
-    copy.active_scene = *scene;
-    copy.skins.clone_from(&model.skins);
-    copy.cameras.clone_from(&model.cameras);
-    copy.lights.clone_from(&model.lights);
-    copy.animations.clone_from(&model.animations);
-    copy.uv_transforms.clone_from(&model.uv_transforms);
-    copy
-}
-
-/// The middle of the box around some points.
+/// The center of the bounding box of points; the origin without points.
 fn bounds_center(points: &[Point<World>]) -> Point<World> {
     let mut points = points.iter().map(|point| point.raw());
     let Some(first) = points.next() else { return Point::ORIGIN };

@@ -4,7 +4,7 @@ use base64::Engine;
 use model::ModelInstance;
 use model::import::{ImportOptions, load_bytes};
 use pipeline::scene::parse_scene;
-use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -86,12 +86,13 @@ fn sphere_part(material: &str) -> TestPart {
     TestPart { normals: positions.clone(), positions, material: material.to_owned() }
 }
 
-/// The picture of some parts by the rest of a scene file, from (0, 0, 5) with a picture of 2.2 units' height.
+/// The picture of some parts by the rest of a scene file, from (0, 0, 5) with a picture of 2.2
+/// units' height.
 fn render_parts(parts: &[TestPart], rest: &str) -> Picture {
     render_parts_larger(parts, 1.0, rest)
 }
 
-/// The same with everything so many times as large.
+/// Renders the parts with everything `size` times as large.
 fn render_parts_larger(parts: &[TestPart], size: f64, rest: &str) -> Picture {
     render(&test_scene(parts, size, rest), 2).expect("a picture")
 }
@@ -136,8 +137,9 @@ fn normalize(v: [f64; 3]) -> [f64; 3] {
     v.map(|c| c / dot(v, v).sqrt())
 }
 
-/// What a dielectric of this colour and roughness sends to the viewer at +z, per lux, by Appendix B of the specification; what
-/// highlights lose at one bounce is left out, which is less than a code for them.
+/// The light that a dielectric of this color and roughness reflects to +z, per lux, by Appendix B
+/// of the specification; what highlights lose at one bounce is left out, which is less than a code
+/// for them.
 fn expected_reflection(base: [f64; 3], roughness: f64, n: [f64; 3], l: [f64; 3]) -> [f64; 3] {
     let v = [0.0, 0.0, 1.0];
     let h = normalize([0, 1, 2].map(|k: usize| l[k] + v[k]));
@@ -157,7 +159,7 @@ const MATTE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.1,1
 fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
     let picture = render_parts(
         &[square_part(0.0, MATTE)],
-        r#"lights: [Sun(direction: (-1, -1, -2), lux: 2)], image: (size: (80, 80), samples: 1)"#,
+        r#"lights: [Directional(direction: (-1, -1, -2), intensity: 2)], image: (size: (80, 80), samples: 1)"#,
     );
     let l = normalize([1.0, 1.0, 2.0]);
     let expected = expected_reflection([0.8, 0.4, 0.1], 0.6, [0.0, 0.0, 1.0], l).map(|c| c * 2.0);
@@ -170,7 +172,7 @@ fn a_lit_plane_has_the_colour_of_the_formula_everywhere() {
 fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
     let picture = render_parts(
         &[square_part(0.0, MATTE)],
-        r#"lights: [Point(position: (0.5, 0.3, 0.8), candela: 1.5)], image: (size: (88, 88), samples: 1)"#,
+        r#"lights: [Point(position: (0.5, 0.3, 0.8), intensity: 1.5)], image: (size: (88, 88), samples: 1)"#,
     );
     for (x, y) in (6..82).flat_map(|y| (6..82).map(move |x| (x, y))) {
         let place = [f64::from(x) + 0.5, 87.5 - f64::from(y)].map(|c| (c / 88.0 - 0.5) * 2.2);
@@ -186,7 +188,7 @@ fn a_plane_under_a_point_has_the_colour_of_the_formula_everywhere() {
 fn a_lit_sphere_has_the_colours_of_the_formula() {
     let size = 440;
     let rest = format!(
-        "lights: [Sun(direction: (-1, -2, -2), lux: 2.5)], image: (size: ({size}, {size}), samples: 1)"
+        "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5)], image: (size: ({size}, {size}), samples: 1)"
     );
     let picture = render_parts(&[sphere_part(MATTE)], &rest);
     let l = normalize([1.0, 2.0, 2.0]);
@@ -199,7 +201,8 @@ fn a_lit_sphere_has_the_colours_of_the_formula() {
             continue;
         }
         let n = [at[0], at[1], (1.0 - square).sqrt()];
-        // A pixel's normals spread by how far they turn from one to the next, which widens highlights.
+        // A pixel's normals spread by how far they turn from one to the next, which widens
+        // highlights.
         let turn = 2.2 / side / n[2];
         let expected = expected_reflection([0.8, 0.4, 0.1], 0.6 + turn, n, l).map(|c| c * 2.5);
         assert_near(picture.pixel(x, y).unwrap(), expected, &format!("pixel ({x}, {y})"));
@@ -242,14 +245,17 @@ fn a_transparent_picture_laid_over_a_colour_is_the_opaque_one_over_it() {
         ]
     };
     let rest = |background: &str| {
-        let lights = "lights: [Sun(direction: (-1, -2, -2), lux: 2.5), Ambient(lux: 0.5)]";
+        let lights = "lights: [Directional(direction: (-1, -2, -2), intensity: 2.5), Ambient(intensity: 0.5)]";
         format!("{lights}, image: (size: (60, 60), background: {background}, samples: 4)")
     };
-    // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of colour.
+    // In 16 bits, for where sRGB is steep half a code of an alpha of 8 bits is more than one of
+    // colour.
     let clear = test_scene(&parts(), 1.0, &rest("Transparent"));
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(&clear, 2, &timings).expect("a scene");
-    let clear: Picture<u16> = paint.render_region(clear.image.pixel_rect()).expect("a picture");
+    let textures = Textures::for_scene(&clear);
+    let context = RenderContext::new(&clear, &textures, 2);
+    let mut picture = Picture::<u16>::default();
+    Renderer::default().render(&context, &mut picture).expect("a picture");
+    let clear = picture;
     for (text, color) in [("#fff", [1.0; 3]), ("#000", [0.0; 3]), ("#ff0000", [1.0, 0.0, 0.0])] {
         let solid = render_parts(&parts(), &rest(&format!("Color(\"{text}\")")));
         for (clear, solid) in clear.pixels.iter().zip(&solid.pixels) {
@@ -280,7 +286,8 @@ fn glass_material(color: [f64; 3], volume: &str) -> String {
 
 #[test]
 fn glass_tints_what_is_behind_it_by_channels() {
-    // Over white, a product of what each lets through, in whatever order; over colours, of theirs as well.
+    // Over white, a product of what each lets through, in whatever order; over colours, of theirs
+    // as well.
     let colors = [[0.9, 0.3, 0.2], [0.5, 0.8, 1.0], [0.7, 0.7, 0.7]];
     let mut expected = [1.0; 3];
     for color in colors {
@@ -304,7 +311,8 @@ fn glass_tints_what_is_behind_it_by_channels() {
 
 #[test]
 fn bodies_of_glass_tint_by_their_thickness_in_the_world() {
-    // Beer's law: the attenuation colour to the power of thickness over distance, times the base colour.
+    // Beer's law: the attenuation colour to the power of thickness over distance, times the base
+    // colour.
     let volume =
         r#""thicknessFactor":0.5,"attenuationDistance":0.8,"attenuationColor":[0.9,0.5,0.1]"#;
     let base = [1.0, 0.8, 0.9];
@@ -351,8 +359,9 @@ fn white_surroundings_are_no_brighter_on_any_surface() {
         let picture = render_parts(&[sphere_part(&material(metallic, roughness))], rest);
         let inside = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
         let codes: Vec<u8> = inside.map(|pixel| pixel[1]).collect();
-        // sRGB of 0.5 is 188. White scatters all that is not mirrored, and metal mirrors all: nothing may be lost but by rounding.
-        // What is half of both loses, at each bounce but the first, what a reflectance of a half does not reflect.
+        // sRGB of 0.5 is 188. White scatters all that is not mirrored, and metal mirrors all:
+        // nothing may be lost but by rounding. What is half of both loses, at each bounce but the
+        // first, what a reflectance of a half does not reflect.
         let (least, most) = (codes.iter().min().unwrap(), codes.iter().max().unwrap());
         let lost = if metallic == 0.5 { 8 } else { 1 };
         let holds = codes.len() > 5000 && *least >= 188 - lost && *most <= 188;

@@ -17,7 +17,7 @@ fn render_scene(scene: &Scene) -> Picture {
     render(scene, 1).expect("a picture")
 }
 
-/// Where a place of the world is in the picture.
+/// The pixel position of a world point.
 fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
     let viewport = viewport::Viewport::image(scene.image.width, scene.image.height);
     let clip = scene.view_projection.world_to_clip().transform_point(place);
@@ -29,7 +29,7 @@ fn pixel_position(scene: &Scene, place: Point<World>) -> [f64; 2] {
 #[test]
 fn c3_c84_c101_a_point_passes_model_view_projection_divide_and_viewport_in_this_order() {
     let scene = resolve_text(
-        "Scene(models: [(path: \"crate.glb\", translate: (1, 2, 3), rotate_degrees: (0, 90, 0), scale: 2)],
+        "Scene(models: [(path: \"crate.glb\", translation: (1, 2, 3), rotation_degrees: (0, 90, 0), scale: 2)],
          camera: (view: LookAt(eye: (6, 5, 9), target: (1, 2, 3))), image: (size: (320, 200)))",
     );
     // Scaled by 2, turned from x to −z, moved.
@@ -88,13 +88,14 @@ fn c2_c10_c13_c28_every_edge_of_a_box_is_drawn_hidden_or_not_in_parallel_and_in_
 #[test]
 fn c35_a_ball_beside_the_line_of_sight_is_drawn_as_the_ellipse_that_its_cone_cuts_out() {
     let scene = resolve_text(
-        "Scene(models: [(path: \"spheres.glb\", translate: (0, -0.5, 0))], style: Flat,
+        "Scene(models: [(path: \"spheres.glb\", translation: (0, -0.5, 0))], style: Flat,
          camera: (view: LookTo(eye: (0, 0, 4), gaze: (0, 0, -1)),
                   projection: Perspective(fov_y_degrees: 40)),
          image: (size: (1600, 400), background: Color(\"#fff\"), samples: 16))",
     );
     let picture = render_scene(&scene);
-    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, its cone half as wide as α.
+    // The outermost ball: 4.5 to the right and 4 ahead, radius ½; θ off the axis, its cone half as
+    // wide as α.
     let (x, ahead): (f64, f64) = (4.5, 4.0);
     let theta = libm::atan2(x, ahead);
     let alpha = libm::asin(0.5 / (x * x + ahead * ahead).sqrt());

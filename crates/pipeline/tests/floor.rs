@@ -1,4 +1,5 @@
-//! A floor of checks that runs to the horizon, at 1080 lines, against the mean of 64 places in each pixel.
+//! A floor of checks that runs to the horizon, at 1080 lines, against the mean of 64 places in each
+//! pixel.
 
 use homog::Affine;
 use model::ModelInstance;
@@ -65,7 +66,7 @@ fn floor_model() -> Model {
             unlit: true,
             ..Material::default()
         }],
-        images: vec![Some(Image { width: TEXELS, height: TEXELS, rgba })],
+        images: [Some(Image { width: TEXELS, height: TEXELS, rgba })].into(),
         textures: vec![Texture { image: Some(0), sampler }],
         ..Model::default()
     }
@@ -75,7 +76,7 @@ fn floor_scene(anisotropy: u32) -> Scene {
     let text = format!(
         r##"Scene(models: [(path: "made")],
         camera: (view: LookTo(eye: (0.3, 1, 0), gaze: (0.35, -0.24, -1)), projection: Perspective(fov_y_degrees: 50, near: 0.1, far: 1000)),
-        image: (size: {IMAGE_SIZE:?}, background: Color("#808080"), anisotropy: {anisotropy}))"##
+        image: (size: {IMAGE_SIZE:?}, background: Color("#808080"), max_anisotropy: {anisotropy}))"##
     );
     let file = parse_scene("floor.ron", &text).expect("a scene");
     let placed = ModelInstance { model: Arc::new(floor_model()), model_to_world: Affine::IDENTITY };
@@ -88,7 +89,8 @@ fn decode_srgb(code: u8) -> f64 {
     if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
 }
 
-/// The mean of the texture at 8 × 8 places of a pixel; `None` where one of them is not on the floor, or only just.
+/// The mean of the texture at 8 × 8 places of a pixel; `None` where one of them is not on the
+/// floor, or only just.
 fn exact_floor_value(clip_to_world: glam::DMat4, x: u32, y: u32) -> Option<f64> {
     let mut sum = 0.0;
     for (i, j) in (0..8).flat_map(|i| (0..8).map(move |j| (i, j))) {
@@ -113,8 +115,8 @@ fn exact_floor_value(clip_to_world: glam::DMat4, x: u32, y: u32) -> Option<f64> 
     Some(sum / 64.0)
 }
 
-/// The root of the mean of squared differences in linear light over all of the floor, and the difference that all but a thousandth
-/// stay below.
+/// The root of the mean of squared differences in linear light over all of the floor, and the
+/// difference that all but a thousandth stay below.
 fn rms_error(anisotropy: u32) -> (f64, f64) {
     let scene = floor_scene(anisotropy);
     let picture = render(&scene, 2).expect("a picture");
@@ -138,7 +140,8 @@ fn rms_error(anisotropy: u32) -> (f64, f64) {
 fn a_floor_of_checks_is_near_the_mean_of_64_places() {
     let errors = [1, 2, 4, 8].map(rms_error);
     let roots = errors.map(|(root, _)| root);
-    // In linear light, from 0 to 1: no more than this with one place, with two, with the usual four, and with eight.
+    // In linear light, from 0 to 1: no more than this with one place, with two, with the usual
+    // four, and with eight.
     for ((root, worst), (most, bound)) in
         errors.into_iter().zip([(0.065, 0.46), (0.045, 0.43), (0.034, 0.39), (0.028, 0.34)])
     {

@@ -1,4 +1,4 @@
-//! What is told of a pixel is what the picture shows: the same colour, from the triangle that is there.
+//! Inspected pixels have the colors of their pictures, from the triangles that are there.
 
 use pipeline::render::inspect_pixel;
 use pipeline::scene::ResolveOptions;

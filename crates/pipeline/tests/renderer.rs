@@ -1,11 +1,11 @@
-//! Pictures that are rendered one after the other are those that are rendered alone, and take no memory anew.
+//! A renderer's second picture: the bits of a picture rendered alone, without new allocations.
 
 use pipeline::{
-    CancelToken, Origin, Picture, RenderError, Renderer, Scene, Textures, Timings, render,
+    CancelToken, Origin, Picture, RenderContext, RenderError, Renderer, Scene, Textures, render,
 };
 use std::path::Path;
 
-/// A scene of the project, small.
+/// A scene of the project at a small size.
 fn load_scene(name: &str, size: (u32, u32)) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
     let (origin, mut file) = Origin::read_scene(&path).expect("a scene of the project");
@@ -19,8 +19,7 @@ fn render_next(
     textures: &Textures<'_>,
     picture: &mut Picture,
 ) {
-    let silent = Timings::default();
-    renderer.render(scene, textures, 1, &silent, picture).expect("a picture");
+    renderer.render(&RenderContext::new(scene, textures, 1), picture).expect("a picture");
 }
 
 #[test]
@@ -50,6 +49,11 @@ fn pictures_do_not_depend_on_those_before() {
         ("panes.ron", (75, 200)),
         ("primitives.ron", (160, 120)),
         ("teapot.ron", (33, 21)),
+        // Insets, line drawings and overlays after surfaces.
+        ("viewports.ron", (160, 120)),
+        ("technical.ron", (160, 120)),
+        ("view_volume.ron", (160, 120)),
+        ("crates.ron", (160, 120)),
     ] {
         let scene = load_scene(name, size);
         let textures = Textures::for_models(&scene.models);
@@ -59,19 +63,17 @@ fn pictures_do_not_depend_on_those_before() {
 }
 
 #[test]
-fn a_cancelled_picture_ends_with_an_error_and_the_renderer_is_told_nothing_else() {
+fn a_cancelled_picture_is_an_error_and_the_renderer_can_be_used_again() {
     let scene = load_scene("crates.ron", (160, 120));
     let textures = Textures::for_models(&scene.models);
-    let cancel = CancelToken::default();
-    let mut renderer = Renderer::default().with_cancel(cancel.clone());
+    let (cancel, mut renderer) = (CancelToken::default(), Renderer::default());
     let mut picture = Picture::default();
-    let mut draw = |renderer: &mut Renderer| {
-        renderer.render(&scene, &textures, 2, &Timings::default(), &mut picture)
-    };
-    assert!(draw(&mut renderer).is_ok(), "nobody has cancelled it yet");
+    let context = RenderContext::new(&scene, &textures, 2);
+    let cancellable = context.with_cancel(&cancel);
+    assert!(renderer.render(&cancellable, &mut picture).is_ok(), "not cancelled yet");
     cancel.cancel();
-    assert!(matches!(draw(&mut renderer), Err(RenderError::Cancelled)));
-    let mut again = renderer.with_cancel(CancelToken::default());
-    assert!(draw(&mut again).is_ok());
+    let result = renderer.render(&cancellable, &mut picture);
+    assert!(matches!(result, Err(RenderError::Cancelled)));
+    assert!(renderer.render(&context, &mut picture).is_ok());
     assert!(picture == render(&scene, 1).expect("a picture"));
 }

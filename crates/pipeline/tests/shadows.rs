@@ -5,7 +5,7 @@ use homog::PixelRect;
 use model::ModelInstance;
 use model::{AlphaMode, Material, Mesh, Model, Node, Primitive};
 use pipeline::scene::parse_scene;
-use pipeline::{BandedRenderer, Origin, Picture, Scene, Timings, render};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::sync::Arc;
 
 type Position = [f32; 3];
@@ -114,7 +114,8 @@ fn render_box_on_floor(eye: &str, lights: &str) -> Picture {
     )
 }
 
-/// For each column through the middle of the box: the codes of the floor below it, from the first pixel that is not the box's.
+/// For each column through the middle of the box: the codes of the floor below it, from the first
+/// pixel that is not the box's.
 fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
     let is_box =
         |x: u32, y: u32| pixel_at(picture, x, y)[2] > 250 && pixel_at(picture, x, y)[0] < 250;
@@ -129,10 +130,10 @@ fn pixels_below_box(picture: &Picture) -> Vec<Vec<u8>> {
 #[test]
 fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
     for lights in [
-        "Sun(direction: (1, -1, 0.1), lux: 3, shadows: On())",
-        "Sun(direction: (1, -1, 0.1), lux: 3, shadows: On(softness_degrees: 0))",
-        "Sun(direction: (1, -0.8, 0.1), lux: 3, shadows: On(softness_degrees: 4))",
-        "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), candela: 90, shadows: On())",
+        "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On())",
+        "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On(softness_degrees: 0))",
+        "Directional(direction: (1, -0.8, 0.1), intensity: 3, shadows: On(softness_degrees: 4))",
+        "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), intensity: 90, shadows: On())",
     ] {
         for column in pixels_below_box(&render_box_on_floor("(5, 3, 0)", lights)) {
             // Black from the second pixel on, and light again where the shadow ends.
@@ -169,7 +170,7 @@ fn balls_do_not_shade_themselves_in_grazing_light() {
     let camera = "camera: (view: LookAt(eye: (0, 0, 10), target: (0, 0, 0)), projection: Orthographic(height: 3))";
     for direction in ["(0, -1, -0.02)", "(0, -1, -0.3)", "(0, -0.2, -1)", "(0, -1, 0.4)"] {
         let rest = format!(
-            "{camera}, lights: [Sun(direction: {direction}, lux: 3)], image: (size: (1000, 300))"
+            "{camera}, lights: [Directional(direction: {direction}, intensity: 3)], image: (size: (1000, 300))"
         );
         for shadows in ["On()", "On(softness_degrees: 0)", "On(size: 512)"] {
             let difference = greatest_difference(&balls, &rest, shadows);
@@ -183,7 +184,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
     let camera = "camera: (view: LookAt(eye: (0, 4, 8), target: (0, 0, 0)))";
     for direction in ["(1, -0.03, 0.2)", "(1, -0.2, 0.2)", "(0.1, -1, 0)"] {
         let rest = format!(
-            "{camera}, lights: [Sun(direction: {direction}, lux: 60)], image: (size: (480, 270))"
+            "{camera}, lights: [Directional(direction: {direction}, intensity: 60)], image: (size: (480, 270))"
         );
         let difference = greatest_difference(
             &[(floor_quad(30.0), matte_material(0.8, 0.8, 0.8))],
@@ -198,7 +199,7 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
         bowl.indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [a, c, b]).collect();
     bowl.normals = bowl.normals.map(|list| list.iter().map(|n| n.map(|c| -c)).collect());
     let rest = "camera: (view: LookAt(eye: (0, 0, 4), target: (0, 0, 0))),
-        lights: [Spot(position: (1, 1, 1), direction: (-1, -1, -2), candela: 40)], image: (size: (480, 270))";
+        lights: [Spot(position: (1, 1, 1), direction: (-1, -1, -2), intensity: 40)], image: (size: (480, 270))";
     let difference = greatest_difference(&[(bowl, matte_material(0.8, 0.8, 0.8))], rest, "On()");
     assert!(difference <= 1, "{difference}");
 }
@@ -217,10 +218,11 @@ fn no_light_comes_through_walls_without_thickness() {
         ];
         let rest = format!(
             "camera: (view: LookAt(eye: (1.5, 1.5, 1.7), target: (-1, 0, -1)), projection: Perspective(fov_y_degrees: 90, near: 0.01)),
-            lights: [Sun(direction: {direction}, lux: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
+            lights: [Directional(direction: {direction}, intensity: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
         let picture = render_parts(room, &rest);
-        // Where a wall without thickness meets another, light and shade meet too: single pixels on the edges may be lit.
+        // Where a wall without thickness meets another, light and shade meet too: single pixels on
+        // the edges may be lit.
         let lit = |x: u32, y: u32| u32::from(pixel_at(&picture, x, y)[0] > 0);
         let all = (0..540).flat_map(|y| (0..960).map(move |x| (x, y)));
         let (mut count, mut clump) = (0, 0);
@@ -246,7 +248,7 @@ fn masked_parts_cast_what_is_left_of_them_and_blended_ones_nothing() {
         let picture = render_parts(
             parts,
             "camera: (view: LookAt(eye: (0, 0.5, 5), target: (0, 0, 0))),
-            lights: [Sun(direction: (0, -1, 0), lux: 3)], shadows: On(), image: (size: (100, 100), samples: 1)",
+            lights: [Directional(direction: (0, -1, 0), intensity: 3)], shadows: On(), image: (size: (100, 100), samples: 1)",
         );
         pixel_at(&picture, 50, 50)[0]
     };
@@ -265,8 +267,8 @@ fn shadows_are_the_same_for_any_number_of_threads() {
     ];
     let scene = shadow_scene(
         parts,
-        "lights: [Sun(direction: (1, -1, 0.3), lux: 2, shadows: On(softness_degrees: 3)),
-            Spot(position: (2, 3, 2), direction: (-2, -3, -2), candela: 20, shadows: On())],
+        "lights: [Directional(direction: (1, -1, 0.3), intensity: 2, shadows: On(softness_degrees: 3)),
+            Spot(position: (2, 3, 2), direction: (-2, -3, -2), intensity: 20, shadows: On())],
         image: (size: (320, 200))",
     );
     let one = render(&scene, 1).expect("a picture");
@@ -303,7 +305,8 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 #[test]
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
     // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
-    let lights = "lights: [Sun(direction: (0, -1, 0), lux: 3), Ambient(lux: 1)]";
+    let lights =
+        "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
     let at = |picture: &Picture, x, z| {
         let (x, y) = pixel_of_ground_point(x, z);
@@ -330,11 +333,11 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
         (without, render_parts(parts, &format!("{rest}, ambient_occlusion: (radius: 1)")))
     };
     let floor = || (floor_quad(6.0), matte_material(0.8, 0.8, 0.8));
-    let (without, with) = draw_both(vec![floor()], "Ambient(lux: 3)");
+    let (without, with) = draw_both(vec![floor()], "Ambient(intensity: 3)");
     assert!(without == with, "a plane is open");
     let (without, with) = draw_both(
         vec![(ball_mesh([0.0; 3], 1.0, 60), matte_material(0.8, 0.8, 0.8))],
-        "Ambient(lux: 3)",
+        "Ambient(intensity: 3)",
     );
     let pairs = with.pixels.iter().zip(&without.pixels);
     assert!(
@@ -345,7 +348,7 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     let wall =
         (box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matte_material(0.8, 0.8, 0.8));
     let parts = vec![floor(), wall];
-    let (without, with) = draw_both(parts.clone(), "Ambient(lux: 3)");
+    let (without, with) = draw_both(parts.clone(), "Ambient(intensity: 3)");
     let linear = |code: u8| {
         let srgb = f64::from(code) / 255.0;
         if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
@@ -359,13 +362,14 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     assert!((0.35..0.62).contains(&least), "{least}");
     assert_eq!(pixel_at(&with, 150, 199), pixel_at(&without, 150, 199));
     // What a sun gives stays.
-    let (without, with) = draw_both(parts, "Sun(direction: (0, -1, -1), lux: 3)");
+    let (without, with) = draw_both(parts, "Directional(direction: (0, -1, -1), intensity: 3)");
     assert!(without == with);
 }
 
 #[test]
 fn occlusion_has_no_stripes_beside_sharp_edges() {
-    // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left of it.
+    // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left
+    // of it.
     let parts = vec![
         (floor_quad(6.0), matte_material(0.8, 0.8, 0.8)),
         (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.8, 0.8, 0.8)),
@@ -373,17 +377,20 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
     let scene = shadow_scene(
         parts,
         "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
-        lights: [Ambient(lux: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
+        lights: [Ambient(intensity: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
     );
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(&scene, 2, &timings).expect("a scene");
+    let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+    let context = RenderContext::new(&scene, &textures, 2);
+    let mut prepared = renderer.prepare(&context).expect("a scene");
     let region = PixelRect { x: 545, y: 570, width: 110, height: 60 };
-    let picture: Picture<u16> = paint.render_region(region).expect("a region");
+    let mut picture = Picture::<u16>::default();
+    prepared.render_region(region, &mut picture).expect("a region");
     let code =
         |x: u32, y: u32| f64::from(picture.pixels[(y * region.width + x) as usize][0]) / 257.0;
     let (mut step, mut back) = (0.0_f64, 0.0_f64);
     for (x, y) in (0..region.height).flat_map(|y| (1..region.width - 1).map(move |x| (x, y))) {
-        // How far a pixel is from the mean of its neighbours, and how much lighter than the one farther away.
+        // How far a pixel is from the mean of its neighbours, and how much lighter than the one
+        // farther away.
         step = step.max((code(x, y) - 0.5 * (code(x - 1, y) + code(x + 1, y))).abs());
         back = back.max(code(x + 1, y) - code(x, y));
     }

@@ -5,10 +5,10 @@
 //!              window                     window
 //!               ┐                          ┐
 //!   eye ●───────┤ seen at            ●─────┤  the apex stands right behind the
-//!               ┘ an angle                 ┘  window's centre, beside the eye
+//!               ┘ an angle                 ┘  window's center, beside the eye
 //! ```
 //!
-//! Both agree on the near plane only, or when the window is centred (LW-1, M12). For stereo pairs,
+//! Both agree on the near plane only, or when the window is centered (LW-1, M12). For stereo pairs,
 //! tiles and lens shift use [`Frustum`].
 
 use crate::error::check_finite;
@@ -16,7 +16,7 @@ use crate::{Convention, Frustum, ProjectionError, Window};
 use homog::{Affine, Clip, Point, Projective, View};
 
 /// The perspective of createFrustum (LW-1; C63): symmetric, from an apex moved to behind the
-/// window's centre.
+/// window's center.
 ///
 /// # Guarantees
 /// As for [`Frustum`].
@@ -26,8 +26,8 @@ use homog::{Affine, Clip, Point, Projective, View};
 /// use projection::{ApexMovedFrustum, Convention};
 /// let lesson = ApexMovedFrustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
 /// assert_eq!(lesson.apex(), Point::new(1.0, -0.5, 0.0));
-/// // The window's centre line stays in the middle of the picture at every depth.
-/// let deep = lesson.view_to_clip(Convention::OPENGL).point(Point::new(1.0, -0.5, -5.0));
+/// // The window's center line stays in the middle of the picture at every depth.
+/// let deep = lesson.view_to_clip(Convention::OPENGL).transform_point(Point::new(1.0, -0.5, -5.0));
 /// assert_eq!((deep.x(), deep.y()), (0.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
@@ -68,11 +68,11 @@ impl ApexMovedFrustum {
     ) -> Result<Self, ProjectionError> {
         let window = Window::new(left, right, bottom, top)?;
         check_finite("far", far)?;
-        let centred = Window::centered(window.width(), window.height())?;
+        let centered = Window::centered(window.width(), window.height())?;
         Frustum::from_window(window, near, far)?;
         // The lesson scales the window by itself, not together with near.
-        centred.window_fit(1.0)?;
-        Ok(Self { window, about_apex: Frustum::from_window(centred, near, far)? })
+        centered.window_fit(1.0)?;
+        Ok(Self { window, about_apex: Frustum::from_window(centered, near, far)? })
     }
 
     /// The window on the near plane.
@@ -100,13 +100,13 @@ impl ApexMovedFrustum {
         Point::new(x, y, 0.0)
     }
 
-    /// The centred frustum as the apex sees it.
+    /// The centered frustum as the apex sees it.
     #[must_use]
     pub const fn about_apex(self) -> Frustum {
         self.about_apex
     }
 
-    /// The projection matrix: move the apex to the origin, then the centred frustum.
+    /// The projection matrix: move the apex to the origin, then the centered frustum.
     #[must_use]
     pub fn view_to_clip(self, convention: Convention) -> Projective<View, Clip> {
         let to_apex = Affine::<View, View>::translation(Point::ORIGIN - self.apex());

@@ -115,7 +115,7 @@ impl Axonometric {
         Self { alpha, beta: libm::asin(1.0 / 3.0), origin: Point::ORIGIN }
     }
 
-    /// The same projection with `origin` going to the origin of the picture.
+    /// This projection with `origin` mapped to the origin of the picture.
     ///
     /// # Errors
     /// If the origin is not finite.

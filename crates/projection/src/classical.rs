@@ -18,7 +18,7 @@ use homog::{Affine, Clip, Projective, Space, View};
 /// let picture = Classical::from(Axonometric::dimetric_42_7());
 /// let volume = Orthographic::new(-2.0, 2.0, -2.0, 2.0, -5.0, 5.0)?;
 /// let view_to_clip = picture.view_to_clip(volume, Convention::CHAPTER)?;
-/// assert_eq!(view_to_clip.point(Point::ORIGIN).divide(), Some(Point::ORIGIN));
+/// assert_eq!(view_to_clip.transform_point(Point::ORIGIN).divide(), Some(Point::ORIGIN));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -50,7 +50,7 @@ impl Classical {
         }
     }
 
-    /// The same with depth kept: x and y as in the picture, larger z nearer to the viewer.
+    /// The depth-preserving variant: x and y as in the picture, larger z nearer to the viewer.
     #[must_use]
     pub fn depth_preserving(self) -> Projective<View, View> {
         match self {
@@ -62,7 +62,7 @@ impl Classical {
         }
     }
 
-    /// The inverse of [`depth_kept`](Self::depth_kept), in closed form.
+    /// The inverse of [`depth_preserving`](Self::depth_preserving), in closed form.
     #[must_use]
     pub fn depth_preserving_inverse(self) -> Projective<View, View> {
         match self {

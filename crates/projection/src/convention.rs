@@ -73,37 +73,37 @@ impl Convention {
         Self { handedness, ndc_y, near_depth, far_depth }
     }
 
-    /// The same with near and far depth exchanged.
+    /// This convention with near and far depth exchanged (reversed z).
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self::new(self.handedness, self.ndc_y, self.far_depth, self.near_depth)
     }
 
-    /// The same for a view space that looks along −z.
+    /// This convention for a view space that looks along −z.
     #[must_use]
     pub const fn right_handed(self) -> Self {
         self.with_handedness(Handedness::Right)
     }
 
-    /// The same for a view space that looks along +z.
+    /// This convention for a view space that looks along +z.
     #[must_use]
     pub const fn left_handed(self) -> Self {
         self.with_handedness(Handedness::Left)
     }
 
-    /// The same with the given handedness of view space.
+    /// This convention with the given handedness of view space.
     #[must_use]
     pub const fn with_handedness(self, handedness: Handedness) -> Self {
         Self { handedness, ..self }
     }
 
-    /// The same with the given direction of y after the divide.
+    /// This convention with the given direction of y after the divide.
     #[must_use]
     pub const fn with_ndc_y(self, ndc_y: NdcY) -> Self {
         Self { ndc_y, ..self }
     }
 
-    /// The same with other depths at the near and the far plane.
+    /// This convention with other depths at the near and the far plane.
     ///
     /// # Errors
     /// Unless both depths are in [−1, 1] and at least 10⁻⁶ apart.
@@ -164,7 +164,7 @@ impl Convention {
         }
     }
 
-    /// The same projection, written for convention `to` instead of this one.
+    /// Converts a projection matrix of this convention to convention `to`.
     ///
     /// Flips of y and z are exact; the depth is remapped linearly, which is exact between the
     /// conventions of this module. View space is re-read with the handedness of `to`: the same

@@ -6,9 +6,9 @@
 //!      p = q = r = 0: parallel                      else: central
 //!      rows at right angles?                        eye: where x, y and w vanish
 //!        upright      → orthographic                  at the origin, upright → frustum
-//!        turned       → axonometric, placed           beside it, centred     → apex moved (LW-1)
+//!        turned       → axonometric, placed           beside it, centered     → apex moved (LW-1)
 //!      z in x and y   → oblique                       anywhere, turned       → placed
-//!      no inverse     → classical: the centre is what the matrix sends to nothing
+//!      no inverse     → classical: the center is what the matrix sends to nothing
 //! ```
 //!
 //! A matrix and its multiples are the same map, so a common factor is taken out first and reported.
@@ -24,24 +24,24 @@ use glam::{DMat4, DVec3, DVec4};
 use homog::{Affine, HPoint, Normal, Plane, View};
 use thiserror::Error;
 
-/// What a matrix turned out to be.
+/// The projection that a matrix was recognized as.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Decomposed {
-    /// A perspective from the origin; with a centred window [`crate::Perspective`] can be had from
+    /// A perspective from the origin; with a centered window [`crate::Perspective`] can be had from
     /// it.
     Frustum(Frustum),
     /// The frustum of the WebGL lesson, its apex beside the origin (LW-1).
     ApexMoved(ApexMovedFrustum),
     /// A perspective from elsewhere or turned: a camera and a lens in one matrix.
     PlacedFrustum {
-        /// What the camera does.
+        /// The camera's map.
         placement: Affine<View, View>,
-        /// What the lens does.
+        /// The lens.
         frustum: Frustum,
     },
     /// A perspective whose near plane is inclined (Lengyel).
     ObliqueNear {
-        /// What the camera does: the identity if there is none.
+        /// The camera's map: the identity if there is none.
         placement: Affine<View, View>,
         /// The window one unit ahead of the eye.
         slopes: Window,
@@ -60,7 +60,7 @@ pub enum Decomposed {
     /// An orthographic projection turned in a way that no axonometric projection is: a camera and a
     /// box in one matrix.
     PlacedOrthographic {
-        /// What the camera does.
+        /// The camera's map.
         placement: Affine<View, View>,
         /// The box.
         volume: Orthographic,
@@ -69,9 +69,9 @@ pub enum Decomposed {
     NPoint(NPoint),
     /// A classical projection that drops a dimension: singular.
     Flat {
-        /// The centre of projection: what the matrix sends to nothing. w = 0 if the projectors are
+        /// The center of projection: what the matrix sends to nothing. w = 0 if the projectors are
         /// parallel.
-        centre: HPoint<View>,
+        center: HPoint<View>,
         /// Which one, if it drops z in one of the known ways.
         projection: Option<Classical>,
     },
@@ -80,7 +80,7 @@ pub enum Decomposed {
 /// The result of [`decompose`].
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Decomposition {
-    /// What the matrix is, without the factor.
+    /// The projection, without the factor.
     pub kind: Decomposed,
     /// The common factor that was taken out. Negative if w is negative in front of the eye, as in
     /// the textbook's M_per: divide by it before clipping (PE-3).
@@ -96,7 +96,7 @@ impl Decomposition {
             Decomposed::ObliqueNear { placement, near_plane, .. } => {
                 placement.is_finite() && near_plane.raw().is_finite()
             }
-            Decomposed::Flat { centre, .. } => centre.is_finite(),
+            Decomposed::Flat { center, .. } => center.is_finite(),
             _ => true,
         };
         kind && self.factor.is_finite()
@@ -128,9 +128,9 @@ pub enum DecomposeError {
     /// Near and far make no sense in this convention.
     #[error("in this convention near and far would be {near} and {far}; allowed: 0 < near < far")]
     DepthRange {
-        /// What the matrix maps to the near depth.
+        /// The distance that the matrix maps to the near depth.
         near: f64,
-        /// What the matrix maps to the far depth.
+        /// The distance that the matrix maps to the far depth.
         far: f64,
     },
     /// The parameters that come out are refused by their builder.
@@ -217,9 +217,9 @@ fn bare_npoint(matrix: DMat4) -> Option<(NPoint, f64)> {
     Some((NPoint::new(p, q, r).ok()?, factor)).filter(|_| bare)
 }
 
-/// Rank 3: what is sent to nothing is the centre of projection.
+/// Rank 3: what is sent to nothing is the center of projection.
 fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, DecomposeError> {
-    let centre = placement::null_vector(matrix)
+    let center = placement::null_vector(matrix)
         .filter(|_| rank == 3)
         .ok_or(DecomposeError::RankTooLow { rank })?;
     let (x, y, w) = (matrix.row(0), matrix.row(1), matrix.row(3));
@@ -228,7 +228,7 @@ fn decompose_onto_plane(matrix: DMat4, rank: usize) -> Result<Decomposition, Dec
     let projection =
         if drops_z { recognize_onto_plane(x / factor, y / factor, w / factor) } else { None };
     Ok(Decomposition {
-        kind: Decomposed::Flat { centre: HPoint::from_raw(centre), projection },
+        kind: Decomposed::Flat { center: HPoint::from_raw(center), projection },
         factor,
     })
 }
@@ -349,12 +349,12 @@ fn decompose_frustum(
     found: Placement,
     convention: Convention,
 ) -> Result<Decomposed, DecomposeError> {
-    let Placement { scale, center: centre, depth, .. } = found;
+    let Placement { scale, center, depth, .. } = found;
     let slopes = Window::new(
-        (centre.x - 1.0) / scale.x,
-        (centre.x + 1.0) / scale.x,
-        (centre.y - 1.0) / scale.y,
-        (centre.y + 1.0) / scale.y,
+        (center.x - 1.0) / scale.x,
+        (center.x + 1.0) / scale.x,
+        (center.y - 1.0) / scale.y,
+        (center.y + 1.0) / scale.y,
     )?;
     let along = depth.truncate();
     if !placement::is_negligible(along.with_z(0.0), DVec4::splat(along.length())) {
@@ -375,7 +375,7 @@ fn inclined_near_plane(depth: DVec4, convention: Convention) -> Plane<View> {
 }
 
 /// The projection from an unturned camera that has a name: its eye at the origin, or beside it
-/// with a centred window.
+/// with a centered window.
 fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     let (eye, w, near) = (found.eye, frustum.window(), frustum.near());
     let size = DVec4::new(w.width(), w.height(), near, 0.0);
@@ -385,11 +385,11 @@ fn recognize_frustum(found: Placement, frustum: Frustum) -> Option<Decomposed> {
     if placement::is_negligible(eye, size) {
         return Some(Decomposed::Frustum(frustum));
     }
-    let centred = placement::is_negligible(found.center.extend(0.0), DVec4::ONE);
+    let centered = placement::is_negligible(found.center.extend(0.0), DVec4::ONE);
     let (l, r) = (w.left() + eye.x, w.right() + eye.x);
     let (b, t) = (w.bottom() + eye.y, w.top() + eye.y);
     let moved = ApexMovedFrustum::new(l, r, b, t, near, frustum.far()).ok()?;
-    centred.then_some(Decomposed::ApexMoved(moved))
+    centered.then_some(Decomposed::ApexMoved(moved))
 }
 
 /// The distances at which factor + offset/D is the near and the far depth.

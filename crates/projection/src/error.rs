@@ -1,4 +1,4 @@
-//! What can be wrong with the parameters of a projection.
+//! Errors of projection parameters.
 
 use thiserror::Error;
 
@@ -59,14 +59,14 @@ pub enum ProjectionError {
     ParallelToPlane,
     /// The centre of projection lies on the projection plane.
     #[error("the centre of projection lies on the projection plane")]
-    CentreOnPlane,
+    CenterOnPlane,
     /// No vanishing point was asked for (p = q = r = 0), which is no perspective.
     #[error("p, q and r are all 0: that is a parallel projection, it has no vanishing point")]
     NoVanishingPoint,
     /// Three or two vanishing points to which no eye belongs.
     #[error("no eye sees these vanishing points at right angles: {reason}")]
     ImpossibleVanishingPoints {
-        /// What prevents it.
+        /// The reason.
         reason: &'static str,
     },
     /// Three foreshortening ratios that no axonometric projection has.
@@ -84,7 +84,7 @@ pub enum ProjectionError {
     /// The frustum's window is not centred on the line of sight, so that no field of view describes
     /// it.
     #[error("the window is off centre; a perspective by field of view cannot show it")]
-    OffCentre,
+    OffCenter,
     /// All parameters are fine by themselves, but the matrix would overflow or underflow.
     #[error("the {what} is too large, too small or too extreme to compute with")]
     Unrepresentable {

@@ -22,7 +22,8 @@ use homog::{Clip, Projective, View};
 /// use homog::Point;
 /// use projection::{Convention, Frustum};
 /// let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
-/// let clip = frustum.view_to_clip(Convention::CHAPTER).point(Point::new(3.0, 1.0, -2.0));
+/// let view_to_clip = frustum.view_to_clip(Convention::CHAPTER);
+/// let clip = view_to_clip.transform_point(Point::new(3.0, 1.0, -2.0));
 /// assert_eq!(clip.divide(), Some(Point::new(1.0, 1.0, 1.0))); // right, top, near
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```

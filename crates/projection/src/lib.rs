@@ -24,7 +24,8 @@
 //! let view_to_clip = lens.view_to_clip(Convention::CHAPTER);
 //!
 //! // Twice as far away is half as large.
-//! let height = |z: f64| view_to_clip.point(Point::new(0.0, 1.0, z)).divide().map(Point::y);
+//! let image = |z: f64| view_to_clip.transform_point(Point::new(0.0, 1.0, z));
+//! let height = |z: f64| image(z).divide().map(Point::y);
 //! let (near, far) = (height(-2.0).expect("in front"), height(-4.0).expect("in front"));
 //! assert!((near - 0.5).abs() < 1e-15 && (far - 0.25).abs() < 1e-15);
 //!
@@ -41,19 +42,23 @@
 //! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
 //! | an off-centre one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
 //! | a box without foreshortening | [`Orthographic`] |
-//! | part of a picture, lens shift, antialiasing | `tile`, `shifted`, `jittered` of the three above ([`Tile`], [`Jitter`]) |
+//! | part of a picture | `view_offset` of the three above, by a [`ViewOffset`] |
+//! | lens shift, antialiasing | `shifted`, `jittered` of the three above, by a [`Jitter`] |
 //! | a mirror's or portal's near plane | [`oblique_near_plane`] |
 //! | front, top and side | [`PrincipalView`] |
-//! | isometric, dimetric, trimetric; cavalier, cabinet, military | [`Axonometric`]; [`Oblique`], [`Planometric`] |
+//! | isometric, dimetric, trimetric | [`Axonometric`] |
+//! | cavalier, cabinet; military | [`Oblique`]; [`Planometric`] |
 //! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |
 //! | any of those five as a renderable matrix | [`Classical`] |
 //! | any centre and any plane | [`Projector`] |
 //! | the textbook's P, M_orth, M_per | [`chapter`] |
-//! | glFrustum, gluPerspective, D3DX… by name; the lesson's createFrustum | [`api`]; [`ApexMovedFrustum`] |
+//! | glFrustum, gluPerspective, D3DX… by name | [`api`] |
+//! | the lesson's createFrustum | [`ApexMovedFrustum`] |
 //! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
 //! | what depth can tell apart | [`DepthCurve`] |
 //! | corners, planes, eye of what is seen | [`ViewVolume`] |
-//! | what a matrix is, or what is wrong with it | [`decompose`], [`readings`], [`misprint_of`], [`symptoms`] |
+//! | the parameters of a given matrix | [`decompose()`], [`readings`] |
+//! | mistakes in a given matrix | [`misprint_of`], [`symptoms`] |
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
@@ -118,3 +123,8 @@ pub use vanishing::{
 pub use view_volume::ViewVolume;
 pub use window::Window;
 pub use window_changes::{FourAngles, Jitter, ViewOffset};
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -16,7 +16,7 @@ use crate::{Convention, ProjectionError};
 use glam::{DMat4, DVec4};
 use homog::{Clip, Projective, View};
 
-/// What the window does to x and y: x' = `scale_x` x − `centre_x` (times D if central).
+/// The window's map of x and y: x' = `scale_x` x − `center_x` (times D if central).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct WindowFit {
     pub(crate) scale_x: f64,
@@ -110,7 +110,7 @@ pub(crate) fn central_matrix(
     ))
 }
 
-/// The inverse of [`central`], by IV-1.
+/// The inverse of [`central_matrix`], by IV-1.
 pub(crate) fn central_inverse(
     fit: WindowFit,
     depth: DepthRow,
@@ -145,7 +145,7 @@ pub(crate) fn parallel_matrix(
     ))
 }
 
-/// The inverse of [`parallel`].
+/// The inverse of [`parallel_matrix`].
 pub(crate) fn parallel_inverse(
     fit: WindowFit,
     depth: DepthRow,

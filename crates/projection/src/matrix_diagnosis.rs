@@ -86,7 +86,7 @@ impl Misprint {
         }
     }
 
-    /// What is wrong, in one sentence.
+    /// The error, in one sentence.
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {
@@ -116,7 +116,7 @@ impl Misprint {
         }
     }
 
-    /// What to do, in one sentence.
+    /// The remedy, in one sentence.
     #[must_use]
     pub const fn remedy(self) -> &'static str {
         match self {
@@ -238,9 +238,10 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
 /// as those of f32 programs do.
 ///
 /// ```
-/// use projection::{Misprint, Orthographic, Wanted, misprint_of};
-/// let wanted = Wanted::Orthographic(Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?);
-/// let mut slide = wanted.matrix();
+/// use projection::{Misprint, Orthographic, IntendedProjection, misprint_of};
+/// let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
+/// let wanted = IntendedProjection::Orthographic(volume);
+/// let mut slide = wanted.correct_matrix();
 /// slide.w_axis.z = 2.0; // + (far + near)/(far − near)
 /// assert_eq!(misprint_of(slide, wanted), Some(Misprint::OrthoOffsetSign));
 /// # Ok::<(), projection::ProjectionError>(())
@@ -273,7 +274,7 @@ pub struct Symptom {
     pub remedied: Option<DMat4>,
 }
 
-/// What is suspicious about the matrix, in OpenGL's convention unless it can be told otherwise.
+/// The symptoms of common mistakes in a matrix, in OpenGL's convention unless another is evident.
 ///
 /// A symptom is no proof: every such matrix is also the right matrix of something less likely.
 /// Nothing is found in what the builders of this crate make for usual volumes.

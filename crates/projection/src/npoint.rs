@@ -29,7 +29,7 @@ use homog::{HPoint, Projective, View};
 /// use homog::Point;
 /// use projection::NPoint;
 /// let eye_at_5 = NPoint::from_eye(5.0)?;
-/// let image = eye_at_5.onto_plane().point(Point::new(1.0, 2.0, 2.5)).divide();
+/// let image = eye_at_5.onto_plane().transform_point(Point::new(1.0, 2.0, 2.5)).divide();
 /// assert_eq!(image, Some(Point::new(2.0, 4.0, 0.0)));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
@@ -64,7 +64,7 @@ impl NPoint {
     /// If d is 0 or not finite.
     pub fn from_eye(d: f64) -> Result<Self, ProjectionError> {
         if check_finite("d", d)? == 0.0 {
-            return Err(ProjectionError::CentreOnPlane);
+            return Err(ProjectionError::CenterOnPlane);
         }
         Self::new(0.0, 0.0, -1.0 / d)
     }

@@ -25,7 +25,8 @@ use homog::{Affine, Vector, View};
 /// use projection::Oblique;
 /// let cabinet = Oblique::cabinet(0.0)?;
 /// // Half of the depth, drawn to the right.
-/// assert_eq!(cabinet.onto_plane().point(Point::new(1.0, 2.0, 3.0)), Point::new(2.5, 2.0, 0.0));
+/// let image = cabinet.onto_plane().transform_point(Point::new(1.0, 2.0, 3.0));
+/// assert_eq!(image, Point::new(2.5, 2.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -211,7 +212,8 @@ impl Oblique {
 /// use projection::Planometric;
 /// let military = Planometric::military(0.0)?;
 /// // x to the right, −z (away) up, and the height added to it.
-/// assert_eq!(military.onto_plane().point(Point::new(1.0, 2.0, -3.0)), Point::new(1.0, 5.0, 0.0));
+/// let image = military.onto_plane().transform_point(Point::new(1.0, 2.0, -3.0));
+/// assert_eq!(image, Point::new(1.0, 5.0, 0.0));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]

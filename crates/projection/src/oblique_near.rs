@@ -8,7 +8,7 @@ use crate::{Convention, ProjectionError, ViewVolume};
 use glam::DVec4;
 use homog::{Clip, HPoint, Plane, Projective, View};
 
-/// The same projection with `plane` as its near plane, for a matrix of any kind and convention.
+/// Oblique near-plane clipping: replaces the near plane of any projection matrix by `plane`.
 ///
 /// The plane's normal points to what stays visible; the eye must be on the other side. Depth is the
 /// convention's near depth on the plane and its far depth in the corner of the old volume that lies
@@ -28,7 +28,7 @@ use homog::{Clip, HPoint, Plane, Projective, View};
 /// let mirror = Plane::through(Point::new(0.0, 0.0, -5.0), Normal::new(0.0, 0.6, -0.8));
 /// let c = Convention::CHAPTER;
 /// let cut = oblique_near_plane(lens.view_to_clip(c), c, mirror)?;
-/// let on_mirror = cut.point(Point::new(0.3, 0.8, -4.4)).divide().expect("in front");
+/// let on_mirror = cut.transform_point(Point::new(0.3, 0.8, -4.4)).divide().expect("in front");
 /// assert!((on_mirror.z() - c.near_depth()).abs() < 1e-12);
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
@@ -64,7 +64,7 @@ fn out_of_range(parameter: &'static str, value: f64, allowed: &'static str) -> P
     ProjectionError::OutOfRange { parameter, value, allowed }
 }
 
-/// The same plane with a normal of length 1.
+/// The plane with a normal of length 1.
 fn normalized_plane(plane: Plane<View>) -> Result<Plane<View>, ProjectionError> {
     for value in plane.raw().to_array() {
         crate::error::check_finite("plane", value)?;

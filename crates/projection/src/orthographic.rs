@@ -17,7 +17,7 @@ use homog::{Clip, Projective, View};
 /// use homog::Point;
 /// use projection::{Convention, Orthographic};
 /// let sheet = Orthographic::new(-2.0, 2.0, -1.0, 1.0, 0.0, 10.0)?;
-/// let clip = sheet.view_to_clip(Convention::CHAPTER).point(Point::new(2.0, 1.0, 0.0));
+/// let clip = sheet.view_to_clip(Convention::CHAPTER).transform_point(Point::new(2.0, 1.0, 0.0));
 /// assert_eq!(clip.divide(), Some(Point::new(1.0, 1.0, 1.0))); // right, top, near
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```

@@ -1,4 +1,4 @@
-//! Perspective by field of view: the window centred on the line of sight.
+//! Perspective by field of view: the window centered on the line of sight.
 
 use crate::frustum::check_planes;
 use crate::matrix::{self, DepthRow, WindowFit};
@@ -15,7 +15,7 @@ use homog::{Clip, Projective, View};
 /// use homog::Point;
 /// use projection::{Convention, Fov, Perspective};
 /// let lens = Perspective::new(Fov::vertical_degrees(90.0), 2.0, 1.0, f64::INFINITY)?;
-/// let clip = lens.view_to_clip(Convention::OPENGL).point(Point::new(0.0, 0.0, -1.0));
+/// let clip = lens.view_to_clip(Convention::OPENGL).transform_point(Point::new(0.0, 0.0, -1.0));
 /// assert_eq!(clip.divide(), Some(Point::new(0.0, 0.0, -1.0)));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
@@ -91,7 +91,7 @@ impl Perspective {
         self.far
     }
 
-    /// The same projection by its window on the near plane: top = near·tan(θ/2), right =
+    /// This projection as a frustum, by its window on the near plane: top = near·tan(θ/2), right =
     /// aspect·top.
     #[must_use]
     pub fn to_frustum(self) -> Frustum {
@@ -129,15 +129,15 @@ impl From<Perspective> for Frustum {
 impl TryFrom<Frustum> for Perspective {
     type Error = ProjectionError;
 
-    /// The way back, for windows that are centred on the line of sight and not mirrored (C69, M31).
+    /// The inverse, for windows centered on the line of sight and not mirrored (C69, M31).
     ///
     /// # Errors
-    /// [`ProjectionError::OffCentre`] for all others.
+    /// [`ProjectionError::OffCenter`] for all others.
     fn try_from(frustum: Frustum) -> Result<Self, ProjectionError> {
         let slopes = frustum.slopes();
-        let centred = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();
-        if !centred || slopes.right() < 0.0 || slopes.top() < 0.0 {
-            return Err(ProjectionError::OffCentre);
+        let centered = slopes.left() == -slopes.right() && slopes.bottom() == -slopes.top();
+        if !centered || slopes.right() < 0.0 || slopes.top() < 0.0 {
+            return Err(ProjectionError::OffCenter);
         }
         let half = HalfSlopes { x: slopes.right(), y: slopes.top() };
         Ok(Self { half, near: frustum.near(), far: frustum.far() })

@@ -73,7 +73,7 @@ fn eliminate_rows(rows: &mut [DVec4; 4]) -> usize {
     4
 }
 
-/// What a matrix of rank 3 sends to nothing, its largest coordinate or its w scaled to 1.
+/// The null vector of a matrix of rank 3, with its largest coordinate or its w scaled to 1.
 pub(crate) fn null_vector(matrix: DMat4) -> Option<DVec4> {
     // The columns of the adjugate are multiples of it; the largest one is the most exact.
     let columns = [0, 1, 2, 3].map(|column| cofactors(matrix, column));
@@ -154,7 +154,7 @@ impl Placement {
             && back.distance(DVec3::Z) < 1e-12
     }
 
-    /// What the camera does: the eye to the origin, its axes to x, y and z.
+    /// The camera's map: the eye to the origin, its axes to x, y and z.
     pub(crate) fn as_affine(&self) -> Affine<View, View> {
         let rows = self.axes.map(|axis| axis.extend(-axis.dot(self.eye)));
         let matrix = DMat4::from_cols(rows[0], rows[1], rows[2], DVec4::W).transpose();

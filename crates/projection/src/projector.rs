@@ -30,13 +30,13 @@ use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 /// // A lamp 4 above the floor: shadows are central projections.
 /// let floor = Plane::<View>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
 /// let lamp = Projector::from_eye(Point::new(0.0, 4.0, 0.0), floor)?;
-/// let shadow = lamp.onto_plane().point(Point::new(1.0, 2.0, 0.0)).divide();
+/// let shadow = lamp.onto_plane().transform_point(Point::new(1.0, 2.0, 0.0)).divide();
 /// assert_eq!(shadow, Some(Point::new(2.0, 0.0, 0.0)));
 /// # Ok::<(), projection::ProjectionError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Projector<S: Space> {
-    centre: HPoint<S>,
+    center: HPoint<S>,
     plane: Plane<S>,
     /// π·c, not 0.
     reach: f64,
@@ -51,7 +51,7 @@ impl<S: Space> Projector<S> {
         for value in <[f64; 3]>::from(eye) {
             check_finite("eye", value)?;
         }
-        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CentreOnPlane)
+        Self::new_checked(HPoint::from(eye), plane, ProjectionError::CenterOnPlane)
     }
 
     /// Parallel projection along `direction` onto `plane`.
@@ -69,7 +69,7 @@ impl<S: Space> Projector<S> {
     }
 
     fn new_checked(
-        centre: HPoint<S>,
+        center: HPoint<S>,
         plane: Plane<S>,
         touching: ProjectionError,
     ) -> Result<Self, ProjectionError> {
@@ -83,9 +83,9 @@ impl<S: Space> Projector<S> {
         let unit = plane.raw() / length;
         check_representable(DMat4::from_diagonal(unit), "plane")?;
         let plane = Plane::from_raw(unit);
-        let reach = plane.evaluate(centre);
-        let projector = Self { centre, plane, reach };
-        let size = centre.raw().abs() * plane.raw().abs();
+        let reach = plane.evaluate(center);
+        let projector = Self { center, plane, reach };
+        let size = center.raw().abs() * plane.raw().abs();
         if reach.abs() <= 8.0 * f64::EPSILON * (size.x + size.y + size.z + size.w) {
             return Err(touching);
         }
@@ -96,7 +96,7 @@ impl<S: Space> Projector<S> {
     /// The centre of projection; w = 0 if the projectors are parallel.
     #[must_use]
     pub const fn center(self) -> HPoint<S> {
-        self.centre
+        self.center
     }
 
     /// The plane of projection, its normal of length 1.
@@ -109,12 +109,12 @@ impl<S: Space> Projector<S> {
     /// (with w = 1).
     #[must_use]
     pub fn onto_plane(self) -> Projective<S, S> {
-        let toward = self.centre.raw() / self.reach;
+        let toward = self.center.raw() / self.reach;
         Projective::from_raw(DMat4::IDENTITY - outer_product(toward, self.plane.raw()))
     }
 
-    /// The same image beside the plane instead of in it: the distance from the plane is kept before
-    /// the divide, so that the map has an inverse and what hides what can be told (PR-1, C102).
+    /// The depth-preserving variant: the image keeps its distance from the plane before the divide,
+    /// so that the map has an inverse and hidden surfaces can be removed (PR-1, C102).
     #[must_use]
     pub fn depth_preserving(self) -> Projective<S, S> {
         let normal = self.plane.normal().raw().extend(0.0);

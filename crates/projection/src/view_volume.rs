@@ -13,7 +13,7 @@ use crate::Convention;
 use glam::DVec4;
 use homog::{Clip, HPoint, Ndc, Plane, Point, Projective, View};
 
-/// What a projection shows, of whatever kind it is (C4, C7, C85).
+/// The view volume of any projection: corners, planes and eye (C4, C7, C85).
 ///
 /// ```
 /// use homog::Point;

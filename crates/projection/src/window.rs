@@ -117,8 +117,7 @@ impl Window {
         }
     }
 
-    /// What the window does to x and y, for a view plane at `distance` (1 for parallel
-    /// projections).
+    /// The window's map of x and y, for a view plane at `distance` (1 for parallel projections).
     pub(crate) fn window_fit(self, distance: f64) -> Result<WindowFit, ProjectionError> {
         self.window_fit_unchecked(distance).check_fit()
     }

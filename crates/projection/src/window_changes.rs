@@ -1,15 +1,14 @@
-//! What moves the window: lens shift, tiles of a larger picture, jitter, and the four angles of a
-//! headset's eye.
+//! Changes of the window: lens shift, sub-images, jitter, and the four angles of a headset's eye.
 //!
 //! All of them change the window and nothing else, so that they work alike for perspective and
 //! parallel projections and keep lines, depth and vanishing points where they are.
 //!
 //! ```
-//! use projection::{Convention, Fov, Perspective, Tile};
+//! use projection::{Convention, Fov, Perspective, ViewOffset};
 //! // The right half of a 200 × 100 picture.
 //! let whole = Perspective::new(Fov::vertical_degrees(40.0), 2.0, 0.1, 50.0)?;
-//! let right = Tile { full: (200.0, 100.0), corner: (100.0, 0.0), size: (100.0, 100.0) };
-//! let half = whole.tile(right)?;
+//! let right = ViewOffset { full: (200.0, 100.0), corner: (100.0, 0.0), size: (100.0, 100.0) };
+//! let half = whole.view_offset(right)?;
 //! assert_eq!(half.window().left(), 0.0);
 //! assert_eq!(half.window().right(), whole.to_frustum().window().right());
 //! # Ok::<(), projection::ProjectionError>(())
@@ -19,8 +18,8 @@ use crate::error::{check_finite, check_positive};
 use crate::{Frustum, Orthographic, Perspective, ProjectionError, Window};
 use core::f64::consts::FRAC_PI_2;
 
-/// A rectangle of a larger picture, in pixels from its top left corner, y down. It may reach beyond
-/// the picture.
+/// A sub-image of a larger picture, as three.js' view offset: a rectangle in pixels from the top
+/// left corner, y down. It may reach beyond the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewOffset {
     /// Width and height of the whole picture.

@@ -54,8 +54,8 @@ fn misprint_m11b_before_the_divide_there_is_equivalence_not_equality() {
     assert_eq!(image.equivalent(printed, 1e-12), Some(true));
 }
 
-/// The camera's matrix, P, M_orth and the viewport's matrix: divided at the end it is the same place
-/// as divided as soon as possible.
+/// The camera's matrix, P, M_orth and the viewport's matrix: divided at the end it is the same
+/// place as divided as soon as possible.
 #[test]
 fn c28_the_divide_comes_once_at_the_end_of_the_chain() {
     let world_to_view = Affine::<World, View>::translation(Vector::new(-2.0, 1.0, -4.0));
@@ -123,8 +123,8 @@ fn c65_two_eyes_share_a_window_and_shift_it_to_opposite_sides() {
     assert!((parallax(farther) - 2.0 * e * (1.0 - d / 9.0)).abs() < 1e-15);
 }
 
-/// VV-1: the shear x − (a/c)(z − z0), y − (b/c)(z − z0) makes the projectors run along z, a box does
-/// the rest; slanted edges of the prism become edges of the cube.
+/// VV-1: the shear x − (a/c)(z − z0), y − (b/c)(z − z0) makes the projectors run along z, a box
+/// does the rest; slanted edges of the prism become edges of the cube.
 #[test]
 fn c86_a_slanted_prism_is_sheared_upright_and_fitted() {
     let (a, b, c) = (0.6, -0.4, -1.5);
@@ -168,7 +168,8 @@ fn c89_parallel_and_perspective_end_in_the_same_volume() {
     }
 }
 
-/// A volume has three sides: [0, 1]³ is the canonical cube shrunk to half and moved, in x and y too.
+/// A volume has three sides: [0, 1]³ is the canonical cube shrunk to half and moved, in x and y
+/// too.
 #[test]
 fn misprint_m7_a_volume_of_zero_to_one_has_three_sides() {
     let frustum = Frustum::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0).expect("valid");
@@ -220,8 +221,8 @@ fn misprint_m14b_a_window_has_two_different_corners() {
 fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     let (near, far) = (2.0, 6.0);
     let product = |z: f64| {
-        let to_centre = Affine::<View, View>::translation(Vector::new(-1.0, 0.5, z));
-        to_centre.then(Affine::<View, View>::scale(2.0 / 4.0, 2.0 / 3.0, -2.0 / (far - near))).raw()
+        let to_center = Affine::<View, View>::translation(Vector::new(-1.0, 0.5, z));
+        to_center.then(Affine::<View, View>::scale(2.0 / 4.0, 2.0 / 3.0, -2.0 / (far - near))).raw()
     };
     let ours = Orthographic::new(-1.0, 3.0, -2.0, 1.0, near, far)
         .expect("valid")

@@ -1,4 +1,4 @@
-//! What is seen where, without a colour: a depth map and a map of names, `depth.png` and `ids.png`.
+//! A visibility buffer as pictures: a depth map and a map of ids, `depth.png` and `ids.png`.
 //!
 //! Three hundred triangles at random places, one behind the other.
 
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let seen = frame.visibility_buffer();
     write("depth.png", seen.depth.iter().map(|depth| [(depth * 255.0) as u8; 3]))?;
-    // Neighbouring names get colours far apart.
+    // Neighboring ids get colors far apart.
     let color = |id: u32| [id.wrapping_mul(97) as u8, id.wrapping_mul(57) as u8, !(id as u8)];
     write("ids.png", seen.ids.iter().map(|id| id.map_or([0; 3], color)))?;
     Ok(())

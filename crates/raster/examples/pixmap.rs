@@ -1,7 +1,8 @@
 //! Triangles straight into a `tiny_skia::Pixmap`, and tiny-skia's strokes over them: `pixmap.png`.
 //!
-//! `Frame::draw` takes any slice of pixels, and what becomes of a colour is a closure: here one of the pixels that tiny-skia works
-//! with, whose codes are multiplied by alpha. Where nothing is drawn the pixmap stays transparent.
+//! `Frame::draw` takes any slice of pixels, and what becomes of a colour is a closure: here one of
+//! the pixels that tiny-skia works with, whose codes are multiplied by alpha. Where nothing is
+//! drawn the pixmap stays transparent.
 
 use homog::Point;
 use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
@@ -36,7 +37,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut frame = Frame::new(256, 256, Samples::Sixteen)?;
     frame.add_mesh(&vertices, &triangles, 0, Opacity::Opaque, CullMode::Nothing);
     frame.draw(&Facets, [0.0; 4], 2, pixmap.pixels_mut(), |[r, g, b, alpha]: [f32; 4]| {
-        // Light becomes codes by a square root, near enough to sRGB; then codes are multiplied by alpha.
+        // Light becomes codes by a square root, near enough to sRGB; then codes are multiplied by
+        // alpha.
         let code = |light: f32| ((light * alpha).sqrt() * 255.0 + 0.5) as u8;
         let alpha = (alpha * 255.0 + 0.5) as u8;
         let [r, g, b] = [r, g, b].map(|light| code(light).min(alpha));

@@ -1,8 +1,10 @@
-//! A shader of one's own: a floor that runs to the horizon with a checker that is computed, not stored: `shader.png`.
+//! A shader of one's own: a floor that runs to the horizon with a checker that is computed, not
+//! stored: `shader.png`.
 //!
-//! The corners carry places on the floor. Their blend by the fragment's weights is the place a pixel shows, right in
-//! perspective because the vertices bring their w along. The derivatives of the weights say how much of the floor a
-//! pixel covers: where that is a whole tile and more, the checker fades to its mean.
+//! The corners carry places on the floor. Their blend by the fragment's weights is the place a
+//! pixel shows, right in perspective because the vertices bring their w along. The derivatives of
+//! the weights say how much of the floor a pixel covers: where that is a whole tile and more, the
+//! checker fades to its mean.
 
 use homog::{HPoint, Screen};
 use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};

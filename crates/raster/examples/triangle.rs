@@ -1,6 +1,7 @@
 //! A spinning triangle, twelve frames on one strip: `triangle.png`.
 //!
-//! Everything a frame needs: vertices on the screen, indices, and a surface that says what colour they have.
+//! Everything a frame needs: vertices on the screen, indices, and a surface that says what colour
+//! they have.
 
 use homog::Point;
 use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};

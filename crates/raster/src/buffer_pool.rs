@@ -1,37 +1,45 @@
-//! What drawing a frame needs besides the frame, kept from one drawing to the next so that it is allocated once.
+//! The buffer pool of a frame: memory that drawing needs, kept from one drawing to the next.
+//!
+//! Bins and tiles of a picture take some megabytes. With the pool a frame that is drawn again and
+//! again, as in an animation, allocates nothing after the first time (a test holds that).
 
 use crate::tile_bins::TileBins;
 use crate::tile_resolve::RowScratch;
 use crate::tile_visibility::TileVisibility;
 use std::sync::{Mutex, PoisonError};
 
-/// The memory of a drawing.
+/// The buffers of one drawing.
 #[derive(Debug, Default)]
 pub(crate) struct DrawBuffers {
     pub(crate) bins: TileBins,
+    /// One for each thread.
     pub(crate) workers: Vec<ThreadBuffers>,
 }
 
-/// What a thread needs to draw tiles.
+/// The buffers that a thread needs to draw tiles.
 #[derive(Debug, Default)]
 pub(crate) struct ThreadBuffers {
-    /// The pieces of the tile.
+    /// The indices of the triangles that touch the tile.
     pub(crate) bin: Vec<u32>,
     pub(crate) tile: TileVisibility,
     pub(crate) scratch: RowScratch,
 }
 
-/// Memory that waits for the next drawing. A frame that is drawn twice at once, or is a clone, begins with none.
+/// Buffers that wait for the next drawing.
+///
+/// A frame that is drawn twice at the same time, and a clone of a frame, begin with empty buffers.
 #[derive(Debug, Default)]
 pub(crate) struct BufferPool(Mutex<DrawBuffers>);
 
 impl BufferPool {
+    /// Takes the buffers out of the pool; empty ones if they are in use.
     pub(crate) fn take_buffers(&self) -> DrawBuffers {
         std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    pub(crate) fn recycle_buffers(&self, memory: DrawBuffers) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = memory;
+    /// Returns buffers to the pool.
+    pub(crate) fn recycle_buffers(&self, buffers: DrawBuffers) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = buffers;
     }
 }
 

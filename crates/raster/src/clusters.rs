@@ -1,40 +1,53 @@
-//! Clusters: runs of a mesh's triangles that are drawn or left out together.
+//! Cluster culling: runs of a mesh's triangles that are drawn or left out together.
 //!
-//! Of a large mesh much is out of the picture or shows its back. A cluster is a run of triangles that follow one another; it
-//! knows the box around them and a cone around their normals, so that one look tells for all of them.
-//! Triangles keep their order and their names.
+//! ```text
+//!    ╲ │ ╱   normals of the cluster's triangles within a cone
+//!     ╲│╱
+//!   ┌──●──┐  bounding box: outside the frustum?           cone: all backs to the viewer?
+//!   └─────┘
+//! ```
+//!
+//! Much of a large mesh is outside the picture or faces away. A cluster is a run of consecutive
+//! triangles with their bounding box and a cone around their normals, so that one test decides for
+//! all of them (Shirman and Abi-Ezzi, *The Cone of Normals Technique*, 1993). Triangles keep their
+//! order and their ids, so culling never changes a bit of the picture.
 
 use core::ops::Range;
 use glam::DVec3;
 use homog::{HPoint, Space};
 
-/// The most triangles of a cluster.
+/// The most triangles in a cluster: few enough for tight bounds, enough that a test costs little
+/// per triangle.
 const CLUSTER_TRIANGLES: usize = 64;
-/// Normals count as one thinner cone than this part of their length: what single precision and the grid of the screen leave open.
+/// The margin of the cone test, relative to the vector to the viewer: single precision, and the
+/// snapping of vertices to the grid, may turn a face that is seen edge-on.
 const CONE_MARGIN: f64 = 1e-3;
 
 /// The clusters of a mesh, in the order of its triangles, in the space of its positions.
 ///
-/// Made once for positions that stay as they are.
+/// They are valid as long as the positions do not change.
 #[derive(Clone, Debug, Default)]
 pub struct Clusters {
     list: Vec<Cluster>,
 }
 
-/// Some triangles that follow one another.
+/// A run of consecutive triangles, their bounding box and the cone of their normals.
 #[derive(Clone, Copy, Debug)]
 pub struct Cluster {
     triangles: [u32; 2],
     vertices: [u32; 2],
     bounds: [[f32; 3]; 2],
-    /// The axis of the cone around their normals, times the cosine of its half angle; zero if they are in no half-space.
+    /// The axis of the cone around the normals, times the cosine of its half angle; zero if the
+    /// normals are in no half-space.
     cone_axis: [f32; 3],
 }
 
 impl Clusters {
-    /// The clusters of a mesh. Triangles with a corner that the mesh has no position for are as if they were not there.
+    /// Builds the clusters of a mesh. Triangles with a vertex index that is out of range are
+    /// ignored.
     ///
-    /// Without `cones` none is ever [turned away](Cluster::is_turned_away), and they are made in half the time.
+    /// Without `cones` no cluster is ever [back-facing](Cluster::is_back_facing), and building
+    /// takes half the time.
     #[must_use]
     pub fn build(positions: &[[f32; 3]], triangles: &[[u32; 3]], cones: bool) -> Self {
         let starts = (0..triangles.len()).step_by(CLUSTER_TRIANGLES);
@@ -45,20 +58,20 @@ impl Clusters {
         Self { list: starts.map(cluster).collect() }
     }
 
-    /// One after the other.
+    /// The clusters in the order of their triangles.
     #[must_use]
     pub fn as_slice(&self) -> &[Cluster] {
         &self.list
     }
 
-    /// The least and the greatest coordinates of all: infinite, and the wrong way round, if there are none.
+    /// The bounding box of the mesh, as least and greatest coordinates; [∞, −∞] if it is empty.
     #[must_use]
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         self.list.iter().fold(EMPTY_BOUNDS, |bounds, cluster| union_bounds(bounds, &cluster.bounds))
     }
 }
 
-/// The bounds of no points.
+/// The bounding box of no points.
 const EMPTY_BOUNDS: [[f32; 3]; 2] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 
 impl Cluster {
@@ -97,30 +110,34 @@ impl Cluster {
         }
     }
 
-    /// Its triangles, by their places in the mesh.
+    /// The indices of the triangles in the mesh.
     #[must_use]
     pub fn triangles(&self) -> Range<usize> {
         self.triangles[0] as usize..self.triangles[1] as usize
     }
 
-    /// All vertices that they use, and those between, by their places in the mesh.
+    /// The range of indices of all vertices that the triangles use.
     #[must_use]
     pub fn vertices(&self) -> Range<usize> {
         self.vertices[0] as usize..self.vertices[1] as usize
     }
 
-    /// The least and the greatest coordinates of their corners.
+    /// The bounding box: the least and the greatest coordinates of the vertices.
     #[must_use]
     pub const fn bounds(&self) -> [[f32; 3]; 2] {
         self.bounds
     }
 
-    /// Whether all triangles turn their backs to the viewer: an eye, or a direction towards it as a point at infinity. Corners run
-    /// counter-clockwise around the front. `false` if it is not certain.
+    /// Back-face culling of the cluster: whether certainly all of its triangles face away from the
+    /// viewer.
     ///
-    /// With the viewer `e` and a corner `p`, a triangle of the normal `n` shows its back if n · (e − e_w p) < 0. The box bounds all
-    /// `p`, the cone all `n`: the greatest product is that of the way from the box's centre with the nearest normal of the
-    /// cone, and at most the box's radius more.
+    /// The viewer is an eye, or a direction towards it as a point at infinity. Fronts are
+    /// counter-clockwise.
+    ///
+    /// With the viewer `e` and a vertex `p`, a triangle of normal `n` faces away if n · (e − e_w p)
+    /// < 0. The box bounds all `p`, the cone all `n`: the greatest product is that of the vector
+    /// from the box's center with the nearest normal of the cone, and at most the box's radius
+    /// more.
     #[must_use]
     pub fn is_back_facing<S: Space>(&self, viewer: HPoint<S>) -> bool {
         let axis = DVec3::from_array(self.cone_axis.map(f64::from));
@@ -131,17 +148,19 @@ impl Cluster {
         let axis = axis / cosine;
         let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let (eye, w) = (viewer.raw().truncate(), viewer.w());
-        let way = eye - (least + greatest) * (0.5 * w);
+        let to_viewer = eye - (least + greatest) * (0.5 * w);
         let radius = (greatest - least).length() * (0.5 * w.abs());
-        let along = way.dot(axis);
-        let across = (way.length_squared() - along * along).max(0.0).sqrt();
+        let along = to_viewer.dot(axis);
+        let across = (to_viewer.length_squared() - along * along).max(0.0).sqrt();
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        // Angles from the axis to the way are above a right angle and the cone's below: their difference is what counts.
-        along < 0.0 && along * cosine + across * sine + radius < -CONE_MARGIN * way.length()
+        // The cosine of the difference of two angles: from the axis to the viewer, which is above a
+        // right angle, and from the axis to the cone's border, which is below.
+        let greatest = along * cosine + across * sine + radius;
+        along < 0.0 && greatest < -CONE_MARGIN * to_viewer.length()
     }
 }
 
-/// A box with another one.
+/// The bounding box of two boxes.
 #[inline(always)]
 fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [min_coordinates(low, other[0]), max_coordinates(high, other[1])]
@@ -149,7 +168,7 @@ fn union_bounds([low, high]: [[f32; 3]; 2], other: &[[f32; 3]; 2]) -> [[f32; 3];
 
 #[inline(always)]
 fn min_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    // Written out, these are single instructions; `min` minds what is no number.
+    // Written out, these are single instructions; `f32::min` takes several, to handle NaN.
     [0, 1, 2].map(|k| if a[k] < b[k] { a[k] } else { b[k] })
 }
 
@@ -162,7 +181,7 @@ fn max_coordinates(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
 struct TriangleNormals {
     list: [[f32; 3]; CLUSTER_TRIANGLES],
     count: usize,
-    /// Whether each triangle has one that single precision can tell.
+    /// Whether every triangle has a normal that single precision can represent.
     are_known: bool,
 }
 
@@ -183,15 +202,18 @@ impl TriangleNormals {
         let normal =
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let squared = dot(normal, normal);
-        // Of thinner triangles the product's rounding would turn the normal.
+        // In thinner triangles the rounding of the cross product would turn the normal.
         self.are_known &= squared > dot(a, a) * dot(b, b) * 1e-6 && squared.is_normal();
-        let per = 1.0 / squared.sqrt();
-        self.list[self.count] = normal.map(|coordinate| coordinate * per);
+        let inv_length = 1.0 / squared.sqrt();
+        self.list[self.count] = normal.map(|coordinate| coordinate * inv_length);
         self.count += 1;
     }
 
-    /// The axis of the cone around them, times the cosine of its half angle; zero if the cone is no narrower than a
-    /// half-space, or not all normals are known.
+    /// The axis of the cone around the normals, times the cosine of its half angle; zero if the
+    /// cone is no narrower than a half-space, or a normal is unknown.
+    ///
+    /// The axis is the mean of the normals. A minimal cone would cull a little more and cost much
+    /// more.
     fn normal_cone(&self) -> [f32; 3] {
         let list = if self.are_known { &self.list[..self.count] } else { &[] };
         let sum = list.iter().fold([0.0; 3], |sum, normal| [0, 1, 2].map(|k| sum[k] + normal[k]));
@@ -216,27 +238,27 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The part of a mesh that is to be drawn: some of its triangles, and the vertices that they need.
+/// The part of a mesh that is to be drawn: runs of its triangles, and the vertices that they need.
 #[derive(Clone, Debug, Default)]
 pub struct MeshSelection {
-    /// Runs of triangles, in their order, none touching the next.
+    /// Runs of triangles in order, none adjacent to the next.
     triangle_runs: Vec<Range<usize>>,
-    /// Whether vertices are needed, by blocks of [`BLOCK`].
+    /// Whether vertices are needed, by blocks of [`VERTEX_BLOCK`].
     vertex_blocks: Vec<bool>,
 }
 
-/// So many vertices that follow one another are needed together.
+/// Vertices are needed, or not, in blocks of so many: eight vectors of eight lanes.
 const VERTEX_BLOCK: usize = 64;
 
 impl MeshSelection {
-    /// Nothing of a mesh with so many vertices.
+    /// Selects nothing of a mesh with `vertices` vertices.
     pub fn clear(&mut self, vertices: usize) {
         self.triangle_runs.clear();
         self.vertex_blocks.clear();
         self.vertex_blocks.resize(vertices.div_ceil(VERTEX_BLOCK), false);
     }
 
-    /// Adds a cluster behind those that were added before.
+    /// Adds a cluster. Clusters must be added in the order of their triangles.
     pub fn add_cluster(&mut self, cluster: &Cluster) {
         let triangles = cluster.triangles();
         match self.triangle_runs.last_mut() {
@@ -251,37 +273,39 @@ impl MeshSelection {
         }
     }
 
-    /// Adds all triangles, which are so many, and all vertices.
+    /// Selects all `triangles` triangles of the mesh, and all vertices.
     pub fn add_all(&mut self, triangles: usize) {
         self.triangle_runs.clear();
         self.triangle_runs.extend((triangles > 0).then_some(0..triangles));
         self.vertex_blocks.fill(true);
     }
 
-    /// Whether there are no triangles.
+    /// Whether no triangle is selected.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.triangle_runs.is_empty()
     }
 
-    /// The triangles, by their places in the mesh: runs in their order.
+    /// The selected triangles: runs of indices in the mesh, in order.
     #[must_use]
     pub fn triangles(&self) -> &[Range<usize>] {
         &self.triangle_runs
     }
 
-    /// The needed vertices among some, by their places among these: runs in their order. `among` begins with a block.
+    /// The needed vertices among some: runs of indices counted from `among.start`, in order.
+    ///
+    /// `among` must begin at a multiple of the block size, 64.
     pub fn vertices_within(&self, among: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let first = among.start / VERTEX_BLOCK;
         let blocks =
             self.vertex_blocks.get(first..among.end.div_ceil(VERTEX_BLOCK)).unwrap_or_default();
         let runs = blocks.chunk_by(|one, next| one == next);
-        let placed = runs.scan(0, move |start, run| {
-            let place = *start;
-            *start += run.len();
-            Some((run[0], place * VERTEX_BLOCK..(*start * VERTEX_BLOCK).min(among.len())))
+        let ranges = runs.scan(0, move |next, run| {
+            let start = *next;
+            *next += run.len();
+            Some((run[0], start * VERTEX_BLOCK..(*next * VERTEX_BLOCK).min(among.len())))
         });
-        placed.filter_map(|(is_needed, run)| is_needed.then_some(run))
+        ranges.filter_map(|(is_needed, run)| is_needed.then_some(run))
     }
 }
 

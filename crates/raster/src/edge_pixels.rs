@@ -1,11 +1,13 @@
-//! Pixels on edges: several solid pieces share their samples, and the pixel has the mean of their colours.
+//! Multisample resolve of edge pixels: several opaque triangles share the samples of a pixel, whose
+//! color is the mean of theirs.
 //!
 //! ```text
-//!   A A A A B B B B     the piece of each pixel's first sample: shaded as eight neighbours are
-//!         B   C         pieces of other samples: gathered along the row of the tile and shaded eight at a time
+//!   A A A A B B B B     the triangle of each pixel's first sample: shaded as eight neighbors are
+//!         B   C         triangles of other samples: gathered along the row, shaded eight at a time
 //! ```
 //!
-//! Colours are summed up channel by channel, so that sums, means and codes of eight pixels are made at once.
+//! Each triangle is shaded once per pixel, weighted by its number of samples. Colors are summed
+//! channel by channel, so that the means of eight pixels are computed and encoded at once.
 
 use crate::Samples;
 use crate::fragment_lanes::{F32x8, LANES};
@@ -13,14 +15,14 @@ use crate::tile_grid::TILE;
 use crate::tile_resolve::Contribution;
 use std::ops::Range;
 
-/// The pixels on edges in one row of a tile.
+/// The edge pixels in one row of a tile.
 #[derive(Debug)]
 pub(crate) struct EdgePixels {
     /// For each pixel red, green, blue and alpha, summed over its samples.
     color_sums: [[f32; TILE as usize]; 4],
-    /// Which blocks of eight pixels are here, bit by bit.
+    /// The blocks of eight pixels with edge pixels, one bit each.
     blocks: u32,
-    /// The pieces that are not those of their pixels' first samples, from left to right.
+    /// The contributions of triangles that are not visible at the first sample, from left to right.
     contributions: Vec<Contribution>,
 }
 
@@ -38,13 +40,15 @@ impl EdgePixels {
         self.contributions.clear();
     }
 
-    /// What is still to be added: the pieces that are not those of their pixels' first samples, from left to right.
+    /// The contributions that are still to be shaded and added, from left to right.
     pub(crate) fn contributions(&self) -> &[Contribution] {
         &self.contributions
     }
 
-    /// Adds eight pixels: the colours of the pieces of their first samples, and of how many samples these are. `planes` are the
-    /// pieces of all samples; those of pixels outside of `lanes` do not matter.
+    /// Adds a block of eight pixels: the colors of their first samples' triangles, weighted by the
+    /// number of samples that see the same triangle. Other triangles become contributions.
+    ///
+    /// `planes` are the triangles of all samples; those of pixels outside `lanes` are ignored.
     #[inline(always)]
     pub(crate) fn add_first_samples(
         &mut self,
@@ -63,51 +67,47 @@ impl EdgePixels {
         }
         let all = u32::MAX >> (32 - planes.len());
         for lane in lanes {
-            let mut left = all & !masks[lane];
-            while left != 0 {
-                let piece = planes[left.trailing_zeros() as usize][lane];
+            // Group the remaining samples of the pixel by triangle.
+            let mut remaining = all & !masks[lane];
+            while remaining != 0 {
+                let triangle = planes[remaining.trailing_zeros() as usize][lane];
                 let mut mask = 0;
-                for (sample, pieces) in planes.iter().enumerate() {
-                    mask |= u16::from(pieces[lane] == piece) << sample;
+                for (sample, triangles) in planes.iter().enumerate() {
+                    mask |= u16::from(triangles[lane] == triangle) << sample;
                 }
-                left &= !u32::from(mask);
+                remaining &= !u32::from(mask);
                 let x = (block * LANES + lane) as u32;
-                self.contributions.push(Contribution {
-                    x,
-                    triangle: piece,
-                    mask,
-                    translucent: false,
-                });
+                self.contributions.push(Contribution { x, triangle, mask, translucent: false });
             }
         }
     }
 
-    /// Adds the colours of some of the others, of eight at most.
+    /// Adds the colors of some of the contributions, of eight at most.
     #[inline(always)]
-    pub(crate) fn add_contributions(&mut self, some: Range<usize>, colors: &[F32x8; 4]) {
-        for (lane, other) in self.contributions[some].iter().enumerate() {
-            let samples = other.mask.count_ones() as f32;
+    pub(crate) fn add_contributions(&mut self, range: Range<usize>, colors: &[F32x8; 4]) {
+        for (lane, contribution) in self.contributions[range].iter().enumerate() {
+            let samples = contribution.mask.count_ones() as f32;
             for (sums, color) in self.color_sums.iter_mut().zip(colors) {
-                sums[other.x as usize] += color[lane] * samples;
+                sums[contribution.x as usize] += color[lane] * samples;
             }
         }
     }
 
-    /// The means over the samples, eight pixels at a time: the number of the block, and the colours.
+    /// The mean colors over the samples, block by block: the index of the block, and eight colors.
     #[inline(always)]
     pub(crate) fn mean_colors(
         &self,
         samples: Samples,
     ) -> impl Iterator<Item = (usize, [F32x8; 4])> {
         let blocks = (0..TILE as usize / LANES).filter(|block| self.blocks >> block & 1 != 0);
-        // The number of samples is a power of two, and the product exact.
-        let per = 1.0 / samples.count() as f32;
+        // The number of samples is a power of two: its reciprocal is exact, and so is the product.
+        let inv_count = 1.0 / samples.count() as f32;
         blocks.map(move |block| {
             let mut means = [[0.0; LANES]; 4];
             for (means, sums) in means.iter_mut().zip(&self.color_sums) {
                 let sums = &sums[block * LANES..(block + 1) * LANES];
                 for lane in 0..LANES {
-                    means[lane] = sums[lane] * per;
+                    means[lane] = sums[lane] * inv_count;
                 }
             }
             (block, means)
@@ -115,13 +115,13 @@ impl EdgePixels {
     }
 }
 
-/// The samples that see what the first one sees, bit by bit, for each of eight pixels.
+/// For each of eight pixels, the samples that see the triangle of the first one, one bit each.
 #[inline(always)]
 fn first_sample_masks(planes: &[[u32; LANES]]) -> [u32; LANES] {
     let mut masks = [1; LANES];
-    for (sample, pieces) in planes.iter().enumerate().skip(1) {
+    for (sample, triangles) in planes.iter().enumerate().skip(1) {
         for lane in 0..LANES {
-            masks[lane] |= u32::from(pieces[lane] == planes[0][lane]) << sample;
+            masks[lane] |= u32::from(triangles[lane] == planes[0][lane]) << sample;
         }
     }
     masks

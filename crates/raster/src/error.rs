@@ -1,12 +1,12 @@
-//! What can be wrong with a request to rasterise.
+//! Errors of the rasterizer.
 
 use crate::MAX_SIDE;
 
-/// A request that cannot be met.
+/// A frame that cannot be drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RasterError {
-    /// The picture has no pixels, or it reaches too far.
+    /// The picture has no pixels, or it reaches beyond [`MAX_SIDE`].
     #[error(
         "a picture of {width} x {height} pixels from pixel ({x}, {y}) on cannot be drawn; each side must be at least 1 \
          and end within {MAX_SIDE}"

@@ -1,4 +1,11 @@
-//! A frame: the primitives of one picture, in the order in which they were given.
+//! A frame: the draw list of one picture, and primitive assembly from vertices to screen triangles.
+//!
+//! ```text
+//!   ScreenVertex ×3 ─► cull by winding ─► drop without a sample ─► orient clockwise ─► buffer
+//! ```
+//!
+//! Triangles are stored in submission order, which breaks ties in depth: of two triangles at the
+//! same depth the one that was added first wins.
 
 use crate::buffer_pool::BufferPool;
 use crate::edge_function::signed_area;
@@ -7,36 +14,56 @@ use crate::primitive::{
     ScreenTriangle, WeightSource, normalize_inv_w, triangulate_line, triangulate_point,
 };
 use crate::screen_vertex::SUBPIXEL_BITS;
-use crate::tile_grid::{FrameRegion, TileGrid, TileRange};
+use crate::tile_grid::{TileGrid, TileRange};
 use crate::triangle_buffer::{CHUNK_TRIANGLES, TriangleBuffer, TriangleChunk};
 use crate::{CullMode, Opacity, RasterError, Samples, ScreenVertex, SimdLevel, SourceWeights};
 use core::ops::Range;
+use homog::PixelRect;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The longest side of a picture in pixels.
 pub const MAX_SIDE: u32 = 16384;
 
-/// The primitives of one picture.
+/// Meshes of fewer triangles are assembled by one thread: starting another takes as long.
+const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
+
+/// The primitives of one picture, and how they are to be drawn.
 ///
-/// Fill it with [`triangle`](Self::triangle), [`line`](Self::line) and [`point`](Self::point), then
-/// [`draw`](Self::draw) it. At equal depth the primitive given first wins, whatever the number of threads.
+/// Fill it with [`add_triangle`](Self::add_triangle), [`add_mesh`](Self::add_mesh),
+/// [`add_line`](Self::add_line) and [`add_point`](Self::add_point), then [`draw`](Self::draw) it.
+/// At equal depth the primitive added first wins, whatever the number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    pub(crate) region: FrameRegion,
+    pub(crate) region: PixelRect,
     pub(crate) samples: Samples,
     pub(crate) simd_level: SimdLevel,
     pub(crate) triangles: TriangleBuffer,
+    /// The source weights of triangles that are part of another primitive: see
+    /// [`WeightSource::Clipped`].
     pub(crate) source_weights: Vec<SourceWeights>,
+    /// The most threads that assemble a mesh.
     threads: usize,
     /// Drawing ends early once this is true.
     cancel: Option<Arc<AtomicBool>>,
-    /// What the last drawing left behind for the next.
+    /// Buffers of the last drawing, for the next.
     pub(crate) buffers: BufferPool,
 }
 
-/// Meshes of fewer triangles are added by one thread: starting another takes as long.
-const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
+/// The triangles of a mesh on the screen, as [`Frame::add_mesh_runs`] takes them.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshTriangles<'a> {
+    /// The vertices; `None` for those that cannot be drawn without clipping.
+    pub vertices: &'a [Option<ScreenVertex>],
+    /// The indices of each triangle's vertices.
+    pub triangles: &'a [[u32; 3]],
+    /// The id of the first triangle; the others count up from it.
+    pub first_id: u32,
+    /// How the triangles take part in visibility.
+    pub opacity: Opacity,
+    /// The winding of the triangles that are left out.
+    pub cull: CullMode,
+}
 
 impl Frame {
     /// An empty frame of `width` × `height` pixels.
@@ -44,24 +71,21 @@ impl Frame {
     /// # Errors
     /// [`RasterError::Size`] unless both sides are between 1 and [`MAX_SIDE`].
     pub fn new(width: u32, height: u32, samples: Samples) -> Result<Self, RasterError> {
-        Self::for_region([0, 0], [width, height], samples)
+        Self::for_region(PixelRect::from_size(width, height), samples)
     }
 
-    /// An empty frame that shows a part of a larger picture: `size` pixels from the pixel `corner` on.
+    /// An empty frame that shows a region of a larger picture.
     ///
-    /// Vertices and fragments keep their places in the whole picture, and parts that are drawn one by one have the
-    /// pixels of the whole, bit for bit: so pictures too large for memory are drawn, or only what has changed.
+    /// Vertices and fragments have coordinates of the whole picture, and regions that are drawn one
+    /// by one have the pixels of the whole, bit for bit. So pictures too large for memory can be
+    /// drawn, or only the region that has changed.
     ///
     /// # Errors
-    /// [`RasterError::Size`] unless both sides are at least 1 and the part ends within [`MAX_SIDE`].
-    pub fn for_region(
-        corner: [u32; 2],
-        size: [u32; 2],
-        samples: Samples,
-    ) -> Result<Self, RasterError> {
-        let part = check_region(corner, size)?;
+    /// [`RasterError::Size`] unless both sides are at least 1 and the region ends within
+    /// [`MAX_SIDE`].
+    pub fn for_region(region: PixelRect, samples: Samples) -> Result<Self, RasterError> {
         Ok(Self {
-            region: part,
+            region: check_region(region)?,
             samples,
             simd_level: SimdLevel::best(),
             triangles: TriangleBuffer::default(),
@@ -72,48 +96,49 @@ impl Frame {
         })
     }
 
-    /// The same frame, drawn with the given instructions: for measurements, and for proofs that they do not matter.
+    /// This frame, drawn with the given vector instructions: for measurements, and for tests that
+    /// they do not change a bit.
     #[must_use]
-    pub fn with_simd_level(self, instructions: SimdLevel) -> Self {
-        Self { simd_level: instructions, ..self }
+    pub fn with_simd_level(self, simd_level: SimdLevel) -> Self {
+        Self { simd_level, ..self }
     }
 
-    /// The same frame, whose large [`mesh`](Self::mesh)es are added by up to so many threads; 1 unless told otherwise. The
-    /// frame does not depend on it.
+    /// This frame, with large [meshes](Self::add_mesh) assembled by up to `threads` threads; the
+    /// default is 1. The result does not depend on it.
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
 
-    /// The same frame, whose [drawing](Self::draw) begins no further row of tiles once `stop` is true. What the target then holds
-    /// is no picture.
+    /// This frame, with [drawing](Self::draw) cancelled once `cancel` is true: no further row of
+    /// tiles is begun. The target then holds an unfinished picture.
     #[must_use]
-    pub fn with_cancel_flag(self, stop: Arc<AtomicBool>) -> Self {
-        Self { cancel: Some(stop), ..self }
+    pub fn with_cancel_flag(self, cancel: Arc<AtomicBool>) -> Self {
+        Self { cancel: Some(cancel), ..self }
     }
 
     pub(crate) fn is_canceled(&self) -> bool {
-        self.cancel.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
+        self.cancel.as_ref().is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
 
-    /// The instructions that it is drawn with.
+    /// The vector instructions that the frame is drawn with.
     #[must_use]
     pub const fn simd_level(&self) -> SimdLevel {
         self.simd_level
     }
 
-    /// Takes all primitives out again for a picture of another size, or of other samples, and keeps the memory.
+    /// Removes all primitives for a picture of another size or other samples, and keeps the memory.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the frame is then as it was.
+    /// As [`new`](Self::new); the frame is then unchanged.
     pub fn reset(&mut self, width: u32, height: u32, samples: Samples) -> Result<(), RasterError> {
-        self.region = check_region([0, 0], [width, height])?;
+        self.region = check_region(PixelRect::from_size(width, height))?;
         self.samples = samples;
         self.clear();
         Ok(())
     }
 
-    /// Takes all primitives out again and keeps the memory for the next picture.
+    /// Removes all primitives, and keeps the memory for the next picture.
     pub fn clear(&mut self) {
         self.triangles.clear();
         self.source_weights.clear();
@@ -131,60 +156,49 @@ impl Frame {
         self.region.height
     }
 
-    /// Adds a whole triangle; its corners may run either way. Leave out those that face away, if they are to be
-    /// invisible: see [`signed_area`](crate::signed_area).
-    pub fn add_triangle(&mut self, corners: [ScreenVertex; 3], id: u32, cover: Opacity) {
-        self.push_unclipped(corners, signed_area(corners), id, cover);
+    /// Adds a whole triangle of either winding.
+    ///
+    /// Nothing is culled. To drop back faces, look at [`signed_area`] before, or add a mesh.
+    pub fn add_triangle(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
+        self.push_unclipped(vertices, id, opacity);
     }
 
-    /// Adds the triangles of a mesh, named `first_id` and so on in their order. Triangles with a vertex that is missing, or
-    /// that the mesh does not have, are left out, and so are those with a negative [`signed_area`](crate::signed_area) if
-    /// `cull` asks for it, and those with a positive one if it asks for the others.
+    /// Adds the triangles of a mesh, with ids that count up from `first_id`.
+    ///
+    /// Triangles are dropped if a vertex is `None` or not in the mesh, if they are degenerate, if
+    /// their winding is culled, or if their bounds hold no sample of the frame.
     pub fn add_mesh(
         &mut self,
         vertices: &[Option<ScreenVertex>],
         triangles: &[[u32; 3]],
         first_id: u32,
-        cover: Opacity,
+        opacity: Opacity,
         cull: CullMode,
     ) {
         let all = 0..triangles.len();
-        self.add_mesh_runs(vertices, triangles, std::slice::from_ref(&all), first_id, cover, cull);
+        let mesh = MeshTriangles { vertices, triangles, first_id, opacity, cull };
+        self.add_mesh_runs(mesh, std::slice::from_ref(&all));
     }
 
-    /// As [`mesh`](Self::mesh), with some of the triangles only: `runs` of them, in their order. They keep their names.
+    /// Adds some of the triangles of a mesh: `runs` of them, in order. They keep their ids in the
+    /// mesh.
     ///
-    /// Runs must not overlap; what of them is not in the mesh is left out.
-    pub fn add_mesh_runs(
-        &mut self,
-        vertices: &[Option<ScreenVertex>],
-        triangles: &[[u32; 3]],
-        runs: &[Range<usize>],
-        first_id: u32,
-        cover: Opacity,
-        cull: CullMode,
-    ) {
-        let mesh = MeshTriangles {
-            vertices,
-            triangles,
-            first_id,
-            sample_bounds: self.sample_bounds(),
-            opacity: cover,
-            cull,
-        };
+    /// Runs must be sorted and must not overlap; the part of a run beyond the mesh is ignored.
+    pub fn add_mesh_runs(&mut self, mesh: MeshTriangles<'_>, runs: &[Range<usize>]) {
+        let bounds = self.sample_bounds();
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
+            // Chunk n takes what the runs have of the n-th 4096 triangles of the mesh, so that
+            // the order of the chunks is the order of the triangles for any number of threads.
             let first = self.triangles.chunks_in_use();
-            let chunks =
-                self.triangles.append_chunks(triangles.len().div_ceil(CHUNK_TRIANGLES)).iter_mut();
-            for_each_parallel(self.threads, chunks.enumerate(), |(number, chunk)| {
-                let whole = number * CHUNK_TRIANGLES..(number + 1) * CHUNK_TRIANGLES;
-                let before = runs.partition_point(|run| run.end <= whole.start);
-                for run in runs[before..].iter().take_while(|run| run.start < whole.end) {
-                    mesh.assemble_triangles(
-                        run.start.max(whole.start)..run.end.min(whole.end),
-                        chunk,
-                    );
+            let chunk_count = mesh.triangles.len().div_ceil(CHUNK_TRIANGLES);
+            let chunks = self.triangles.append_chunks(chunk_count).iter_mut();
+            for_each_parallel(self.threads, chunks.enumerate(), |(index, chunk)| {
+                let slice = index * CHUNK_TRIANGLES..(index + 1) * CHUNK_TRIANGLES;
+                let before = runs.partition_point(|run| run.end <= slice.start);
+                for run in runs[before..].iter().take_while(|run| run.start < slice.end) {
+                    let run = run.start.max(slice.start)..run.end.min(slice.end);
+                    mesh.assemble_triangles(bounds, run, chunk);
                 }
             });
             self.triangles.remove_empty_chunks(first);
@@ -193,83 +207,87 @@ impl Frame {
         for run in runs {
             let mut rest = run.clone();
             while !rest.is_empty() {
-                let (chunk, room) = self.triangles.open_with_space();
-                let end = rest.end.min(rest.start + room);
-                mesh.assemble_triangles(rest.start..end, chunk);
+                let (chunk, space) = self.triangles.open_with_space();
+                let end = rest.end.min(rest.start + space);
+                mesh.assemble_triangles(bounds, rest.start..end, chunk);
                 rest.start = end;
             }
         }
     }
 
-    /// Adds a piece of a triangle that was clipped; `weights` lead from its corners to those of the source.
+    /// Adds a part of a clipped triangle.
+    ///
+    /// `weights` are the weights of the source triangle's vertices at each of the given vertices;
+    /// by them its fragments get weights of the source triangle.
     pub fn add_clipped_triangle(
         &mut self,
-        corners: [ScreenVertex; 3],
+        vertices: [ScreenVertex; 3],
         weights: SourceWeights,
         id: u32,
-        cover: Opacity,
+        opacity: Opacity,
     ) {
-        self.push_clipped(corners, weights, id, cover);
+        self.push_clipped(vertices, weights, id, opacity);
     }
 
-    /// Adds a line `width` pixels wide. Its fragments have weights of the two ends, and 0 for the third corner.
-    pub fn add_line(&mut self, ends: [ScreenVertex; 2], width: f64, id: u32, cover: Opacity) {
-        for (corners, weights) in triangulate_line(ends, width).into_iter().flatten() {
-            self.push_clipped(corners, weights, id, cover);
+    /// Adds a line `width` pixels wide, as a rectangle with square ends flush with the line's.
+    ///
+    /// Its fragments have the weights of the two ends, and 0 for the third vertex.
+    pub fn add_line(&mut self, ends: [ScreenVertex; 2], width: f64, id: u32, opacity: Opacity) {
+        for (vertices, weights) in triangulate_line(ends, width).into_iter().flatten() {
+            self.push_clipped(vertices, weights, id, opacity);
         }
     }
 
-    /// Adds a piece of a line that was clipped: as [`line`](Self::line), with the places of the piece's ends in the
-    /// source line, 0 at its first and 1 at its second end.
+    /// Adds a part of a clipped line: as [`add_line`](Self::add_line), with the parameters of the
+    /// part's ends along the source line, 0 at its first and 1 at its second end.
     pub fn add_clipped_line(
         &mut self,
         ends: [ScreenVertex; 2],
-        places: [f32; 2],
+        parameters: [f32; 2],
         width: f64,
         id: u32,
-        cover: Opacity,
+        opacity: Opacity,
     ) {
-        let source = places.map(|t| [1.0 - t, t, 0.0]);
-        for (corners, weights) in triangulate_line(ends, width).into_iter().flatten() {
+        let source = parameters.map(|t| [1.0 - t, t, 0.0]);
+        for (vertices, weights) in triangulate_line(ends, width).into_iter().flatten() {
             let at_end = |weight: [f32; 3]| if weight[0] > 0.0 { source[0] } else { source[1] };
-            self.push_clipped(corners, weights.map(at_end), id, cover);
+            self.push_clipped(vertices, weights.map(at_end), id, opacity);
         }
     }
 
     /// Adds a point as a square of `size` pixels. Its fragments have the weights (1, 0, 0).
-    pub fn add_point(&mut self, center: ScreenVertex, size: f64, id: u32, cover: Opacity) {
-        for (corners, weights) in triangulate_point(center, size) {
-            self.push_clipped(corners, weights, id, cover);
+    pub fn add_point(&mut self, center: ScreenVertex, size: f64, id: u32, opacity: Opacity) {
+        for (vertices, weights) in triangulate_point(center, size) {
+            self.push_clipped(vertices, weights, id, opacity);
         }
     }
 
-    fn push_unclipped(&mut self, corners: [ScreenVertex; 3], area: i64, id: u32, cover: Opacity) {
-        let Some(tiles) = self.sample_bounds().touched_tiles(corners) else { return };
-        if let Some(piece) = assemble_triangle(corners, area, id, cover) {
-            self.triangles.push(piece, tiles);
+    fn push_unclipped(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
+        let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
+        let area = signed_area(vertices);
+        if let Some(triangle) = assemble_triangle(vertices, area, id, opacity) {
+            self.triangles.push(triangle, tiles);
         }
     }
 
     fn push_clipped(
         &mut self,
-        corners: [ScreenVertex; 3],
+        vertices: [ScreenVertex; 3],
         [at_p, at_q, at_r]: SourceWeights,
         id: u32,
-        cover: Opacity,
+        opacity: Opacity,
     ) {
-        let Some(tiles) = self.sample_bounds().touched_tiles(corners) else { return };
-        let [p, q, r] = corners;
-        let (corners, weights) = match signed_area(corners) {
+        let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
+        let [p, q, r] = vertices;
+        let (vertices, weights) = match signed_area(vertices) {
             0 => return,
-            1.. => (corners, [at_p, at_q, at_r]),
+            1.. => (vertices, [at_p, at_q, at_r]),
             _ => ([p, r, q], [at_p, at_r, at_q]),
         };
         let source = WeightSource::Clipped(self.source_weights.len() as u32);
         self.source_weights.push(weights);
-        self.triangles.push(
-            ScreenTriangle { corners: normalize_inv_w(corners), id, source, opacity: cover },
-            tiles,
-        );
+        let vertices = normalize_inv_w(vertices);
+        self.triangles.push(ScreenTriangle { vertices, id, source, opacity }, tiles);
     }
 
     fn sample_bounds(&self) -> SampleBounds {
@@ -277,81 +295,83 @@ impl Frame {
     }
 }
 
-/// The part of a picture from the pixel `corner` on, if there is one of this size.
-fn check_region(corner: [u32; 2], size: [u32; 2]) -> Result<FrameRegion, RasterError> {
-    let ([x, y], [width, height]) = (corner, size);
+/// Checks that a region is not empty and ends within [`MAX_SIDE`].
+fn check_region(region: PixelRect) -> Result<PixelRect, RasterError> {
+    let PixelRect { x, y, width, height } = region;
     let fits = |from: u32, side: u32| {
         side > 0 && from.checked_add(side).is_some_and(|end| end <= MAX_SIDE)
     };
     if !fits(x, width) || !fits(y, height) {
         return Err(RasterError::Size { x, y, width, height });
     }
-    Ok(FrameRegion { x, y, width, height })
-}
-
-/// A mesh on its way into a frame.
-struct MeshTriangles<'a> {
-    vertices: &'a [Option<ScreenVertex>],
-    triangles: &'a [[u32; 3]],
-    first_id: u32,
-    sample_bounds: SampleBounds,
-    opacity: Opacity,
-    cull: CullMode,
+    Ok(region)
 }
 
 impl MeshTriangles<'_> {
-    /// Appends the pieces of some of its triangles.
-    fn assemble_triangles(&self, run: Range<usize>, chunk: &mut TriangleChunk) {
-        let vertex = |n: u32| self.vertices.get(n as usize).copied().flatten();
+    /// Primitive assembly: appends those triangles of a run that are not culled and may cover a
+    /// sample.
+    fn assemble_triangles(
+        &self,
+        bounds: SampleBounds,
+        run: Range<usize>,
+        chunk: &mut TriangleChunk,
+    ) {
+        let vertex = |index: u32| self.vertices.get(index as usize).copied().flatten();
         let first_id = self.first_id.wrapping_add(run.start as u32);
         let end = run.end.min(self.triangles.len());
         let triangles = self.triangles.get(run.start..end).unwrap_or_default();
         chunk.reserve(triangles.len());
         for (id, &[p, q, r]) in (first_id..).zip(triangles) {
             let (Some(p), Some(q), Some(r)) = (vertex(p), vertex(q), vertex(r)) else { continue };
+            // Back-face culling: the sign of the area is the winding on the screen.
             let area = signed_area([p, q, r]);
             if !self.cull.retains(area) {
                 continue;
             }
-            let Some(tiles) = self.sample_bounds.touched_tiles([p, q, r]) else { continue };
-            if let Some(piece) = assemble_triangle([p, q, r], area, id, self.opacity) {
-                chunk.push(piece, tiles);
+            // Of a mesh finer than the pixels most triangles end here, before any set-up.
+            let Some(tiles) = bounds.touched_tiles([p, q, r]) else { continue };
+            if let Some(triangle) = assemble_triangle([p, q, r], area, id, self.opacity) {
+                chunk.push(triangle, tiles);
             }
         }
     }
 }
 
-/// A whole triangle as a piece; `None` if it has no area.
+/// A whole triangle with its vertices clockwise on the screen; `None` if it is degenerate.
 #[inline(always)]
 fn assemble_triangle(
     [p, q, r]: [ScreenVertex; 3],
     area: i64,
     id: u32,
-    cover: Opacity,
+    opacity: Opacity,
 ) -> Option<ScreenTriangle> {
-    let (corners, source) = match area {
+    // Edge functions are positive inside for one winding only. Swapping two vertices reverses it;
+    // the source says so, and fragments get their weights in the order of the original vertices.
+    let (vertices, source) = match area {
         0 => return None,
         1.. => ([p, q, r], WeightSource::Unclipped),
         _ => ([p, r, q], WeightSource::Flipped),
     };
-    Some(ScreenTriangle { corners: normalize_inv_w(corners), id, source, opacity: cover })
+    Some(ScreenTriangle { vertices: normalize_inv_w(vertices), id, source, opacity })
 }
 
-/// Which triangles are kept: those that may cover a sample of the picture's part.
+/// The test whether a triangle's bounds hold a sample of the frame, and which tiles they touch.
 #[derive(Clone, Copy)]
 struct SampleBounds {
     grid: TileGrid,
-    /// The least and the greatest offset of samples.
+    /// The least and the greatest offset of a sample from its pixel's borders, in grid steps.
     offset_range: (i32, i32),
 }
 
 impl SampleBounds {
-    /// The tiles of the part that a triangle's bounds touch; `None` if it touches none, or if its bounds hold no sample: of meshes
-    /// finer than the pixels most triangles hold none.
+    /// The tiles of the frame that a triangle's bounds touch; `None` if they touch none or hold no
+    /// sample.
     #[inline(always)]
     fn touched_tiles(&self, [p, q, r]: [ScreenVertex; 3]) -> Option<TileRange> {
         let (least, greatest) = self.offset_range;
-        // Pixels from the first whose last sample is not before the bounds to the last whose first is not behind.
+        // Along one axis: the first pixel whose last sample is not before the bounds, and the last
+        // pixel whose first sample is not behind them. Sub-pixel triangles between samples have
+        // none.
         let holds = |[low, high]: [i32; 2]| {
             (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
         };

@@ -1,4 +1,13 @@
-//! Pixels under translucent layers: fragment by fragment, the farthest first, put together sample by sample.
+//! Blending of translucent layers: fragment by fragment, back to front, sample by sample.
+//!
+//! ```text
+//!   pixel: opaque A (samples 0–2), opaque B (sample 3), layer C (all), layer D (samples 2–3)
+//!   sample 0: A ← C       sample 2: A ← C ← D        color ← c + transmittance · color
+//!   sample 1: A ← C       sample 3: B ← C ← D        then the mean of the samples
+//! ```
+//!
+//! The order is exact per pixel, by depth, for any order of submission (order-independent
+//! transparency with per-pixel lists).
 
 use crate::fragment_lanes::LANES;
 use crate::sample_plane::NO_TRIANGLE;
@@ -7,49 +16,58 @@ use crate::tile_resolve::{Contribution, PixelRun, TileResolve, split_before};
 use crate::tile_visibility::TranslucentLayer;
 use crate::{Encode, Surface};
 
-/// The fragments of a row of pixels under layers, and their colours.
+/// The contributions to the pixels with layers in one row of a tile, and their colors.
 #[derive(Debug, Default)]
 pub(crate) struct LayeredPixels {
+    /// From left to right; those of a pixel back to front, opaque ones first.
     pub(crate) contributions: Vec<Contribution>,
+    /// The color of each contribution.
     colors: Vec<[f32; 4]>,
-    /// The shares of what is behind that they let through; without meaning where they are solid.
+    /// The factor of what is behind each contribution; meaningless for opaque ones.
     transmittances: Vec<[f32; 3]>,
 }
 
 impl<S: Surface> TileResolve<'_, S> {
-    /// Lists what is seen in each pixel of a run with layers: each solid piece once, then the layers, the farthest first. A
-    /// pixel where nothing is seen gets a share of nothing, so that it is written.
+    /// Lists the contributions to each pixel of a run with layers: each opaque triangle once, then
+    /// the layers back to front.
+    ///
+    /// A pixel that shows the background gets a contribution of no triangle, so that it is written.
     #[inline(always)]
-    pub(crate) fn gather_contributions(&self, run: &PixelRun<'_>, shares: &mut Vec<Contribution>) {
+    pub(crate) fn gather_contributions(
+        &self,
+        run: &PixelRun<'_>,
+        contributions: &mut Vec<Contribution>,
+    ) {
         let mut planes = [[NO_TRIANGLE; LANES]; 16];
         let planes = self.sample_triangles(run, &mut planes);
         let mut layers = run.layers;
         for x in run.lanes.clone() {
             let lane = (x - run.block_start()) as usize;
-            let mut left = self.full_sample_mask();
-            while left != 0 {
-                let piece = planes[left.trailing_zeros() as usize][lane];
+            let mut remaining = self.full_sample_mask();
+            while remaining != 0 {
+                let triangle = planes[remaining.trailing_zeros() as usize][lane];
                 let mut mask = 0;
-                for (sample, pieces) in planes.iter().enumerate() {
-                    mask |= u16::from(pieces[lane] == piece) << sample;
+                for (sample, triangles) in planes.iter().enumerate() {
+                    mask |= u16::from(triangles[lane] == triangle) << sample;
                 }
-                left &= !mask;
-                shares.push(Contribution { x, triangle: piece, mask, translucent: false });
+                remaining &= !mask;
+                contributions.push(Contribution { x, triangle, mask, translucent: false });
             }
             let over;
             (over, layers) = split_before(layers, (run.y * TILE + x + 1) as usize);
-            shares.extend(over.iter().map(|layer| {
-                let TranslucentLayer { triangle: piece, mask, .. } = *layer;
-                Contribution { x, triangle: piece, mask, translucent: true }
+            contributions.extend(over.iter().map(|layer| {
+                let TranslucentLayer { triangle, mask, .. } = *layer;
+                Contribution { x, triangle, mask, translucent: true }
             }));
         }
     }
 
+    /// A mask with one bit for each sample.
     fn full_sample_mask(&self) -> u16 {
         (u32::MAX >> (32 - self.frame.samples.count())) as u16
     }
 
-    /// Writes the pixels of a row whose shares were gathered.
+    /// Shades the gathered contributions of a row eight at a time, blends and writes their pixels.
     #[inline(always)]
     pub(crate) fn write_layered_pixels<P: Copy>(
         &self,
@@ -58,10 +76,10 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
         layered: &mut LayeredPixels,
     ) {
-        let LayeredPixels { contributions: shares, colors, transmittances: through } = layered;
+        let LayeredPixels { contributions, colors, transmittances } = layered;
         colors.clear();
-        through.clear();
-        for eight in shares.chunks(LANES) {
+        transmittances.clear();
+        for eight in contributions.chunks(LANES) {
             let fragments = self.gather_fragments(y, eight);
             let [r, g, b, alpha] = self.shade_contributions(eight, fragments.as_ref());
             colors.extend((0..eight.len()).map(|k| [r[k], g[k], b[k], alpha[k]]));
@@ -69,33 +87,33 @@ impl<S: Surface> TileResolve<'_, S> {
                 Some(fragments) => self.surface.transmittance_eight(&fragments, &alpha),
                 None => [[0.0; LANES]; 3],
             };
-            through.extend((0..eight.len()).map(|k| [r[k], g[k], b[k]]));
+            transmittances.extend((0..eight.len()).map(|k| [r[k], g[k], b[k]]));
         }
         let mut from = 0;
-        while let Some(first) = shares.get(from) {
-            let same = shares[from..].iter().take_while(|share| share.x == first.x).count();
-            let range = from..from + same;
-            let (shares, colors) = (&shares[range.clone()], &colors[range.clone()]);
-            let color = self.blend_pixel(shares, colors, &through[range]);
+        while let Some(first) = contributions.get(from) {
+            let of_pixel = contributions[from..].iter().take_while(|next| next.x == first.x);
+            let range = from..from + of_pixel.count();
+            let (contributions, colors) = (&contributions[range.clone()], &colors[range.clone()]);
+            from = range.end;
+            let color = self.blend_pixel(contributions, colors, &transmittances[range]);
             row[(first.x - self.rect.left) as usize] = encode.encode_pixel(color);
-            from += same;
         }
     }
 
-    /// The colour of a pixel, which is the mean of its samples.
+    /// The color of a pixel: the mean of its samples.
     #[inline(always)]
     fn blend_pixel(
         &self,
-        shares: &[Contribution],
+        contributions: &[Contribution],
         colors: &[[f32; 4]],
-        through: &[[f32; 3]],
+        transmittances: &[[f32; 3]],
     ) -> [f32; 4] {
-        if shares[shares.len() - 1].translucent {
-            return self.blend_layers(shares, colors, through);
+        if contributions[contributions.len() - 1].translucent {
+            return self.blend_layers(contributions, colors, transmittances);
         }
         let mut sum = [0.0; 4];
-        for (share, color) in shares.iter().zip(colors) {
-            let samples = share.mask.count_ones() as f32;
+        for (contribution, color) in contributions.iter().zip(colors) {
+            let samples = contribution.mask.count_ones() as f32;
             for (sum, channel) in sum.iter_mut().zip(color) {
                 *sum += channel * samples;
             }
@@ -103,21 +121,26 @@ impl<S: Surface> TileResolve<'_, S> {
         self.mean_color(sum)
     }
 
-    /// With something translucent over it, a pixel is put together sample by sample.
+    /// The color of a pixel with layers: back-to-front blending of every sample by itself.
+    ///
+    /// Blending the means instead would be cheaper, but lets the background shine through where an
+    /// opaque edge and a layer's edge meet.
     fn blend_layers(
         &self,
-        shares: &[Contribution],
+        contributions: &[Contribution],
         colors: &[[f32; 4]],
-        through: &[[f32; 3]],
+        transmittances: &[[f32; 3]],
     ) -> [f32; 4] {
         let mut samples = [[0.0; 4]; 16];
-        for ((share, color), [r, g, b]) in shares.iter().zip(colors).zip(through) {
+        let layers = contributions.iter().zip(colors).zip(transmittances);
+        for ((contribution, color), [r, g, b]) in layers {
+            // Opaque contributions replace what is there: their transmittance is 0.
             let mut behind = [0.0; 4];
-            if share.translucent {
+            if contribution.translucent {
                 behind = [*r, *g, *b, 1.0 - color[3]];
             }
-            for (number, sample) in samples.iter_mut().enumerate() {
-                if share.mask & (1 << number) != 0 {
+            for (index, sample) in samples.iter_mut().enumerate() {
+                if contribution.mask & (1 << index) != 0 {
                     *sample = [0, 1, 2, 3].map(|k| color[k] + sample[k] * behind[k]);
                 }
             }

@@ -1,29 +1,51 @@
-//! Exact rasterisation: which pixels a triangle covers, which triangle is nearest, and what it looks like there.
+//! Exact, deterministic rasterization of triangles, lines and points with multisampling, a
+//! visibility buffer and deferred shading.
 //!
 //! ```text
-//!   ScreenVertex ──► Frame ──► bins ──► tile: depth + piece ──► fragments ──► your Surface ──► pixels
-//!   1/256 pixel      pieces    64 × 64  exact coverage          weights       colours
+//!   ScreenVertex ─► Frame ─► tile bins ─► tile: coverage, depth ─► fragments ─► Surface ─► pixels
+//!   1/256 pixel     assembly 64 × 64      visibility, layers       weights      colors
 //! ```
 //!
-//! Vertices are snapped to 1/256 pixel once; from there on coverage is a matter of integers, and a sample on an edge that
-//! two triangles share belongs to exactly one of them (the top-left rule, RA-1). First every sample learns which piece is
-//! nearest, then each visible piece is shaded once per pixel, so hidden surfaces cost no shading. The crate knows
-//! nothing of materials: it hands out perspective-correct weights of the corners (IN-2).
+//! | stage | file |
+//! | --- | --- |
+//! | perspective divide, viewport, snapping | `vertex_projection.rs`, `screen_vertex.rs` |
+//! | cluster culling: back faces by normal cones | `clusters.rs` |
+//! | primitive assembly, back-face culling | `frame.rs` |
+//! | tile binning | `tile_bins.rs` |
+//! | triangle setup: depth plane | `triangle_setup.rs`, `triangle_batch.rs` |
+//! | edge functions, top-left rule | `edge_function.rs` |
+//! | coverage, depth test, hierarchical z | `rasterize.rs`, `sample_plane.rs` |
+//! | hidden-surface removal per tile, alpha test, layers | `tile_visibility.rs` |
+//! | deferred shading | `tile_resolve.rs`, `fragment.rs`, `fragment_lanes.rs` |
+//! | multisample resolve, blending | `edge_pixels.rs`, `layer_blending.rs` |
+//! | SIMD dispatch, threads | `simd_level.rs`, `parallel.rs`, `tile_loop.rs` |
 //!
-//! Pixel (i, j) covers [i, i+1) × [j, j+1), its centre is at +½, y runs down. Depth is 1 at the near plane and 0 at the
-//! far plane, and the larger wins.
+//! Vertices are snapped to 1/256 pixel once; from there on coverage is a matter of integers, and a
+//! sample on an edge that two triangles share belongs to exactly one of them (the top-left rule,
+//! RA-1). First every sample learns which triangle is nearest, then each visible triangle is shaded
+//! once per pixel, so hidden surfaces cost no shading. The crate knows nothing of materials: a
+//! [`Surface`] gets perspective-correct weights of the vertices (IN-2) and returns colors.
+//!
+//! # Conventions
+//!
+//! Pixel (i, j) covers [i, i+1) × [j, j+1), its center is at +½, y runs down. Depth is 1 at the
+//! near plane and 0 at the far plane, and the larger wins. At equal depth the primitive that was
+//! submitted first wins. The picture has the same bits for any number of threads, any SIMD level
+//! and any division into regions.
+//!
+//! # Example
 //!
 //! ```
 //! use homog::Point;
-//! use raster::{Cover, Frame, Samples, ScreenVertex};
+//! use raster::{Frame, Opacity, Samples, ScreenVertex};
 //!
 //! let mut frame = Frame::new(16, 8, Samples::One)?;
-//! let corners = [(1.0, 7.0), (15.0, 7.0), (8.0, 0.0)];
-//! let corners = corners.map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0).unwrap());
-//! frame.triangle(corners, 7, Cover::Solid);
+//! let vertices = [(1.0, 7.0), (15.0, 7.0), (8.0, 0.0)];
+//! let vertices = vertices.map(|(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0).unwrap());
+//! frame.add_triangle(vertices, 7, Opacity::Opaque);
 //!
-//! let seen = frame.visibility();
-//! let rows: Vec<String> = seen.ids.chunks(16)
+//! let buffer = frame.visibility_buffer();
+//! let rows: Vec<String> = buffer.ids.chunks(16)
 //!     .map(|row| row.iter().map(|id| if *id == Some(7) { '#' } else { '.' }).collect())
 //!     .collect();
 //! // Samples on the left border are in, those on the right border and on the bottom are out.
@@ -75,7 +97,7 @@ pub use edge_function::signed_area;
 pub use error::RasterError;
 pub use fragment::Fragment;
 pub use fragment_lanes::{F32x8, Fragments, LANES, WeightLanes};
-pub use frame::{Frame, MAX_SIDE};
+pub use frame::{Frame, MAX_SIDE, MeshTriangles};
 pub use parallel::for_each_parallel;
 pub use primitive::{CullMode, Opacity, SourceWeights};
 pub use samples::Samples;
@@ -83,4 +105,10 @@ pub use screen_vertex::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use simd_level::{Kernel, SimdLevel};
 pub use surface::{Encode, Surface};
 pub use surface_depth::SurfaceDepth;
+pub use vertex_projection::VertexProjection;
 pub use visibility_buffer::VisibilityBuffer;
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,12 +1,16 @@
-//! Work shared among threads.
+//! Data-parallel loops over scoped threads.
 //!
-//! Threads are started for each piece of work and end with it: that takes some 30 µs a thread, where a frame worth more than one
-//! takes milliseconds, and needs neither a pool that outlives the frame nor a dependency.
+//! Threads are started for each loop and end with it. Starting one takes some 30 µs; loops that are
+//! given more than one thread run for milliseconds. In return there is no pool that outlives the
+//! frame, and no dependency.
 
 use std::sync::{Mutex, PoisonError};
 
-/// Does the work for each item, by up to so many threads, each of which takes the next item when it is done with one: as frames
-/// are drawn, for whoever prepares or finishes them.
+/// Calls `work` with each item, on up to `threads` threads (one at least).
+///
+/// Each thread takes the next item when it has finished one, so that items of uneven cost are
+/// balanced. The order in which items finish is not defined: `work` should write to places of its
+/// own only.
 pub fn for_each_parallel<T, I>(threads: usize, items: I, work: impl Fn(T) + Sync)
 where
     T: Send,
@@ -16,7 +20,10 @@ where
     for_each_with_workers(&mut nothing, items, |(), item| work(item));
 }
 
-/// As [`share`], by up to a thread for each of the workers (one at least), which keep what they need from item to item.
+/// Calls `work` with each item and the state of the thread that takes it.
+///
+/// There is one thread for each of the `workers`, but no more than there are items. The calling
+/// thread is the first of them: with a single worker no thread is started.
 pub(crate) fn for_each_with_workers<W, T, I>(
     workers: &mut [W],
     items: I,

@@ -1,34 +1,36 @@
-//! What a frame is made of: triangles, and lines and points turned into triangles.
+//! Primitives: screen triangles, and lines and points as triangles.
 
 use crate::ScreenVertex;
 use crate::screen_vertex::{GRID_RANGE, SUBPIXELS};
 
-/// How a primitive takes part in visibility.
+/// How a primitive takes part in visibility: the alpha modes of glTF, `OPAQUE`, `MASK` and `BLEND`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Opacity {
-    /// It hides what is behind it.
+    /// Hides everything behind it.
     #[default]
     Opaque,
-    /// It hides what is behind it where [`Surface::keeps`](crate::Surface::keeps) says so, and is absent elsewhere.
+    /// Alpha tested: hides everything behind it where
+    /// [`Surface::passes_alpha_test`](crate::Surface::passes_alpha_test) is true, and is absent
+    /// elsewhere.
     Masked,
-    /// It lets through what is behind it: its fragments are blended over the solid ones, the farthest first.
+    /// Alpha blended: its fragments are blended over the opaque ones, back to front.
     Translucent,
 }
 
-/// Which triangles of a mesh are left out, by the way their corners run on the screen (y down).
+/// The triangles of a mesh to leave out, by their winding on the screen (y down).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum CullMode {
-    /// None.
+    /// No triangles.
     #[default]
     Nothing,
-    /// Those that run clockwise, the backs of closed bodies as glTF and OpenGL wind them.
+    /// Clockwise triangles: back faces, where front faces are counter-clockwise (glTF, OpenGL).
     Clockwise,
-    /// Those that run counter-clockwise.
+    /// Counter-clockwise triangles: front faces as glTF and OpenGL wind them.
     CounterClockwise,
 }
 
 impl CullMode {
-    /// Whether a triangle with this signed area is kept.
+    /// Whether a triangle with this [signed area](crate::signed_area) is drawn.
     #[inline(always)]
     pub(crate) const fn retains(self, area: i64) -> bool {
         match self {
@@ -39,69 +41,73 @@ impl CullMode {
     }
 }
 
-/// For each corner of a piece, the weights of the source primitive's corners there.
+/// The weights of a source primitive's vertices at each vertex of a triangle that is part of it.
 ///
-/// A triangle that was clipped arrives in pieces; a line and a point arrive as rectangles. Whoever shades wants the
-/// weights in the primitive he gave, and these lead back to it.
+/// A clipped triangle arrives as several triangles, a line and a point as two. Surfaces are shaded
+/// by weights in the primitive that was submitted, and these weights lead back to it.
 pub type SourceWeights = [[f32; 3]; 3];
 
-/// A triangle of the screen, corners clockwise (y down), with the name of what it is a piece of.
+/// A triangle of the screen with its vertices clockwise (y down), and the primitive it is part of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScreenTriangle {
-    pub(crate) corners: [ScreenVertex; 3],
+    pub(crate) vertices: [ScreenVertex; 3],
+    /// The id that the primitive was submitted with.
     pub(crate) id: u32,
     pub(crate) source: WeightSource,
     pub(crate) opacity: Opacity,
 }
 
 impl ScreenTriangle {
-    /// The depth of its nearest corner.
+    /// The depth of the nearest vertex: no sample of the triangle is nearer.
     #[inline(always)]
     pub(crate) fn nearest_depth(&self) -> f32 {
-        let [p, q, r] = &self.corners;
+        let [p, q, r] = &self.vertices;
         p.depth.max(q.depth).max(r.depth)
     }
 }
 
-/// How the corners of a piece lead back to those of the primitive it is a piece of.
+/// How weights of a screen triangle's vertices become weights of its source primitive's vertices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum WeightSource {
-    /// The piece is the primitive.
+    /// The triangle is the primitive.
     Unclipped,
-    /// The piece is the primitive with its second and third corner exchanged, so that they run clockwise.
+    /// The triangle is the primitive with its second and third vertex swapped, to be clockwise.
     Flipped,
-    /// By an entry of the frame's source weights.
+    /// The triangle is part of the primitive: an index into the frame's source weights.
     Clipped(u32),
 }
 
-/// The sizes of 1/w with which no product on the way to weights and their derivatives over- or underflows.
+/// The range of 1/w in which no product of the weights and their derivatives over- or underflows.
 const SAFE_INV_W: core::ops::RangeInclusive<f32> = 1.0 / MAX_SAFE_INV_W..=MAX_SAFE_INV_W;
 /// 2⁴⁰.
 const MAX_SAFE_INV_W: f32 = 1_099_511_627_776.0;
 
-/// The corners, with 1/w near 1 if it was very large or very small: weights depend on its ratios alone.
+/// The vertices, with 1/w scaled to 1 if it is extreme: weights depend on the ratios of 1/w only.
 #[inline(always)]
-pub(crate) fn normalize_inv_w(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
-    let is_usual = |corner: &ScreenVertex| SAFE_INV_W.contains(&corner.inv_w());
-    if is_usual(&corners[0]) & is_usual(&corners[1]) & is_usual(&corners[2]) {
-        return corners;
+pub(crate) fn normalize_inv_w(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    let is_safe = |vertex: &ScreenVertex| SAFE_INV_W.contains(&vertex.inv_w());
+    if is_safe(&vertices[0]) & is_safe(&vertices[1]) & is_safe(&vertices[2]) {
+        return vertices;
     }
-    scale_inv_w_to_one(corners)
+    scale_inv_w_to_one(vertices)
 }
 
-/// The corners with 1 as the largest 1/w. None becomes so small that a weight between the others has nothing to be divided by.
+/// The vertices with 1/w scaled so that the largest is 1.
+///
+/// None becomes less than 2⁻⁸⁰, so that a weight between two small ones still has a divisor. Out of
+/// line, for no ordinary scene comes here.
 #[cold]
-fn scale_inv_w_to_one(corners: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
-    let [p, q, r] = corners.map(|corner| f64::from(corner.inv_w()));
+fn scale_inv_w_to_one(vertices: [ScreenVertex; 3]) -> [ScreenVertex; 3] {
+    let [p, q, r] = vertices.map(|vertex| f64::from(vertex.inv_w()));
     let largest = p.max(q).max(r);
     let least = 1.0 / (MAX_SAFE_INV_W * MAX_SAFE_INV_W);
-    corners.map(|corner| {
-        let share = (f64::from(corner.inv_w()) / largest) as f32;
-        ScreenVertex::new(corner.x, corner.y, corner.depth, share.max(least)).unwrap_or(corner)
+    vertices.map(|vertex| {
+        let ratio = (f64::from(vertex.inv_w()) / largest) as f32;
+        ScreenVertex::new(vertex.x, vertex.y, vertex.depth, ratio.max(least)).unwrap_or(vertex)
     })
 }
 
-/// A rectangle of the screen around a line, as two triangles; none if the ends coincide or cannot be drawn.
+/// A line as two triangles of a rectangle around it; `None` if its ends coincide.
 ///
 /// The ends are square and flush with the line's ends. Depth and 1/w are constant across the line.
 pub(crate) fn triangulate_line(
@@ -113,31 +119,34 @@ pub(crate) fn triangulate_line(
     if length == 0.0 {
         return [None, None];
     }
-    let reach = 0.5 * width * f64::from(SUBPIXELS) / length;
-    let (nx, ny) = (-dy * reach, dx * reach);
+    // The normal of the line, half a line width long.
+    let scale = 0.5 * width * f64::from(SUBPIXELS) / length;
+    let (nx, ny) = (-dy * scale, dx * scale);
     let (at_a, at_b) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let [a0, a1] = [offset_vertex(a, nx, ny), offset_vertex(a, -nx, -ny)];
     let [b0, b1] = [offset_vertex(b, nx, ny), offset_vertex(b, -nx, -ny)];
     [Some(([a0, b0, b1], [at_a, at_b, at_b])), Some(([a0, b1, a1], [at_a, at_b, at_a]))]
 }
 
-/// A square of the screen around a point, as two triangles.
+/// A point as two triangles of a square around it, with constant depth and 1/w.
 pub(crate) fn triangulate_point(
     center: ScreenVertex,
     size: f64,
 ) -> [([ScreenVertex; 3], SourceWeights); 2] {
-    let reach = 0.5 * size * f64::from(SUBPIXELS);
-    let corner = |x: f64, y: f64| offset_vertex(center, x * reach, y * reach);
+    let half = 0.5 * size * f64::from(SUBPIXELS);
+    let corner = |x: f64, y: f64| offset_vertex(center, x * half, y * half);
     let [nw, ne] = [corner(-1.0, -1.0), corner(1.0, -1.0)];
     let [sw, se] = [corner(-1.0, 1.0), corner(1.0, 1.0)];
-    let there = [[1.0, 0.0, 0.0]; 3];
-    [([nw, ne, se], there), ([nw, se, sw], there)]
+    let weights = [[1.0, 0.0, 0.0]; 3];
+    [([nw, ne, se], weights), ([nw, se, sw], weights)]
 }
 
+/// A vertex moved by grid steps, rounded to the nearest step (halves up).
 fn offset_vertex(vertex: ScreenVertex, dx: f64, dy: f64) -> ScreenVertex {
-    // However wide a line, its corners stay on the grid.
+    // However wide the line, its vertices stay within the guard band.
     let shift = |from: i32, by: f64| {
-        from.saturating_add((by + 0.5).floor() as i32).clamp(*GRID_RANGE.start(), *GRID_RANGE.end())
+        let moved = from.saturating_add((by + 0.5).floor() as i32);
+        moved.clamp(*GRID_RANGE.start(), *GRID_RANGE.end())
     };
     let mut moved = vertex;
     (moved.x, moved.y) = (shift(vertex.x, dx), shift(vertex.y, dy));

@@ -1,52 +1,69 @@
-//! Filling a plane with triangles: the innermost loops, written for vectors.
+//! Rasterization of one triangle into a tile: coverage, depth test and hierarchical z, eight lanes
+//! wide.
 //!
-//! Eight blocks of a tile's row are sorted at once: which the triangle misses or lies behind, which it fills, which it fills and
-//! hides. Only where an edge runs through a block are its pixels asked for their coverage.
+//! ```text
+//!   row of 8 blocks          each block of 8 × 8 pixels
+//!   ┌──┬──┬──┬──┬──┬──┐      outside an edge, or behind every sample:  skipped
+//!   │  │ ▄│██│██│▀ │  │      inside all edges, before every sample:    overwritten, no test
+//!   └──┴──┴──┴──┴──┴──┘      inside all edges:                         depth test
+//!                            an edge runs through:                     coverage and depth test
+//! ```
+//!
+//! A sample is covered if none of the three edge functions is negative, and visible if it is also
+//! strictly nearer than the depth buffer. Because the comparison is strict and triangles come in
+//! submission order, the triangle that was submitted first wins ties in depth.
+//!
+//! Eight blocks of a row are classified at once by the edge functions at their corners. For
+//! triangles of a few blocks that does not pay, and they are drawn block by block.
 
 use crate::sample_plane::{BLOCK_SIDE, BLOCKS_PER_ROW, SamplePlane};
 use crate::triangle_setup::{SampleStart, TriangleFunctions};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 
-/// Triangles that touch no more blocks than this are drawn block by block without sorting these first.
+/// Triangles that touch no more blocks than this are drawn block by block, without classification.
 const FEW_BLOCKS: i32 = 4;
 
-/// Draws a solid triangle into all planes: where it is nearer than what is there, its depth and number take the place. `start`
-/// tells where its functions start in a plane.
+/// Rasterizes an opaque triangle into all sample planes of a tile, with depth test and depth write.
+///
+/// `start` gives the start values of the triangle's functions in a plane.
 #[inline(always)]
 pub(crate) fn rasterize_triangle<S: Simd>(
     simd: S,
     planes: &mut [SamplePlane],
     lanes: &TriangleLanes<S>,
     start: impl Fn(usize) -> SampleStart,
-    piece: u32,
+    triangle: u32,
 ) {
-    let TriangleFunctions { x0, y0, x1, y1, max_depth: greatest, .. } = lanes.functions;
+    let TriangleFunctions { x0, y0, x1, y1, max_depth, .. } = lanes.functions;
     let (columns, rows) = (x0 / 8..(x1 - 1) / 8 + 1, y0 / 8..(y1 - 1) / 8 + 1);
     if (columns.end - columns.start) * (rows.end - rows.start) > FEW_BLOCKS {
-        for (number, plane) in planes.iter_mut().enumerate() {
-            let start = start(number);
+        for (sample, plane) in planes.iter_mut().enumerate() {
+            let start = start(sample);
             for row in rows.clone() {
-                plane.rasterize_block_row(simd, lanes, &start, row, piece);
+                plane.rasterize_block_row(simd, lanes, &start, row, triangle);
             }
         }
         return;
     }
     for block in blocks_in_bounds(&lanes.functions) {
-        let along = lanes.column_depths(simd, block);
-        for (number, plane) in planes.iter_mut().enumerate() {
-            let start = start(number);
-            if greatest > plane.block_farthest[block.index] && !lanes.rejects_block(&start, block) {
-                plane.rasterize_partial_block(simd, lanes, &start, block, along, piece);
+        // Depth along the columns does not depend on the sample: once for all planes.
+        let columns = lanes.block_columns(simd, block);
+        for (sample, plane) in planes.iter_mut().enumerate() {
+            let start = start(sample);
+            // Hierarchical z, then the block's corners against the edges.
+            if max_depth > plane.block_farthest[block.index] && !lanes.rejects_block(&start, block)
+            {
+                plane.rasterize_partial_block(simd, lanes, &start, columns, triangle);
                 let nearest = &mut plane.block_nearest[block.index];
-                *nearest = nearer_depth(*nearest, greatest);
+                *nearest = nearer_depth(*nearest, max_depth);
             }
         }
     }
 }
 
 impl SamplePlane {
-    /// Draws what of a large triangle lies in a row of blocks.
+    /// Rasterizes the part of a large triangle that lies in one row of blocks.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,
@@ -54,35 +71,40 @@ impl SamplePlane {
         lanes: &TriangleLanes<S>,
         start: &SampleStart,
         row: i32,
-        piece: u32,
+        triangle: u32,
     ) {
         let first = row as usize * BLOCKS_PER_ROW;
-        let farthest = f32x8::from_slice(simd, &self.block_farthest[first..first + BLOCKS_PER_ROW]);
-        let nearest = f32x8::from_slice(simd, &self.block_nearest[first..first + BLOCKS_PER_ROW]);
+        let end = first + BLOCKS_PER_ROW;
+        let farthest = f32x8::from_slice(simd, &self.block_farthest[first..end]);
+        let nearest = f32x8::from_slice(simd, &self.block_nearest[first..end]);
         let coverage = lanes.classify_blocks(simd, start, row);
-        let BlockDepths { min_depth: least, max_depth: greatest, is_unclamped: flat } =
+        let BlockDepths { min_depth, max_depth, is_unclamped } =
             lanes.block_depth_bounds(simd, start, row);
-        let touched = coverage.is_touched & greatest.simd_gt(farthest);
-        let full = touched & coverage.is_full & flat;
-        let over = least.simd_gt(nearest);
-        let higher = |new: f32x8<S>, old: f32x8<S>| new.simd_gt(old).select(new, old);
-        let raised = full.select(higher(least, farthest), farthest);
-        raised.store_slice(&mut self.block_farthest[first..first + BLOCKS_PER_ROW]);
-        let raised = touched.select(higher(greatest, nearest), nearest);
-        raised.store_slice(&mut self.block_nearest[first..first + BLOCKS_PER_ROW]);
+        // Hierarchical z: touched blocks are not hidden as a whole. Of the blocks that the triangle
+        // fills, those that it is in front of everywhere need no depth test.
+        let touched = coverage.is_touched & max_depth.simd_gt(farthest);
+        let full = touched & coverage.is_full & is_unclamped;
+        let in_front = min_depth.simd_gt(nearest);
+        // Update the bounds: a full block is at least as near as the triangle's farthest point in
+        // it.
+        let nearer = |new: f32x8<S>, old: f32x8<S>| new.simd_gt(old).select(new, old);
+        let raised = full.select(nearer(min_depth, farthest), farthest);
+        raised.store_slice(&mut self.block_farthest[first..end]);
+        let raised = touched.select(nearer(max_depth, nearest), nearest);
+        raised.store_slice(&mut self.block_nearest[first..end]);
         let (mut touched, full) = (touched.to_bitmask(), full.to_bitmask());
-        let over = over.to_bitmask() & full;
+        let in_front = in_front.to_bitmask() & full;
         while touched != 0 {
             let column = touched.trailing_zeros();
             touched &= touched - 1;
             let block = Block::from_column_row(column as i32, row);
-            if over >> column & 1 != 0 {
-                self.overwrite_block(simd, lanes, start, block, piece);
+            if in_front >> column & 1 != 0 {
+                self.overwrite_block(simd, lanes, start, block, triangle);
             } else if full >> column & 1 != 0 {
-                self.depth_test_block(simd, lanes, start, block, piece);
+                self.depth_test_block(simd, lanes, start, block, triangle);
             } else {
-                let along = lanes.column_depths(simd, block);
-                self.rasterize_partial_block(simd, lanes, start, block, along, piece);
+                let columns = lanes.block_columns(simd, block);
+                self.rasterize_partial_block(simd, lanes, start, columns, triangle);
                 if lanes.bounds_contain(block) {
                     self.block_farthest[block.index] = self.farthest_in_block(simd, block);
                     self.count_nearer_blocks(1);
@@ -92,7 +114,7 @@ impl SamplePlane {
         self.count_nearer_blocks(full.count_ones());
     }
 
-    /// A block that the triangle fills, and is everywhere the nearest in.
+    /// Overwrites a block that the triangle fills, and is in front of everywhere.
     #[inline(always)]
     fn overwrite_block<S: Simd>(
         &mut self,
@@ -100,18 +122,18 @@ impl SamplePlane {
         lanes: &TriangleLanes<S>,
         start: &SampleStart,
         block: Block,
-        piece: u32,
+        triangle: u32,
     ) {
         let first = block.index * BLOCK_SIDE * BLOCK_SIDE;
-        let along = lanes.column_depths(simd, block);
+        let columns = lanes.block_columns(simd, block);
         let depths = &mut self.depth[first..first + BLOCK_SIDE * BLOCK_SIDE];
         for (row, depths) in depths.as_chunks_mut::<BLOCK_SIDE>().0.iter_mut().enumerate() {
-            (along + lanes.row_depth(simd, start, block, row)).store_slice(depths);
+            (columns.depths + lanes.row_depth(simd, start, block, row)).store_slice(depths);
         }
-        self.triangle[first..first + BLOCK_SIDE * BLOCK_SIDE].fill(piece);
+        self.triangle[first..first + BLOCK_SIDE * BLOCK_SIDE].fill(triangle);
     }
 
-    /// A block that the triangle fills.
+    /// Rasterizes a block that the triangle fills: depth test only.
     #[inline(always)]
     fn depth_test_block<S: Simd>(
         &mut self,
@@ -119,61 +141,66 @@ impl SamplePlane {
         lanes: &TriangleLanes<S>,
         start: &SampleStart,
         block: Block,
-        piece: u32,
+        triangle: u32,
     ) {
-        let along = lanes.column_depths(simd, block);
+        let columns = lanes.block_columns(simd, block);
         for row in 0..BLOCK_SIDE {
-            let depth = along + lanes.row_depth(simd, start, block, row);
-            self.depth_test_row(simd, block, row, depth, None, piece);
+            let depth = columns.depths + lanes.row_depth(simd, start, block, row);
+            self.depth_test_row(simd, block.row_index(row), depth, None, triangle);
         }
     }
 
-    /// A block that an edge may run through; `along` is the depth along its columns.
+    /// Rasterizes a block that an edge may run through: coverage and depth test of each sample.
     #[inline(always)]
     fn rasterize_partial_block<S: Simd>(
         &mut self,
         simd: S,
         lanes: &TriangleLanes<S>,
         start: &SampleStart,
-        block: Block,
-        along: f32x8<S>,
-        piece: u32,
+        BlockColumns { block, depths }: BlockColumns<S>,
+        triangle: u32,
     ) {
         let rows = lanes.rows_in_block(block);
         let mut edges = lanes.row_edge_values(simd, start, block, rows.start);
         for row in rows {
-            let inside = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
-            let depth = along + lanes.row_depth(simd, start, block, row);
-            self.depth_test_row(simd, block, row, lanes.clamp_depth(depth), Some(inside), piece);
+            // Coverage: the sign bits of the three edge functions together. All are clear inside.
+            let covered = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
+            let depth = lanes.clamp_depth(depths + lanes.row_depth(simd, start, block, row));
+            self.depth_test_row(simd, block.row_index(row), depth, Some(covered), triangle);
+            // Edge functions are linear: the next row is one addition away.
             for (edge, step) in edges.iter_mut().zip(lanes.functions.b) {
                 *edge += i32x8::splat(simd, step);
             }
         }
     }
 
+    /// Depth test and depth write for eight samples of a row, from array index `first` on.
+    ///
+    /// The test is strict: at equal depth the triangle that is there stays, which was submitted
+    /// earlier.
     #[inline(always)]
     fn depth_test_row<S: Simd>(
         &mut self,
         simd: S,
-        block: Block,
-        row: usize,
+        first: usize,
         depth: f32x8<S>,
-        inside: Option<mask32x8<S>>,
-        piece: u32,
+        covered: Option<mask32x8<S>>,
+        triangle: u32,
     ) {
-        let first = (block.index * BLOCK_SIDE + row) * BLOCK_SIDE;
         let depths: &mut [f32] = &mut self.depth[first..first + BLOCK_SIDE];
         let old = f32x8::from_slice(simd, depths);
         let nearer = depth.simd_gt(old);
-        let seen = inside.map_or(nearer, |inside| inside & nearer);
-        seen.select(depth, old).store_slice(depths);
-        let pieces: &mut [u32] = &mut self.triangle[first..first + BLOCK_SIDE];
-        let old = u32x8::from_slice(simd, pieces);
-        seen.select(u32x8::splat(simd, piece), old).store_slice(pieces);
+        let visible = covered.map_or(nearer, |covered| covered & nearer);
+        visible.select(depth, old).store_slice(depths);
+        let triangles: &mut [u32] = &mut self.triangle[first..first + BLOCK_SIDE];
+        let old = u32x8::from_slice(simd, triangles);
+        visible.select(u32x8::splat(simd, triangle), old).store_slice(triangles);
     }
 
-    /// Calls `each(array index, x, y, depth)` for every sample of the triangle that is nearer than what is there, or as near
-    /// if `or_equal`.
+    /// Calls `each(array index, x, y, depth)` for every covered sample that passes the depth test.
+    ///
+    /// Nothing is written: for masked triangles, whose alpha test comes in between, and translucent
+    /// ones. The test is strict unless `or_equal`.
     #[inline(always)]
     pub(crate) fn visit_visible_samples<S: Simd>(
         &mut self,
@@ -190,18 +217,19 @@ impl SamplePlane {
             {
                 continue;
             }
-            let along = lanes.column_depths(simd, block);
+            let columns = lanes.block_columns(simd, block);
             for row in lanes.rows_in_block(block) {
                 let edges = lanes.row_edge_values(simd, start, block, row);
-                let inside = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
-                let depth = lanes.clamp_depth(along + lanes.row_depth(simd, start, block, row));
-                let first = (block.index * BLOCK_SIDE + row) * BLOCK_SIDE;
+                let covered = (edges[0] | edges[1] | edges[2]).simd_ge(i32x8::splat(simd, 0));
+                let row_depth = lanes.row_depth(simd, start, block, row);
+                let depth = lanes.clamp_depth(columns.depths + row_depth);
+                let first = block.row_index(row);
                 let old = f32x8::from_slice(simd, &self.depth[first..first + BLOCK_SIDE]);
                 let nearer = if or_equal { depth.simd_ge(old) } else { depth.simd_gt(old) };
-                let mut seen = (inside & nearer).to_bitmask();
-                while seen != 0 {
-                    let lane = seen.trailing_zeros() as usize;
-                    seen &= seen - 1;
+                let mut visible = (covered & nearer).to_bitmask();
+                while visible != 0 {
+                    let lane = visible.trailing_zeros() as usize;
+                    visible &= visible - 1;
                     let (x, y) = (block.x as usize + lane, block.y as usize + row);
                     if (x as i32) < functions.x1 {
                         each(self, first + lane, x, y, depth[lane]);
@@ -214,8 +242,8 @@ impl SamplePlane {
     /// The depth of the farthest sample of a block.
     #[inline(always)]
     fn farthest_in_block<S: Simd>(&self, simd: S, block: Block) -> f32 {
-        let depths =
-            &self.depth[block.index * BLOCK_SIDE * BLOCK_SIDE..][..BLOCK_SIDE * BLOCK_SIDE];
+        let first = block.index * BLOCK_SIDE * BLOCK_SIDE;
+        let depths = &self.depth[first..][..BLOCK_SIDE * BLOCK_SIDE];
         let mut least = f32x8::from_slice(simd, &depths[..BLOCK_SIDE]);
         for row in depths[BLOCK_SIDE..].chunks_exact(BLOCK_SIDE) {
             let row = f32x8::from_slice(simd, row);
@@ -224,20 +252,21 @@ impl SamplePlane {
         least.as_slice().iter().fold(f32::INFINITY, |a, &b| if b < a { b } else { a })
     }
 
-    /// Puts a sample of a triangle into its place, whatever was there.
-    pub(crate) fn write_sample(&mut self, at: usize, depth: f32, piece: u32) {
-        self.depth[at] = depth;
-        self.triangle[at] = piece;
-        let nearest = &mut self.block_nearest[at / (BLOCK_SIDE * BLOCK_SIDE)];
+    /// Writes depth and triangle of one sample, without a test.
+    pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
+        self.depth[index] = depth;
+        self.triangle[index] = triangle;
+        let nearest = &mut self.block_nearest[index / (BLOCK_SIDE * BLOCK_SIDE)];
         *nearest = nearer_depth(*nearest, depth);
     }
 }
 
+/// The nearer of two depths, neither of them NaN: one comparison, where `f32::max` takes more.
 fn nearer_depth(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// A block: its number in the tile, and its upper left pixel.
+/// A block of 8 × 8 pixels: its index in the tile, and its upper left pixel.
 #[derive(Clone, Copy)]
 pub(crate) struct Block {
     index: usize,
@@ -250,9 +279,22 @@ impl Block {
     fn from_column_row(column: i32, row: i32) -> Self {
         Self { index: row as usize * BLOCKS_PER_ROW + column as usize, x: column * 8, y: row * 8 }
     }
+
+    /// The array index of the first pixel of one of the block's rows.
+    #[inline(always)]
+    fn row_index(self, row: usize) -> usize {
+        (self.index * BLOCK_SIDE + row) * BLOCK_SIDE
+    }
 }
 
-/// The blocks that a triangle's bounds touch.
+/// A block, and the part of the depth that depends on its columns: dx·x for each of the eight.
+#[derive(Clone, Copy)]
+struct BlockColumns<S: Simd> {
+    block: Block,
+    depths: f32x8<S>,
+}
+
+/// The blocks that a triangle's bounds touch, row by row.
 #[inline(always)]
 fn blocks_in_bounds(functions: &TriangleFunctions) -> impl Iterator<Item = Block> + use<> {
     let (columns, rows) = (
@@ -262,28 +304,30 @@ fn blocks_in_bounds(functions: &TriangleFunctions) -> impl Iterator<Item = Block
     rows.flat_map(move |row| columns.clone().map(move |column| Block::from_column_row(column, row)))
 }
 
-/// For the eight blocks of a row: whether a triangle may touch them, and whether it covers them whole.
+/// The coverage of the eight blocks of a row.
 struct BlockCoverage<S: Simd> {
+    /// Whether the triangle may touch the block (conservative).
     is_touched: mask32x8<S>,
+    /// Whether the triangle covers every sample of the block.
     is_full: mask32x8<S>,
 }
 
-/// For the eight blocks of a row: the least and the greatest depth a triangle may have in them, and whether its plane stays
-/// within the depths of its corners there.
+/// Bounds of a triangle's depth in the eight blocks of a row.
 struct BlockDepths<S: Simd> {
     min_depth: f32x8<S>,
     max_depth: f32x8<S>,
+    /// Whether the depth plane stays within the depths of the vertices: no sample needs clamping.
     is_unclamped: mask32x8<S>,
 }
 
-/// A triangle's edges and depth for eight pixels of a row at once.
+/// A triangle's edge functions and depth plane for eight pixels of a row at once.
 pub(crate) struct TriangleLanes<S: Simd> {
     functions: TriangleFunctions,
     /// 0 … 7.
     lane_indices: i32x8<S>,
-    /// What each edge grows by from the first of eight pixels to each.
+    /// The change of each edge function from the first of eight pixels to each.
     edge_steps: [i32x8<S>; 3],
-    /// 0 … 7.
+    /// 0.0 … 7.0.
     lane_offsets: f32x8<S>,
     dx: f32x8<S>,
     min_depth: f32x8<S>,
@@ -293,7 +337,7 @@ pub(crate) struct TriangleLanes<S: Simd> {
 impl<S: Simd> TriangleLanes<S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, functions: &TriangleFunctions) -> Self {
-        let TriangleFunctions { a, dx, min_depth: least, max_depth: greatest, .. } = *functions;
+        let TriangleFunctions { a, dx, min_depth, max_depth, .. } = *functions;
         let lane_indices: i32x8<S> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(simd);
         Self {
             functions: *functions,
@@ -301,18 +345,18 @@ impl<S: Simd> TriangleLanes<S> {
             edge_steps: a.map(|a| lane_indices * i32x8::splat(simd, a)),
             lane_offsets: [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].simd_into(simd),
             dx: f32x8::splat(simd, dx),
-            min_depth: f32x8::splat(simd, least),
-            max_depth: f32x8::splat(simd, greatest),
+            min_depth: f32x8::splat(simd, min_depth),
+            max_depth: f32x8::splat(simd, max_depth),
         }
     }
 
-    /// Edge k at a pixel.
+    /// Edge function k at a pixel: E₀ + a·x + b·y.
     #[inline(always)]
     fn edge_value(&self, k: usize, start: &SampleStart, x: i32, y: i32) -> i32 {
         start.edges[k] + self.functions.a[k] * x + self.functions.b[k] * y
     }
 
-    /// The edges at the eight pixels of a row of a block.
+    /// The edge functions at the eight pixels of a block's row.
     #[inline(always)]
     fn row_edge_values(
         &self,
@@ -328,16 +372,17 @@ impl<S: Simd> TriangleLanes<S> {
         [edge(0), edge(1), edge(2)]
     }
 
-    /// Whether an edge excludes the whole block: it excludes the corner that is farthest inside.
+    /// Whether an edge excludes the whole block: its function is negative even at the innermost
+    /// corner.
     #[inline(always)]
     fn rejects_block(&self, start: &SampleStart, block: Block) -> bool {
         (0..3).any(|k| {
-            let innermost = 7 * (self.functions.a[k].max(0) + self.functions.b[k].max(0));
-            self.edge_value(k, start, block.x, block.y) + innermost < 0
+            let to_innermost = 7 * (self.functions.a[k].max(0) + self.functions.b[k].max(0));
+            self.edge_value(k, start, block.x, block.y) + to_innermost < 0
         })
     }
 
-    /// The rows of a block that the bounds touch.
+    /// The rows of a block that the triangle's bounds touch.
     #[inline(always)]
     fn rows_in_block(&self, block: Block) -> core::ops::Range<usize> {
         let first = (self.functions.y0 - block.y).max(0) as usize;
@@ -345,8 +390,10 @@ impl<S: Simd> TriangleLanes<S> {
         first..end
     }
 
-    /// Which of a row's blocks are touched: no edge excludes the corner that is farthest inside. Which are covered whole:
-    /// no edge excludes the corner that is farthest outside.
+    /// Classifies the eight blocks of a row by the edge functions at their corners.
+    ///
+    /// A block is touched if no edge excludes its innermost corner, and full if no edge excludes
+    /// its outermost corner.
     #[inline(always)]
     fn classify_blocks(&self, simd: S, start: &SampleStart, row: i32) -> BlockCoverage<S> {
         let TriangleFunctions { a, b, x0, x1, .. } = self.functions;
@@ -361,16 +408,19 @@ impl<S: Simd> TriangleLanes<S> {
         let zero = i32x8::splat(simd, 0);
         let after_first = self.lane_indices.simd_ge(i32x8::splat(simd, x0 / 8));
         let to_last = self.lane_indices.simd_le(i32x8::splat(simd, (x1 - 1) / 8));
-        let full = outermost.simd_ge(zero);
-        BlockCoverage { is_touched: innermost.simd_ge(zero) & after_first & to_last, is_full: full }
+        let is_full = outermost.simd_ge(zero);
+        BlockCoverage { is_touched: innermost.simd_ge(zero) & after_first & to_last, is_full }
     }
 
-    /// Bounds of the depth in a row's blocks: the depth at two opposite corners. Every step of its evaluation is monotone, so
-    /// no sample between them is beyond.
+    /// Bounds of the depth in the eight blocks of a row: the depth at two opposite corners of each.
+    ///
+    /// Every operation of its evaluation is monotone, rounding included, so no sample between them
+    /// is beyond.
     #[inline(always)]
     fn block_depth_bounds(&self, simd: S, start: &SampleStart, row: i32) -> BlockDepths<S> {
         let TriangleFunctions { x0, y0, dx, dy, .. } = self.functions;
         let at_row = |y: i32| start.z + dy * (row * 8 + y - y0) as f32;
+        // The corner in the direction in which depth falls, and the one in which it rises.
         let (lower, upper) = if dy < 0.0 { (7, 0) } else { (0, 7) };
         let (left, right) = if dx < 0.0 { (7, 0) } else { (0, 7) };
         let columns = self.lane_offsets * f32x8::splat(simd, 8.0);
@@ -379,34 +429,37 @@ impl<S: Simd> TriangleLanes<S> {
             self.dx * column + f32x8::splat(simd, at_row(y))
         };
         let (least, greatest) = (at(left, lower), at(right, upper));
-        let flat = least.simd_ge(self.min_depth) & greatest.simd_le(self.max_depth);
+        let is_unclamped = least.simd_ge(self.min_depth) & greatest.simd_le(self.max_depth);
         BlockDepths {
             min_depth: self.clamp_depth(least),
             max_depth: self.clamp_depth(greatest),
-            is_unclamped: flat,
+            is_unclamped,
         }
     }
 
-    /// The depth's first share, that of the columns of a block; the other is that of the row.
+    /// A block with the first term of its depth, dx·x; the other is [`row_depth`](Self::row_depth).
     #[inline(always)]
-    fn column_depths(&self, simd: S, block: Block) -> f32x8<S> {
-        self.dx * (self.lane_offsets + f32x8::splat(simd, (block.x - self.functions.x0) as f32))
+    fn block_columns(&self, simd: S, block: Block) -> BlockColumns<S> {
+        let x = self.lane_offsets + f32x8::splat(simd, (block.x - self.functions.x0) as f32);
+        BlockColumns { block, depths: self.dx * x }
     }
 
+    /// The second term of the depth in a block's row: z + dy·y.
     #[inline(always)]
     fn row_depth(&self, simd: S, start: &SampleStart, block: Block, row: usize) -> f32x8<S> {
         let y = block.y + row as i32 - self.functions.y0;
         f32x8::splat(simd, start.z + self.functions.dy * y as f32)
     }
 
-    /// Depth cut off at the depths of the corners.
+    /// Depth clamped to the depths of the vertices.
     #[inline(always)]
     fn clamp_depth(&self, depth: f32x8<S>) -> f32x8<S> {
         let depth = depth.simd_lt(self.min_depth).select(self.min_depth, depth);
         depth.simd_gt(self.max_depth).select(self.max_depth, depth)
     }
 
-    /// Whether the bounds hold the whole block, so that its farthest sample may have come nearer.
+    /// Whether the triangle's bounds contain the whole block, so that its farthest sample may have
+    /// come nearer.
     #[inline(always)]
     fn bounds_contain(&self, block: Block) -> bool {
         let TriangleFunctions { x0, y0, x1, y1, .. } = self.functions;

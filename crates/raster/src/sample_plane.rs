@@ -1,34 +1,50 @@
-//! Depth and piece numbers of one sample of every pixel of a tile.
+//! Sample planes: the depth buffer and the visibility buffer of one sample of every pixel of a
+//! tile.
 //!
-//! Pixels are kept in blocks of 8 × 8, so that a row of a block is one vector and a block lies in four cache lines. For each block
-//! two bounds are kept: a depth that none of its samples is farther than, and one that none is nearer than (hierarchical z).
-//! What is farther than the first is hidden in the whole block; what is nearer than the second hides it. For the first there is one of the
-//! whole tile, too. The bounds may lag behind, but they always hold.
+//! ```text
+//!   tile 64 × 64 = 8 × 8 blocks          block = 8 rows of 8 pixels
+//!   ┌──┬──┬──┬──┬──┬──┬──┬──┐            ┌─────────────────┐  row 0: one vector of 8 lanes
+//!   │  │  │  │  │  │  │  │  │  ────────► │ · · · · · · · · │
+//!   ├──┼──┼──┼ …                         │ …               │  row 7
+//! ```
+//!
+//! Pixels are stored block by block, so that a row of a block is one vector and a block fills four
+//! cache lines of depths.
+//!
+//! Hierarchical z (Greene, Kass and Miller 1993): each block has two bounds, a depth that none of
+//! its samples is farther than and one that none is nearer than. A triangle farther than the first
+//! is hidden in the whole block; one nearer than the second hides it, and is written without a
+//! depth test. The tile as a whole has the first bound, too. Bounds may lag behind the samples, but
+//! they always hold.
 
 use crate::tile_grid::{TILE, TileRect};
 
 /// Pixels of a tile.
 pub(crate) const TILE_PIXELS: usize = (TILE * TILE) as usize;
-/// Pixels of a row of blocks, and of a block's side: one vector.
+/// The side of a block in pixels: the lanes of one vector.
 pub(crate) const BLOCK_SIDE: usize = 8;
-/// Blocks of a tile's row.
+/// Blocks in a row of blocks of a tile.
 pub(crate) const BLOCKS_PER_ROW: usize = TILE as usize / BLOCK_SIDE;
-/// No piece: the background.
+/// The triangle index of the background. It is larger than every other.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
 
-/// The tile's bound is found anew after so many blocks have come nearer.
+/// The tile's bound is computed anew after so many blocks have come nearer.
 const STALE_BLOCKS: u32 = 16;
 
-/// The place of a pixel of the tile in the arrays.
+/// The array index of a pixel of the tile.
 pub(crate) const fn pixel_index(x: usize, y: usize) -> usize {
     ((y / BLOCK_SIDE * BLOCKS_PER_ROW + x / BLOCK_SIDE) * BLOCK_SIDE + y % BLOCK_SIDE) * BLOCK_SIDE
         + x % BLOCK_SIDE
 }
 
-/// One sample of every pixel.
+/// Depth and triangle index of one sample of every pixel of a tile.
+///
+/// The background is at depth −∞, so that everything is nearer.
 #[derive(Debug)]
 pub(crate) struct SamplePlane {
+    /// The depth buffer.
     pub(crate) depth: Box<[f32; TILE_PIXELS]>,
+    /// The visibility buffer: the index of the nearest triangle.
     pub(crate) triangle: Box<[u32; TILE_PIXELS]>,
     /// For each block, a depth that no sample of it is farther than.
     pub(crate) block_farthest: [f32; BLOCKS_PER_ROW * BLOCKS_PER_ROW],
@@ -36,7 +52,7 @@ pub(crate) struct SamplePlane {
     pub(crate) block_nearest: [f32; BLOCKS_PER_ROW * BLOCKS_PER_ROW],
     /// A depth that no sample of the tile is farther than.
     tile_farthest: f32,
-    /// How many blocks have come nearer since that was found.
+    /// The number of blocks that have come nearer since `tile_farthest` was computed.
     stale_blocks: u32,
 }
 
@@ -52,28 +68,32 @@ impl SamplePlane {
         }
     }
 
-    /// Makes it empty again. Blocks outside of the shown part of the tile count as covered: nobody looks at them.
-    pub(crate) fn clear(&mut self, shown: TileRect) {
+    /// Clears the plane to the background.
+    ///
+    /// Blocks outside the visible part of the tile get +∞ as their farthest depth: everything is
+    /// hidden in them, so no work is done there, and they do not hold back the tile's bound.
+    pub(crate) fn clear(&mut self, visible: TileRect) {
         self.depth.fill(f32::NEG_INFINITY);
         self.triangle.fill(NO_TRIANGLE);
         self.block_nearest.fill(f32::NEG_INFINITY);
         self.block_farthest.fill(f32::INFINITY);
-        let (columns, rows) =
-            (shown.left / 8..shown.right.div_ceil(8), shown.top / 8..shown.bottom.div_ceil(8));
-        for row in rows {
-            let (first, end) = (columns.start as usize, columns.end as usize);
-            self.block_farthest[row as usize * BLOCKS_PER_ROW..][first..end]
-                .fill(f32::NEG_INFINITY);
+        let (first, end) = (visible.left as usize / 8, visible.right.div_ceil(8) as usize);
+        for row in visible.top / 8..visible.bottom.div_ceil(8) {
+            let row = &mut self.block_farthest[row as usize * BLOCKS_PER_ROW..];
+            row[first..end].fill(f32::NEG_INFINITY);
         }
         (self.tile_farthest, self.stale_blocks) = (f32::NEG_INFINITY, 0);
     }
 
-    /// A depth that no sample of the tile is farther than.
+    /// A depth that no sample of the tile is farther than: whatever is farther is hidden.
     pub(crate) fn tile_farthest(&self) -> f32 {
         self.tile_farthest
     }
 
-    /// Takes note that so many blocks have come nearer.
+    /// Counts blocks that have come nearer, and updates the tile's bound after [`STALE_BLOCKS`] of
+    /// them.
+    ///
+    /// Sixty-four bounds are reduced to one, which would cost more than it saves after every block.
     #[inline(always)]
     pub(crate) fn count_nearer_blocks(&mut self, blocks: u32) {
         self.stale_blocks += blocks;

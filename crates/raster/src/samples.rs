@@ -1,23 +1,26 @@
-//! Where a pixel is sampled.
+//! Multisampling: where in a pixel coverage and depth are sampled.
 
 use crate::screen_vertex::SUBPIXELS;
 
-/// How many coverage samples a pixel has. Each covered surface is still shaded once per pixel.
+/// The number of coverage samples per pixel (multisample antialiasing).
+///
+/// Coverage and depth are determined at every sample; each visible surface is still shaded once per
+/// pixel. The patterns are the standard ones of Direct3D 11.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Samples {
-    /// One, at the pixel's centre: hard edges, every pixel one surface.
+    /// One sample at the center of the pixel: no antialiasing.
     One,
-    /// Four, on a rotated grid.
+    /// Four samples on a rotated grid.
     #[default]
     Four,
-    /// Eight.
+    /// Eight samples.
     Eight,
-    /// Sixteen.
+    /// Sixteen samples.
     Sixteen,
 }
 
-/// Offsets from the pixel's centre in 1/16 pixel. Within a pattern no two samples share a row or a column (as long as
-/// there are rows enough), so that edges near the axes get as many steps as there are samples.
+// Offsets from the center of the pixel in 1/16 pixel. No two samples of a pattern share a row or a
+// column, so that edges near the axes get as many steps as there are samples.
 const ONE: [(i32, i32); 1] = [(0, 0)];
 const FOUR: [(i32, i32); 4] = [(-2, -6), (6, -2), (-6, 2), (2, 6)];
 const EIGHT: [(i32, i32); 8] =
@@ -54,12 +57,13 @@ impl Samples {
         }
     }
 
-    /// The number of samples of a pixel.
+    /// The number of samples per pixel.
     #[must_use]
     pub const fn count(self) -> usize {
         self.sixteenths().len()
     }
 
+    /// The offsets of the samples from the center of the pixel, in 1/16 pixel.
     const fn sixteenths(self) -> &'static [(i32, i32)] {
         match self {
             Self::One => &ONE,
@@ -69,7 +73,8 @@ impl Samples {
         }
     }
 
-    /// The least and the greatest offset of a sample from its pixel's left or upper border, in grid steps.
+    /// The least and the greatest offset of a sample from its pixel's left or upper border, in grid
+    /// steps.
     pub(crate) fn offset_range(self) -> (i32, i32) {
         let all = self.sixteenths().iter().flat_map(|&(x, y)| [x, y]);
         let (least, greatest) =
@@ -77,12 +82,12 @@ impl Samples {
         (SUBPIXELS / 2 + least * (SUBPIXELS / 16), SUBPIXELS / 2 + greatest * (SUBPIXELS / 16))
     }
 
-    /// The samples' offsets from the pixel's upper left corner in grid steps.
+    /// The offsets of all samples: see [`sample_offset`](Self::sample_offset).
     pub(crate) fn sample_offsets(self) -> impl Iterator<Item = (i64, i64)> {
         (0..self.count()).map(move |sample| self.sample_offset(sample))
     }
 
-    /// The offset of one of the samples.
+    /// The offset of a sample from the upper left corner of its pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {
         let (x, y) = self.sixteenths()[sample];

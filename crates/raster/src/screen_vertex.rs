@@ -1,40 +1,48 @@
-//! Vertices on the screen, snapped to the grid on which coverage is exact.
+//! Screen vertices: snapped to the fixed-point grid on which coverage is exact.
 //!
-//! Coverage is decided by integers: a vertex is moved to the nearest multiple of 1/256 pixel once, and from there on
-//! every edge function is exact. Vertices that triangles share are snapped alike, so no gap can open between them.
+//! Coverage is decided by integers. A vertex is rounded to the nearest multiple of 1/256 pixel once
+//! (8 sub-pixel bits, as Direct3D requires and GPUs have), and from there on every edge function is
+//! exact. Vertices that triangles share are snapped alike, so no gap can open between them. The
+//! price is an error of at most 1/512 pixel in the position of a vertex.
 
 use core::num::NonZeroU32;
 use homog::{Point, Screen};
 
-/// The bits of a coordinate behind the binary point: the grid is 1/256 pixel.
+/// The sub-pixel bits of a coordinate: the grid is 1/256 pixel.
 pub const SUBPIXEL_BITS: u32 = 8;
 /// Grid steps per pixel.
 pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
-/// The least and the greatest coordinate, in pixels, that a vertex may have: beyond it the caller clips.
+/// The least and the greatest coordinate of a vertex in pixels. Geometry beyond it must be clipped.
 ///
-/// It leaves a guard band of 8192 pixels around a picture of [`MAX_SIDE`](crate::MAX_SIDE) (CL-4). No triangle is then wider
-/// or higher than 32768 pixels, and its edge functions step by less than 2³⁰ across a tile.
+/// It leaves a guard band of 8192 pixels around a picture of [`MAX_SIDE`](crate::MAX_SIDE) (CL-4),
+/// so that few triangles need clipping at the sides of the picture. No triangle is then wider or
+/// higher than 32768 pixels, and its edge functions change by less than 2³⁰ across a tile.
 pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 
 /// [`GUARD_BAND`] in grid steps.
 pub(crate) const GRID_RANGE: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
 
-/// The greatest size of a depth. With it no step in the evaluation of a depth plane overflows.
+/// The greatest magnitude of a depth: no step in the evaluation of a depth plane overflows.
 const MAX_DEPTH: f32 = 1_048_576.0;
 
-/// A vertex after the viewport: x to the right and y down in 1/256 pixel, depth, and 1/w. Always one that can be drawn.
+/// A vertex after perspective divide, viewport transform and snapping. It can always be drawn.
+///
+/// x runs right and y down, in 1/256 pixel. Depth is 1 at the near plane and 0 at the far plane
+/// (reversed z); larger is nearer.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ScreenVertex {
     pub(crate) x: i32,
     pub(crate) y: i32,
     pub(crate) depth: f32,
-    /// The bits of 1/w: it is positive, so they are not all 0, and `None` needs no room of its own.
+    /// The bits of 1/w. It is positive, so they are not all 0, and an `Option` takes no more space.
     inv_w: NonZeroU32,
 }
 
 impl ScreenVertex {
-    /// A vertex on the grid; `None` if it cannot be drawn: it lies outside of [`GUARD_BAND`], its depth is beyond ±2²⁰, or
-    /// 1/w is not positive and finite.
+    /// A vertex on the grid.
+    ///
+    /// `None` if it cannot be drawn: it lies outside [`GUARD_BAND`], its depth is beyond ±2²⁰ or
+    /// NaN, or 1/w is not positive and finite.
     #[inline]
     #[must_use]
     pub fn new(x: i32, y: i32, depth: f32, inv_w: f32) -> Option<Self> {
@@ -42,7 +50,9 @@ impl ScreenVertex {
         Self::new_if_drawable(on_grid, x, y, depth, inv_w)
     }
 
-    /// A vertex, if it is `on_grid` and otherwise drawable. Without a branch, so that many are made at once.
+    /// A vertex, if it is `on_grid` and otherwise drawable.
+    ///
+    /// Without branches, so that a loop over eight vertices becomes vector instructions.
     #[inline(always)]
     pub(crate) fn new_if_drawable(
         on_grid: bool,
@@ -57,10 +67,12 @@ impl ScreenVertex {
         NonZeroU32::new(bits).map(|inv_w| Self { x, y, depth, inv_w })
     }
 
-    /// Snaps a point of the screen (pixels, y down; z is the depth) with the clip-space w it was divided by.
+    /// Snaps a screen point (pixels, y down; z is the depth), given the clip-space w it was divided
+    /// by.
     ///
-    /// `None` if the point cannot be drawn: a coordinate is not finite, lies outside of [`GUARD_BAND`], the depth is beyond
-    /// ±2²⁰, or w is not positive. Geometry that was clipped to the view volume and a guard band always can.
+    /// `None` if the point cannot be drawn: a coordinate is not finite or lies outside
+    /// [`GUARD_BAND`], the depth is beyond ±2²⁰, or w is not positive. Geometry that was clipped to
+    /// the view volume with a guard band can always be drawn.
     #[must_use]
     pub fn snap(point: Point<Screen>, w: f64) -> Option<Self> {
         let (x, y) = (snap_coordinate(point.x())?, snap_coordinate(point.y())?);
@@ -85,7 +97,8 @@ impl ScreenVertex {
         self.depth
     }
 
-    /// One over the clip-space w: makes weights perspective-correct (IN-2). Always 1 in parallel projections.
+    /// One over the clip-space w, which makes interpolation perspective-correct (IN-2). 1 in
+    /// parallel projections.
     #[inline(always)]
     #[must_use]
     pub const fn inv_w(&self) -> f32 {
@@ -93,7 +106,10 @@ impl ScreenVertex {
     }
 }
 
-/// The nearest grid step; halves go up, so that moving a picture by whole pixels moves its grid with it.
+/// Fixed-point snapping: the nearest grid step, halves up; `None` outside the guard band.
+///
+/// Halves go up on both sides of 0, so that moving a picture by whole pixels moves its grid with
+/// it.
 fn snap_coordinate(pixels: f64) -> Option<i32> {
     let step = || (pixels * f64::from(SUBPIXELS) + 0.5).floor() as i32;
     GUARD_BAND.contains(&pixels).then(step)

@@ -1,7 +1,13 @@
-//! Which vector instructions a frame is drawn with.
+//! SIMD dispatch: the set of vector instructions that a frame is drawn with, chosen at run time.
 //!
-//! The processor decides at run time; the picture does not depend on it, for no instruction is used that rounds otherwise
-//! than its scalar counterpart.
+//! There are two levels: the baseline that the program was built for (SSE2 on x86-64, NEON on ARM)
+//! and AVX2. Each hot loop is compiled once for either. The picture does not depend on the level:
+//! every operation used is exact or correctly rounded (no fused multiply-add, no approximate
+//! reciprocal), so each lane has the bits of the scalar computation.
+//!
+//! More levels were tried and given up. SSE4.2 saves little over SSE2 here and adds a third to the
+//! code that is compiled; AVX-512 pays only for filling large triangles, while shading, which runs
+//! eight lanes wide, takes a tenth to a third longer with it (`cargo xtask bench raster`).
 
 use fearless_simd::Level;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -14,59 +20,48 @@ pub struct SimdLevel {
 }
 
 impl SimdLevel {
-    /// The fastest that this processor has: what frames use unless told otherwise.
-    ///
-    /// That is AVX2 also where there is AVX-512: vectors of sixteen pay for the filling of large triangles alone, and what is
-    /// done eight at a time, all of shading, takes a tenth to a third longer with them (`cargo xtask bench raster`).
+    /// The fastest level of this processor: the default of frames.
     #[must_use]
     pub fn best() -> Self {
-        let widest = Level::new();
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        if let Some(avx2) = widest.as_avx2() {
+        if let Some(avx2) = Level::new().as_avx2() {
             return Self { level: Level::Avx2(avx2) };
         }
-        Self { level: widest }
+        Self::baseline()
     }
 
-    /// Those that every processor has for which the program was built.
+    /// The level that every processor has for which the program was built.
     #[must_use]
     pub const fn baseline() -> Self {
         Self { level: Level::baseline() }
     }
 
-    /// All sets that this processor has, from the baseline to the widest.
+    /// All levels that this processor has: the baseline, and AVX2 where there is more than that.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        let widest = Level::new();
-        let mut levels = vec![Level::baseline()];
+        let mut levels = vec![Self::baseline()];
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        levels.extend(
-            [
-                widest.as_sse4_2().map(Level::Sse4_2),
-                widest.as_avx2().map(Level::Avx2),
-                widest.as_avx512().map(Level::Avx512),
-            ]
-            .into_iter()
-            .flatten(),
-        );
-        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        levels.push(widest);
-        levels.into_iter().map(|level| Self { level }).collect()
+        if let Some(avx2) = Level::new().as_avx2() {
+            levels.push(Self { level: Level::Avx2(avx2) });
+        }
+        levels
     }
 
-    /// Does a piece of work, with vectors of eight where these instructions have them.
+    /// Runs a kernel, compiled for these instructions.
     ///
-    /// It is compiled twice: for AVX2, and for what every processor has. Others would gain little and cost as much to compile.
+    /// Every kernel is compiled twice: for AVX2 and for the baseline. It is a function call, not
+    /// inlined, so that large kernels such as shading are compiled once and not in every loop that
+    /// runs them.
     #[inline(never)]
-    pub fn run_kernel<W: Kernel>(self, work: W) -> W::Output {
+    pub fn run_kernel<K: Kernel>(self, kernel: K) -> K::Output {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         if let Some(avx2) = self.level.as_avx2() {
             return avx2.vectorize(
                 #[inline(always)]
-                || work.run(),
+                || kernel.run(),
             );
         }
-        work.run()
+        kernel.run()
     }
 
     pub(crate) const fn level(self) -> Level {
@@ -74,12 +69,47 @@ impl SimdLevel {
     }
 }
 
-/// Work that is compiled once for each set of vector instructions, and called as a function: what is large, as shading is, need
-/// not be made part of each loop that asks for it.
+/// A computation that is compiled once for each SIMD level: see [`SimdLevel::run_kernel`].
 pub trait Kernel {
-    /// What it gives.
+    /// The result of the computation.
     type Output;
 
-    /// Does it. To be marked `#[inline(always)]`, with all that it calls, and written as plain loops over lanes.
+    /// Runs the computation.
+    ///
+    /// Mark it, and every function that it calls, `#[inline(always)]`, and write it as plain loops
+    /// over lanes: only code that is inlined into the dispatched function gets its instructions.
     fn run(self) -> Self::Output;
 }
+
+/// Runs an expression with the SIMD token of a level, as `fearless_simd::dispatch`, but compiled
+/// for the two levels of [`SimdLevel`] only.
+#[cfg(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2"))]
+macro_rules! dispatch {
+    ($level:expr, $simd:pat => $op:expr) => {{
+        let level: fearless_simd::Level = $level;
+        if let Some(avx2) = level.as_avx2() {
+            let $simd = avx2;
+            fearless_simd::Simd::vectorize(
+                avx2,
+                #[inline(always)]
+                || $op,
+            )
+        } else if let Some(sse2) = level.as_sse2() {
+            let $simd = sse2;
+            fearless_simd::Simd::vectorize(
+                sse2,
+                #[inline(always)]
+                || $op,
+            )
+        } else {
+            unreachable!("the target is built with SSE2")
+        }
+    }};
+}
+#[cfg(not(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2")))]
+macro_rules! dispatch {
+    ($level:expr, $simd:pat => $op:expr) => {
+        fearless_simd::dispatch!($level, $simd => $op)
+    };
+}
+pub(crate) use dispatch;

@@ -1,31 +1,36 @@
 //! Drawing a frame: visibility tile by tile, then each visible surface shaded once per pixel.
 
 use crate::fragment_lanes::{F32x8, LANES};
+use crate::simd_level::dispatch;
 use crate::tile_loop::FilledTile;
 use crate::tile_resolve::TileResolve;
 use crate::{Fragment, Fragments, Frame};
-use fearless_simd::dispatch;
 
-/// What the primitives of a frame look like.
+/// The appearance of the primitives of a frame: alpha test and shading.
 pub trait Surface: Sync {
-    /// Whether a masked primitive is there at all in this fragment.
+    /// The alpha test: whether a masked primitive is present in this fragment.
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool;
 
-    /// The same for eight fragments of one masked primitive, side by side; some may lie outside of it, and do not count. This is what
-    /// drawing calls; as [`shade_eight`](Self::shade_eight), it need not be written, and is faster if it is.
+    /// The alpha test for eight adjacent fragments of one masked primitive.
+    ///
+    /// Some may lie outside the primitive; their results are ignored. Drawing calls this method.
+    /// The default calls [`passes_alpha_test`](Self::passes_alpha_test) for each.
     #[inline(always)]
     fn alpha_test_eight(&self, fragments: &Fragments<'_>) -> [bool; LANES] {
         let weights = fragments.weights();
         std::array::from_fn(|lane| self.passes_alpha_test(&fragments.fragment(lane, &weights)))
     }
 
-    /// The colour of a fragment: linear red, green and blue, each multiplied by alpha, and alpha.
-    /// Solid primitives are taken to be opaque, whatever alpha they report.
+    /// The color of a fragment: linear red, green and blue, premultiplied by alpha, and alpha.
+    ///
+    /// Opaque and masked primitives are drawn as opaque, whatever alpha is returned.
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4];
 
-    /// The colours of eight fragments: all reds, all greens, all blues, all alphas. This is what drawing calls; it need not be
-    /// written, for one by one is as good. Written as plain loops over the eight and marked `#[inline(always)]`, it is compiled
-    /// for the vector instructions of the processor, and is several times as fast.
+    /// The colors of eight fragments: all reds, all greens, all blues, all alphas.
+    ///
+    /// Drawing calls this method; the default calls [`shade`](Self::shade) for each. Written as
+    /// plain loops over the lanes and marked `#[inline(always)]`, it is compiled for the vector
+    /// instructions of the processor and several times as fast.
     #[inline(always)]
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         let mut colors = [[0.0; LANES]; 4];
@@ -39,23 +44,28 @@ pub trait Surface: Sync {
         colors
     }
 
-    /// The shares of what is behind that eight translucent fragments with these alphas let through: all reds, all greens, all blues.
-    /// It need not be written where all colours pass alike: 1 − alpha of each. Some of the fragments may be solid, and do not count.
+    /// The transmittances of eight translucent fragments with these alphas, for red, green and
+    /// blue: the factors of what is behind them.
+    ///
+    /// The default, 1 − alpha, is the "over" operator. Glass that absorbs by color overrides it.
+    /// Lanes of opaque fragments are ignored.
     #[inline(always)]
     fn transmittance_eight(&self, _: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
         [alphas.map(|alpha| 1.0 - alpha); 3]
     }
 }
 
-/// How colours are kept: what becomes of a linear colour (multiplied by alpha) in the target.
+/// A pixel encoder: from a linear color, premultiplied by alpha, to a pixel of the target.
 ///
-/// Any function from a colour to a pixel will do.
+/// Any function from a color to a pixel is one.
 pub trait Encode<P>: Sync {
-    /// The pixel of a colour.
+    /// The pixel of a color.
     fn encode_pixel(&self, color: [f32; 4]) -> P;
 
-    /// The pixels of eight colours, given as all reds, all greens, all blues and all alphas. As with
-    /// [`Surface::shade_eight`], it need not be written, and is faster if it is.
+    /// The pixels of eight colors, given as all reds, all greens, all blues and all alphas.
+    ///
+    /// The default calls [`encode_pixel`](Self::encode_pixel) for each; written as loops over lanes
+    /// it is faster.
     #[inline(always)]
     fn encode_eight(&self, colors: &[F32x8; 4]) -> [P; LANES] {
         let [r, g, b, alpha] = colors;
@@ -71,10 +81,12 @@ impl<P, F: Fn([f32; 4]) -> P + Sync> Encode<P> for F {
 }
 
 impl Frame {
-    /// Draws the frame over `background` (linear, multiplied by alpha) and hands each pixel to `encode`, whose result
-    /// goes to `target`: rows from the top, `width` × `height` of them. Uses up to `threads` threads.
+    /// Draws the frame over `background` (linear, premultiplied by alpha) into `target`: the pixels
+    /// that `encode` returns, rows from the top, `width` × `height` of them.
     ///
-    /// The mean of a pixel's samples is taken in linear light. A `target` of another length gets the rows that fit.
+    /// The samples of a pixel are averaged in linear light (multisample resolve). Uses up to
+    /// `threads` threads, with the same result for any number. A `target` of another length gets
+    /// the rows that fit.
     #[expect(clippy::needless_pass_by_value, reason = "a function is handed over as it is")]
     pub fn draw<S: Surface, P: Copy + Send>(
         &self,
@@ -84,9 +96,11 @@ impl Frame {
         target: &mut [P],
         encode: impl Encode<P>,
     ) {
-        // Memory takes whole rows faster than tiles, and what tiles write is then in a cache already.
+        // Clearing whole bands is faster than clearing tiles, and leaves the rows in a cache for
+        // the tiles to write.
         let begin = |band: &mut [P]| band.fill(encode.encode_pixel(background));
-        self.for_each_tile(surface, threads, target, begin, |FilledTile { tile, rect, band, scratch }| {
+        self.for_each_tile(surface, threads, target, begin, |filled| {
+            let FilledTile { tile, rect, band, scratch } = filled;
             let tile = TileResolve { frame: self, surface, background, tile, rect };
             dispatch!(self.simd_level.level(), _simd => tile.write_tile(band, scratch, &encode));
         });

@@ -1,31 +1,39 @@
-//! The nearest surface of each pixel as a plane: what shadow maps and ambient occlusion read.
+//! Surface depths: the depth plane of the nearest surface at each pixel, for shadow maps and
+//! ambient occlusion.
+//!
+//! The slopes let a reader compare depths beside the pixel's center without a constant bias
+//! (receiver-plane depth).
 
 use crate::sample_plane::pixel_index;
 use crate::tile_loop::FilledTile;
 use crate::triangle_setup::clamped_depth_slopes;
 use crate::{Frame, Surface};
 
-/// How near the nearest surface is at a pixel's centre, and how that changes from pixel to pixel.
+/// The depth of the nearest surface at the center of a pixel, and its change from pixel to pixel.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SurfaceDepth {
-    /// Depth: 1 at the near plane, 0 at the far plane; −∞ where nothing is seen.
+    /// Depth: 1 at the near plane, 0 at the far plane; −∞ for the background.
     pub depth: f32,
-    /// What depth grows by from pixel to pixel to the right, on the surface's plane. It is cut off at the difference between the
-    /// nearest and the farthest corner: beside a triangle smaller than a pixel its plane means nothing.
+    /// The change of depth per pixel to the right, on the surface's plane.
+    ///
+    /// It is clamped to the range of the vertices' depths: beside a triangle smaller than a pixel
+    /// its plane is meaningless.
     pub dx: f32,
-    /// The same from pixel to pixel downwards.
+    /// The change of depth per pixel down, clamped alike.
     pub dy: f32,
 }
 
 impl SurfaceDepth {
-    /// No surface.
+    /// The background: no surface.
     pub const EMPTY: Self = Self { depth: f32::NEG_INFINITY, dx: 0.0, dy: 0.0 };
 }
 
 impl Frame {
-    /// Finds the nearest surface at the first sample of each pixel, with its depth at the pixel's centre, rows from the top: `width` ×
-    /// `height` of them. Masked primitives count where `surface` keeps them, translucent ones not at all. Uses up to `threads`
-    /// threads, whose number does not matter.
+    /// Finds the nearest opaque surface at the first sample of each pixel, with its depth at the
+    /// pixel's center, and writes it to `target`: rows from the top, `width` × `height` of them.
+    ///
+    /// Masked primitives count where they pass the alpha test, translucent ones not at all. Uses up
+    /// to `threads` threads, with the same result for any number.
     pub fn surface_depths<S: Surface>(
         &self,
         surface: &S,
@@ -33,36 +41,30 @@ impl Frame {
         target: &mut [SurfaceDepth],
     ) {
         let first = self.samples.sample_offset(0);
-        let to_center = [first.0, first.1].map(|at| 0.5 - at as f32 / 256.0);
+        let to_center = [first.0, first.1].map(|offset| 0.5 - offset as f32 / 256.0);
         let begin = |band: &mut [SurfaceDepth]| band.fill(SurfaceDepth::EMPTY);
-        self.for_each_tile(
-            surface,
-            threads,
-            target,
-            begin,
-            |FilledTile { tile, rect, band, .. }| {
-                // Neighbours are most often of one piece.
-                let (mut last, mut slope) = (None, [0.0; 2]);
-                for (y, x) in (rect.top..rect.bottom)
-                    .flat_map(|y| (rect.left..rect.right).map(move |x| (y, x)))
-                {
-                    let at = pixel_index(x as usize, y as usize);
-                    let number = tile.triangle(0, at);
-                    let Some(piece) = self.triangles.get(number) else { continue };
-                    if last != Some(number) {
-                        (last, slope) = (Some(number), clamped_depth_slopes(piece));
-                    }
-                    let place = (y - rect.top) as usize * self.region.width as usize
-                        + (rect.x + x - self.region.x) as usize;
-                    if let Some(nearest) = band.get_mut(place) {
-                        let [dx, dy] = slope;
-                        let depth =
-                            tile.sample_depth(0, at) + dx * to_center[0] + dy * to_center[1];
-                        *nearest = SurfaceDepth { depth, dx, dy };
-                    }
+        self.for_each_tile(surface, threads, target, begin, |filled| {
+            let FilledTile { tile, rect, band, .. } = filled;
+            // Neighbors mostly show the same triangle: its slopes are computed once.
+            let (mut last, mut slopes) = (None, [0.0; 2]);
+            for (y, x) in
+                (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (y, x)))
+            {
+                let at = pixel_index(x as usize, y as usize);
+                let index = tile.triangle(0, at);
+                let Some(triangle) = self.triangles.get(index) else { continue };
+                if last != Some(index) {
+                    (last, slopes) = (Some(index), clamped_depth_slopes(triangle));
                 }
-            },
-        );
+                let row = (y - rect.top) as usize * self.region.width as usize;
+                let target = row + (rect.x + x - self.region.x) as usize;
+                if let Some(target) = band.get_mut(target) {
+                    let [dx, dy] = slopes;
+                    let depth = tile.sample_depth(0, at) + dx * to_center[0] + dy * to_center[1];
+                    *target = SurfaceDepth { depth, dx, dy };
+                }
+            }
+        });
     }
 }
 

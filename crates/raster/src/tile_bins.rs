@@ -1,97 +1,113 @@
-//! Bins: which pieces touch which tile, in the order in which they were given.
+//! Tile binning: for each tile, the list of triangles whose bounds touch it, in submission order.
 //!
-//! Pieces are sorted in groups, each of which has bins of its own, so that threads can share the work. A tile's pieces are
-//! those of its bin in each group, one group after the other: the order of all pieces.
+//! ```text
+//!   triangles ──► group 0: chunks 0 … 3   ──► bins of all tiles ┐
+//!             ──► group 1: chunks 4 … 7   ──► bins of all tiles ├─► bin of a tile: group 0, 1, …
+//!             ──► group 2: …              ──► bins of all tiles ┘
+//! ```
+//!
+//! Triangles are binned in groups, each of which has bins of its own and can be sorted by a thread
+//! of its own without locks. The bin of a tile is its bin in each group, one group after the other:
+//! that is the order of submission, which decides between equal depths, for any number of threads.
 
 use crate::parallel::for_each_parallel;
-use crate::tile_grid::{FrameRegion, TileGrid};
+use crate::tile_grid::TileGrid;
 use crate::triangle_buffer::{CHUNK_TRIANGLES, TriangleBuffer, TriangleChunk};
+use homog::PixelRect;
 
-/// The least number of chunks that a group is made of, so that its bins are worth their room.
+/// The least number of chunks in a group. Smaller groups would spend more on clearing bins than on
+/// filling them.
 const MIN_CHUNKS: usize = 4;
 
-/// For each tile that a part of a picture touches, row by row, the pieces whose bounds touch it.
+/// For each tile that a region touches, row by row, the triangles whose bounds touch it.
 #[derive(Debug, Default)]
 pub(crate) struct TileBins {
     grid: TileGrid,
     groups: Vec<BinGroup>,
-    /// How many of the groups are in use.
+    /// The number of groups in use. The others keep their memory for a larger frame.
     used: usize,
 }
 
-/// The bins of a run of chunks.
+/// The bins of a run of chunks, in compressed rows: all bins in one array, and where each begins.
 #[derive(Debug, Default)]
 struct BinGroup {
-    /// Where each tile's part of `pieces` begins; one more at the end.
+    /// The index in `triangles` at which the bin of each tile begins; one more at the end.
     bin_starts: Vec<u32>,
-    /// Where the next piece of each tile goes, while they are sorted.
+    /// The index to which the next triangle of each tile is written, while they are sorted.
     write_positions: Vec<u32>,
+    /// The indices of the triangles, bin by bin.
     triangles: Vec<u32>,
 }
 
 impl TileBins {
-    /// Sorts pieces into the tiles they touch, in the memory of the last time.
+    /// Bins all triangles of a frame, reusing the memory of the last time.
+    ///
+    /// A group has at least as many triangles as four times the number of tiles, so that counting
+    /// and clearing bins stays cheap beside sorting. Bounding rectangles decide, so a thin diagonal
+    /// triangle is also in bins that it only passes by; the rasterizer rejects it there block by
+    /// block.
     pub(crate) fn bin_triangles(
         &mut self,
-        pieces: &TriangleBuffer,
-        part: FrameRegion,
+        triangles: &TriangleBuffer,
+        region: PixelRect,
         threads: usize,
     ) {
-        self.grid = TileGrid::new(part);
-        let chunks: usize = pieces.chunks().len();
+        self.grid = TileGrid::new(region);
+        let chunks: usize = triangles.chunks().len();
         let per_group = (4 * self.grid.count()).div_ceil(CHUNK_TRIANGLES).max(MIN_CHUNKS);
         self.used = chunks.div_ceil(per_group);
         if self.groups.len() < self.used {
             self.groups.resize_with(self.used, BinGroup::default);
         }
         let grid = self.grid;
-        for_each_parallel(
-            threads,
-            self.groups[..self.used].iter_mut().enumerate(),
-            |(at, group)| {
-                let chunks = || pieces.chunks().skip(at * per_group).take(per_group);
-                group.counting_sort(chunks, grid);
-            },
-        );
+        let groups = self.groups[..self.used].iter_mut().enumerate();
+        for_each_parallel(threads, groups, |(index, group)| {
+            let chunks = || triangles.chunks().skip(index * per_group).take(per_group);
+            group.counting_sort(chunks, grid);
+        });
     }
 
-    /// Appends the pieces of the tile in the given column and row of the picture to a list, by their numbers.
-    pub(crate) fn append_tile_bin(&self, column: u32, row: u32, pieces: &mut Vec<u32>) {
+    /// Appends the triangle indices of one tile, given by its column and row in the picture.
+    pub(crate) fn append_tile_bin(&self, column: u32, row: u32, bin: &mut Vec<u32>) {
         let tile = self.grid.tile_index(column, row);
-        for BinGroup { bin_starts: starts, triangles: sorted, .. } in &self.groups[..self.used] {
-            pieces.extend_from_slice(&sorted[starts[tile] as usize..starts[tile + 1] as usize]);
+        for BinGroup { bin_starts, triangles, .. } in &self.groups[..self.used] {
+            let (start, end) = (bin_starts[tile] as usize, bin_starts[tile + 1] as usize);
+            bin.extend_from_slice(&triangles[start..end]);
         }
     }
 }
 
 impl BinGroup {
-    /// Count, then place: a counting sort keeps the order.
+    /// Counting sort by tile: count, prefix sum, scatter. It is stable, so bins keep submission
+    /// order.
     fn counting_sort<'a, I: Iterator<Item = (u32, &'a TriangleChunk)>>(
         &mut self,
         chunks: impl Fn() -> I,
         grid: TileGrid,
     ) {
-        let Self { bin_starts: starts, write_positions: next, triangles: pieces } = self;
-        starts.clear();
-        starts.resize(grid.count() + 1, 0);
+        let Self { bin_starts, write_positions, triangles } = self;
+        // Count the triangles of each tile, one entry ahead.
+        bin_starts.clear();
+        bin_starts.resize(grid.count() + 1, 0);
         for &tiles in chunks().flat_map(|(_, chunk)| chunk.tiles()) {
             for tile in grid.tile_indices(tiles) {
-                starts[tile + 1] += 1;
+                bin_starts[tile + 1] += 1;
             }
         }
+        // The prefix sum of the counts is where each bin begins.
         let mut sum = 0;
-        for start in starts.iter_mut() {
+        for start in bin_starts.iter_mut() {
             sum += *start;
             *start = sum;
         }
-        next.clone_from(starts);
-        // What was there before is overwritten.
-        pieces.resize(sum as usize, 0);
+        write_positions.clone_from(bin_starts);
+        // Scatter. Every entry is overwritten, so those of the last frame need not be cleared.
+        triangles.resize(sum as usize, 0);
         for (first, chunk) in chunks() {
-            for (number, &tiles) in (first..).zip(chunk.tiles()) {
+            for (index, &tiles) in (first..).zip(chunk.tiles()) {
                 for tile in grid.tile_indices(tiles) {
-                    pieces[next[tile] as usize] = number;
-                    next[tile] += 1;
+                    triangles[write_positions[tile] as usize] = index;
+                    write_positions[tile] += 1;
                 }
             }
         }

@@ -1,55 +1,51 @@
-//! The tiles of a picture, and the part of them that a frame shows.
+//! The grid of 64 × 64 pixel tiles, and the region of it that a frame shows.
 //!
-//! Tiles are counted from the upper left corner of the whole picture, also where a frame is a part of it. A tile then sees
-//! the same triangles in the same numbers whichever part is drawn, and parts fit together bit for bit.
+//! Tiles are counted from the upper left corner of the whole picture, even where a frame shows only
+//! a region of it. A tile then sees the same triangles with the same coordinates whichever region
+//! is drawn, and regions fit together bit for bit.
 
 use crate::MAX_SIDE;
 use crate::screen_vertex::SUBPIXEL_BITS;
+use homog::PixelRect;
 
-/// The side of a tile in pixels: its depth and names stay in the nearest caches while it is filled.
+/// The side of a tile in pixels.
+///
+/// The depths and triangle indices of one sample plane take 32 KiB then, and stay in the nearest
+/// caches while the tile is filled. A row of tiles has eight blocks of 8 pixels, one vector of
+/// eight lanes.
 pub(crate) const TILE: u32 = 64;
 
-/// A rectangle of whole pixels: [x, x + width) × [y, y + height), y down.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct FrameRegion {
-    pub(crate) x: u32,
-    pub(crate) y: u32,
-    pub(crate) width: u32,
-    pub(crate) height: u32,
+/// The columns of tiles that a region touches: the first, and the one behind the last.
+pub(crate) fn tile_columns(region: PixelRect) -> (u32, u32) {
+    (region.x / TILE, (region.x + region.width).div_ceil(TILE))
 }
 
-impl FrameRegion {
-    /// The columns of tiles that the part touches: the first, and the one behind the last.
-    pub(crate) fn tile_columns(&self) -> (u32, u32) {
-        (self.x / TILE, (self.x + self.width).div_ceil(TILE))
-    }
-
-    /// The rows of tiles that the part touches.
-    pub(crate) fn tile_rows(&self) -> (u32, u32) {
-        (self.y / TILE, (self.y + self.height).div_ceil(TILE))
-    }
-
-    /// The tile in the given column and row, with what of it the part shows.
-    pub(crate) fn tile_rect(&self, column: u32, row: u32) -> TileRect {
-        let (x, y) = (column * TILE, row * TILE);
-        let within = |from: u32, size: u32, corner: u32| {
-            let first = from.saturating_sub(corner).min(TILE);
-            (first, (from + size - corner).min(TILE))
-        };
-        let (left, right) = within(self.x, self.width, x);
-        let (top, bottom) = within(self.y, self.height, y);
-        TileRect { x, y, left, top, right, bottom }
-    }
-
-    /// How many rows of pixels a row of tiles shows.
-    pub(crate) fn visible_rows(&self, row: u32) -> usize {
-        let TileRect { top, bottom, .. } = self.tile_rect(self.tile_columns().0, row);
-        (bottom - top) as usize
-    }
+/// The rows of tiles that a region touches: the first, and the one behind the last.
+pub(crate) fn tile_rows(region: PixelRect) -> (u32, u32) {
+    (region.y / TILE, (region.y + region.height).div_ceil(TILE))
 }
 
-/// A tile: its corner in the picture, and the pixels of it that are shown, counted from that corner:
-/// [left, right) × [top, bottom).
+/// The tile in the given column and row, and those of its pixels that the region shows.
+pub(crate) fn tile_rect(region: PixelRect, column: u32, row: u32) -> TileRect {
+    let (x, y) = (column * TILE, row * TILE);
+    let clamp_to_tile = |from: u32, size: u32, corner: u32| {
+        let first = from.saturating_sub(corner).min(TILE);
+        (first, (from + size - corner).min(TILE))
+    };
+    let (left, right) = clamp_to_tile(region.x, region.width, x);
+    let (top, bottom) = clamp_to_tile(region.y, region.height, y);
+    TileRect { x, y, left, top, right, bottom }
+}
+
+/// The number of rows of pixels that a region shows of a row of tiles.
+pub(crate) fn visible_rows(region: PixelRect, row: u32) -> usize {
+    let TileRect { top, bottom, .. } = tile_rect(region, tile_columns(region).0, row);
+    (bottom - top) as usize
+}
+
+/// A tile: the pixel of its upper left corner, and which of its pixels the region shows.
+///
+/// `left` to `bottom` count from that corner: [left, right) × [top, bottom), within [0, 64).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct TileRect {
     pub(crate) x: u32,
@@ -61,47 +57,53 @@ pub(crate) struct TileRect {
 }
 
 impl TileRect {
-    /// Whether a pixel of the tile is shown.
+    /// Whether the region shows a pixel of the tile, counted from the tile's corner.
     pub(crate) fn is_visible(&self, x: usize, y: usize) -> bool {
         let within = |at: usize, from: u32, to: u32| (from as usize..to as usize).contains(&at);
         within(x, self.left, self.right) && within(y, self.top, self.bottom)
     }
 }
 
-/// The tiles that a part touches.
+/// The rectangle of tiles that a region touches.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TileGrid {
     /// The first column, and the one behind the last.
     columns: (u32, u32),
+    /// The first row, and the one behind the last.
     rows: (u32, u32),
 }
 
-/// A rectangle of tiles: the first and the last of its columns and of its rows.
+/// The tiles that a triangle's bounds touch: the first and the last of their columns and of their
+/// rows.
+///
+/// Four bytes for each triangle, stored beside it: binning reads nothing else.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileRange {
     columns: [u8; 2],
     rows: [u8; 2],
 }
 
-const _: () = assert!(MAX_SIDE / TILE == 256, "columns and rows are kept in eight bits");
+const _: () = assert!(MAX_SIDE / TILE == 256, "columns and rows are stored in eight bits");
 
 impl TileGrid {
-    pub(crate) fn new(part: FrameRegion) -> Self {
-        Self { columns: part.tile_columns(), rows: part.tile_rows() }
+    pub(crate) fn new(region: PixelRect) -> Self {
+        Self { columns: tile_columns(region), rows: tile_rows(region) }
     }
 
-    /// How many there are.
+    /// The number of tiles.
     pub(crate) fn count(self) -> usize {
         ((self.columns.1 - self.columns.0) * (self.rows.1 - self.rows.0)) as usize
     }
 
-    /// The place of a tile among all, row by row.
+    /// The index of a tile of the grid, row by row.
     #[inline(always)]
     pub(crate) fn tile_index(self, column: u32, row: u32) -> usize {
         ((row - self.rows.0) * (self.columns.1 - self.columns.0) + column - self.columns.0) as usize
     }
 
-    /// Those that bounds touch, given by the least and the greatest coordinates in grid steps; `None` if there are none.
+    /// The tiles of the grid that a bounding rectangle touches; `None` if there are none.
+    ///
+    /// The least and the greatest coordinates are in grid steps of 1/256 pixel.
     #[inline(always)]
     pub(crate) fn tiles_in_bounds(self, x: [i32; 2], y: [i32; 2]) -> Option<TileRange> {
         const TILE_BITS: u32 = SUBPIXEL_BITS + TILE.ilog2();
@@ -109,12 +111,12 @@ impl TileGrid {
             [(low >> TILE_BITS).max(begin as i32), (high >> TILE_BITS).min(end as i32 - 1)]
         };
         let (columns, rows) = (span(x, self.columns), span(y, self.rows));
-        let is_there = (columns[0] <= columns[1]) & (rows[0] <= rows[1]);
+        let is_inside = (columns[0] <= columns[1]) & (rows[0] <= rows[1]);
         let bytes = |span: [i32; 2]| span.map(|tile| tile as u8);
-        is_there.then(|| TileRange { columns: bytes(columns), rows: bytes(rows) })
+        is_inside.then(|| TileRange { columns: bytes(columns), rows: bytes(rows) })
     }
 
-    /// The places of some tiles among all.
+    /// The indices of some tiles of the grid, row by row.
     #[inline(always)]
     pub(crate) fn tile_indices(self, tiles: TileRange) -> impl Iterator<Item = usize> {
         let TileRange { columns: [left, right], rows: [top, bottom] } = tiles;
@@ -131,23 +133,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiles_of_a_part_show_each_of_its_pixels_once() {
-        for part in [
-            FrameRegion { x: 0, y: 0, width: 64, height: 64 },
-            FrameRegion { x: 63, y: 1, width: 2, height: 200 },
-            FrameRegion { x: 70, y: 130, width: 3, height: 1 },
-            FrameRegion { x: 128, y: 64, width: 129, height: 65 },
+    fn tiles_of_a_region_show_each_of_its_pixels_once() {
+        for region in [
+            PixelRect { x: 0, y: 0, width: 64, height: 64 },
+            PixelRect { x: 63, y: 1, width: 2, height: 200 },
+            PixelRect { x: 70, y: 130, width: 3, height: 1 },
+            PixelRect { x: 128, y: 64, width: 129, height: 65 },
         ] {
-            let mut shown = 0;
-            for row in part.tile_rows().0..part.tile_rows().1 {
-                for column in part.tile_columns().0..part.tile_columns().1 {
-                    let tile = part.tile_rect(column, row);
-                    assert!(tile.left < tile.right && tile.top < tile.bottom, "{part:?} {tile:?}");
-                    assert!(tile.x + tile.left >= part.x && tile.y + tile.top >= part.y);
-                    shown += (tile.right - tile.left) * (tile.bottom - tile.top);
-                }
+            let mut visible = 0;
+            let ((left, right), (top, bottom)) = (tile_columns(region), tile_rows(region));
+            for (column, row) in (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))) {
+                let tile = tile_rect(region, column, row);
+                assert!(tile.left < tile.right && tile.top < tile.bottom, "{region:?} {tile:?}");
+                assert!(tile.x + tile.left >= region.x && tile.y + tile.top >= region.y);
+                visible += (tile.right - tile.left) * (tile.bottom - tile.top);
             }
-            assert_eq!(shown, part.width * part.height, "{part:?}");
+            assert_eq!(visible, region.width * region.height, "{region:?}");
         }
     }
 }

@@ -1,27 +1,34 @@
-//! The way through a frame: band by band, tile by tile, each filled before it is handed on.
+//! The tile loop: every tile of a frame is filled with its triangles and handed on, in parallel.
 //!
-//! Tiles know nothing of each other, so threads may take them in any order: what comes of them is the same for any number.
+//! Work is divided by rows of tiles. A row of tiles is a band of whole rows of the target, so bands
+//! are disjoint slices that threads may write without locks. Tiles know nothing of each other, and
+//! what a tile shows depends on its own bin alone: the result is the same for any number of
+//! threads.
 
 use crate::buffer_pool::{DrawBuffers, ThreadBuffers};
 use crate::parallel::for_each_with_workers;
 use crate::tile_bins::TileBins;
-use crate::tile_grid::{FrameRegion, TileRect};
+use crate::tile_grid::{TileRect, tile_columns, tile_rect, tile_rows, visible_rows};
 use crate::tile_resolve::RowScratch;
 use crate::tile_visibility::TileVisibility;
 use crate::{Frame, Surface};
+use homog::PixelRect;
 
-/// A tile in which the visible has been found.
+/// A tile whose visibility has been determined.
 pub(crate) struct FilledTile<'a, P> {
     pub(crate) tile: &'a TileVisibility,
     pub(crate) rect: TileRect,
-    /// The pixels of its band: the rows of the frame that its row of tiles shows.
+    /// The pixels of the tile's band: those rows of the frame that its row of tiles shows.
     pub(crate) band: &'a mut [P],
     pub(crate) scratch: &'a mut RowScratch,
 }
 
 impl Frame {
-    /// Calls `begin` with each band's pixels and then `each` with every tile of it that pieces touch. Uses up to `threads` threads;
-    /// a `target` that is too short has fewer bands, or shorter ones.
+    /// Calls `begin` with the pixels of each band, then `each` with every tile of it that has
+    /// triangles.
+    ///
+    /// Uses up to `threads` threads. A `target` that is too short has fewer bands, or shorter ones.
+    /// Cancellation is checked once a band, about every 64 rows of pixels.
     pub(crate) fn for_each_tile<S: Surface, P: Send>(
         &self,
         surface: &S,
@@ -33,47 +40,58 @@ impl Frame {
         let DrawBuffers { mut bins, mut workers } = self.buffers.take_buffers();
         bins.bin_triangles(&self.triangles, self.region, threads);
         workers.resize_with(threads.max(1), ThreadBuffers::default);
-        let bands = TileRows { region: self.region, rows: self.region.tile_rows(), target };
-        for_each_with_workers(&mut workers, bands, |worker, (row, band)| {
+        let bands = Bands { region: self.region, rows: tile_rows(self.region), target };
+        for_each_with_workers(&mut workers, bands, |worker, mut band| {
             if !self.is_canceled() {
-                begin(band);
-                self.for_each_tile_in_row(row, band, &bins, worker, surface, &each);
+                begin(band.pixels);
+                self.for_each_tile_in_band(&mut band, &bins, worker, surface, &each);
             }
         });
         self.buffers.recycle_buffers(DrawBuffers { bins, workers });
     }
 
-    fn for_each_tile_in_row<S: Surface, P>(
+    /// Fills the tiles of one band from left to right and calls `each` with those that have
+    /// triangles.
+    fn for_each_tile_in_band<S: Surface, P>(
         &self,
-        row: u32,
-        band: &mut [P],
+        band: &mut Band<'_, P>,
         bins: &TileBins,
-        ThreadBuffers { bin: list, tile, scratch }: &mut ThreadBuffers,
+        ThreadBuffers { bin, tile, scratch }: &mut ThreadBuffers,
         surface: &S,
         each: &impl Fn(FilledTile<'_, P>),
     ) {
-        let (left, right) = self.region.tile_columns();
+        let (left, right) = tile_columns(self.region);
         for column in left..right {
-            let rect = self.region.tile_rect(column, row);
-            list.clear();
-            bins.append_tile_bin(column, row, list);
-            if !list.is_empty() {
-                tile.rasterize_bin(self, rect, list, surface);
-                each(FilledTile { tile, rect, band, scratch });
+            let rect = tile_rect(self.region, column, band.row);
+            bin.clear();
+            bins.append_tile_bin(column, band.row, bin);
+            // Nothing to draw: the background is there already.
+            if !bin.is_empty() {
+                tile.rasterize_bin(self, rect, bin, surface);
+                each(FilledTile { tile, rect, band: band.pixels, scratch });
             }
         }
     }
 }
 
-/// The rows of tiles of a part that are left, each with its pixels.
-struct TileRows<'a, P> {
-    region: FrameRegion,
+/// One row of tiles, and the pixels that it shows.
+struct Band<'a, P> {
+    /// The row of tiles, counted from the top of the whole picture.
+    row: u32,
+    pixels: &'a mut [P],
+}
+
+/// Iterator over the bands of a region that are left.
+struct Bands<'a, P> {
+    region: PixelRect,
+    /// The next row of tiles, and the one behind the last.
     rows: (u32, u32),
+    /// The pixels of the bands that are left.
     target: &'a mut [P],
 }
 
-impl<'a, P> Iterator for TileRows<'a, P> {
-    type Item = (u32, &'a mut [P]);
+impl<'a, P> Iterator for Bands<'a, P> {
+    type Item = Band<'a, P>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let (row, end) = self.rows;
@@ -81,11 +99,11 @@ impl<'a, P> Iterator for TileRows<'a, P> {
             return None;
         }
         self.rows.0 += 1;
-        let length = self.region.visible_rows(row) * self.region.width as usize;
+        let length = visible_rows(self.region, row) * self.region.width as usize;
         let all = std::mem::take(&mut self.target);
-        let (band, rest) = all.split_at_mut(length.min(all.len()));
+        let (pixels, rest) = all.split_at_mut(length.min(all.len()));
         self.target = rest;
-        Some((row, band))
+        Some(Band { row, pixels })
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -94,4 +112,4 @@ impl<'a, P> Iterator for TileRows<'a, P> {
     }
 }
 
-impl<P> ExactSizeIterator for TileRows<'_, P> {}
+impl<P> ExactSizeIterator for Bands<'_, P> {}

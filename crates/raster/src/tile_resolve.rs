@@ -1,19 +1,25 @@
-//! From a filled tile to colours: each visible piece is shaded once per pixel, eight fragments at a time.
+//! Deferred shading of a filled tile: each visible triangle is shaded once per pixel, eight
+//! fragments at a time.
 //!
-//! Most rows of eight neighbouring pixels show one piece in each pixel: they are shaded as they lie. Of pixels on edges only the
-//! pieces that others than the first sample see are left over ([`Edges`]). What lies under layers is gathered fragment by
-//! fragment, shaded eight at a time and put together sample by sample.
+//! | pixels of a row | shaded | by |
+//! | --- | --- | --- |
+//! | eight neighbors with one triangle each | as they lie | this module |
+//! | with several triangles (edges) | neighbors, then the gathered rest | [`EdgePixels`] |
+//! | under translucent layers | gathered, blended sample by sample | [`LayeredPixels`] |
+//!
+//! Most pixels are of the first kind, which needs no gathering and no sums.
 
 use crate::edge_pixels::EdgePixels;
 use crate::fragment_lanes::{F32x8, LANES};
 use crate::layer_blending::LayeredPixels;
 use crate::primitive::ScreenTriangle;
 use crate::sample_plane::{NO_TRIANGLE, pixel_index};
-use crate::tile_grid::{FrameRegion, TILE, TileRect};
+use crate::tile_grid::{TILE, TileRect};
 use crate::tile_visibility::{TileVisibility, TranslucentLayer};
 use crate::{Encode, Fragments, Frame, Surface};
+use homog::PixelRect;
 
-/// A filled tile on its way to colours.
+/// A filled tile, and everything that is needed to shade it.
 pub(crate) struct TileResolve<'a, S> {
     pub(crate) frame: &'a Frame,
     pub(crate) surface: &'a S,
@@ -22,27 +28,29 @@ pub(crate) struct TileResolve<'a, S> {
     pub(crate) rect: TileRect,
 }
 
-/// What a piece adds to a pixel.
+/// The contribution of a triangle to a pixel: the samples it is visible at.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contribution {
-    /// The pixel's column within the tile.
+    /// The column of the pixel within the tile.
     pub(crate) x: u32,
+    /// The triangle, or [`NO_TRIANGLE`] for the background.
     pub(crate) triangle: u32,
-    /// The samples it is seen by, bit by bit.
+    /// The samples, one bit each.
     pub(crate) mask: u16,
-    /// Whether it lets through what is behind it.
+    /// Whether the triangle lets through what is behind it.
     pub(crate) translucent: bool,
 }
 
-/// What a row of the tile shows that cannot be written at once; kept so that its memory is used again.
+/// The pixels of a row that cannot be written at once. Kept between rows for its memory.
 #[derive(Debug, Default)]
 pub(crate) struct RowScratch {
     edges: EdgePixels,
     layered: LayeredPixels,
 }
 
-/// Neighbouring pixels of a row, all in one block, with the layers over them.
+/// Adjacent pixels of a row, all in one block, and the layers over them.
 pub(crate) struct PixelRun<'a> {
+    /// The row within the tile.
     pub(crate) y: u32,
     /// The columns within the tile.
     pub(crate) lanes: std::ops::Range<u32>,
@@ -56,8 +64,17 @@ impl PixelRun<'_> {
     }
 }
 
+/// A row of a tile's pixels in the target, and the pixel of the background.
+struct TargetRow<'a, P> {
+    /// The row within the tile.
+    y: u32,
+    pixels: &'a mut [P],
+    empty: P,
+}
+
 impl<S: Surface> TileResolve<'_, S> {
-    /// Writes what the tile shows into its band: the rows of the frame that the tile's row shows, filled with the background.
+    /// Writes the tile into its band: the rows of the frame that its row of tiles shows, filled
+    /// with the background.
     #[inline(always)]
     pub(crate) fn write_tile<P: Copy>(
         &self,
@@ -66,7 +83,7 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
     ) {
         let TileRect { x, left, top, right, bottom, .. } = self.rect;
-        let FrameRegion { x: from, width, .. } = self.frame.region;
+        let PixelRect { x: from, width, .. } = self.frame.region;
         let empty = encode.encode_pixel(self.background);
         let mut layers = self.tile.layers.as_slice();
         for y in top..bottom {
@@ -74,20 +91,18 @@ impl<S: Surface> TileResolve<'_, S> {
             let Some(row) = band.get_mut(start..start + (right - left) as usize) else { return };
             let over;
             (over, layers) = split_before(layers, ((y + 1) * TILE) as usize);
-            self.write_row(y, over, row, empty, encode, scratch);
+            self.write_row(TargetRow { y, pixels: row, empty }, over, encode, scratch);
             self.write_edge_pixels(y, row, encode, &mut scratch.edges);
             self.write_layered_pixels(y, row, encode, &mut scratch.layered);
         }
     }
 
-    /// Writes those pixels of a row that show one piece each, and gathers what the others show.
+    /// Writes those pixels of a row that show one triangle each, and gathers the others.
     #[inline(always)]
     fn write_row<P: Copy>(
         &self,
-        y: u32,
+        TargetRow { y, pixels, empty }: TargetRow<'_, P>,
         mut layers: &[TranslucentLayer],
-        row: &mut [P],
-        empty: P,
         encode: &impl Encode<P>,
         scratch: &mut RowScratch,
     ) {
@@ -95,10 +110,10 @@ impl<S: Surface> TileResolve<'_, S> {
         let RowScratch { edges, layered } = scratch;
         layered.contributions.clear();
         edges.clear();
-        let mut rest = row;
-        let wide = LANES as u32;
-        for block in left / wide..right.div_ceil(wide) {
-            let lanes = left.max(block * wide)..right.min((block + 1) * wide);
+        let mut rest = pixels;
+        let width = LANES as u32;
+        for block in left / width..right.div_ceil(width) {
+            let lanes = left.max(block * width)..right.min((block + 1) * width);
             let targets;
             (targets, rest) = rest.split_at_mut(lanes.len());
             let over;
@@ -109,28 +124,28 @@ impl<S: Surface> TileResolve<'_, S> {
                 continue;
             }
             match self.single_triangles(&run) {
-                Some(pieces) => self.write_uniform(&run, pieces, targets, empty, encode),
+                Some(triangles) => self.write_uniform(&run, triangles, targets, empty, encode),
                 None => self.begin_edge_pixels(&run, edges),
             }
         }
     }
 
-    /// The pieces that the pixels of a run see, if each pixel sees just one.
+    /// The triangles of a run's pixels, if each pixel has the same one at all samples.
     #[inline(always)]
     fn single_triangles(&self, run: &PixelRun<'_>) -> Option<[u32; LANES]> {
         let at = pixel_index(run.block_start() as usize, run.y as usize);
         let first = self.tile.row_triangles(0, at);
         let mut differs = 0;
         for sample in 1..self.frame.samples.count() {
-            let pieces = self.tile.row_triangles(sample, at);
+            let triangles = self.tile.row_triangles(sample, at);
             for lane in 0..LANES {
-                differs |= pieces[lane] ^ first[lane];
+                differs |= triangles[lane] ^ first[lane];
             }
         }
         (differs == 0).then_some(first)
     }
 
-    /// The pieces that the samples of a run see.
+    /// The triangles of a run's pixels, sample by sample.
     #[inline(always)]
     pub(crate) fn sample_triangles<'p>(
         &self,
@@ -139,33 +154,34 @@ impl<S: Surface> TileResolve<'_, S> {
     ) -> &'p [[u32; LANES]] {
         let at = pixel_index(run.block_start() as usize, run.y as usize);
         let planes = &mut planes[..self.frame.samples.count()];
-        for (sample, pieces) in planes.iter_mut().enumerate() {
-            *pieces = self.tile.row_triangles(sample, at);
+        for (sample, triangles) in planes.iter_mut().enumerate() {
+            *triangles = self.tile.row_triangles(sample, at);
         }
         planes
     }
 
-    /// Writes neighbouring pixels with one piece each.
+    /// Shades and writes adjacent pixels with one triangle each.
     #[inline(always)]
     fn write_uniform<P: Copy>(
         &self,
         run: &PixelRun<'_>,
-        pieces: [u32; LANES],
+        triangles: [u32; LANES],
         targets: &mut [P],
         empty: P,
         encode: &impl Encode<P>,
     ) {
-        let differs = any_differ(pieces);
-        if !differs && pieces[0] == NO_TRIANGLE {
+        let differs = any_differ(triangles);
+        if !differs && triangles[0] == NO_TRIANGLE {
             return;
         }
-        let [r, g, b] = self.shade_neighbors(run, pieces, differs);
+        let [r, g, b] = self.shade_neighbors(run, triangles, differs);
         let mut pixels = encode.encode_eight(&[r, g, b, [1.0; LANES]]);
         if differs {
-            for (pixel, piece) in pixels.iter_mut().zip(pieces) {
-                *pixel = if piece == NO_TRIANGLE { empty } else { *pixel };
+            for (pixel, triangle) in pixels.iter_mut().zip(triangles) {
+                *pixel = if triangle == NO_TRIANGLE { empty } else { *pixel };
             }
         }
+        // A whole block is one store; at the borders of the region less is visible.
         if let Ok(targets) = <&mut [P; LANES]>::try_from(&mut *targets) {
             *targets = pixels;
         } else {
@@ -174,58 +190,57 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The colours of a run with one piece for each pixel, and whether they differ. Pixels that show nothing get any colour.
+    /// The colors of a run with one triangle per pixel; `differs` if not all are the same.
+    /// Background pixels get any color.
     #[inline(always)]
     fn shade_neighbors(
         &self,
         run: &PixelRun<'_>,
-        pieces: [u32; LANES],
+        triangles: [u32; LANES],
         differs: bool,
     ) -> [F32x8; 3] {
         let (x, y) = (self.rect.x + run.block_start(), self.rect.y + run.y);
         let [r, g, b, _] = if differs {
-            self.shade_several(pieces, x, y)
+            self.shade_several(triangles, x, y)
         } else {
-            let piece = self.triangle(pieces[0]);
-            self.surface.shade_eight(&Fragments::from_one_triangle(
-                piece,
-                &self.frame.source_weights,
-                x,
-                y,
-            ))
+            let triangle = self.triangle(triangles[0]);
+            let source_weights = &self.frame.source_weights;
+            self.surface.shade_eight(&Fragments::from_one_triangle(triangle, source_weights, x, y))
         };
         [r, g, b]
     }
 
-    /// Shades eight pixels from (x, y) to the right, not all of which show the same; those that show nothing get any colour.
+    /// Shades eight pixels from (x, y) to the right that show different triangles. Background
+    /// pixels get any color.
     #[inline(always)]
-    fn shade_several(&self, pieces: [u32; LANES], x: u32, y: u32) -> [F32x8; 4] {
-        // Nothing is the largest number: the least is a piece. Pixels that show nothing repeat the one that shows it, so that no
-        // surface is asked for a place where it is not.
-        let (mut any, mut place) = (NO_TRIANGLE, 0);
-        for (lane, &piece) in pieces.iter().enumerate() {
-            if piece < any {
-                (any, place) = (piece, lane as u32);
+    fn shade_several(&self, triangles: [u32; LANES], x: u32, y: u32) -> [F32x8; 4] {
+        // The background has the largest index, so the least is a triangle. Background lanes repeat
+        // the fragment that shows it: no surface is shaded where it is not.
+        let (mut any, mut any_lane) = (NO_TRIANGLE, 0);
+        for (lane, &triangle) in triangles.iter().enumerate() {
+            if triangle < any {
+                (any, any_lane) = (triangle, lane as u32);
             }
         }
-        let mut seen = [self.triangle(any); LANES];
-        let mut columns = [x + place; LANES];
+        let mut visible = [self.triangle(any); LANES];
+        let mut columns = [x + any_lane; LANES];
         for lane in 0..LANES {
-            if pieces[lane] != NO_TRIANGLE {
+            if triangles[lane] != NO_TRIANGLE {
                 columns[lane] = x + lane as u32;
-                seen[lane] = self.triangle(pieces[lane]);
+                visible[lane] = self.triangle(triangles[lane]);
             }
         }
-        let fragments = Fragments::from_triangles(seen, &self.frame.source_weights, columns, y);
+        let fragments = Fragments::from_triangles(visible, &self.frame.source_weights, columns, y);
         self.surface.shade_eight(&fragments)
     }
 
     #[inline(always)]
-    fn triangle(&self, number: u32) -> &ScreenTriangle {
-        self.frame.triangles.triangle(number)
+    fn triangle(&self, index: u32) -> &ScreenTriangle {
+        self.frame.triangles.triangle(index)
     }
 
-    /// Shades what the first samples of a run see, and takes note of what the others see.
+    /// Shades the first samples of a run with edges, and gathers the triangles of the other
+    /// samples.
     #[inline(always)]
     fn begin_edge_pixels(&self, run: &PixelRun<'_>, edges: &mut EdgePixels) {
         let mut planes = [[NO_TRIANGLE; LANES]; 16];
@@ -248,7 +263,8 @@ impl<S: Surface> TileResolve<'_, S> {
         edges.add_first_samples(run.block_start() as usize / LANES, lanes, planes, &colors);
     }
 
-    /// Adds what is left of the pixels on the edges of a row, and writes them.
+    /// Shades the gathered contributions to a row's edge pixels, resolves the samples and writes
+    /// the pixels.
     #[inline(always)]
     fn write_edge_pixels<P: Copy>(
         &self,
@@ -259,9 +275,8 @@ impl<S: Surface> TileResolve<'_, S> {
     ) {
         for from in (0..edges.contributions().len()).step_by(LANES) {
             let end = edges.contributions().len().min(from + LANES);
-            let others = &edges.contributions()[from..end];
-            let colors =
-                self.shade_contributions(others, self.gather_fragments(y, others).as_ref());
+            let eight = &edges.contributions()[from..end];
+            let colors = self.shade_contributions(eight, self.gather_fragments(y, eight).as_ref());
             edges.add_contributions(from..end, &colors);
         }
         let (left, right) = (self.rect.left as usize, self.rect.right as usize);
@@ -273,42 +288,45 @@ impl<S: Surface> TileResolve<'_, S> {
         }
     }
 
-    /// The fragments of up to eight shares of a row, not all of nothing; those of nothing repeat another.
+    /// The fragments of up to eight contributions to a row; `None` if all are of the background.
+    ///
+    /// Lanes of the background repeat another.
     #[inline(always)]
     pub(crate) fn gather_fragments(
         &self,
         y: u32,
-        shares: &[Contribution],
+        contributions: &[Contribution],
     ) -> Option<Fragments<'_>> {
-        let any = shares.iter().find(|share| share.triangle != NO_TRIANGLE)?;
-        let mut seen = [self.triangle(any.triangle); LANES];
+        let any = contributions.iter().find(|next| next.triangle != NO_TRIANGLE)?;
+        let mut visible = [self.triangle(any.triangle); LANES];
         let mut columns = [self.rect.x + any.x; LANES];
-        for (lane, share) in
-            shares.iter().enumerate().filter(|(_, share)| share.triangle != NO_TRIANGLE)
-        {
-            seen[lane] = self.triangle(share.triangle);
-            columns[lane] = self.rect.x + share.x;
+        let numbered = contributions.iter().enumerate();
+        for (lane, next) in numbered.filter(|(_, next)| next.triangle != NO_TRIANGLE) {
+            visible[lane] = self.triangle(next.triangle);
+            columns[lane] = self.rect.x + next.x;
         }
-        Some(Fragments::from_triangles(seen, &self.frame.source_weights, columns, self.rect.y + y))
+        let source_weights = &self.frame.source_weights;
+        Some(Fragments::from_triangles(visible, source_weights, columns, self.rect.y + y))
     }
 
-    /// The colours of up to eight shares of a row, by their [fragments](Self::fragments); those of nothing have the background's.
+    /// The colors of up to eight contributions to a row, given their
+    /// [fragments](Self::gather_fragments); those of no triangle have the background's.
     #[inline(always)]
     pub(crate) fn shade_contributions(
         &self,
-        shares: &[Contribution],
+        contributions: &[Contribution],
         fragments: Option<&Fragments<'_>>,
     ) -> [F32x8; 4] {
         let mut colors = [[0.0; LANES]; 4];
         if let Some(fragments) = fragments {
             colors = self.surface.shade_eight(fragments);
         }
-        for (lane, share) in shares.iter().enumerate() {
-            if share.triangle == NO_TRIANGLE {
+        for (lane, contribution) in contributions.iter().enumerate() {
+            if contribution.triangle == NO_TRIANGLE {
                 for (color, background) in colors.iter_mut().zip(self.background) {
                     color[lane] = background;
                 }
-            } else if !share.translucent {
+            } else if !contribution.translucent {
                 colors[3][lane] = 1.0;
             }
         }
@@ -316,12 +334,12 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 }
 
-/// Whether not all are the same.
+/// Whether the triangles of eight pixels are not all the same.
 #[inline(always)]
-fn any_differ(pieces: [u32; LANES]) -> bool {
+fn any_differ(triangles: [u32; LANES]) -> bool {
     let mut differs = 0;
-    for piece in pieces {
-        differs |= piece ^ pieces[0];
+    for triangle in triangles {
+        differs |= triangle ^ triangles[0];
     }
     differs != 0
 }

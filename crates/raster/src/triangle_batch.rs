@@ -1,44 +1,52 @@
-//! Eight small triangles prepared for a tile at once.
+//! Batched triangle setup: eight small triangles prepared for a tile at once.
 //!
-//! In fine meshes most of the work on a triangle is its set-up. Triangles near the tile fit 32-bit arithmetic throughout, and
-//! eight of them are prepared by the same instructions. The numbers are those of [`Setup`](crate::setup::Setup), bit for
-//! bit: edges are exact in both, and depth goes through the same steps. All is plain loops over the eight, which
-//! become vector instructions in the function that they are made part of.
+//! In fine meshes most of the work on a triangle is its setup. Triangles near the tile fit 32-bit
+//! arithmetic throughout, and eight of them are prepared by the same vector instructions. The
+//! results are those of [`TriangleSetup`](crate::triangle_setup::TriangleSetup), bit for bit: edge
+//! functions are exact in both, and depth goes through the same operations in the same order.
+//! Everything is a plain loop over eight lanes, which becomes vector instructions in the dispatched
+//! function that it is inlined into.
 
 use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::tile_grid::TileRect;
 use crate::triangle_setup::{SampleStart, TriangleFunctions};
 
-/// Triangles prepared at once.
+/// Triangles in a batch: the lanes of one vector.
 pub(crate) const BATCH_SIZE: usize = 8;
-/// The least and the greatest coordinate, in grid steps from the tile's corner, of a triangle that counts as small. A side is then
-/// shorter than 2¹⁵ steps, and products of sides and coordinates fit 32 bits.
+/// The least and the greatest coordinate, in grid steps from the tile's corner, of a small
+/// triangle.
+///
+/// An edge is then shorter than 2¹⁵ steps, and products of edges and coordinates fit 32 bits.
 const SMALL_RANGE: (i32, i32) = (-32 * SUBPIXELS, 95 * SUBPIXELS);
 
 type Ints = [i32; BATCH_SIZE];
 type Floats = [f32; BATCH_SIZE];
 type Doubles = [f64; BATCH_SIZE];
 
-/// Eight triangles as one tile sees them: for each function and corner the eight values.
+/// Eight triangles in the coordinates of one tile, as a structure of arrays.
 pub(crate) struct TriangleBatch {
-    /// The corners, in grid steps from the tile's corner.
+    /// The vertices, in grid steps from the tile's corner.
     x: [Ints; 3],
     y: [Ints; 3],
+    /// The depth of each triangle's first vertex.
     first_depth: Floats,
+    /// Whether 32 bits are enough: the values of other triangles are meaningless.
     is_small: [bool; BATCH_SIZE],
-    /// See [`Functions`].
+    /// The coefficients of the edge functions: see [`TriangleFunctions`].
     a: [Ints; 3],
     b: [Ints; 3],
+    /// x0, y0, x1 and y1 of [`TriangleFunctions`].
     bounds: [Ints; 4],
+    /// The change of depth per grid step to the right and down.
     depth_gradient: [Doubles; 2],
-    /// The same per pixel.
+    /// The change of depth per pixel to the right and down.
     depth_step: [Floats; 2],
     min_depth: Floats,
     max_depth: Floats,
 }
 
-/// Where the functions of eight triangles start in one plane of samples: see [`Start`].
+/// The start values of eight triangles in one plane of samples: see [`SampleStart`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BatchStarts {
     edges: [Ints; 3],
@@ -48,6 +56,7 @@ pub(crate) struct BatchStarts {
 impl BatchStarts {
     pub(crate) const ZERO: Self = Self { edges: [[0; BATCH_SIZE]; 3], depth: [0.0; BATCH_SIZE] };
 
+    /// The start values of one of the triangles.
     #[inline(always)]
     pub(crate) fn lane_start(&self, lane: usize) -> SampleStart {
         let [p, q, r] = &self.edges;
@@ -56,36 +65,40 @@ impl BatchStarts {
 }
 
 impl TriangleBatch {
-    /// Prepares eight triangles; `reach` is the least and the greatest offset of a sample from its pixel's borders.
+    /// Prepares eight triangles.
+    ///
+    /// `offset_range` is the least and the greatest offset of a sample from its pixel's borders.
     #[inline(always)]
     pub(crate) fn new(
-        pieces: [&ScreenTriangle; BATCH_SIZE],
+        triangles: [&ScreenTriangle; BATCH_SIZE],
         tile: TileRect,
-        reach: (i32, i32),
+        offset_range: (i32, i32),
     ) -> Self {
+        // Gather the vertices into lanes: from here on every loop is over lanes.
         let (left, top) = (tile.x as i32 * SUBPIXELS, tile.y as i32 * SUBPIXELS);
         let mut x = [[0; BATCH_SIZE]; 3];
         let mut y = [[0; BATCH_SIZE]; 3];
         let mut z = [[0.0; BATCH_SIZE]; 3];
-        for (lane, piece) in pieces.iter().enumerate() {
-            for (k, corner) in piece.corners.iter().enumerate() {
-                x[k][lane] = corner.x - left;
-                y[k][lane] = corner.y - top;
-                z[k][lane] = corner.depth;
+        for (lane, triangle) in triangles.iter().enumerate() {
+            for (k, vertex) in triangle.vertices.iter().enumerate() {
+                x[k][lane] = vertex.x - left;
+                y[k][lane] = vertex.y - top;
+                z[k][lane] = vertex.depth;
             }
         }
         let (min_x, max_x) = coordinate_extents(&x);
         let (min_y, max_y) = coordinate_extents(&y);
         let mut is_small = [false; BATCH_SIZE];
         for (lane, small) in is_small.iter_mut().enumerate() {
-            let near = min_x[lane].min(min_y[lane]) >= SMALL_RANGE.0;
-            *small = near && max_x[lane].max(max_y[lane]) <= SMALL_RANGE.1;
+            let is_near = min_x[lane].min(min_y[lane]) >= SMALL_RANGE.0;
+            *small = is_near && max_x[lane].max(max_y[lane]) <= SMALL_RANGE.1;
         }
-        let bounds = pixel_bounds([min_x, min_y, max_x, max_y], tile, reach);
+        let bounds = pixel_bounds([min_x, min_y, max_x, max_y], tile, offset_range);
+        // (a, b) is the inner normal of each edge.
         let (a, b) = (edge_differences(&y, false), edge_differences(&x, true));
         let depth_gradient = depth_gradients(&x, &y, &z);
         let depth_step =
-            depth_gradient.map(|slope| slope.map(|slope| (slope * f64::from(SUBPIXELS)) as f32));
+            depth_gradient.map(|steps| steps.map(|step| (step * f64::from(SUBPIXELS)) as f32));
         let (min_depth, max_depth) = depth_extents(&z);
         Self {
             x,
@@ -102,7 +115,7 @@ impl TriangleBatch {
         }
     }
 
-    /// Whether the triangle was prepared; if not, it is too large.
+    /// Whether the triangle was prepared; if not, it is too large for 32 bits.
     #[inline(always)]
     pub(crate) const fn is_prepared(&self, lane: usize) -> bool {
         self.is_small[lane]
@@ -115,6 +128,7 @@ impl TriangleBatch {
         x0[lane] >= x1[lane] || y0[lane] >= y1[lane]
     }
 
+    /// The functions of one of the triangles.
     #[inline(always)]
     pub(crate) fn lane_functions(&self, lane: usize) -> TriangleFunctions {
         let Self { a, b, bounds: [x0, y0, x1, y1], depth_step: [dx, dy], .. } = self;
@@ -132,25 +146,29 @@ impl TriangleBatch {
         }
     }
 
-    /// Where the functions start for the samples at `offset` (grid steps) from the upper left corners of their pixels.
+    /// The start values for the samples at `offset` (grid steps) from the upper left corners of
+    /// their pixels.
     #[inline(always)]
     pub(crate) fn sample_starts(&self, offset: (i64, i64)) -> BatchStarts {
         let Self { x, y, a, b, bounds: [x0, y0, _, _], depth_gradient: [dx, dy], .. } = self;
         let (right, down) = (offset.0 as i32, offset.1 as i32);
         let mut starts = BatchStarts::ZERO;
-        for (k, e) in starts.edges.iter_mut().enumerate() {
-            for (lane, e) in e.iter_mut().enumerate() {
+        // Edge functions with the top-left rule, as `EdgeFunction::evaluate`. Lanes of large
+        // triangles wrap around; nobody reads them.
+        for (k, edges) in starts.edges.iter_mut().enumerate() {
+            for (lane, edge) in edges.iter_mut().enumerate() {
                 let (a, b) = (a[k][lane], b[k][lane]);
                 let along = a.wrapping_mul(right - x[k][lane]);
                 let value = along.wrapping_add(b.wrapping_mul(down - y[k][lane]));
-                let owns_border = (a > 0) | ((a == 0) & (b > 0));
-                *e = value.wrapping_sub(i32::from(!owns_border)) >> SUBPIXEL_BITS;
+                let is_top_left = (a > 0) | ((a == 0) & (b > 0));
+                *edge = value.wrapping_sub(i32::from(!is_top_left)) >> SUBPIXEL_BITS;
             }
         }
+        // The depth plane at the first sample.
         for (lane, z) in starts.depth.iter_mut().enumerate() {
-            let away_x = f64::from(right + x0[lane] * SUBPIXELS - x[0][lane]);
-            let away_y = f64::from(down + y0[lane] * SUBPIXELS - y[0][lane]);
-            *z = (f64::from(self.first_depth[lane]) + dx[lane] * away_x + dy[lane] * away_y) as f32;
+            let from_x = f64::from(right + x0[lane] * SUBPIXELS - x[0][lane]);
+            let from_y = f64::from(down + y0[lane] * SUBPIXELS - y[0][lane]);
+            *z = (f64::from(self.first_depth[lane]) + dx[lane] * from_x + dy[lane] * from_y) as f32;
         }
         starts
     }
@@ -167,54 +185,56 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
     (low, high)
 }
 
-/// The pixels that may have a sample within the bounds: see [`Setup::new`](crate::setup::Setup::new).
+/// The pixels of the tile that may have a sample within the bounds: the x0, y0, x1 and y1 that
+/// [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new) computes.
 #[inline(always)]
-fn pixel_bounds(extent: [Ints; 4], tile: TileRect, reach: (i32, i32)) -> [Ints; 4] {
+fn pixel_bounds(extent: [Ints; 4], tile: TileRect, (least, greatest): (i32, i32)) -> [Ints; 4] {
     let [mut x0, mut y0, mut x1, mut y1] = extent;
     for low in [&mut x0, &mut y0] {
         for low in low {
-            *low = ((*low - reach.1 + 255) >> SUBPIXEL_BITS).max(0);
+            *low = ((*low - greatest + 255) >> SUBPIXEL_BITS).max(0);
         }
     }
     for (high, end) in [(&mut x1, tile.right), (&mut y1, tile.bottom)] {
         for high in high {
-            *high = (((*high - reach.0) >> SUBPIXEL_BITS) + 1).min(end as i32);
+            *high = (((*high - least) >> SUBPIXEL_BITS) + 1).min(end as i32);
         }
     }
     [x0, y0, x1, y1]
 }
 
-/// For each side the difference of its ends' coordinates: start − end, or end − start.
+/// The difference of the coordinates of each edge's ends: start − end, or end − start if `forward`.
 #[inline(always)]
 fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
-    let mut sides = [[0; BATCH_SIZE]; 3];
-    for (k, side) in sides.iter_mut().enumerate() {
+    let mut differences = [[0; BATCH_SIZE]; 3];
+    for (k, difference) in differences.iter_mut().enumerate() {
         let end = (k + 1) % 3;
         for lane in 0..BATCH_SIZE {
             let backward = c[k][lane] - c[end][lane];
-            side[lane] = if forward { -backward } else { backward };
+            difference[lane] = if forward { -backward } else { backward };
         }
     }
-    sides
+    differences
 }
 
-/// The steps of depth per grid step, as `DepthPlane` of `setup` has them.
+/// The change of depth per grid step to the right and down, by the steps of `DepthPlane::new`.
 #[inline(always)]
 fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2] {
-    let mut slopes = [[0.0; BATCH_SIZE]; 2];
+    let mut gradients = [[0.0; BATCH_SIZE]; 2];
     for lane in 0..BATCH_SIZE {
         let along = |c: &[Ints; 3], k: usize| f64::from(c[k][lane] - c[0][lane]);
         let (qx, qy, qz) =
             (along(x, 1), along(y, 1), f64::from(z[1][lane]) - f64::from(z[0][lane]));
         let (rx, ry, rz) =
             (along(x, 2), along(y, 2), f64::from(z[2][lane]) - f64::from(z[0][lane]));
-        let per_area = 1.0 / (qx * ry - qy * rx);
-        slopes[0][lane] = (qz * ry - rz * qy) * per_area;
-        slopes[1][lane] = (rz * qx - qz * rx) * per_area;
+        let inv_area = 1.0 / (qx * ry - qy * rx);
+        gradients[0][lane] = (qz * ry - rz * qy) * inv_area;
+        gradients[1][lane] = (rz * qx - qz * rx) * inv_area;
     }
-    slopes
+    gradients
 }
 
+/// The depth of the farthest and of the nearest vertex of each triangle.
 #[inline(always)]
 fn depth_extents([p, q, r]: &[Floats; 3]) -> (Floats, Floats) {
     let (mut least, mut greatest) = ([0.0; BATCH_SIZE], [0.0; BATCH_SIZE]);
@@ -234,24 +254,25 @@ mod tests {
     use crate::{Opacity, Samples, ScreenVertex, signed_area};
     use proptest::prelude::*;
 
-    fn piece() -> impl Strategy<Value = ScreenTriangle> {
+    fn triangle() -> impl Strategy<Value = ScreenTriangle> {
         let corner = (-40.0..110.0_f64, -40.0..110.0_f64, 0.0..1.0_f64);
         let size = prop_oneof![Just(1.0), Just(0.05), Just(0.01)];
-        let corners = (prop::array::uniform3(corner), size).prop_filter_map("flat", |(c, size)| {
-            let place = |k: usize| {
-                let at = |of: f64, from: f64| from + (of - from) * size;
-                let point = homog::Point::new(at(c[k].0, c[0].0), at(c[k].1, c[0].1), c[k].2);
-                ScreenVertex::snap(point, 1.0)
-            };
-            let [p, q, r] = [place(0)?, place(1)?, place(2)?];
-            match signed_area([p, q, r]) {
-                0 => None,
-                1.. => Some([p, q, r]),
-                _ => Some([p, r, q]),
-            }
-        });
-        corners.prop_map(|corners| ScreenTriangle {
-            corners,
+        let vertices =
+            (prop::array::uniform3(corner), size).prop_filter_map("flat", |(c, size)| {
+                let vertex = |k: usize| {
+                    let at = |of: f64, from: f64| from + (of - from) * size;
+                    let point = homog::Point::new(at(c[k].0, c[0].0), at(c[k].1, c[0].1), c[k].2);
+                    ScreenVertex::snap(point, 1.0)
+                };
+                let [p, q, r] = [vertex(0)?, vertex(1)?, vertex(2)?];
+                match signed_area([p, q, r]) {
+                    0 => None,
+                    1.. => Some([p, q, r]),
+                    _ => Some([p, r, q]),
+                }
+            });
+        vertices.prop_map(|vertices| ScreenTriangle {
+            vertices,
             id: 0,
             source: WeightSource::Unclipped,
             opacity: Opacity::Opaque,
@@ -262,11 +283,11 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
 
         #[test]
-        fn eight_at_once_are_the_same_as_one_by_one(piece in piece(), count in 0..4_usize) {
+        fn a_batch_has_the_bits_of_single_setups(triangle in triangle(), count in 0..4_usize) {
             let tile = TileRect { x: 0, y: 0, left: 0, top: 0, right: 64, bottom: 56 };
             let samples = [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen][count];
-            let batch = TriangleBatch::new([&piece; BATCH_SIZE], tile, samples.offset_range());
-            let setup = TriangleSetup::new(&piece, tile, samples.offset_range());
+            let batch = TriangleBatch::new([&triangle; BATCH_SIZE], tile, samples.offset_range());
+            let setup = TriangleSetup::new(&triangle, tile, samples.offset_range());
             if !batch.is_prepared(3) {
                 return Ok(());
             }

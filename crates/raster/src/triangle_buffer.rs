@@ -1,26 +1,30 @@
-//! Pieces in the order in which they were given, in chunks of limited size.
+//! The triangle buffer: all triangles of a frame in submission order, in chunks of limited size.
 //!
-//! Threads fill chunks of their own, which then stand in the order of what they were filled from: so the order is the same for
-//! any number of threads. Chunks never move while they grow, and keep their memory for the next picture.
+//! Threads fill chunks of their own, which stand in the order of the triangles that they were
+//! filled from: the order is the same for any number of threads. Chunks never move while the buffer
+//! grows, and keep their memory for the next picture.
 
 use crate::primitive::ScreenTriangle;
 use crate::tile_grid::TileRange;
 
-/// The most pieces of a chunk: 256 KiB of them.
+/// The most triangles of a chunk: 256 KiB of them.
 pub(crate) const CHUNK_TRIANGLES: usize = 1 << CHUNK_BITS;
 const CHUNK_BITS: u32 = 12;
-/// A chunk with less room than this takes no more triangles of a mesh.
+/// A chunk with less space than this takes no more triangles of a mesh: the tail of a chunk is not
+/// worth another pass through the loop that fills it.
 const MIN_FREE: usize = 512;
 
-/// Some pieces that follow one another, and beside each the tiles that it touches: sorting into bins looks at nothing else.
+/// Some consecutive triangles, and beside each the tiles that it touches: binning reads nothing
+/// else.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleChunk {
     triangles: Vec<ScreenTriangle>,
+    /// As many as `triangles`.
     tiles: Vec<TileRange>,
 }
 
 impl TriangleChunk {
-    /// The tiles of each piece.
+    /// The tiles that each triangle touches.
     pub(crate) fn tiles(&self) -> &[TileRange] {
         &self.tiles
     }
@@ -31,8 +35,8 @@ impl TriangleChunk {
     }
 
     #[inline(always)]
-    pub(crate) fn push(&mut self, piece: ScreenTriangle, tiles: TileRange) {
-        self.triangles.push(piece);
+    pub(crate) fn push(&mut self, triangle: ScreenTriangle, tiles: TileRange) {
+        self.triangles.push(triangle);
         self.tiles.push(tiles);
     }
 
@@ -42,55 +46,58 @@ impl TriangleChunk {
     }
 }
 
-/// All pieces of a frame. A piece's number tells its chunk and its place there; numbers rise in the order of the pieces.
+/// All triangles of a frame.
+///
+/// The index of a triangle is the index of its chunk in the upper bits and its index in the chunk
+/// in the lower 12. Indices rise in submission order but have gaps where chunks are not full.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TriangleBuffer {
     chunks: Vec<TriangleChunk>,
-    /// How many of the chunks are in use; the others are empty.
+    /// The number of chunks in use; the others are empty.
     chunks_in_use: usize,
 }
 
 impl TriangleBuffer {
-    /// The chunks that are in use, each with the number of its first piece.
+    /// The chunks in use, each with the index of its first triangle.
     pub(crate) fn chunks(&self) -> impl ExactSizeIterator<Item = (u32, &TriangleChunk)> {
         let numbered = self.chunks[..self.chunks_in_use].iter().enumerate();
-        numbered.map(|(at, chunk)| ((at << CHUNK_BITS) as u32, chunk))
+        numbered.map(|(index, chunk)| ((index << CHUNK_BITS) as u32, chunk))
     }
 
+    /// The triangle with this index; `None` if there is none, as for the background.
     #[inline(always)]
-    pub(crate) fn get(&self, number: u32) -> Option<&ScreenTriangle> {
-        self.chunks
-            .get((number >> CHUNK_BITS) as usize)?
-            .triangles
-            .get(number as usize % CHUNK_TRIANGLES)
+    pub(crate) fn get(&self, index: u32) -> Option<&ScreenTriangle> {
+        let chunk = self.chunks.get((index >> CHUNK_BITS) as usize)?;
+        chunk.triangles.get(index as usize % CHUNK_TRIANGLES)
     }
 
-    /// The piece with this number, which must be one.
+    /// The triangle with this index, which must exist.
     #[inline(always)]
-    pub(crate) fn triangle(&self, number: u32) -> &ScreenTriangle {
-        &self.chunks[(number >> CHUNK_BITS) as usize].triangles[number as usize % CHUNK_TRIANGLES]
+    pub(crate) fn triangle(&self, index: u32) -> &ScreenTriangle {
+        &self.chunks[(index >> CHUNK_BITS) as usize].triangles[index as usize % CHUNK_TRIANGLES]
     }
 
-    /// Takes all pieces out again and keeps the memory.
+    /// Removes all triangles and keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.chunks[..self.chunks_in_use].iter_mut().for_each(TriangleChunk::clear);
         self.chunks_in_use = 0;
     }
 
-    /// Appends one piece.
+    /// Appends one triangle.
     #[inline]
-    pub(crate) fn push(&mut self, piece: ScreenTriangle, tiles: TileRange) {
-        self.open_chunk(1).push(piece, tiles);
+    pub(crate) fn push(&mut self, triangle: ScreenTriangle, tiles: TileRange) {
+        self.open_chunk(1).push(triangle, tiles);
     }
 
-    /// A chunk behind all pieces, with room for some more, and how many.
+    /// The last chunk, or a new one if that is nearly full, and the number of triangles it has
+    /// space for.
     pub(crate) fn open_with_space(&mut self) -> (&mut TriangleChunk, usize) {
         let chunk = self.open_chunk(MIN_FREE);
-        let room = CHUNK_TRIANGLES - chunk.triangles.len();
-        (chunk, room)
+        let space = CHUNK_TRIANGLES - chunk.triangles.len();
+        (chunk, space)
     }
 
-    /// So many empty chunks behind all pieces.
+    /// Appends `count` empty chunks, for threads to fill.
     pub(crate) fn append_chunks(&mut self, count: usize) -> &mut [TriangleChunk] {
         let first = self.chunks_in_use;
         self.chunks_in_use += count;
@@ -98,26 +105,27 @@ impl TriangleBuffer {
         &mut self.chunks[first..self.chunks_in_use]
     }
 
-    /// Puts empty chunks behind the others.
-    pub(crate) fn remove_empty_chunks(&mut self, from: usize) {
-        let mut kept = from;
-        for at in from..self.chunks_in_use {
-            if !self.chunks[at].triangles.is_empty() {
-                self.chunks.swap(kept, at);
-                kept += 1;
+    /// Moves the empty ones of the chunks from `first` on behind the others and out of use.
+    pub(crate) fn remove_empty_chunks(&mut self, first: usize) {
+        let mut filled = first;
+        for index in first..self.chunks_in_use {
+            if !self.chunks[index].triangles.is_empty() {
+                self.chunks.swap(filled, index);
+                filled += 1;
             }
         }
-        self.chunks_in_use = kept;
+        self.chunks_in_use = filled;
     }
 
-    /// How many chunks are in use.
+    /// The number of chunks in use.
     pub(crate) fn chunks_in_use(&self) -> usize {
         self.chunks_in_use
     }
 
+    /// The last chunk, or a new one if that has no space for `count` more triangles.
     #[inline]
-    fn open_chunk(&mut self, room: usize) -> &mut TriangleChunk {
-        let is_full = |chunk: &TriangleChunk| chunk.triangles.len() + room > CHUNK_TRIANGLES;
+    fn open_chunk(&mut self, count: usize) -> &mut TriangleChunk {
+        let is_full = |chunk: &TriangleChunk| chunk.triangles.len() + count > CHUNK_TRIANGLES;
         if self.chunks_in_use == 0 || is_full(&self.chunks[self.chunks_in_use - 1]) {
             self.chunks_in_use += 1;
             self.grow_chunks();

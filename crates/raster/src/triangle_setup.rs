@@ -1,48 +1,54 @@
-//! A triangle prepared for one tile: everything that its samples need, in 32 bits.
+//! Triangle setup: edge functions and depth plane of a triangle, prepared for one tile in 32 bits.
 //!
-//! Edge functions are exact in 64 bits ([`Edge`]). Within a tile the samples of one plane lie whole pixels apart, so all
-//! of them have the same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0: the quotient steps by whole numbers
-//! and fits 32 bits. Where it is too large, it is cut off at ±2³⁰: the steps across a tile are smaller than that,
-//! so the sign, which is all that counts, stays right.
+//! Edge functions are exact in 64 bits ([`EdgeFunction`]), but vectors of 32-bit integers are twice
+//! as wide. Within a tile the samples of one plane lie whole pixels apart, so all of them have the
+//! same value of E modulo 256, and E ≥ 0 holds if and only if ⌊E/256⌋ ≥ 0: the quotient changes by
+//! whole numbers from pixel to pixel and fits 32 bits. Where it is too large it is clamped to ±2³⁰:
+//! the change across a tile is smaller than that, so the sign, which is all that counts, stays
+//! right.
 
 use crate::edge_function::EdgeFunction;
 use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
 use crate::tile_grid::TileRect;
 
-/// A triangle as one tile sees it, whatever the sample. Pixels are counted from the tile's corner.
+/// A triangle in the coordinates of one tile, for all samples alike. Pixels count from the tile's
+/// corner.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct TriangleFunctions {
-    /// The step of E/256 per pixel to the right, for each edge.
+    /// The change of E/256 per pixel to the right, for each edge.
     pub(crate) a: [i32; 3],
-    /// The step of E/256 per pixel down.
+    /// The change of E/256 per pixel down, for each edge.
     pub(crate) b: [i32; 3],
-    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not empty. Depth is counted from
-    /// the first, so that it must not depend on what of the tile is shown.
+    /// The pixels that may have a sample within the triangle's bounds: [x0, x1) × [y0, y1), not
+    /// empty. Depth counts from the pixel (x0, y0), which therefore must not depend on the visible
+    /// region.
     pub(crate) x0: i32,
     pub(crate) y0: i32,
     pub(crate) x1: i32,
     pub(crate) y1: i32,
-    /// The steps of depth per pixel.
+    /// The change of depth per pixel to the right.
     pub(crate) dx: f32,
+    /// The change of depth per pixel down.
     pub(crate) dy: f32,
-    /// The depth of the corner that is farthest and of the one that is nearest.
+    /// The depth of the farthest vertex.
     pub(crate) min_depth: f32,
+    /// The depth of the nearest vertex.
     pub(crate) max_depth: f32,
 }
 
-/// A triangle prepared for a tile.
+/// A triangle prepared for one tile.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleSetup {
     pub(crate) functions: TriangleFunctions,
-    /// The edge functions.
     edges: [EdgeFunction; 3],
     /// The grid position of the tile's corner.
     origin: (i64, i64),
     depth: DepthPlane,
 }
 
-/// What differs from sample plane to sample plane: where a triangle's functions start.
+/// The values of a triangle's functions at the first sample of one plane: what differs from plane
+/// to plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SampleStart {
     /// ⌊E/256⌋ at the sample of pixel (0, 0), for each edge.
@@ -51,31 +57,44 @@ pub(crate) struct SampleStart {
     pub(crate) z: f32,
 }
 
-/// Depth is a linear function of the place on the screen: it is z/w already, so it needs no correction (RA-2).
+/// The plane equation of depth, a linear function on the screen (RA-2).
 ///
-/// Samples evaluate it as (z + dy·y) + dx·x with x and y counted from the corner of the bounds within the tile, and
-/// cut it off at the corners' least and greatest depth: a sliver's plane is steep, and beside the sliver it means nothing.
+/// Depth is z/w already, which is linear in screen space, so it needs no perspective correction.
+///
+/// Samples evaluate it as (z + dy·y) + dx·x with x and y counted from the corner of the bounds
+/// within the tile, and clamp it to the depths of the vertices: the plane of a sliver is steep, and
+/// meaningless beside the sliver.
 #[derive(Clone, Copy, Debug)]
 struct DepthPlane {
-    /// A corner's grid position and depth.
+    /// The grid position of the first vertex.
     origin: (i64, i64),
+    /// The depth of the first vertex.
     z: f64,
-    /// The steps of depth per grid step.
+    /// The change of depth per grid step to the right.
     dx: f64,
+    /// The change of depth per grid step down.
     dy: f64,
 }
 
 impl TriangleSetup {
-    /// Prepares a triangle; `None` if its bounds hold none of the tile's samples. `reach` is the least and the greatest
-    /// offset of a sample from its pixel's borders, in grid steps.
-    pub(crate) fn new(piece: &ScreenTriangle, tile: TileRect, reach: (i32, i32)) -> Option<Self> {
-        let [p, q, r] = piece.corners;
+    /// Prepares a triangle; `None` if its bounds hold none of the tile's samples.
+    ///
+    /// `offset_range` is the least and the greatest offset of a sample from its pixel's borders, in
+    /// grid steps.
+    pub(crate) fn new(
+        triangle: &ScreenTriangle,
+        tile: TileRect,
+        offset_range: (i32, i32),
+    ) -> Option<Self> {
+        let [p, q, r] = triangle.vertices;
         let (left, right) = (p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x));
         let (top, bottom) = (p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y));
         let origin = (tile.x as i32 * SUBPIXELS, tile.y as i32 * SUBPIXELS);
-        // The first pixel whose last sample is not before a bound, and the first whose first sample is behind one.
-        let first = |bound: i32, from: i32| (bound - from - reach.1 + 255) >> SUBPIXEL_BITS;
-        let beyond = |bound: i32, from: i32| ((bound - from - reach.0) >> SUBPIXEL_BITS) + 1;
+        let (least, greatest) = offset_range;
+        // The first pixel whose last sample is not before a bound, and the first whose first sample
+        // is behind one.
+        let first = |bound: i32, from: i32| (bound - from - greatest + 255) >> SUBPIXEL_BITS;
+        let beyond = |bound: i32, from: i32| ((bound - from - least) >> SUBPIXEL_BITS) + 1;
         let (x0, y0) = (first(left, origin.0).max(0), first(top, origin.1).max(0));
         let x1 = beyond(right, origin.0).min(tile.right as i32);
         let y1 = beyond(bottom, origin.1).min(tile.bottom as i32);
@@ -83,7 +102,7 @@ impl TriangleSetup {
             return None;
         }
         let edges = [EdgeFunction::new(p, q), EdgeFunction::new(q, r), EdgeFunction::new(r, p)];
-        let depth = DepthPlane::new(piece);
+        let depth = DepthPlane::new(triangle);
         let functions = TriangleFunctions {
             a: edges.map(|edge| edge.a as i32),
             b: edges.map(|edge| edge.b as i32),
@@ -100,10 +119,12 @@ impl TriangleSetup {
         Some(Self { functions, edges, origin, depth })
     }
 
-    /// Where the functions start for the samples at `offset` (grid steps) from the upper left corners of their pixels.
+    /// The start values for the samples at `offset` (grid steps) from the upper left corners of
+    /// their pixels.
     pub(crate) fn sample_start(&self, offset: (i64, i64)) -> SampleStart {
         let limit = 1_i64 << 30;
         let (x, y) = (self.origin.0 + offset.0, self.origin.1 + offset.1);
+        // The shift rounds down, also below 0: ⌊E/256⌋.
         let quotient =
             |edge: EdgeFunction| (edge.evaluate(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
         let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
@@ -112,30 +133,33 @@ impl TriangleSetup {
     }
 }
 
-/// What a piece's depth grows by from pixel to pixel to the right and downwards, cut off at the range of its corners' depths.
-pub(crate) fn clamped_depth_slopes(piece: &ScreenTriangle) -> [f32; 2] {
-    let plane = DepthPlane::new(piece);
-    let depths = piece.corners.map(|corner| corner.depth);
+/// The change of a triangle's depth per pixel to the right and down, clamped to the range of its
+/// vertices' depths.
+pub(crate) fn clamped_depth_slopes(triangle: &ScreenTriangle) -> [f32; 2] {
+    let plane = DepthPlane::new(triangle);
+    let depths = triangle.vertices.map(|vertex| vertex.depth);
     let least = depths[0].min(depths[1]).min(depths[2]);
     let range = depths[0].max(depths[1]).max(depths[2]) - least;
     [plane.dx, plane.dy].map(|step| ((step * f64::from(SUBPIXELS)) as f32).clamp(-range, range))
 }
 
 impl DepthPlane {
-    fn new(piece: &ScreenTriangle) -> Self {
-        let [p, q, r] = piece.corners;
+    /// The plane through the vertices, by Cramer's rule. The triangle is not degenerate.
+    fn new(triangle: &ScreenTriangle) -> Self {
+        let [p, q, r] = triangle.vertices;
         let d = |a: i32, b: i32| f64::from(a) - f64::from(b);
         let (qx, qy, qz) = (d(q.x, p.x), d(q.y, p.y), f64::from(q.depth) - f64::from(p.depth));
         let (rx, ry, rz) = (d(r.x, p.x), d(r.y, p.y), f64::from(r.depth) - f64::from(p.depth));
-        let per_area = 1.0 / (qx * ry - qy * rx);
+        let inv_area = 1.0 / (qx * ry - qy * rx);
         Self {
             origin: (i64::from(p.x), i64::from(p.y)),
             z: f64::from(p.depth),
-            dx: (qz * ry - rz * qy) * per_area,
-            dy: (rz * qx - qz * rx) * per_area,
+            dx: (qz * ry - rz * qy) * inv_area,
+            dy: (rz * qx - qz * rx) * inv_area,
         }
     }
 
+    /// The depth at a grid position.
     fn depth_at(&self, (x, y): (i64, i64)) -> f64 {
         self.z + self.dx * (x - self.origin.0) as f64 + self.dy * (y - self.origin.1) as f64
     }

@@ -1,94 +1,122 @@
-//! The vertex stage's end in bulk: from clip space to the grid, eight vertices at a time.
+//! The vertex stage in bulk: clip space, perspective divide, viewport transform and snapping, eight
+//! vertices at a time.
 //!
-//! The divide, the way to the screen and the rounding go through the same steps as for a single point, so that a vertex has the
-//! same place in a mesh that is drawn whole and in a triangle that was clipped beside it. Plain loops over eight
-//! lanes become vector instructions.
+//! ```text
+//!   position ─to_clip─► (x, y, z, w) ─÷ w─► NDC ─ndc_to_screen─► pixels ─round─► ScreenVertex
+//! ```
+//!
+//! Every operation has the order of the single point's ([`ScreenVertex::snap`]), so that a vertex
+//! has the same bits in a mesh that is drawn whole and in a triangle beside it that was clipped: no
+//! cracks between them. The loops over eight lanes become vector instructions.
 
 use crate::parallel::for_each_parallel;
 use crate::screen_vertex::{GUARD_BAND, SUBPIXELS};
+use crate::simd_level::dispatch;
 use crate::{MeshSelection, ScreenVertex, SimdLevel};
-use fearless_simd::dispatch;
+use core::ops::Range;
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, Space};
 
+/// Vertices that are projected at once.
 const SNAP_LANES: usize = 8;
+/// One `f64` for each of eight vertices.
 type F64x8 = [f64; SNAP_LANES];
 
-/// What a thread takes at once of many positions.
+/// The positions that a thread takes at a time.
 const CHUNK_POSITIONS: usize = 8192;
 
-impl ScreenVertex {
-    /// Takes positions to clip space, divides them by their w, takes them to the screen and snaps them: what
-    /// [`snap`](Self::snap) gives for each of their images, bit for bit. `vertices` is as long as `positions` afterwards;
-    /// where it had been long enough before, it is not allocated anew. Uses up to `threads` threads.
-    pub fn project_positions<A: Space>(
+/// The projection of a mesh's positions in space `A` to the screen, and how to compute it.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexProjection<A: Space> {
+    /// The model-view-projection matrix.
+    pub to_clip: Projective<A, Clip>,
+    /// The viewport transform.
+    pub ndc_to_screen: Affine<Ndc, Screen>,
+    /// The vector instructions to use. The result does not depend on them.
+    pub simd_level: SimdLevel,
+    /// The most threads to use. The result does not depend on it.
+    pub threads: usize,
+}
+
+impl<A: Space> VertexProjection<A> {
+    /// Projects positions to the screen and snaps them, each as [`ScreenVertex::snap`] does, bit
+    /// for bit.
+    ///
+    /// `vertices` gets the length of `positions`; if it has been as long before, nothing is
+    /// allocated.
+    pub fn project_positions(
+        &self,
         positions: &[[f32; 3]],
-        to_clip: Projective<A, Clip>,
-        ndc_to_screen: Affine<Ndc, Screen>,
-        instructions: SimdLevel,
-        threads: usize,
-        vertices: &mut Vec<Option<Self>>,
+        vertices: &mut Vec<Option<ScreenVertex>>,
     ) {
-        vertices.resize(positions.len(), None);
-        let (to_clip, rows) = (to_clip.raw().transpose(), ndc_to_screen.raw().transpose());
-        let shares = positions.chunks(CHUNK_POSITIONS).zip(vertices.chunks_mut(CHUNK_POSITIONS));
-        for_each_parallel(threads, shares, |(positions, vertices)| {
-            dispatch!(instructions.level(), _simd => project_chunk(positions, to_clip, rows, vertices));
-        });
+        self.project_chunks(positions, vertices, |chunk| core::iter::once(0..chunk.len()));
     }
 
-    /// As [`project_all`](Self::project_all), but only those positions that a selection needs. What `vertices` holds for the others
-    /// is not to be looked at.
-    pub fn project_selected_positions<A: Space>(
+    /// Projects only those positions that a selection needs.
+    ///
+    /// The other entries of `vertices` are meaningless: they keep what they were.
+    pub fn project_selected_positions(
+        &self,
         positions: &[[f32; 3]],
         selection: &MeshSelection,
-        to_clip: Projective<A, Clip>,
-        ndc_to_screen: Affine<Ndc, Screen>,
-        instructions: SimdLevel,
-        threads: usize,
-        vertices: &mut Vec<Option<Self>>,
+        vertices: &mut Vec<Option<ScreenVertex>>,
+    ) {
+        self.project_chunks(positions, vertices, |chunk| selection.vertices_within(chunk));
+    }
+
+    /// Projects those runs of each chunk of positions that `runs` gives, counted from the chunk's
+    /// first.
+    fn project_chunks<I: Iterator<Item = Range<usize>>>(
+        &self,
+        positions: &[[f32; 3]],
+        vertices: &mut Vec<Option<ScreenVertex>>,
+        runs: impl Fn(Range<usize>) -> I + Sync,
     ) {
         vertices.resize(positions.len(), None);
-        let (to_clip, rows) = (to_clip.raw().transpose(), ndc_to_screen.raw().transpose());
-        let shares =
-            positions.chunks(CHUNK_POSITIONS).zip(vertices.chunks_mut(CHUNK_POSITIONS)).enumerate();
-        for_each_parallel(threads, shares, |(number, (positions, vertices))| {
-            let count = positions.len();
-            for run in selection
-                .vertices_within(number * CHUNK_POSITIONS..number * CHUNK_POSITIONS + count)
-            {
+        // Rows of the matrices, so that a coordinate is a row times the vector.
+        let (to_clip, rows) =
+            (self.to_clip.raw().transpose(), self.ndc_to_screen.raw().transpose());
+        let chunks = positions.chunks(CHUNK_POSITIONS).zip(vertices.chunks_mut(CHUNK_POSITIONS));
+        for_each_parallel(self.threads, chunks.enumerate(), |(index, (positions, vertices))| {
+            let first = index * CHUNK_POSITIONS;
+            for run in runs(first..first + positions.len()) {
                 let (positions, vertices) = (&positions[run.clone()], &mut vertices[run]);
-                dispatch!(instructions.level(), _simd => project_chunk(positions, to_clip, rows, vertices));
+                let level = self.simd_level.level();
+                dispatch!(level, _simd => project_chunk(positions, to_clip, rows, vertices));
             }
         });
     }
+}
 
-    /// Divides points by their w, takes them to the screen and snaps them: `vertices` gets what [`snap`](Self::snap) gives for
-    /// each, bit for bit.
+impl ScreenVertex {
+    /// Perspective divide, viewport transform and snapping of many points: `vertices` gets for each
+    /// what [`snap`](Self::snap) gives, bit for bit. As many as the shorter slice has.
     pub fn divide_and_snap_points(
         points: &[HPoint<Clip>],
         ndc_to_screen: Affine<Ndc, Screen>,
-        instructions: SimdLevel,
+        simd_level: SimdLevel,
         vertices: &mut [Option<Self>],
     ) {
         let rows = ndc_to_screen.raw().transpose();
         let eights = points.chunks_exact(SNAP_LANES).zip(vertices.chunks_exact_mut(SNAP_LANES));
-        dispatch!(instructions.level(), _simd => {
+        dispatch!(simd_level.level(), _simd => {
             for (points, vertices) in eights {
-                if let (Ok(points), Ok(vertices)) = (points.try_into(), <&mut [_; SNAP_LANES]>::try_from(vertices)) {
+                let vertices = <&mut [_; SNAP_LANES]>::try_from(vertices);
+                if let (Ok(points), Ok(vertices)) = (points.try_into(), vertices) {
                     *vertices = divide_and_snap(split_coordinates(points), rows);
                 }
             }
         });
+        // The last few, one by one.
         let done = points.len().min(vertices.len()) / SNAP_LANES * SNAP_LANES;
         for (&point, vertex) in points[done..].iter().zip(&mut vertices[done..]) {
-            let place = point.divide().map(|point| ndc_to_screen.transform_point(point));
-            *vertex = place.and_then(|place| Self::snap(place, point.w()));
+            let screen = point.divide().map(|point| ndc_to_screen.transform_point(point));
+            *vertex = screen.and_then(|screen| Self::snap(screen, point.w()));
         }
     }
 }
 
-/// The images of positions on the screen; matrices are given by rows.
+/// Projects positions and snaps them; matrices are given by rows.
 #[inline(always)]
 fn project_chunk(
     positions: &[[f32; 3]],
@@ -103,6 +131,7 @@ fn project_chunk(
         ) {
             *vertices = divide_and_snap(transform_to_clip(positions, to_clip), to_screen);
         } else {
+            // The last few, padded with zeros.
             let mut eight = [[0.0; 3]; SNAP_LANES];
             eight[..positions.len()].copy_from_slice(positions);
             let eight = divide_and_snap(transform_to_clip(&eight, to_clip), to_screen);
@@ -111,7 +140,8 @@ fn project_chunk(
     }
 }
 
-/// The products of a matrix, given by rows, with positions: x, y, z and w, in the order in which glam adds up.
+/// The clip-space x, y, z and w of positions: a matrix, given by rows, times each, in the order in
+/// which glam adds up.
 #[inline(always)]
 fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8; 4] {
     let mut clip = [[0.0; SNAP_LANES]; 4];
@@ -125,7 +155,7 @@ fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8;
     clip
 }
 
-/// The coordinates of points, each kind together: x, y, z and w.
+/// The x, y, z and w of points as a structure of arrays.
 #[inline(always)]
 fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
     let mut clip = [[0.0; SNAP_LANES]; 4];
@@ -136,17 +166,20 @@ fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
     clip
 }
 
+/// Perspective divide, viewport transform (a matrix by rows) and snapping of eight points.
 #[inline(always)]
 fn divide_and_snap(
     [x, y, z, w]: [F64x8; 4],
     to_screen: DMat4,
 ) -> [Option<ScreenVertex>; SNAP_LANES] {
+    // Perspective divide. Division by 0 gives an infinity, which the guard band test rejects.
     let mut ndc = [x, y, z];
     for coordinates in &mut ndc {
         for (coordinate, w) in coordinates.iter_mut().zip(&w) {
             *coordinate /= w;
         }
     }
+    // Viewport transform, then rounding to the sub-pixel grid.
     let (x, is_x) = snap_to_grid(&transform_row(to_screen.x_axis, &ndc));
     let (y, is_y) = snap_to_grid(&transform_row(to_screen.y_axis, &ndc));
     let z = transform_row(to_screen.z_axis, &ndc);
@@ -165,7 +198,7 @@ fn divide_and_snap(
     vertices
 }
 
-/// A row of a matrix times the points, in the order in which glam adds up.
+/// A row of a matrix times the points (x, y, z, 1), in the order in which glam adds up.
 #[inline(always)]
 fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
     let mut sums = [0.0; SNAP_LANES];
@@ -175,17 +208,18 @@ fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
     sums
 }
 
-/// The nearest grid steps, halves up, and whether they are within the guard band.
+/// The nearest grid steps, halves up, and whether the coordinates are within the guard band.
 #[inline(always)]
 fn snap_to_grid(pixels: &F64x8) -> ([i32; SNAP_LANES], [bool; SNAP_LANES]) {
     let (mut steps, mut within) = ([0; SNAP_LANES], [false; SNAP_LANES]);
     for lane in 0..SNAP_LANES {
-        let place = pixels[lane];
-        within[lane] = (place >= *GUARD_BAND.start()) & (place <= *GUARD_BAND.end());
-        let place = if within[lane] { place * f64::from(SUBPIXELS) + 0.5 } else { 0.0 };
-        // Without a call for the floor, which not every processor has an instruction for.
-        let cut = place as i32;
-        steps[lane] = cut - i32::from(f64::from(cut) > place);
+        let at = pixels[lane];
+        within[lane] = (at >= *GUARD_BAND.start()) & (at <= *GUARD_BAND.end());
+        let at = if within[lane] { at * f64::from(SUBPIXELS) + 0.5 } else { 0.0 };
+        // Floor by truncation and correction: SSE2 has no instruction for it, and `floor` would be
+        // a library call that stops the loop from becoming vector instructions.
+        let truncated = at as i32;
+        steps[lane] = truncated - i32::from(f64::from(truncated) > at);
     }
     (steps, within)
 }
@@ -200,7 +234,7 @@ mod tests {
         prop_oneof![8 => -3.0..3.0_f64, 1 => prop::sample::select(extreme.to_vec())]
     }
 
-    /// A map with a number in every place.
+    /// A matrix without zeros.
     fn to_clip() -> Projective<homog::Model, Clip> {
         let columns = core::array::from_fn(|k| 0.37 * k as f64 - 2.9 + 1.0 / (k + 1) as f64);
         Projective::from_raw(DMat4::from_cols_array(&columns))
@@ -221,11 +255,11 @@ mod tests {
                 let point = to_clip().transform_point(position.map(f64::from).into());
                 ScreenVertex::snap(ndc_to_screen.transform_point(point.divide()?), point.w())
             });
-            for instructions in SimdLevel::available() {
+            for simd_level in SimdLevel::available() {
                 let mut all = Vec::new();
-                ScreenVertex::project_positions(
-                    &positions, to_clip(), ndc_to_screen, instructions, threads, &mut all,
-                );
+                let to_clip = to_clip();
+                VertexProjection { to_clip, ndc_to_screen, simd_level, threads }
+                    .project_positions(&positions, &mut all);
                 prop_assert_eq!(&all, &each.clone().collect::<Vec<_>>());
             }
         }
@@ -241,9 +275,9 @@ mod tests {
             let each = points.iter().map(|point: &HPoint<Clip>| {
                 ScreenVertex::snap(ndc_to_screen.transform_point(point.divide()?), point.w())
             });
-            for instructions in SimdLevel::available() {
+            for simd_level in SimdLevel::available() {
                 let mut all = vec![None; points.len()];
-                ScreenVertex::divide_and_snap_points(&points, ndc_to_screen, instructions, &mut all);
+                ScreenVertex::divide_and_snap_points(&points, ndc_to_screen, simd_level, &mut all);
                 prop_assert_eq!(&all, &each.clone().collect::<Vec<_>>());
             }
         }

@@ -11,8 +11,9 @@ fn vertex(x: i32, y: i32) -> ScreenVertex {
     ScreenVertex::new(x, y, 0.5, 1.0).expect("on the grid")
 }
 
-/// Whether the triangle covers a sample, straight from RA-1: inside, or on the border and still inside after a step to the
-/// right and an infinitely smaller one down (y down). The step is made finite by scaling the grid.
+/// Whether the triangle covers a sample, straight from RA-1: inside, or on the border and still
+/// inside after a step to the right and an infinitely smaller one down (y down). The step is made
+/// finite by scaling the grid.
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
     const FINE: i128 = 1 << 40;
     let point = |v: ScreenVertex| (i128::from(v.x()) * FINE, i128::from(v.y()) * FINE);
@@ -31,7 +32,8 @@ fn covered(triangle: [ScreenVertex; 3]) -> Vec<bool> {
     frame.visibility_buffer().ids.iter().map(Option::is_some).collect()
 }
 
-/// Coordinates that meet pixel centres, half pixels and arbitrary grid steps alike, inside and outside the picture.
+/// Coordinates that meet pixel centres, half pixels and arbitrary grid steps alike, inside and
+/// outside the picture.
 fn coordinate() -> impl Strategy<Value = i32> {
     let far = SIDE as i32 * 256;
     prop_oneof![
@@ -62,7 +64,8 @@ proptest! {
         center in corner(),
         rim in prop::collection::vec((-6000_i32..6000, 1_i32..6000), 3..9),
     ) {
-        // A rim sorted by angle around the centre, without two corners in one direction: a fan without overlap.
+        // A rim sorted by angle around the centre, without two corners in one direction: a fan
+        // without overlap.
         let mut rim: Vec<(i32, i32)> = rim.into_iter().flat_map(|(x, y)| [(x, y), (-x, -y)]).collect();
         let upper = |&(x, y): &(i32, i32)| y < 0 || (y == 0 && x < 0);
         let cross = |a: &(i32, i32), b: &(i32, i32)| i64::from(a.0) * i64::from(b.1) - i64::from(a.1) * i64::from(b.0);
@@ -143,7 +146,8 @@ fn the_nearer_wins_and_at_equal_depth_the_first() {
 
 #[test]
 fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
-    // Corners at different distances: in the middle of the screen the nearer corner counts for less than half of the edge.
+    // Corners at different distances: in the middle of the screen the nearer corner counts for less
+    // than half of the edge.
     let corner = |x: f64, y: f64, w: f64| {
         ScreenVertex::snap(Point::new(x, y, 1.0 / w), w).expect("within the grid")
     };

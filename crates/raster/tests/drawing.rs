@@ -1,6 +1,10 @@
 //! Drawing: samples, layers, masks and threads.
 
-use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, SimdLevel, Surface};
+use homog::PixelRect;
+use raster::{
+    CullMode, Fragment, Frame, MAX_SIDE, Opacity, RasterError, Samples, ScreenVertex, SimdLevel,
+    Surface,
+};
 
 fn vertex(x: f64, y: f64, depth: f64) -> ScreenVertex {
     ScreenVertex::snap(homog::Point::new(x, y, depth), 1.0).expect("within the grid")
@@ -120,7 +124,8 @@ fn parts_have_the_pixels_of_the_whole() {
     for ([x, y], [width, height]) in
         [([0, 0], [64, 64]), ([1, 1], [199, 332]), ([63, 127], [2, 2]), ([71, 200], [100, 7])]
     {
-        let mut part = Frame::for_region([x, y], [width, height], Samples::Four).expect("a part");
+        let mut part =
+            Frame::for_region(PixelRect { x, y, width, height }, Samples::Four).expect("a part");
         crowd(&mut part);
         let shown = draw(&part, &colors, CLEAR, 3);
         let near = part.visibility_buffer().depth;
@@ -133,7 +138,8 @@ fn parts_have_the_pixels_of_the_whole() {
     }
 }
 
-/// Adds two hundred triangles, a third of them translucent and a third masked, and returns their colours.
+/// Adds two hundred triangles, a third of them translucent and a third masked, and returns their
+/// colours.
 fn crowd(frame: &mut Frame) -> Vec<[f32; 4]> {
     let colors: Vec<[f32; 4]> =
         (0..200_u32).map(|n| [n as f32 / 200.0, 0.3, 1.0 - n as f32 / 300.0, 0.8]).collect();
@@ -154,11 +160,14 @@ fn crowd(frame: &mut Frame) -> Vec<[f32; 4]> {
 
 #[test]
 fn sizes_out_of_range_are_refused() {
-    for (width, height) in [(0, 5), (5, 0), (raster::MAX_SIDE + 1, 1), (1, u32::MAX)] {
-        let error = Frame::new(width, height, Samples::One).expect_err("refused").to_string();
-        assert!(error.contains(&format!("{width} x {height}")), "{error}");
-        assert!(Frame::for_region([raster::MAX_SIDE, 3], [1, 1], Samples::One).is_err());
+    for (width, height) in [(0, 5), (5, 0), (MAX_SIDE + 1, 1), (1, u32::MAX)] {
+        let error = Frame::new(width, height, Samples::One).expect_err("refused");
+        assert_eq!(error, RasterError::Size { x: 0, y: 0, width, height });
+        assert!(error.to_string().contains(&format!("{width} x {height}")), "{error}");
     }
+    let beyond = PixelRect { x: MAX_SIDE, y: 3, width: 1, height: 1 };
+    let error = Frame::for_region(beyond, Samples::One).expect_err("refused");
+    assert_eq!(error, RasterError::Size { x: MAX_SIDE, y: 3, width: 1, height: 1 });
 }
 
 #[test]
@@ -200,7 +209,8 @@ fn a_mesh_keeps_the_side_that_is_asked_for() {
     assert_eq!(seen(CullMode::Clockwise), Some(6));
 }
 
-/// Found by the fuzzer: 1/w times the area of a triangle may be too large for an `f32`, and it may be 0.
+/// Found by the fuzzer: 1/w times the area of a triangle may be too large for an `f32`, and it may
+/// be 0.
 #[test]
 fn weights_are_finite_and_whole_for_every_w() {
     let corners = [(0.25, 7.75), (7.5, 6.5), (3.0, 0.5)];
@@ -211,7 +221,7 @@ fn weights_are_finite_and_whole_for_every_w() {
         frame.add_triangle(vertices, 0, Opacity::Opaque);
         let mut all = Vec::new();
         frame.for_each_fragment(|seen| {
-            all.push([seen.weights, seen.weights_dx(), seen.weights_dy()])
+            all.push([seen.weights, seen.weights_dx(), seen.weights_dy()]);
         });
         all
     };

@@ -1,4 +1,5 @@
-//! Frames that are filled and drawn again and again: by any number of threads, and without asking for memory anew.
+//! Frames that are filled and drawn again and again: by any number of threads, and without asking
+//! for memory anew.
 
 use homog::Point;
 use raster::{CullMode, Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};
@@ -54,7 +55,8 @@ impl Surface for Lattice {
     }
 }
 
-/// A net of `side` × `side` quads over the whole picture, one corner of each up or down, each row a vertex longer than needed.
+/// A net of `side` × `side` quads over the whole picture, one corner of each up or down, each row a
+/// vertex longer than needed.
 fn net(side: u32) -> (Vec<Option<ScreenVertex>>, Vec<[u32; 3]>) {
     let place = |k: u32, length: u32| f64::from(k) / f64::from(side) * f64::from(length);
     let vertices = (0..=side).flat_map(|j| (0..=side).map(move |i| (i, j))).map(|(i, j)| {

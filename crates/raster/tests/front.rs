@@ -1,4 +1,4 @@
-//! What is nearest, and how many layers there are, against frames of one primitive each.
+//! Front fragments and overdraw, against frames of one primitive each.
 
 use homog::Point;
 use raster::{Fragment, Frame, Opacity, Samples, ScreenVertex, Surface};

@@ -1,7 +1,9 @@
-//! A million triangles, most of them such as nobody would draw, against the definition of coverage and of visibility.
+//! A million triangles, most of them such as nobody would draw, against the definition of coverage
+//! and of visibility.
 //!
-//! Pictures of forty triangles each; for every sample it is found by brute force, in integers, which of them cover it, and
-//! the nearest must be the one that is seen. Each triangle has one depth, so that nothing is rounded.
+//! Pictures of forty triangles each; for every sample it is found by brute force, in integers,
+//! which of them cover it, and the nearest must be the one that is seen. Each triangle has one
+//! depth, so that nothing is rounded.
 
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel};
 
@@ -23,8 +25,8 @@ impl Dice {
         ((self.0 >> 33) % end as u64) as i32
     }
 
-    /// A triangle around the window: of a size between a grid step and the whole guard band, and often without an area, with
-    /// corners on samples, or with sides along the axes.
+    /// A triangle around the window: of a size between a grid step and the whole guard band, and
+    /// often without an area, with corners on samples, or with sides along the axes.
     fn triangle(&mut self) -> [[i32; 2]; 3] {
         let size = 1 << self.below(22);
         let center = [0, 1].map(|_| (52 * 256) + self.below(24 * 256));

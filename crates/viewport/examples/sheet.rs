@@ -1,12 +1,12 @@
-//! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in pixels.
+//! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in
+//! pixels.
 //!
 //! Run it with `cargo run -p viewport --example sheet`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
-use homog::Point;
+use homog::{PixelConvention, Point};
 use viewport::{
-    DepthRange, DrawingScale, FitPolicy, Paper, PixelConvention, Rectangle, Resolution, Viewport,
-    ViewportError,
+    DepthRange, DrawingScale, FitPolicy, Paper, Rectangle, Resolution, Viewport, ViewportError,
 };
 
 /// Width and height of the house in millimetres, as each view shows it.

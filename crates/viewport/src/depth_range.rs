@@ -8,10 +8,11 @@ use crate::error::{check_finite, check_interval};
 /// | map | of z | puts near, far at |
 /// | --- | --- | --- |
 /// | [`DepthRange::KEEP`] | z | where they are (VP-1) |
-/// | [`DepthRange::ZERO_ONE`] | (1 + z)/2 | 1, 0 in the chapter's volume (near at +1); 0, 1 in OpenGL's |
-/// | [`DepthRange::ZERO_ONE_FLIPPED`] | (1 − z)/2 | 0, 1 in the chapter's volume; 1, 0 in OpenGL's |
+/// | [`DepthRange::ZERO_ONE`] | (1 + z)/2 | 1, 0 in the chapter's volume; 0, 1 in OpenGL's |
+/// | [`DepthRange::ZERO_ONE_FLIPPED`] | (1 − z)/2 | 0, 1 in the chapter's; 1, 0 in OpenGL's |
 ///
-/// The last two are easily confused (misprint M22): which is right depends on where the volume has its near plane.
+/// The last two are easily confused (misprint M22): which is right depends on where the volume has
+/// its near plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthRange {
     scale: f64,
@@ -30,8 +31,8 @@ impl DepthRange {
 
     /// The map that takes the two depths `ndc` to the two depths `screen`, in this order (LI-1).
     ///
-    /// `glDepthRange(n, f)` is `DepthRange::new([-1.0, 1.0], [n, f])`, Direct3D's `MinDepth` and `MaxDepth` are
-    /// `DepthRange::new([0.0, 1.0], [min, max])`.
+    /// `glDepthRange(n, f)` is `DepthRange::new([-1.0, 1.0], [n, f])`, Direct3D's `MinDepth` and
+    /// `MaxDepth` are `DepthRange::new([0.0, 1.0], [min, max])`.
     ///
     /// # Errors
     /// If a number is not finite or the two depths of a pair are the same.
@@ -52,7 +53,7 @@ impl DepthRange {
         self.scale
     }
 
-    /// What is added after the factor.
+    /// The offset, added after the factor.
     #[must_use]
     pub const fn offset(self) -> f64 {
         self.offset

@@ -1,4 +1,4 @@
-//! What can be wrong with the parameters of this crate.
+//! Errors of viewport parameters.
 
 use thiserror::Error;
 
@@ -33,14 +33,15 @@ pub enum ViewportError {
     /// A count is too small.
     #[error("{name} = {count} is not allowed: it must be at least {least}")]
     TooFew {
-        /// What is counted.
+        /// The name of the count.
         name: &'static str,
         /// The count.
         count: usize,
         /// The least that makes sense.
         least: usize,
     },
-    /// A parameter is too large or too small, or parameters are too far apart in size, for maps to be finite both ways.
+    /// A parameter is too large or too small, or parameters are too far apart in size, for maps to
+    /// be finite both ways.
     #[error("{name} is too large or too small to reckon with")]
     OutOfRange {
         /// The parameter or the result.

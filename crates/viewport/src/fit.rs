@@ -35,15 +35,17 @@ pub enum FitPolicy {
 }
 
 impl FitPolicy {
-    /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits `place`.
+    /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits
+    /// `place`.
     ///
-    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres, `[0.0, 0.0]` puts
-    /// the picture at the corner of least coordinates. What [`Fit::Cover`] cuts off is shared out in the same way.
+    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres,
+    /// `[0.0, 0.0]` puts the picture at the corner of least coordinates. What [`FitPolicy::Cover`]
+    /// cuts off is shared out in the same way.
     ///
     /// ```
-    /// use viewport::{Fit, Rectangle};
-    /// let place = Rectangle::of_size(1920.0, 1080.0)?;
-    /// let film = Fit::Contain.place([4.0, 3.0], place, [0.5, 0.5])?;
+    /// use viewport::{FitPolicy, Rectangle};
+    /// let place = Rectangle::from_size(1920.0, 1080.0)?;
+    /// let film = FitPolicy::Contain.place_picture([4.0, 3.0], place, [0.5, 0.5])?;
     /// assert_eq!(film, Rectangle::new(240.0, 0.0, 1440.0, 1080.0)?);
     /// # Ok::<(), viewport::ViewportError>(())
     /// ```
@@ -72,16 +74,18 @@ impl FitPolicy {
         Rectangle::new(x, y, width, height)
     }
 
-    /// The other way to fit: not the place changes but the window, so that its picture fills `place` without
-    /// distortion. It is the size the camera's window should get instead of `window`.
+    /// The other way to fit: not the place changes but the window, so that its picture fills
+    /// `place` without distortion. It is the size the camera's window should get instead of
+    /// `window`.
     ///
-    /// [`Fit::Contain`] shows more than asked for instead of margins, [`Fit::Cover`] less instead of cutting off.
+    /// [`FitPolicy::Contain`] shows more than asked for instead of margins, [`FitPolicy::Cover`]
+    /// less instead of cutting off.
     ///
     /// ```
-    /// use viewport::{Fit, Rectangle};
-    /// let place = Rectangle::of_size(200.0, 100.0)?;
-    /// assert_eq!(Fit::Contain.window([1.0, 1.0], place)?, [2.0, 1.0]);
-    /// assert_eq!(Fit::Cover.window([1.0, 1.0], place)?, [1.0, 0.5]);
+    /// use viewport::{FitPolicy, Rectangle};
+    /// let place = Rectangle::from_size(200.0, 100.0)?;
+    /// assert_eq!(FitPolicy::Contain.fit_window([1.0, 1.0], place)?, [2.0, 1.0]);
+    /// assert_eq!(FitPolicy::Cover.fit_window([1.0, 1.0], place)?, [1.0, 0.5]);
     /// # Ok::<(), viewport::ViewportError>(())
     /// ```
     ///
@@ -101,7 +105,7 @@ impl FitPolicy {
     }
 }
 
-/// What takes the picture's width and height to those of the place.
+/// The factors from the picture's width and height to those of the rectangle.
 fn scale_factors(picture: [f64; 2], place: Rectangle) -> Result<(f64, f64), ViewportError> {
     let sx = place.width() / check_positive("picture width", picture[0])?;
     let sy = place.height() / check_positive("picture height", picture[1])?;

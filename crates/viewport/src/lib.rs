@@ -15,44 +15,47 @@
 //!                                         y ▼  └───┴───┴───┴───┴───┴───┘
 //! ```
 //!
-//! What is often left unsaid is said here: whether y runs up or down and where pixels have their centres
-//! ([`PixelConvention`]), and where depth goes ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way,
-//! [`Viewport::chapter`] the textbook's; every other is made from parts.
+//! Everything that is often left unsaid is explicit: whether y runs up or down and where pixels
+//! have their centers ([`PixelConvention`](homog::PixelConvention)), and the range of depth
+//! ([`DepthRange`]). [`Viewport::image`] is the pipeline's own way, [`Viewport::chapter`] the
+//! textbook's; every other is made from parts.
 //!
 //! | what | by |
 //! | --- | --- |
-//! | the map M_vp and its inverse | [`Viewport::ndc_to_screen`], [`Viewport::screen_to_ndc`] (VP-1 to VP-3, WV-3) |
-//! | from one pixel convention to another | [`PixelConvention::to`] (VP-4) |
+//! | the map M_vp (VP-1 to VP-3) | [`Viewport::ndc_to_screen`] |
+//! | its inverse (WV-3) | [`Viewport::screen_to_ndc`] |
+//! | another pixel convention (VP-4) | `homog::PixelConvention::convert_to` |
 //! | window to viewport in the plane, by both methods | [`WindowToViewport`] (WV-1, WV-2) |
-//! | pictures of one shape in places of another | [`Fit`] |
-//! | several viewports on a page | [`Rectangle::grid`], [`Rectangle::inset`], [`Rectangle::shrunk`] |
+//! | pictures of one shape in places of another | [`FitPolicy`] |
+//! | several viewports on a page | [`Rectangle::split_grid`], [`Rectangle::inset_rectangle`] |
 //! | millimetres, dots per inch, scale 1:n | [`Paper`], [`Resolution`], [`DrawingScale`] |
 //! | large images in parts | [`tiles`], [`Viewport::for_tile`] |
-//! | what is under a pixel | [`Viewport::unprojector`], [`Unprojector::ray`] (UN-1, UN-2), [`Viewport::pick_matrix`] |
-//! | the points of a height field | [`Grid`] (WV-4) |
+//! | picking (UN-1, UN-2) | [`Viewport::unprojector`], [`Unprojector::pick_ray`] |
+//! | a part of the view as the whole | [`Viewport::pick_matrix`] |
+//! | the points of a height field | [`PointGrid`] (WV-4) |
 //!
 //! # Example
-//! The same corner of the view in two conventions, and the way back:
+//! A corner of the view in two conventions, and the inverse:
 //! ```
-//! use homog::Point;
-//! use viewport::{PixelConvention, Viewport};
+//! use homog::{PixelConvention, Point};
+//! use viewport::Viewport;
 //! let corner = Point::new(-1.0, 1.0, -1.0); // upper left, far
 //!
 //! let image = Viewport::image(640, 480)?;
-//! assert_eq!(image.ndc_to_screen().point(corner), Point::new(0.0, 0.0, 0.0));
+//! assert_eq!(image.ndc_to_screen().transform_point(corner), Point::new(0.0, 0.0, 0.0));
 //!
 //! let chapter = Viewport::chapter(640, 480)?;
-//! let seen = chapter.ndc_to_screen().point(corner);
+//! let seen = chapter.ndc_to_screen().transform_point(corner);
 //! assert_eq!(seen, Point::new(-0.5, 479.5, -1.0));
-//! assert!((chapter.screen_to_ndc().point(seen) - corner).length() < 1e-15);
+//! assert!((chapter.screen_to_ndc().transform_point(seen) - corner).length() < 1e-15);
 //!
-//! let convert = PixelConvention::CHAPTER.to(PixelConvention::IMAGE, 480.0)?;
-//! assert_eq!(convert.point(seen).y(), 0.0);
-//! # Ok::<(), viewport::ViewportError>(())
+//! let convert = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, 480.0)?;
+//! assert_eq!(convert.transform_point(seen).y(), 0.0);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
-//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that comes out of finite
-//! input is infinite or NaN.
+//! Bad parameters are a [`ViewportError`] that names them. Nothing here panics, and nothing that
+//! comes out of finite input is infinite or NaN.
 #![no_std]
 
 #[cfg(test)]
@@ -63,7 +66,6 @@ mod error;
 mod fit;
 mod page_layout;
 mod paper;
-mod pixel_convention;
 mod point_grid;
 mod rectangle;
 mod tile;
@@ -75,10 +77,14 @@ pub use depth_range::DepthRange;
 pub use error::ViewportError;
 pub use fit::FitPolicy;
 pub use paper::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Resolution};
-pub use pixel_convention::{PixelCenters, PixelConvention, YAxis};
 pub use point_grid::PointGrid;
 pub use rectangle::Rectangle;
-pub use tile::{Tile, tiles};
-pub use unproject::{Ray, Unprojector};
+pub use tile::tiles;
+pub use unproject::{PickRay, Unprojector};
 pub use viewport::Viewport;
 pub use window_to_viewport::{Limits, WindowToViewport};
+
+/// The examples of the README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -25,12 +25,15 @@ impl Rectangle {
         Self::new(self.x() + margin, self.y() + margin, width, height)
     }
 
-    /// The cells of a grid with a gap between neighbours, row by row from the corner of least coordinates.
+    /// The cells of a grid with a gap between neighbours, row by row from the corner of least
+    /// coordinates.
     ///
-    /// Without a gap neighbours share their borders exactly, so that the cells cover the rectangle without a seam.
+    /// Without a gap neighbours share their borders exactly, so that the cells cover the rectangle
+    /// without a seam.
     ///
     /// # Errors
-    /// If there are no columns or rows, or the gap is negative or not finite, or the gaps leave no room.
+    /// If there are no columns or rows, or the gap is negative or not finite, or the gaps leave no
+    /// room.
     pub fn split_grid(
         &self,
         columns: u32,
@@ -51,8 +54,9 @@ impl Rectangle {
         }))
     }
 
-    /// A rectangle of a fraction of the width and height, at the fractions `at` of the room that is left:
-    /// `inset(0.25, [1.0, 1.0])` is a quarter of each side in the corner of greatest coordinates.
+    /// A rectangle of a fraction of the width and height, at the fractions `at` of the room that is
+    /// left: `inset_rectangle(0.25, [1.0, 1.0])` is a quarter of each side in the corner of
+    /// greatest coordinates.
     ///
     /// # Errors
     /// If a number is not finite, or the fraction is not greater than 0.
@@ -62,8 +66,8 @@ impl Rectangle {
         Self::new(x, self.y() + (self.height() - height) * at[1], width, height)
     }
 
-    /// The rectangle with its borders rounded to whole numbers, so that it consists of whole pixels. Rectangles that
-    /// shared a border still do.
+    /// The rectangle with its borders rounded to whole numbers, so that it consists of whole
+    /// pixels. Rectangles that shared a border still do.
     ///
     /// # Errors
     /// If nothing is left of it.
@@ -105,7 +109,8 @@ impl AxisDivision {
         Ok(Self { count, gap, start, length })
     }
 
-    /// Where part `i` starts, and how long it is. Borders are computed, not sizes, so that neighbours agree on them.
+    /// Where part `i` starts, and how long it is. Borders are computed, not sizes, so that
+    /// neighbours agree on them.
     fn nth_part(self, i: u32) -> (f64, f64) {
         let border = |i: f64| self.start + (self.length + self.gap) * i / self.count;
         let (start, end) = (border(f64::from(i)), border(f64::from(i) + 1.0) - self.gap);

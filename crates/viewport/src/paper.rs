@@ -80,7 +80,7 @@ impl Paper {
         })
     }
 
-    /// The same sheet turned by a right angle.
+    /// This sheet rotated by a right angle: landscape for portrait.
     #[must_use]
     pub const fn rotated(self) -> Self {
         Self { width: self.height, height: self.width }
@@ -104,7 +104,8 @@ impl Paper {
         Rectangle::new_unchecked(0.0, 0.0, self.width, self.height)
     }
 
-    /// The whole pixels that come nearest to the sheet, at least one; `None` if they are too many to count.
+    /// The whole pixels that come nearest to the sheet, at least one; `None` if they are too many
+    /// to count.
     #[must_use]
     pub fn pixel_size(self, resolution: Resolution) -> Option<[u32; 2]> {
         let count = |millimetres: f64| {
@@ -120,7 +121,8 @@ impl Paper {
 /// ```
 /// use viewport::DrawingScale;
 /// let scale = DrawingScale::new(1, 50)?;
-/// assert_eq!(scale.to_paper(5000.0), 100.0); // five metres are ten centimetres, all in millimetres
+/// // Five meters are ten centimeters on paper, all in millimeters.
+/// assert_eq!(scale.to_paper_length(5000.0), 100.0);
 /// assert_eq!(scale.to_string(), "1:50");
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
@@ -167,8 +169,8 @@ impl DrawingScale {
         Ok(Self { paper, thing })
     }
 
-    /// The largest standard scale at which a thing of this size fits on this room, both in the same unit; `None` if
-    /// it is too large for all of them, or a size is no number.
+    /// The largest standard scale at which a thing of this size fits on this room, both in the same
+    /// unit; `None` if it is too large for all of them, or a size is no number.
     #[must_use]
     pub fn largest_standard(thing: [f64; 2], room: [f64; 2]) -> Option<Self> {
         let fits = |scale: &&Self| {
@@ -189,8 +191,8 @@ impl DrawingScale {
         length * f64::from(self.paper) / f64::from(self.thing)
     }
 
-    /// How long what is this long on paper is in truth, in the same unit. The size of a viewport, taken so, is the
-    /// window an orthographic projection needs to be drawn to scale.
+    /// How long what is this long on paper is in truth, in the same unit. The size of a viewport,
+    /// taken so, is the window an orthographic projection needs to be drawn to scale.
     #[must_use]
     pub fn to_object_length(self, length: f64) -> f64 {
         length * f64::from(self.thing) / f64::from(self.paper)

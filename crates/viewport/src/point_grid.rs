@@ -14,8 +14,8 @@ use crate::ViewportError;
 /// A grid of points over [−1, 1]².
 ///
 /// ```
-/// use viewport::Grid;
-/// let grid = Grid::new(5, 3)?;
+/// use viewport::PointGrid;
+/// let grid = PointGrid::new(5, 3)?;
 /// assert_eq!(grid.xz(0, 0), Some([-1.0, -1.0]));
 /// assert_eq!(grid.xz(4, 2), Some([1.0, 1.0]));
 /// assert_eq!(grid.xz(5, 0), None); // the last row is number 4
@@ -54,7 +54,8 @@ impl PointGrid {
         self.columns
     }
 
-    /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None` beyond the last.
+    /// The point at an index: x = 2·row/(rows − 1) − 1, z = 2·column/(columns − 1) − 1; `None`
+    /// beyond the last.
     #[must_use]
     pub fn xz(&self, row: usize, column: usize) -> Option<[f64; 2]> {
         let inside = row < self.rows && column < self.columns;

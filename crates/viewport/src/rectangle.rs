@@ -6,8 +6,8 @@ use crate::error::{check_finite, check_positive};
 /// A rectangle with sides along the axes, by its corner of least coordinates and its size.
 ///
 /// # Guarantees
-/// Width and height are greater than 0. All four numbers are of a size with which maps stay finite both ways: at most
-/// 10¹⁰⁰, and the sizes at least 10⁻¹⁰⁰.
+/// Width and height are greater than 0. All four numbers are of a size with which maps stay finite
+/// both ways: at most 10¹⁰⁰, and the sizes at least 10⁻¹⁰⁰.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rectangle {
     x: f64,

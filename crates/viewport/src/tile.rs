@@ -1,27 +1,15 @@
 //! Tiles: an image in parts that fit together without a seam.
 
-use crate::{PixelConvention, Rectangle, Viewport, ViewportError};
+use crate::{Rectangle, Viewport, ViewportError};
+use homog::{PixelConvention, PixelRect};
 
-/// A rectangle of whole pixels of an image.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Tile {
-    /// The first column.
-    pub x: u32,
-    /// The first row, in the direction in which the image counts its rows.
-    pub y: u32,
-    /// How many columns, at least 1.
-    pub width: u32,
-    /// How many rows, at least 1.
-    pub height: u32,
-}
-
-impl Tile {
-    /// The tile's borders in whole pixels from the image's corner.
-    #[must_use]
-    pub fn area(self) -> Rectangle {
-        let [x, y, width, height] =
-            [self.x, self.y, self.width.max(1), self.height.max(1)].map(f64::from);
-        Rectangle::new_unchecked(x, y, width, height)
+impl From<PixelRect> for Rectangle {
+    /// The borders of the pixels, in whole pixels from the corner of the image. An empty rectangle
+    /// becomes one pixel wide or high.
+    fn from(pixels: PixelRect) -> Self {
+        let PixelRect { x, y, width, height } = pixels;
+        let [x, y, width, height] = [x, y, width.max(1), height.max(1)].map(f64::from);
+        Self::new_unchecked(x, y, width, height)
     }
 }
 
@@ -40,7 +28,7 @@ impl Tile {
 pub fn tiles(
     image: [u32; 2],
     largest: [u32; 2],
-) -> Result<impl Iterator<Item = Tile> + Clone, ViewportError> {
+) -> Result<impl Iterator<Item = PixelRect> + Clone, ViewportError> {
     let names = ["image width", "image height", "tile width", "tile height"];
     for (name, size) in names.into_iter().zip(image.into_iter().chain(largest)) {
         if size == 0 {
@@ -52,27 +40,28 @@ pub fn tiles(
         (0..columns).map(move |column| {
             let (x, y) = (column * largest[0], row * largest[1]);
             let (width, height) = (largest[0].min(image[0] - x), largest[1].min(image[1] - y));
-            Tile { x, y, width, height }
+            PixelRect { x, y, width, height }
         })
     }))
 }
 
 impl Viewport {
-    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise the same, so that
-    /// the parts show together what the whole would have shown.
+    /// This viewport as an image that is only the tile sees it: moved by whole pixels and otherwise
+    /// the same, so that the parts show together what the whole would have shown.
     #[must_use]
-    pub fn for_tile(&self, tile: Tile) -> Self {
-        let (area, part) = (self.area(), tile.area());
+    pub fn for_tile(&self, tile: PixelRect) -> Self {
+        let (area, part) = (self.area(), Rectangle::from(tile));
         let (x, y) = (area.x() - part.x(), area.y() - part.y());
         let moved = Rectangle::new_unchecked(x, y, area.width(), area.height());
         Self::new(moved, self.convention(), self.depth())
     }
 
-    /// The tile's borders in the coordinates of this viewport's convention, for [`Self::pick_matrix`].
+    /// The tile's borders in the coordinates of this viewport's convention, for
+    /// [`Self::pick_matrix`].
     #[must_use]
-    pub fn tile_area(&self, tile: Tile) -> Rectangle {
+    pub fn tile_area(&self, tile: PixelRect) -> Rectangle {
         let PixelConvention { centers: centres, .. } = self.convention();
-        let area = tile.area();
+        let area = Rectangle::from(tile);
         let (x, y) = (area.x() + centres.image_border(), area.y() + centres.image_border());
         Rectangle::new_unchecked(x, y, area.width(), area.height())
     }

@@ -11,20 +11,21 @@
 use crate::error::check_finite;
 use crate::{Rectangle, Viewport, ViewportError};
 use glam::{DMat4, DVec4};
-use homog::{Clip, HPoint, Point, Projective, Screen, Space, Vector};
+use homog::{Clip, HPoint, Point, Projective, Ray, Screen, Space, Vector};
 
-/// The way back from pixels and depth to a space `S`: that of the world, of a model or of the camera.
+/// The way back from pixels and depth to a space `S`: that of the world, of a model or of the
+/// camera.
 ///
 /// ```
 /// use homog::{Clip, Point, Projective, View};
 /// use viewport::Viewport;
 /// // P of the chapter, times −1 (PE-3), for n = −1 and f = −3.
-/// let rows = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0], [0.0, 0.0, -1.0, 0.0]];
-/// let view_to_clip = Projective::<View, Clip>::from_raw(glam::DMat4::from_cols_array_2d(&rows).transpose());
+/// let [x, y, z] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 4.0, 3.0]];
+/// let view_to_clip = Projective::<View, Clip>::from_rows([x, y, z, [0.0, 0.0, -1.0, 0.0]]);
 /// let clip_to_view = view_to_clip.inverse().expect("regular");
 /// let back = Viewport::image(200, 100)?.unprojector(clip_to_view);
-/// let ray = back.ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
-/// assert_eq!(ray.direction.z(), -1.0);
+/// let pick = back.pick_ray([100.0, 50.0], [1.0, -1.0]).expect("the middle of the picture");
+/// assert_eq!(pick.ray.direction.z(), -1.0);
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -33,13 +34,12 @@ pub struct Unprojector<S: Space> {
     screen_to_source: Projective<Screen, S>,
 }
 
-/// The line of all points that have their image at one place of the picture.
+/// The ray through one position of the image, between the near and the far plane.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Ray<S: Space> {
-    /// Where the ray starts: the centre of projection, or the point on the near plane for a parallel projection.
-    pub origin: Point<S>,
-    /// Away from the viewer, length 1.
-    pub direction: Vector<S>,
+pub struct PickRay<S: Space> {
+    /// The ray away from the viewer, its direction of length 1. It begins at the center of
+    /// projection, or, for a parallel projection, on the near plane.
+    pub ray: Ray<S>,
     /// The point on the near plane.
     pub near: Point<S>,
     /// The point on the far plane, not divided: with w = 0 it is at infinity.
@@ -56,17 +56,17 @@ impl Viewport {
         Projective::from_raw(self.ndc_to_screen().raw() * source_to_clip.raw())
     }
 
-    /// The way back, given the inverse of the chain up to clip space. The closed-form inverses of camera and projection
-    /// lose the fewest digits.
+    /// The way back, given the inverse of the chain up to clip space. The closed-form inverses of
+    /// camera and projection lose the fewest digits.
     #[must_use]
     pub fn unprojector<S: Space>(&self, clip_to_source: Projective<Clip, S>) -> Unprojector<S> {
         let raw = clip_to_source.raw() * self.screen_to_ndc().raw();
         Unprojector { viewport: *self, screen_to_source: Projective::from_raw(raw) }
     }
 
-    /// The map to put after the projection so that `area`, in pixels of this viewport's convention, fills the whole
-    /// view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile. What is outside of the area is
-    /// outside of the volume then.
+    /// The map to put after the projection so that `area`, in pixels of this viewport's convention,
+    /// fills the whole view: a pick matrix, as gluPickMatrix makes it, or the sub-view of a tile.
+    /// Everything outside the area is then outside the volume.
     ///
     /// # Errors
     /// If the area is so small against the viewport that the factors are no finite numbers.
@@ -104,18 +104,20 @@ impl<S: Space> Unprojector<S> {
         divide_point(self.screen_to_source.transform_point(screen))
     }
 
-    /// The centre of projection. With w = 0 it is at infinity: the projection is parallel, and this is its direction.
+    /// The centre of projection. With w = 0 it is at infinity: the projection is parallel, and this
+    /// is its direction.
     #[must_use]
     pub fn center_of_projection(&self) -> HPoint<S> {
         self.screen_to_source.transform_direction(Vector::Z)
     }
 
-    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far plane: `[1.0,
-    /// -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in Direct3D's.
+    /// The ray of a place in the picture (UN-2), given the canonical depths of the near and the far
+    /// plane: `[1.0, -1.0]` in the chapter's volume, `[-1.0, 1.0]` in OpenGL's, `[0.0, 1.0]` in
+    /// Direct3D's.
     ///
     /// `None` where there is no such ray: the map is singular or something is not finite.
     #[must_use]
-    pub fn pick_ray(&self, [x, y]: [f64; 2], near_far: [f64; 2]) -> Option<Ray<S>> {
+    pub fn pick_ray(&self, [x, y]: [f64; 2], near_far: [f64; 2]) -> Option<PickRay<S>> {
         let at = |z: f64| {
             let depth = self.viewport.depth().ndc_to_depth(z);
             self.screen_to_source.transform_point(Point::new(x, y, depth))
@@ -130,7 +132,7 @@ impl<S: Space> Unprojector<S> {
         let direction = (beyond - near).normalized()?;
         let origin =
             if self.is_parallel() { near } else { divide_point(self.center_of_projection())? };
-        far.is_finite().then_some(Ray { origin, direction, near, far })
+        far.is_finite().then_some(PickRay { ray: Ray { origin, direction }, near, far })
     }
 
     /// Rounding must not turn a parallel projection into one from very far away.

@@ -1,15 +1,17 @@
 //! The viewport: from the canonical square to a rectangle of pixels (VP-1 to VP-3).
 
 use crate::error::check_positive;
-use crate::{DepthRange, PixelConvention, Rectangle, ViewportError, YAxis};
-use homog::{Affine, Ndc, Point, Screen, Vector};
+use crate::{DepthRange, Rectangle, ViewportError};
+use homog::{Affine, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
 
-/// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes to.
+/// A rectangle of pixels on which the canonical square [−1, 1]² is drawn, and the range depth goes
+/// to.
 ///
-/// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels 10 to 14,
-/// whatever the convention. The convention decides the coordinates: those five pixels cover [10, 15] with
-/// half-integer centres and [9½, 14½] with integer ones. y counts from the lowest row if it runs up, from the topmost
-/// if it runs down; in both cases y = +1 of the canonical square is at the upper border of the picture.
+/// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels
+/// 10 to 14, whatever the convention. The convention decides the coordinates: those five pixels
+/// cover [10, 15] with half-integer centres and [9½, 14½] with integer ones. y counts from the
+/// lowest row if it runs up, from the topmost if it runs down; in both cases y = +1 of the
+/// canonical square is at the upper border of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Viewport {
     area: Rectangle,
@@ -24,8 +26,8 @@ impl Viewport {
         Self { area, convention, depth }
     }
 
-    /// The whole of an image as the pipeline counts it: half-integer centres, y down, and depth 1 at the near, 0 at the
-    /// far plane of the chapter's canonical volume (near at z = +1).
+    /// The whole of an image as the pipeline counts it: half-integer centres, y down, and depth 1
+    /// at the near, 0 at the far plane of the chapter's canonical volume (near at z = +1).
     ///
     /// # Errors
     /// If the image has no pixels.
@@ -34,7 +36,8 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::IMAGE, DepthRange::ZERO_ONE))
     }
 
-    /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centres, y up, z kept (VP-1).
+    /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centres, y
+    /// up, z kept (VP-1).
     ///
     /// # Errors
     /// If the image has no pixels.
@@ -48,13 +51,13 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::CHAPTER, DepthRange::KEEP))
     }
 
-    /// The same with pixels counted in another way.
+    /// This viewport in another pixel convention.
     #[must_use]
     pub const fn with_convention(self, convention: PixelConvention) -> Self {
         Self { convention, ..self }
     }
 
-    /// The same with another range of depth.
+    /// This viewport with another range of depth.
     #[must_use]
     pub const fn with_depth(self, depth: DepthRange) -> Self {
         Self { depth, ..self }
@@ -129,11 +132,12 @@ impl Viewport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::PixelCenters;
+    use homog::PixelCenters;
 
     #[test]
     fn the_square_fills_the_image_in_every_convention() {
-        // (y, centres, image of the lower left corner of the square, of the upper right one) for 640 by 480
+        // (y, centres, image of the lower left corner of the square, of the upper right one) for
+        // 640 by 480
         let table = [
             (YAxis::Up, PixelCenters::Integer, [-0.5, -0.5], [639.5, 479.5]),
             (YAxis::Up, PixelCenters::Half, [0.0, 0.0], [640.0, 480.0]),

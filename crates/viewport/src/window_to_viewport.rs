@@ -4,7 +4,7 @@
 //!   window                         viewport
 //!   ┌───────────────┐ yw max       ┌──────────┐ yv max
 //!   │        ● p    │       ──►    │     ● q  │         q divides the viewport's sides
-//!   └───────────────┘ yw min       └──────────┘ yv min  in the ratios in which p divides the window's
+//!   └───────────────┘ yw min       └──────────┘ yv min  as p divides the window's sides
 //! xw min         xw max         xv min     xv max
 //! ```
 
@@ -13,8 +13,8 @@ use crate::error::check_interval;
 use glam::{DMat3, DVec2};
 use homog::Homography;
 
-/// A rectangle by its limits [min, max] on each axis. A mirrored one, with max < min, is allowed: it mirrors the
-/// picture.
+/// A rectangle by its limits [min, max] on each axis. A mirrored one, with max < min, is allowed:
+/// it mirrors the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limits {
     /// From and to on the x axis.
@@ -31,8 +31,8 @@ pub struct Limits {
 ///     Limits { x: [-1.0, 3.0], y: [2.0, 4.0] },
 ///     Limits { x: [0.0, 8.0], y: [0.0, 4.0] },
 /// )?;
-/// assert_eq!(map.by_ratio([1.0, 3.0]), [4.0, 2.0]);
-/// assert_eq!(map.by_chain([1.0, 3.0]), [4.0, 2.0]);
+/// assert_eq!(map.map_by_ratio([1.0, 3.0]), [4.0, 2.0]);
+/// assert_eq!(map.map_by_chain([1.0, 3.0]), [4.0, 2.0]);
 /// assert!(map.is_undistorted());
 /// # Ok::<(), viewport::ViewportError>(())
 /// ```
@@ -46,8 +46,8 @@ impl WindowToViewport {
     /// The map that takes the sides of `window` to the sides of `viewport`.
     ///
     /// # Errors
-    /// If a limit is not finite, the window or the viewport has no width or no height, or they are so far apart in
-    /// size that the factors are no finite numbers.
+    /// If a limit is not finite, the window or the viewport has no width or no height, or they are
+    /// so far apart in size that the factors are no finite numbers.
     pub fn new(window: Limits, viewport: Limits) -> Result<Self, ViewportError> {
         check_interval("window's x", window.x)?;
         check_interval("window's y", window.y)?;
@@ -78,8 +78,9 @@ impl WindowToViewport {
         (sx - sy).abs() <= 1e-14 * sx.max(sy)
     }
 
-    /// The image of a point by equal ratios (WV-1): (xv − xv min)/(xv max − xv min) = (xw − xw min)/(xw max − xw min).
-    /// Points outside of the window go outside of the viewport by the same ratio.
+    /// The image of a point by equal ratios (WV-1): (xv − xv min)/(xv max − xv min) = (xw − xw
+    /// min)/(xw max − xw min). Points outside of the window go outside of the viewport by the same
+    /// ratio.
     #[must_use]
     pub fn map_by_ratio(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let image = |x: f64, window: [f64; 2], viewport: [f64; 2]| {
@@ -95,10 +96,11 @@ impl WindowToViewport {
         self.homography().raw().transform_point2(point.into()).into()
     }
 
-    /// The three factors of the chain, in the order in which a point passes through them: T(−xw min, −yw min) to the
-    /// origin, S(sx, sy), T(xv min, yv min) to its place.
+    /// The three factors of the chain, in the order in which a point passes through them: T(−xw
+    /// min, −yw min) to the origin, S(sx, sy), T(xv min, yv min) to its place.
     ///
-    /// Both signs of the first are minus; one of the sources prints T(−xw min, +yw min) (misprint M18).
+    /// Both signs of the first are minus; one of the sources prints T(−xw min, +yw min) (misprint
+    /// M18).
     #[must_use]
     pub fn factor_chain(&self) -> [Homography; 3] {
         let low = |limits: Limits| DVec2::new(limits.x[0], limits.y[0]);

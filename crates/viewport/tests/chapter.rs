@@ -1,10 +1,10 @@
-//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form fails, the right
-//! one passes.
+//! Exercises of the chapter and misprints of the sources that belong to viewports: the printed form
+//! fails, the right one passes.
 
 use glam::{DMat3, DMat4, DVec2, DVec4};
-use homog::{Affine, HPoint2, Homography, Ndc, Point, Projective, Vector, View};
+use homog::{Affine, HPoint2, Homography, Ndc, PixelConvention, Point, Projective, Vector, View};
 use viewport::{
-    DepthRange, Limits, PixelConvention, PointGrid, Rectangle, Viewport, WindowToViewport,
+    DepthRange, Limits, PointGrid, Rectangle, Viewport, ViewportError, WindowToViewport,
 };
 
 fn rows(rows: [[f64; 4]; 4]) -> DMat4 {
@@ -51,7 +51,8 @@ fn exercise_2_viewport_and_box_make_one_windowing() {
     assert!(product.raw().abs_diff_eq(expected, 1e-12), "{}", product.raw());
 }
 
-/// M18, WV-2: with +yw min in the first translation the lower border of the window does not go to that of the viewport.
+/// M18, WV-2: with +yw min in the first translation the lower border of the window does not go to
+/// that of the viewport.
 #[test]
 fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     let window = Limits { x: [-1.0, 3.0], y: [2.0, 4.0] };
@@ -67,8 +68,9 @@ fn misprint_m18_the_chain_moves_the_window_to_the_origin_by_minus_and_minus() {
     );
 }
 
-/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1 and far 1 they are
-/// the same map up to depth, and with any other near and far they differ in depth only.
+/// M21: gluOrtho2D takes the four borders of a window; the box of six is glOrtho's. With near −1
+/// and far 1 they are the same map up to depth, and with any other near and far they differ in
+/// depth only.
 #[test]
 fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     let flat = orthographic([-2.0, 4.0], [-1.0, 2.0], [1.0, -1.0]);
@@ -82,7 +84,8 @@ fn misprint_m21_four_borders_make_a_window_and_six_a_box() {
     assert_ne!(deep.transform_point(p).z(), p.z());
 }
 
-/// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives 1, and (1 + Z)/2 is due.
+/// M22, C100, DP-1: (1 − Z)/2 takes the chapter's near plane (+1) to 0; on OpenGL's (−1) it gives
+/// 1, and (1 + Z)/2 is due.
 #[test]
 fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     let (chapter_near, opengl_near) = (1.0, -1.0);
@@ -96,7 +99,8 @@ fn misprint_m22_which_depth_formula_fits_depends_on_where_near_is() {
     );
 }
 
-/// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one less than the count.
+/// M23, C98, WV-4: rows divide by rows − 1 and columns by columns − 1, and the last index is one
+/// less than the count.
 #[test]
 fn misprint_m23_counts_are_not_paired_crosswise() {
     let (rows, columns) = (3, 5);
@@ -124,7 +128,8 @@ fn several_viewports_on_one_image() {
     );
 }
 
-/// A parallel projection has its centre at infinity: rays start on the near plane and all run the same way.
+/// A parallel projection has its centre at infinity: rays start on the near plane and all run the
+/// same way.
 #[test]
 fn rays_of_a_parallel_projection_are_parallel() {
     let to_ndc = orthographic([-2.0, 4.0], [-1.0, 2.0], [-1.0, -5.0]).raw();
@@ -132,10 +137,10 @@ fn rays_of_a_parallel_projection_are_parallel() {
     let back = Viewport::image(640, 480).expect("has pixels").unprojector::<View>(clip_to_view);
     assert_eq!(back.center_of_projection().w(), 0.0);
     for pixel in [[0.0, 0.0], [320.0, 240.0], [640.0, 480.0]] {
-        let ray = back.pick_ray(pixel, [1.0, -1.0]).expect("there is one");
-        assert_eq!(ray.direction, -Vector::Z);
-        assert_eq!(ray.origin, ray.near);
-        assert_eq!(ray.near.z(), -1.0);
+        let pick = back.pick_ray(pixel, [1.0, -1.0]).expect("there is one");
+        assert_eq!(pick.ray.direction, -Vector::Z);
+        assert_eq!(pick.ray.origin, pick.near);
+        assert_eq!(pick.near.z(), -1.0);
     }
 }
 
@@ -150,29 +155,42 @@ fn rays_reach_to_infinity() {
         DepthRange::KEEP,
     )
     .unprojector::<View>(Projective::from_raw(raw).inverse().expect("regular"));
-    let ray = back.pick_ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
-    assert_eq!(ray.far.w(), 0.0);
-    assert_eq!((ray.direction, ray.origin, ray.near.z()), (-Vector::Z, Point::ORIGIN, -0.5));
+    let pick = back.pick_ray([50.0, 50.0], [1.0, 0.0]).expect("there is one");
+    assert_eq!(pick.far.w(), 0.0);
+    let expected = (-Vector::Z, Point::ORIGIN, -0.5);
+    assert_eq!((pick.ray.direction, pick.ray.origin, pick.near.z()), expected);
     assert_eq!(back.pick_ray([f64::NAN, 0.0], [1.0, 0.0]), None);
     assert_eq!(back.pick_ray([50.0, 50.0], [1.0, -1.7e308]), None, "the far point is no number");
 }
 
 #[test]
 fn what_has_no_size_is_refused_by_name() {
-    let message = |error: viewport::ViewportError| error.to_string();
+    let message = |error: ViewportError| error.to_string();
     assert_eq!(
         Viewport::chapter(0, 5).map_err(message).unwrap_err(),
         "nx = 0 is not allowed: it must be greater than 0"
     );
-    assert!(Rectangle::new(0.0, 0.0, f64::NAN, 1.0).is_err());
-    assert!(Rectangle::new(0.0, f64::INFINITY, 1.0, 1.0).is_err());
-    assert!(DepthRange::new([0.5, 0.5], [0.0, 1.0]).is_err());
-    assert!(DepthRange::new([0.0, 1.0], [0.0, f64::NAN]).is_err());
+    assert!(matches!(
+        Rectangle::new(0.0, 0.0, f64::NAN, 1.0),
+        Err(ViewportError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        Rectangle::new(0.0, f64::INFINITY, 1.0, 1.0),
+        Err(ViewportError::NotFinite { .. })
+    ));
+    assert!(matches!(DepthRange::new([0.5, 0.5], [0.0, 1.0]), Err(ViewportError::Empty { .. })));
+    assert!(matches!(
+        DepthRange::new([0.0, 1.0], [0.0, f64::NAN]),
+        Err(ViewportError::NotFinite { .. })
+    ));
     assert!(PixelConvention::IMAGE.convert_to(PixelConvention::CHAPTER, 0.0).is_err());
     let unit = Limits { x: [0.0, 1.0], y: [0.0, 1.0] };
     let flat = Limits { x: [0.0, 1.0], y: [2.0, 2.0] };
     let error = WindowToViewport::new(flat, unit).map_err(message).unwrap_err();
     assert_eq!(error, "window's y is empty: both its ends are 2");
     let tiny = Rectangle::from_size(1e-100, 1.0).expect("allowed");
-    assert!(Viewport::image(4, 4).expect("has pixels").pick_matrix(tiny).is_err());
+    assert!(matches!(
+        Viewport::image(4, 4).expect("has pixels").pick_matrix(tiny),
+        Err(ViewportError::NotFinite { .. })
+    ));
 }

@@ -1,8 +1,8 @@
 //! Items of the sources that the laws leave out, each against its formula.
 
 use glam::DMat4;
-use homog::{Ndc, Point};
-use viewport::{DepthRange, PixelConvention, Rectangle, Viewport};
+use homog::{Ndc, PixelConvention, Point};
+use viewport::{DepthRange, Rectangle, Viewport};
 
 /// VP-1, entry by entry: scale by n/2, centre at (n − 1)/2, z as it is.
 #[test]
@@ -32,8 +32,8 @@ fn c5_pixels_have_their_centres_at_integers() {
     }
 }
 
-/// A window twice as wide as high is squeezed into the square; an image of the same aspect stretches
-/// it back, and any other leaves circles as ellipses.
+/// A window twice as wide as high is squeezed into the square; an image of the same aspect
+/// stretches it back, and any other leaves circles as ellipses.
 #[test]
 fn c59_an_image_of_the_windows_aspect_undoes_the_squeeze() {
     let window = [2.0, 1.0];

@@ -1,12 +1,10 @@
-//! Laws of viewports: what goes to the screen comes back, conventions convert into each other, parts make the whole.
+//! Laws of viewports: what goes to the screen comes back, conventions convert into each other,
+//! parts make the whole.
 
 use glam::{DMat4, DVec4};
-use homog::{Clip, HPoint, Ndc, Point, Projective, Screen, View};
+use homog::{Clip, HPoint, Ndc, PixelConvention, PixelRect, Point, Projective, Screen, View};
 use proptest::prelude::*;
-use viewport::{
-    DepthRange, FitPolicy, Limits, PixelConvention, Rectangle, Tile, Viewport, WindowToViewport,
-    tiles,
-};
+use viewport::{DepthRange, FitPolicy, Limits, Rectangle, Viewport, WindowToViewport, tiles};
 
 fn rectangle() -> impl Strategy<Value = Rectangle> {
     (-5000.0..5000.0, -5000.0..5000.0, 0.5..9000.0, 0.5..9000.0)
@@ -60,10 +58,11 @@ proptest! {
         let [low, high] = [-1.0, 1.0].map(|c| map.transform_point(Point::new(c, c, 0.0)));
         prop_assert!(low.x() < high.x());
         let upwards = high.y() > low.y();
-        prop_assert_eq!(upwards, viewport.convention().y == viewport::YAxis::Up);
+        prop_assert_eq!(upwards, viewport.convention().y == homog::YAxis::Up);
     }
 
-    /// VP-4: a viewport on the whole image, in one convention and then converted, is the viewport in the other.
+    /// VP-4: a viewport on the whole image, in one convention and then converted, is the viewport
+    /// in the other.
     #[test]
     fn conventions_convert_into_each_other(
         size in (1..4000_u32, 1..4000_u32),
@@ -104,7 +103,7 @@ proptest! {
     #[test]
     fn tiles_make_the_whole(image in [1..70_u32, 1..70_u32], largest in [1..40_u32, 1..40_u32]) {
         let mut times = vec![0; (image[0] * image[1]) as usize];
-        for Tile { x, y, width, height } in tiles(image, largest).expect("not empty") {
+        for PixelRect { x, y, width, height } in tiles(image, largest).expect("not empty") {
             prop_assert!((1..=largest[0]).contains(&width) && (1..=largest[1]).contains(&height));
             for row in y..y + height {
                 for column in x..x + width {
@@ -115,15 +114,15 @@ proptest! {
         prop_assert!(times.iter().all(|&times| times == 1));
     }
 
-    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and the pick matrix of
-    /// the tile with a viewport of the tile's size gives the same.
+    /// In a tile a point has the pixel position it has in the whole, less the tile's corner; and
+    /// the pick matrix of the tile with a viewport of the tile's size gives the same.
     #[test]
     fn a_tile_shows_its_part_of_the_whole(
         p in ndc(),
         convention in prop::sample::select(PixelConvention::ALL.to_vec()),
         tile in (0..600_u32, 0..400_u32, 1..200_u32, 1..200_u32),
     ) {
-        let tile = Tile { x: tile.0, y: tile.1, width: tile.2, height: tile.3 };
+        let tile = PixelRect { x: tile.0, y: tile.1, width: tile.2, height: tile.3 };
         let whole = Viewport::chapter(800, 600).expect("has pixels").with_convention(convention);
         let in_whole = whole.ndc_to_screen().transform_point(p);
         let corner = Point::<Screen>::new(tile.x.into(), tile.y.into(), 0.0) - Point::ORIGIN;
@@ -137,7 +136,8 @@ proptest! {
         prop_assert!((by_pick - in_tile).length() < 1e-9, "{by_pick:?} is not {in_tile:?}");
     }
 
-    /// C26, UN-1 and UN-2: what is unprojected projects back, and the ray of a pixel runs from the eye through it.
+    /// C1, C26, UN-1 and UN-2: an unprojected point projects back, and the ray of a pixel runs from
+    /// the eye through it.
     #[test]
     fn rays_run_from_the_eye_through_their_pixel(
         viewport in viewport(),
@@ -152,11 +152,11 @@ proptest! {
         let again = viewport.source_to_screen(view_to_clip).transform_point(point).divide().expect("in front");
         prop_assert!((again - screen).length() < 1e-8 * 1e4, "{again:?} is not {screen:?}");
 
-        let ray = back.pick_ray([screen.x(), screen.y()], [-1.0, 1.0]).expect("there is one");
-        prop_assert!((ray.origin - Point::ORIGIN).length() < 1e-9 * near);
-        prop_assert!((ray.near.z() + near).abs() < 1e-9 * near);
+        let pick = back.pick_ray([screen.x(), screen.y()], [-1.0, 1.0]).expect("there is one");
+        prop_assert!((pick.ray.origin - Point::ORIGIN).length() < 1e-9 * near);
+        prop_assert!((pick.near.z() + near).abs() < 1e-9 * near);
         let along = (point - Point::ORIGIN).normalized().expect("not the eye");
-        prop_assert!((along - ray.direction).length() < 1e-9);
+        prop_assert!((along - pick.ray.direction).length() < 1e-9);
     }
 
     #[test]

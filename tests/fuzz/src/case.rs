@@ -16,8 +16,8 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// Does the work of a case.
 ///
 /// # Panics
-/// If it takes too much memory or too long. Time counts only if it is the processors', for a busy machine is no fault
-/// of the case: slow work is done again to measure that.
+/// If it takes too much memory or too long. Time counts only if it is the processors', for a busy
+/// machine is no fault of the case: slow work is done again to measure that.
 pub fn run(work: impl Fn()) {
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();

@@ -8,7 +8,8 @@
 //!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
 //! ```
 //!
-//! A case fails by a panic, by a broken promise, by more than a second or by more than 200 MB; see [`case`].
+//! A case fails by a panic, by a broken promise, by more than a second or by more than 200 MB; see
+//! [`case`].
 
 pub mod case;
 pub mod glb;

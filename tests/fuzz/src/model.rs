@@ -2,13 +2,13 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use model::import::{
-    Choice, Images, ImportError, ImportOptions, Limits, check_bytes, load_bytes,
-};
 use model::Model;
 use model::ModelInstance;
+use model::import::{
+    ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, check_bytes, load_bytes,
+};
 use pipeline::scene::file::{
-    CameraChoice, FromFile, SceneFile, StyleFile, USUAL_PADDING, ViewFile,
+    CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene, render};
 use std::path::PathBuf;
@@ -43,7 +43,7 @@ pub fn file(bytes: &[u8]) {
         show(load(bytes, ImportOptions { lenient: true, ..ImportOptions::default() }));
     }
     if has_variants {
-        let (variant, images) = (Some(Choice::Index(0)), Images::Headers);
+        let (variant, images) = (Some(NameOrIndex::Index(0)), ImageLoading::Headers);
         show(load(bytes, ImportOptions { variant, images, ..ImportOptions::default() }));
     }
     if bytes.starts_with(b"glTF") {
@@ -59,7 +59,8 @@ fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
     load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
 }
 
-/// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes is known then.
+/// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes
+/// is known then.
 pub fn loaded(bytes: &[u8]) {
     checked(load(bytes, ImportOptions::default()));
 }
@@ -67,7 +68,7 @@ pub fn loaded(bytes: &[u8]) {
 /// The model, if there is one; else an error that a person could read.
 fn checked(loaded: Result<Model, ImportError>) -> Option<Model> {
     let problem = match &loaded {
-        Ok(model) => promises::check(model).err(),
+        Ok(model) => promises::check_model(model).err(),
         Err(error) => error.to_string().is_empty().then(|| "an error says nothing".to_owned()),
     };
     assert!(problem.is_none(), "a promise is broken: {problem:?}");
@@ -82,23 +83,22 @@ fn show(loaded: Result<Model, ImportError>) {
         draw(&model, StyleFile::Flat, ViewFile::FromModel(CameraChoice::Index(0)));
     }
     if !model.animations.is_empty() {
-        model.pose(model.animations.len() - 1, 0.7);
-        let view = ViewFile::Frame { from: Some(FromFile::Back), padding_percent: USUAL_PADDING };
+        model.apply_animation(model.animations.len() - 1, 0.7);
+        let view = ViewFile::Frame { from: Some(FromFile::Back), padding_percent: DEFAULT_PADDING };
         draw(&model, StyleFile::Wireframe, view);
     }
 }
 
 /// Draws a model in 32 × 24 pixels.
 fn draw(model: &Model, style: StyleFile, view: ViewFile) {
-    let mut file = SceneFile::showing("model.glb".to_owned());
+    let mut file = SceneFile::from_model_path("model.glb".to_owned());
     file.image.size = (32, 24);
     file.style = style;
     file.camera.view = view;
-    let origin =
-        Origin::of_text("model.glb", "", PathBuf::new());
+    let origin = Origin::from_text("model.glb", "", PathBuf::new());
     let placed = ModelInstance { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
     // A model with nothing to see has no picture, and the error says so.
-    match Scene::of_models(&origin, &file, vec![placed]) {
+    match Scene::from_models(&origin, &file, vec![placed]) {
         Ok(scene) => {
             if let Ok(picture) = render(&scene, 1) {
                 assert!(!picture.to_png().is_empty(), "the PNG is empty");

@@ -1,7 +1,8 @@
-//! Any triangles, lines and points: drawn whole, in two parts and by every set of instructions, they are the same.
+//! Any triangles, lines and points: drawn whole, in two parts and at every SIMD level,
+//! they are the same.
 
-use homog::Point;
-use raster::{Cover, Frame, Instructions, Samples, ScreenVertex, Visibility};
+use homog::{PixelRect, Point};
+use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel, VisibilityBuffer};
 
 /// The fuzzer's bytes as numbers; zeros after their end.
 struct Numbers<'a>(&'a [u8]);
@@ -19,7 +20,8 @@ impl Numbers<'_> {
         u8::from_le_bytes(self.take())
     }
 
-    /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its steps.
+    /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its
+    /// steps.
     fn number(&mut self) -> f64 {
         match self.byte() % 8 {
             0 => f64::from_le_bytes(self.take()),
@@ -44,12 +46,15 @@ pub fn frames(bytes: &[u8]) {
     let samples = [Samples::One, Samples::Four, Samples::Eight, Samples::Sixteen];
     let samples = samples[usize::from(numbers.byte() % 4)];
     let split = u32::from(numbers.byte()) % size[0];
-    let Ok(mut whole) = Frame::part([0, 0], size, samples) else { panic!("the size is right") };
+    let [width, height] = size;
+    let Ok(mut whole) = Frame::new(width, height, samples) else { panic!("the size is right") };
+    let region =
+        |x: u32, width: u32| Frame::for_region(PixelRect { x, y: 0, width, height }, samples);
     let mut parts = Vec::new();
     if split > 0 {
-        parts.extend(Frame::part([0, 0], [split, size[1]], samples));
+        parts.extend(region(0, split));
     }
-    parts.extend(Frame::part([split, 0], [size[0] - split, size[1]], samples));
+    parts.extend(region(split, width - split));
     for id in 0..64 {
         if numbers.0.is_empty() {
             break;
@@ -60,13 +65,13 @@ pub fn frames(bytes: &[u8]) {
             primitive(frame, &mut numbers, id);
         }
     }
-    let seen = whole.visibility();
-    for instructions in Instructions::available() {
-        let other = whole.clone().with_instructions(instructions).visibility();
-        assert!(same(&seen, &other), "{instructions:?} give another picture");
+    let seen = whole.visibility_buffer();
+    for level in SimdLevel::available() {
+        let other = whole.clone().with_simd_level(level).visibility_buffer();
+        assert!(same(&seen, &other), "{level:?} gives another picture");
     }
-    check_parts(&seen, &parts, [split, size[0]]);
-    whole.fragments(|fragment| {
+    check_parts(&seen, &parts, [split, width]);
+    whole.for_each_fragment(|fragment| {
         let [a, b, c] = fragment.weights;
         assert!(a.is_finite() && b.is_finite() && c.is_finite(), "a weight is not finite");
     });
@@ -74,39 +79,39 @@ pub fn frames(bytes: &[u8]) {
 
 fn primitive(frame: &mut Frame, numbers: &mut Numbers<'_>, id: u32) {
     let kind = numbers.byte();
-    let cover = [Cover::Solid, Cover::Masked, Cover::Translucent][usize::from(kind / 4 % 3)];
+    let cover = [Opacity::Opaque, Opacity::Masked, Opacity::Translucent][usize::from(kind / 4 % 3)];
     match kind % 4 {
         0 | 1 => {
             let corners = [numbers.vertex(), numbers.vertex(), numbers.vertex()];
             if let [Some(p), Some(q), Some(r)] = corners {
-                frame.triangle([p, q, r], id, cover);
+                frame.add_triangle([p, q, r], id, cover);
             }
         }
         2 => {
             let (ends, width) = ([numbers.vertex(), numbers.vertex()], numbers.number());
             if let [Some(p), Some(q)] = ends {
-                frame.line([p, q], width, id, cover);
+                frame.add_line([p, q], width, id, cover);
             }
         }
         _ => {
             let (center, size) = (numbers.vertex(), numbers.number());
             if let Some(center) = center {
-                frame.point(center, size, id, cover);
+                frame.add_point(center, size, id, cover);
             }
         }
     }
 }
 
-fn same(a: &Visibility, b: &Visibility) -> bool {
-    let bits = |seen: &Visibility| seen.depth.iter().map(|d| d.to_bits()).collect::<Vec<_>>();
+fn same(a: &VisibilityBuffer, b: &VisibilityBuffer) -> bool {
+    let bits = |seen: &VisibilityBuffer| seen.depth.iter().map(|d| d.to_bits()).collect::<Vec<_>>();
     a.ids == b.ids && bits(a) == bits(b)
 }
 
 /// The parts, side by side, are the whole.
-fn check_parts(whole: &Visibility, parts: &[Frame], [split, width]: [u32; 2]) {
+fn check_parts(whole: &VisibilityBuffer, parts: &[Frame], [split, width]: [u32; 2]) {
     let mut left = 0;
     for frame in parts {
-        let (seen, part_width) = (frame.visibility(), frame.width() as usize);
+        let (seen, part_width) = (frame.visibility_buffer(), frame.width() as usize);
         for (at, id) in seen.ids.iter().enumerate() {
             let there = at / part_width * width as usize + left + at % part_width;
             assert_eq!(*id, whole.ids[there], "a part from column {left}, split at {split}");

@@ -1,6 +1,7 @@
-//! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by two.
+//! The text of a scene: parsed, resolved with a model that is there, and drawn by one thread and by
+//! two.
 
-use pipeline::scene::parse;
+use pipeline::scene::parse_scene;
 use pipeline::{Origin, Scene, render};
 use std::path::Path;
 
@@ -11,7 +12,7 @@ const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models")
 /// A scene from its text.
 pub fn text(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let mut file = match parse("scene.ron", text) {
+    let mut file = match parse_scene("scene.ron", text) {
         Ok(file) => file,
         Err(error) => return assert!(!error.to_string().is_empty(), "an error says nothing"),
     };
@@ -32,7 +33,6 @@ pub fn text(bytes: &[u8]) {
 }
 
 fn resolve(text: &str, folder: &Path, file: &pipeline::SceneFile) -> Result<Scene, String> {
-    let origin =
-        Origin::of_text("scene.ron", text, folder.to_owned());
+    let origin = Origin::from_text("scene.ron", text, folder.to_owned());
     Scene::resolve(&origin, file, &Default::default()).map_err(|error| error.to_string())
 }

@@ -1,6 +1,8 @@
-//! Compressed geometry and images: a model is made around the bytes, so that they reach their decoder.
+//! Compressed geometry and images: a model is made around the bytes, so that they reach their
+//! decoder.
 //!
-//! The first bytes say what the JSON says of the rest, so that the fuzzer can bring the two to agree.
+//! The first bytes say what the JSON says of the rest, so that the fuzzer can bring the two to
+//! agree.
 
 use crate::{glb, model};
 use serde_json::{Value, json};

@@ -1,4 +1,5 @@
-//! The chart: for each scene a bar for each contestant, as long as the logarithm of its time over ours.
+//! The chart: for each scene a bar for each contestant, as long as the logarithm of its time over
+//! ours.
 
 use crate::contest::Heat;
 use crate::measure::Spread;

@@ -1,6 +1,7 @@
 //! The clocks: CPU time of this process, and the cost of other programs.
 //!
-//! Other work on the machine stretches wall time and leaves CPU time nearly alone, so figures are CPU time.
+//! Other work on the machine stretches wall time and leaves CPU time nearly alone, so figures are
+//! CPU time.
 
 use nix::sys::resource::{UsageWho, getrusage};
 use nix::time::{ClockId, clock_gettime};
@@ -38,8 +39,8 @@ pub struct Cost {
     pub peak: u64,
 }
 
-/// What the programs took that this process has started and that have ended. Start one only, for the peak is that of the
-/// largest.
+/// What the programs took that this process has started and that have ended. Start one only, for
+/// the peak is that of the largest.
 pub fn children(wall: Duration) -> Option<Cost> {
     let usage = getrusage(UsageWho::RUSAGE_CHILDREN).ok()?;
     let time = |t: nix::sys::time::TimeVal| {

@@ -71,7 +71,8 @@ const SCENES: [Recipe; 9] = [
 /// Scenes that are drawn with four samples too: those with edges.
 const WITH_SAMPLES: [&str; 4] = ["sphere-1m", "helmet", "layers-back-to-front-flat", "floor"];
 
-/// Draws the scenes, one after the other, and prints each table; what cannot be drawn is said there too.
+/// Draws the scenes, one after the other, and prints each table; what cannot be drawn is said there
+/// too.
 pub fn scenes(gl: Option<&Rc<Context>>, options: &Options) -> Result<Vec<Heat>, String> {
     let mut heats = Vec::new();
     for (name, make) in SCENES {
@@ -161,8 +162,8 @@ fn agreement(peer: String, ours: &[[u8; 4]], theirs: &[[u8; 4]]) -> Agreement {
     found
 }
 
-/// The limits, and beside them in the same rounds the scenes that are held to them. The first kernel is called `kernel`, the
-/// others bear the names of their instructions.
+/// The limits, and beside them in the same rounds the scenes that are held to them. The first
+/// kernel is called `kernel`, the others bear the names of their instructions.
 pub fn bounds(count: usize) -> Result<Vec<Series>, String> {
     eprintln!("limits: clearing, the innermost loop, layers");
     let back = layers("back to front, flat", 50, Order::BackToFront, false)?;
@@ -196,7 +197,8 @@ pub struct Threads {
     pub peer: &'static str,
     /// The scene's name.
     pub scene: &'static str,
-    /// Wall time with two threads over wall time with one, in the rounds in which each had its processors to itself.
+    /// Wall time with two threads over wall time with one, in the rounds in which each had its
+    /// processors to itself.
     pub wall: Option<Spread>,
     /// CPU time over wall time with two threads, in all rounds.
     pub parallel: Option<Spread>,
@@ -206,7 +208,8 @@ pub struct Threads {
     pub same: bool,
 }
 
-/// A single thread that got less of the wall's time than this was disturbed, and its round does not count.
+/// A single thread that got less of the wall's time than this was disturbed, and its round does not
+/// count.
 const ALONE: f64 = 0.97;
 
 /// One and two threads by turns.

@@ -1,27 +1,27 @@
-//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the same with one thing more or less.
+//! What each feature of the shading costs: the flight helmet at 1080p, lit by the studio, and the
+//! same with one thing more or less.
 //!
-//! One scene a feature, all rendered in this process by one thread, by turns; the base is the program's usual picture: four samples,
-//! every map of the materials, an environment, no shadows.
+//! One scene a feature, all rendered in this process by one thread, by turns; the base is the
+//! program's usual picture: four samples, every map of the materials, an environment, no shadows.
 
 use crate::measure::{Contestant, Series, rounds};
-use model::{
-    Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume,
-};
-use pipeline::scene::{ResolveOptions, Scene, parse};
-use pipeline::{Origin, Picture, Renderer, Textures, Timings};
+use model::{Anisotropy, Clearcoat, Iridescence, MaterialExtensions, Sheen, Transmission, Volume};
+use pipeline::scene::{ResolveOptions, Scene, parse_scene};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Textures};
 use std::path::Path;
 use std::sync::Arc;
 
 /// The name of the base, which the others are compared with.
 pub const BASE: &str = "usual picture";
 
-/// Each feature with what of the scene is other than in the base: lights and the like, fields of the image, and materials.
+/// Each feature with what of the scene is other than in the base: lights and the like, fields of
+/// the image, and materials.
 const FEATURES: [(&str, &str, &str, Change); 19] = [
     (BASE, "", "", AS_IT_IS),
     ("flat style", "style: Flat", "", AS_IT_IS),
     ("one sun, no environment", "environment: Dark", "", AS_IT_IS),
     ("sky", "environment: Sky()", "", AS_IT_IS),
-    ("sun beside the studio", "lights: [Sun(lux: 2, direction: (-1, -2, -1))]", "", AS_IT_IS),
+    ("sun beside the studio", "lights: [Directional(intensity: 2, direction: (-1, -2, -1))]", "", AS_IT_IS),
     ("… casting shadows", SUN_WITH_SHADOWS, "", AS_IT_IS),
     ("… on the ground", SUN_ON_THE_GROUND, "", AS_IT_IS),
     ("spot casting shadows", SPOT_WITH_SHADOWS, "", AS_IT_IS),
@@ -29,7 +29,7 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     ("tone curve AgX", "", "tone_mapping: AgX", AS_IT_IS),
     ("1 sample", "", "samples: 1", AS_IT_IS),
     ("16 samples", "", "samples: 16", AS_IT_IS),
-    ("anisotropic textures off", "", "anisotropy: 1", AS_IT_IS),
+    ("anisotropic textures off", "", "max_anisotropy: 1", AS_IT_IS),
     ("clearcoat", "", "", |of| {
         of.clearcoat = Some(Box::new(Clearcoat { factor: 1.0, ..Default::default() }))
     }),
@@ -53,11 +53,11 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
 type Change = fn(&mut MaterialExtensions);
 
 const AS_IT_IS: Change = |_| {};
-const SUN_WITH_SHADOWS: &str = "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())]";
+const SUN_WITH_SHADOWS: &str = "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())]";
 const SUN_ON_THE_GROUND: &str =
-    "lights: [Sun(lux: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()";
+    "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()";
 const SPOT_WITH_SHADOWS: &str =
-    "lights: [Spot(position: (1, 1.5, 1), direction: (-1, -1.2, -1), candela: 6, shadows: On())]";
+    "lights: [Spot(position: (1, 1.5, 1), direction: (-1, -1.2, -1), intensity: 6, shadows: On())]";
 const GLASS: Transmission = Transmission { factor: 0.6, texture: None };
 const TINT: Volume = Volume {
     thickness: 0.01,
@@ -88,8 +88,8 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
         "Scene(models: [(path: \"FlightHelmet.gltf\")], {environment}{fields}{} image: (size: (1920, 1080), {image}))",
         if fields.is_empty() { "" } else { "," }
     );
-    let file = parse("feature.ron", &text).map_err(|error| error.to_string())?;
-    let origin = Origin::of_text("feature.ron", text, folder.to_owned());
+    let file = parse_scene("feature.ron", &text).map_err(|error| error.to_string())?;
+    let origin = Origin::from_text("feature.ron", text, folder.to_owned());
     Scene::resolve(&origin, &file, &ResolveOptions::default()).map_err(|error| error.to_string())
 }
 
@@ -97,13 +97,14 @@ fn scene(fields: &str, image: &str, folder: &Path) -> Result<Scene, String> {
 fn frames(scene: Scene) -> Result<Box<dyn FnMut()>, String> {
     // As long as the process: there are few.
     let scene: &'static Scene = Box::leak(Box::new(scene));
-    let textures = Textures::of(&scene.models);
+    let textures = Textures::for_models(&scene.models);
     let mut renderer = Renderer::default();
     let mut picture: Picture = Picture::default();
-    let silent = Timings::default();
-    renderer.render(scene, &textures, 1, &silent, &mut picture).map_err(|e| e.to_string())?;
+    let context = RenderContext::new(scene, &textures, 1);
+    renderer.render(&context, &mut picture).map_err(|e| e.to_string())?;
     Ok(Box::new(move || {
         // It could be rendered just before.
-        let _ = renderer.render(scene, &textures, 1, &silent, &mut picture);
+        let context = RenderContext::new(scene, &textures, 1);
+        let _ = renderer.render(&context, &mut picture);
     }))
 }

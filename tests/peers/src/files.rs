@@ -1,8 +1,10 @@
-//! From a file to a PNG with the real programs: `alberti render` and, where it is installed, f3d under a virtual display.
+//! From a file to a PNG with the real programs: `alberti render` and, where it is installed, f3d
+//! under a virtual display.
 //!
-//! Each run is a process of its own. Its CPU time and peak memory come from the system's account of ended children; a child's
-//! peak counts the moment before it became the program, when it was a copy of its parent, so the parent is a small process of
-//! its own too: this program with the argument `cost`.
+//! Each run is a process of its own. Its CPU time and peak memory come from the system's account of
+//! ended children; a child's peak counts the moment before it became the program, when it was a
+//! copy of its parent, so the parent is a small process of its own too: this program with the
+//! argument `cost`.
 
 use crate::clock::children;
 use crate::measure::{Series, Spread};
@@ -68,7 +70,8 @@ impl Drop for Display {
     }
 }
 
-/// Draws each model with each program, `count` times by turns, after one run for warming up, and prints the tables.
+/// Draws each model with each program, `count` times by turns, after one run for warming up, and
+/// prints the tables.
 pub fn files(
     alberti: &Path,
     models: &Path,

@@ -1,13 +1,14 @@
 //! Mesa's software OpenGL, found at run time: the one module that calls foreign code.
 //!
-//! Every call goes through a pointer that was looked up by name in the library and has the type that the OpenGL 3.0 and
-//! OSMesa headers give it. The calls are sound because
+//! Every call goes through a pointer that was looked up by name in the library and has the type
+//! that the OpenGL 3.0 and OSMesa headers give it. The calls are sound because
 //!
 //! - the library stays loaded as long as the process: its handle is leaked;
-//! - a context is current on the thread that made it, and [`Context`] cannot leave that thread (it holds raw pointers);
-//! - what is read through a pointer during a call is a slice that outlives the call, with its own length;
-//!   what OpenGL keeps, it copies (`glBufferData`, `glTexImage2D`, `glShaderSource`), except for OSMesa's own
-//!   picture, which the context owns;
+//! - a context is current on the thread that made it, and [`Context`] cannot leave that thread (it
+//!   holds raw pointers);
+//! - what is read through a pointer during a call is a slice that outlives the call, with its own
+//!   length; what OpenGL keeps, it copies (`glBufferData`, `glTexImage2D`, `glShaderSource`),
+//!   except for OSMesa's own picture, which the context owns;
 //! - what is written goes to buffers of the size that the call's arguments say;
 //! - draw calls read buffers by indices that were checked against the number of vertices.
 #![allow(unsafe_code)]
@@ -32,8 +33,8 @@ macro_rules! functions {
         impl Functions {
             fn load(library: &Library) -> Result<Self, String> {
                 Ok(Self { $(
-                    // SAFETY: the symbol is a function of the type that the OpenGL and OSMesa headers give it, and the
-                    // library is never unloaded.
+                    // SAFETY: the symbol is a function of the type that the OpenGL and OSMesa
+                    // headers give it, and the library is never unloaded.
                     $field: *unsafe { library.get($symbol) }.map_err(|error| error.to_string())?,
                 )* })
             }
@@ -132,13 +133,15 @@ pub struct Part {
 impl Context {
     /// Loads the library and makes a context. `None` if the library is not installed.
     pub fn open() -> Result<Option<Self>, String> {
-        // SAFETY: Mesa's initialisers have no demands on the process; the handle is leaked, so nothing is unloaded.
+        // SAFETY: Mesa's initialisers have no demands on the process; the handle is leaked, so
+        // nothing is unloaded.
         let library = NAMES.iter().find_map(|name| unsafe { Library::new(*name) }.ok());
         let Some(library) = library else { return Ok(None) };
         let library: &'static Library = Box::leak(Box::new(library));
         let gl = Functions::load(library)?;
         let mut picture = vec![0_u32; 16 * 16].into_boxed_slice();
-        // SAFETY: no context is shared (null); the picture has room for 16 × 16 pixels of 4 bytes and is kept.
+        // SAFETY: no context is shared (null); the picture has room for 16 × 16 pixels of 4 bytes
+        // and is kept.
         let context = unsafe {
             let context = (gl.create_context)(name::RGBA, 24, 0, 0, null_mut());
             let data = picture.as_mut_ptr().cast();
@@ -196,7 +199,8 @@ impl Context {
             return Err("an index names no vertex".into());
         }
         let mut buffers = [0; 2];
-        // SAFETY: two names are written to an array of two; the data are slices with their own sizes.
+        // SAFETY: two names are written to an array of two; the data are slices with their own
+        // sizes.
         unsafe {
             (self.gl.gen_buffers)(2, buffers.as_mut_ptr());
             self.bind(buffers);
@@ -216,7 +220,8 @@ impl Context {
         }
         let (width, height) = (texture.width as c_int, texture.height as c_int);
         let mut created = 0;
-        // SAFETY: one name is written; the texels are as many as width and height say, 4 bytes each.
+        // SAFETY: one name is written; the texels are as many as width and height say, 4 bytes
+        // each.
         unsafe {
             (self.gl.gen_textures)(1, &mut created);
             (self.gl.bind_texture)(name::TEXTURE_2D, created);
@@ -240,8 +245,8 @@ impl Context {
         Ok(TextureName(created))
     }
 
-    /// Compiles and links shaders with the attributes `position`, `normal` and `uv` and the uniforms `world_to_clip` and
-    /// `tint`.
+    /// Compiles and links shaders with the attributes `position`, `normal` and `uv` and the
+    /// uniforms `world_to_clip` and `tint`.
     pub fn program(
         &self,
         vertex: &str,
@@ -250,7 +255,8 @@ impl Context {
     ) -> Result<Program, String> {
         let vertex = self.shader(name::VERTEX_SHADER, vertex)?;
         let fragment = self.shader(name::FRAGMENT_SHADER, fragment)?;
-        // SAFETY: the strings end in 0, the matrix has 16 numbers, one number is written to `status`.
+        // SAFETY: the strings end in 0, the matrix has 16 numbers, one number is written to
+        // `status`.
         unsafe {
             let program = (self.gl.create_program)();
             (self.gl.attach_shader)(program, vertex);
@@ -275,7 +281,8 @@ impl Context {
     fn shader(&self, kind: u32, source: &str) -> Result<u32, String> {
         let text = CString::new(source).map_err(|error| error.to_string())?;
         let mut status = 0;
-        // SAFETY: one string that ends in 0 (so no lengths are needed); one number is written to `status`.
+        // SAFETY: one string that ends in 0 (so no lengths are needed); one number is written to
+        // `status`.
         let shader = unsafe {
             let shader = (self.gl.create_shader)(kind);
             (self.gl.shader_source)(shader, 1, &text.as_ptr(), null());
@@ -306,8 +313,9 @@ impl Context {
         let (stride, float) = (size_of::<Vertex>() as c_int, name::FLOAT);
         let offset = |bytes: usize| null::<u8>().wrapping_add(bytes).cast::<c_void>();
         let (first, count) = (part.indices.start * 4, part.indices.len() as c_int);
-        // SAFETY: with buffers bound, pointers are offsets into them; the attributes are the fields of `Vertex`, the
-        // indices are in range (`Geometry::part`) and name vertices that are there (`geometry`).
+        // SAFETY: with buffers bound, pointers are offsets into them; the attributes are the fields
+        // of `Vertex`, the indices are in range (`Geometry::part`) and name vertices that are there
+        // (`geometry`).
         unsafe {
             let switch = if part.cull { self.gl.enable } else { self.gl.disable };
             switch(name::CULL_FACE);
@@ -356,8 +364,8 @@ impl Context {
         let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
         let data = pixels.as_mut_ptr().cast();
         let (w, h) = (width as c_int, height as c_int);
-        // SAFETY: `width` × `height` pixels of 4 bytes are written, which is the size of the vector; rows of 4-byte pixels
-        // need no padding.
+        // SAFETY: `width` × `height` pixels of 4 bytes are written, which is the size of the
+        // vector; rows of 4-byte pixels need no padding.
         unsafe {
             (self.gl.bind_framebuffer)(name::FRAMEBUFFER, from.name);
             (self.gl.read_pixels)(0, 0, w, h, name::RGBA, name::UNSIGNED_BYTE, data);

@@ -1,4 +1,5 @@
-//! What the machine can do at best, measured in the same process: filling memory, and the innermost loop of a rasteriser.
+//! What the machine can do at best, measured in the same process: filling memory, and the innermost
+//! loop of a rasteriser.
 
 use crate::scene::SIZE;
 use fearless_simd::prelude::*;
@@ -20,7 +21,8 @@ pub struct Clearing {
 }
 
 impl Clearing {
-    /// Of the size of the scenes' pictures: one that stays in the caches, or many that are cleared by turns.
+    /// Of the size of the scenes' pictures: one that stays in the caches, or many that are cleared
+    /// by turns.
     pub fn new(cached: bool) -> Self {
         let area = (SIZE.0 * SIZE.1) as usize;
         let picture = || (vec![[1; 4]; area], vec![1.0; area]);
@@ -38,9 +40,9 @@ impl Clearing {
     }
 }
 
-/// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer with its number. No edges, no
-/// set-up, no occlusion test, every pixel passes: what no rasteriser that stores depth and number can beat with the same
-/// instructions.
+/// The innermost loop: for each pixel of a tile, interpolate depth, compare, keep the nearer with
+/// its number. No edges, no set-up, no occlusion test, every pixel passes: what no rasteriser that
+/// stores depth and number can beat with the same instructions.
 #[derive(Clone)]
 pub struct Kernel {
     depth: Vec<f32>,

@@ -8,7 +8,8 @@
 //!  files  ──► alberti, f3d as processes
 //! ```
 //!
-//! Run by `cargo xtask bench raster`. No figure is asserted: a ratio that falls is for people to see.
+//! Run by `cargo xtask bench raster`. No figure is asserted: a ratio that falls is for people to
+//! see.
 
 mod chart;
 mod clock;
@@ -133,7 +134,8 @@ fn llvmpipe() -> Result<Option<Rc<gl::Context>>, String> {
     Ok(gl.map(Rc::new))
 }
 
-/// `profile SCENE FRAMES [render] [SAMPLES]`: draws one scene over and over, for a profiler to watch.
+/// `profile SCENE FRAMES [render] [SAMPLES]`: draws one scene over and over, for a profiler to
+/// watch.
 fn profile(arguments: &[String]) -> Result<(), String> {
     let [scene, frames, rest @ ..] = arguments else {
         return Err("profile SCENE FRAMES [render] [4]".into());

@@ -1,7 +1,8 @@
-//! Measuring side by side: in each round every contestant runs once, and what is compared are times of one round.
+//! Measuring side by side: in each round every contestant runs once, and what is compared are times
+//! of one round.
 //!
-//! A machine that is slow for a second is slow for all, so that ratios wander less than times do. The order of a round turns
-//! with the round, so that nobody always follows the same neighbour.
+//! A machine that is slow for a second is slow for all, so that ratios wander less than times do.
+//! The order of a round turns with the round, so that nobody always follows the same neighbour.
 
 use crate::clock::timed;
 use std::time::Duration;
@@ -56,7 +57,8 @@ pub fn rounds(contestants: &mut [Contestant<'_>], rounds: usize) -> Vec<Series> 
     series
 }
 
-/// Whether somebody who took `warm` when warming up runs in this round; its rounds are spread over all.
+/// Whether somebody who took `warm` when warming up runs in this round; its rounds are spread over
+/// all.
 fn takes_part(warm: Duration, round: usize, rounds: usize) -> bool {
     let affordable = PATIENCE.as_secs_f64() / warm.as_secs_f64().max(1e-9);
     let runs = (affordable as usize).clamp(3.min(rounds), rounds);

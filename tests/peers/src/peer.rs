@@ -12,7 +12,7 @@ pub use self::raster::Raster;
 pub use self::render::Render;
 
 use crate::scene::SIZE;
-use ::raster::{Eight, WIDE};
+use ::raster::{F32x8, LANES};
 
 /// A rasteriser with a scene in its buffers.
 pub trait Peer {
@@ -22,7 +22,8 @@ pub trait Peer {
     /// Whether its picture is to be compared with ours: same colours, one sample for each pixel.
     fn is_comparable(&self) -> bool;
 
-    /// Draws one frame from the buffers, clearing included, reading back excluded. This is what is measured.
+    /// Draws one frame from the buffers, clearing included, reading back excluded. This is what is
+    /// measured.
     fn draw(&mut self);
 
     /// The frame drawn last, rows from the top; alpha is 0 where nothing was drawn.
@@ -32,19 +33,20 @@ pub trait Peer {
 /// Pixels of the picture.
 pub const AREA: usize = (SIZE.0 * SIZE.1) as usize;
 
-/// Colours, each channel from 0 to 1, kept as the peers' shaders write them: 8 bits for each channel, no sRGB curve.
+/// Colours, each channel from 0 to 1, kept as the peers' shaders write them: 8 bits for each
+/// channel, no sRGB curve.
 pub struct Quantized;
 
 impl ::raster::Encode<[u8; 4]> for Quantized {
     #[inline(always)]
-    fn pixel(&self, color: [f32; 4]) -> [u8; 4] {
+    fn encode_pixel(&self, color: [f32; 4]) -> [u8; 4] {
         color.map(|channel| quantized(channel) as u8)
     }
 
     #[inline(always)]
-    fn eight(&self, [r, g, b, alpha]: &[Eight; 4]) -> [[u8; 4]; WIDE] {
-        let mut pixels = [0; WIDE];
-        for lane in 0..WIDE {
+    fn encode_eight(&self, [r, g, b, alpha]: &[F32x8; 4]) -> [[u8; 4]; LANES] {
+        let mut pixels = [0; LANES];
+        for lane in 0..LANES {
             pixels[lane] = quantized(r[lane])
                 | quantized(g[lane]) << 8
                 | quantized(b[lane]) << 16

@@ -1,4 +1,5 @@
-//! The scenes of the comparison: plain arrays that every rasteriser draws from, and one camera for all.
+//! The scenes of the comparison: plain arrays that every rasteriser draws from, and one camera for
+//! all.
 
 mod floor;
 mod layers;
@@ -35,7 +36,8 @@ pub struct Vertex {
     pub uv: [f32; 2],
 }
 
-/// An image: 8-bit RGBA, shown as it is, repeated in both directions, bilinear between texels, without mip maps.
+/// An image: 8-bit RGBA, shown as it is, repeated in both directions, bilinear between texels,
+/// without mip maps.
 #[derive(Clone, Debug)]
 pub struct Texture {
     /// Texels of a row.
@@ -117,7 +119,8 @@ impl Scene {
 pub const TEXTURE_SCALE: f32 = 1.0 / 255.0;
 
 impl Texture {
-    /// A board of two colours with softly varying brightness, `size` × `size` texels in `fields` × `fields` squares.
+    /// A board of two colours with softly varying brightness, `size` × `size` texels in `fields` ×
+    /// `fields` squares.
     pub fn board(size: usize, fields: usize, colors: [[u8; 3]; 2]) -> Self {
         let texel = |n: usize| {
             let (x, y) = (n % size, n / size);
@@ -128,7 +131,8 @@ impl Texture {
         Self { width: size, height: size, rgba: (0..size * size).map(texel).collect() }
     }
 
-    /// The colour at texture coordinates, 0 to 1 each: how the shaders of all rasterisers in Rust read it.
+    /// The colour at texture coordinates, 0 to 1 each: how the shaders of all rasterisers in Rust
+    /// read it.
     #[inline]
     pub fn bilinear(&self, [u, v]: [f32; 2]) -> [f32; 3] {
         let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);

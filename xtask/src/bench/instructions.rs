@@ -3,7 +3,8 @@
 //! Times wander; instructions counted by callgrind do not: the same program counts the same to the
 //! last one. Valgrind shows every program the same plain processor with AVX2, whatever wider
 //! instructions the real one has. `tests/bench/instructions.txt` holds the counts with the reason
-//! of their last change; one that has risen by more than 3 % fails until it is stored with a reason:
+//! of their last change; one that has risen by more than 3 % fails until it is stored with a
+//! reason:
 //!
 //! ```text
 //! cargo xtask bench --instructions --update teapot --reason "teapots have lids now"
@@ -18,17 +19,18 @@ use figures::{CountTable, InstructionCount};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// A rise beyond this share fails, and a fall beyond it is worth storing.
+/// The relative increase that fails, and the decrease that is worth recording.
 const TOLERANCE: f64 = 0.03;
 
 /// Scenes that the program draws, small, with one thread: smooth shading, clipping and textures,
 /// translucency.
 const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
 
-/// What the crate `raster` does alone, with one and with four samples for each pixel: the arguments of
-/// `tests/bench/workload.rs`.
+/// Workloads of the crate `raster` alone, with one and with four samples per pixel: the arguments
+/// of `tests/bench/workload.rs`.
 const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
 
+/// Counts instructions and compares them with the table, or updates named rows.
 pub fn run_instructions(arguments: &[String]) -> Outcome {
     let request = Request::parse_request(arguments)?;
     if let Some(reason) = missing_tool() {
@@ -84,7 +86,7 @@ fn has_avx2() -> bool {
     false
 }
 
-/// What the person asks for.
+/// The parsed command line.
 enum Request {
     Compare,
     Update { names: NameSelection, reason: String },

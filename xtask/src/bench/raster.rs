@@ -1,7 +1,7 @@
 //! `cargo xtask bench raster`: the rasteriser beside its peers and the limits of the machine.
 //!
-//! The contest is a package of its own, `tests/peers`, built here and nowhere else. It prints tables
-//! and leaves `raster.json` and `raster.svg` in `target/bench`; it judges nothing.
+//! The contest is a package of its own, `tests/peers`, built here and nowhere else. It prints
+//! tables and leaves `raster.json` and `raster.svg` in `target/bench`; it judges nothing.
 
 use crate::Outcome;
 use crate::program::{Build, Program, cargo_command, run_visibly};

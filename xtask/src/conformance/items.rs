@@ -1,5 +1,5 @@
-//! What has to be proved: the items that the sources teach (C), the misprints found in them (M), and
-//! the exercises of the textbook's chapter, each with the crates that answer for it.
+//! The list of topics to be tested: the items that the sources teach (C), the misprints found in
+//! them (M), and the exercises of the textbook's chapter, each with the crates that answer for it.
 
 use std::sync::LazyLock;
 
@@ -9,6 +9,7 @@ pub struct Item {
     pub id: String,
     /// The crates that answer for it. Each must have a test of its own.
     pub owners: Vec<&'static str>,
+    /// The topic in a few words.
     pub title: &'static str,
 }
 
@@ -23,9 +24,10 @@ impl Item {
     }
 }
 
-/// What the sources teach or ask for, and what is printed wrong in them: a test of a misprint shows
+/// Topics, exercises and misprints of the sources. A test of a misprint shows
 /// that the printed form fails.
 pub static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(ITEM_ROWS));
+/// The misprints of the sources.
 pub static MISPRINTS: LazyLock<Vec<Item>> = LazyLock::new(|| parse_rows(MISPRINT_ROWS));
 
 /// The exercises: each asks for an item, and whatever proves the exercise proves the item.
@@ -39,7 +41,7 @@ pub static EXERCISES: LazyLock<Vec<Item>> = LazyLock::new(|| {
     EXERCISE_ITEMS.iter().enumerate().filter_map(exercise).collect()
 });
 
-/// What exercises 1 to 11 ask for.
+/// The items that exercises 1 to 11 ask for.
 const EXERCISE_ITEMS: [&str; 11] =
     ["C38", "C39", "C40", "C41", "C42", "C43", "C44", "C45", "C45", "C46", "C47"];
 
@@ -63,11 +65,11 @@ fn parse_rows(table: &'static str) -> Vec<Item> {
 }
 
 const ITEM_ROWS: &str = "\
-C1    | camera pipeline     | Forward map and ray of a pixel from one camera undo each other
+C1    | viewport pipeline   | Forward map and ray of a pixel from one camera undo each other
 C2    | raster pipeline     | Wireframe pictures: near lines do not hide far ones
 C3    | homog pipeline      | World, camera, canonical and screen space; the chain is the product of its factors
 C4    | projection clip     | The canonical volume [−1, 1]³, looked at along −z
-C5    | viewport            | Pixel centres at integers, the image from −½ to n − ½
+C5    | viewport            | Pixel centers at integers, the image from −½ to n − ½
 C6    | viewport            | The viewport matrix keeps z
 C7    | projection clip     | The orthographic box and its six named planes
 C8    | projection          | M_orth and its inverse
@@ -77,7 +79,7 @@ C11   | camera              | The camera's basis u, v, w from gaze and view-up
 C12   | camera              | M_cam as rotation times translation
 C13   | pipeline            | The line-drawing loop with a camera
 C14   | projection pipeline | Size goes with the reciprocal of the distance
-C15   | homog               | Linear, affine, projective: what a matrix can do, and why
+C15   | homog               | Linear, affine and projective matrices, and how to classify them
 C16   | homog               | The worked 2-D map of the unit square
 C17   | homog               | Multiples of a matrix, or of a point, are the same
 C18   | homog               | Homogeneous points of the line
@@ -85,20 +87,20 @@ C19   | homog               | Homogeneous points of the plane
 C20   | homog               | The divide can wait; w may be 0 until then
 C21   | homog               | Perspective from the plane to a line
 C22   | projection          | The matrix P keeps the depths of near and far plane
-C23   | projection pipeline | P squeezes x and y and keeps lines, those through the eye become parallel
-C24   | projection          | What P does to a point: no flip, order kept
+C23   | projection pipeline | P scales x and y down and keeps lines; lines through the eye become parallel
+C24   | projection          | The image of a point under P: no flip, order kept
 C25   | projection          | The inverse of P, exact and up to a factor
-C26   | viewport projection | From a place on the screen back into space
+C26   | viewport projection | From a screen position back into space
 C27   | projection          | M_per is M_orth after P
 C28   | projection pipeline | The whole chain, with the divide at its end
-C29   | projection          | M_per written out, and how OpenGL's matrix follows from it
+C29   | projection          | M_per written out, and OpenGL's matrix derived from it
 C30   | projection          | Conventions of the graphics interfaces; any converts to any other
-C31   | homog clip raster   | Segments stay segments; f(t) tells where their points go
+C31   | homog clip raster   | Segments stay segments; f(t) gives the image of their points
 C32   | homog               | Planes and triangles stay planes and triangles
 C33   | projection          | Symmetric windows from an angle of view
 C34   | projection          | Orthographic projection measures true lengths
 C35   | pipeline            | Spheres off the axis are drawn as ellipses
-C36   | clip pipeline       | Segments through the plane of the eye are torn unless clipped first
+C36   | clip pipeline       | Segments across the plane of the eye wrap around unless clipped first
 C37   | homog               | Translations work on homogeneous points before the divide
 C38   | viewport            | The viewport for pixels counted from the top
 C39   | viewport projection | Viewport times M_orth is a single windowing
@@ -107,10 +109,10 @@ C41   | projection          | P keeps the order of depths
 C42   | homog               | Affine maps treat all multiples of a point alike
 C43   | projection          | The inverse of P, verified
 C44   | projection          | M_per takes the near corner to (1, 1, 1)
-C45   | projection          | P for n = 1 and f = 2, and what it does to a point
+C45   | projection          | P for n = 1 and f = 2, and the image of a point
 C46   | camera              | A camera above that looks straight down
 C47   | homog clip          | f(t) keeps the order of points on a segment
-C48   | projection          | The middle between near and far moves away from the eye
+C48   | projection          | The midpoint between near and far moves away from the eye
 C49   | projection          | The angle of view goes from the middle of the bottom edge to that of the top edge
 C50   | homog               | Frames: points have an origin and vectors have none
 C51   | homog               | Between ordinary and homogeneous coordinates, both ways
@@ -118,23 +120,23 @@ C52   | homog               | Translation moves points only; rotation and scale 
 C53   | homog viewport      | Linear remapping, also beyond the range
 C54   | clip pipeline       | Projecting takes two steps, and clipping comes between them
 C55   | projection          | The image of a point on the near plane by similar triangles
-C56   | projection          | The depth row is solved from the two values wanted
+C56   | projection          | The depth row is solved from two given values
 C57   | projection pipeline | The derivation of the frustum matrix reaches it step by step
-C58   | homog               | A perspective is linear on four numbers and not affine on places
+C58   | homog               | Perspective is linear on 4-vectors and not affine on points
 C59   | viewport pipeline   | The viewport undoes the stretch of the canonical square
 C60   | projection          | Perspective by angle as OpenGL and Direct3D build it, by height or by width
 C61   | projection          | Angle, aspect, near and far are checked
-C62   | pipeline            | Sheets that show what angle, aspect and planes do
+C62   | pipeline            | Sheets that show the effect of angle, aspect and planes
 C63   | projection          | The lesson's frustum with moved apex beside the true one
-C64   | pipeline            | Sheets that show what a frustum's borders do, its apex drawn
-C65   | camera projection   | Two eyes: frusta to both sides of the axis
+C64   | pipeline            | Sheets that show the effect of a frustum's borders, its apex drawn
+C65   | camera projection   | Stereo: two off-axis frusta
 C66   | projection pipeline | The lesson's frustum in its five steps
 C67   | projection          | The lesson's depth constants c1 and c2
 C68   | projection          | The lesson's table of depths, and where depth is 0
-C69   | projection          | Perspective from frustum and back, where that can be
+C69   | projection          | Perspective to frustum and back, where possible
 C70   | pipeline            | Image and window have the same aspect
 C71   | homog               | A change of coordinates is a matrix
-C72   | projection          | Centre, projectors and plane; parallel projection as a limit
+C72   | projection          | Center, projectors and plane; parallel projection as a limit
 C73   | projection pipeline | The tree of planar geometric projections
 C74   | projection          | Parallel lines stay parallel in parallel projections
 C75   | projection viewport | Front, top and side views on one sheet
@@ -142,11 +144,11 @@ C76   | projection          | Axonometric projection by normal, by angles, by ra
 C77   | projection          | Oblique projection: cavalier, cabinet, any angle
 C78   | projection          | The oblique matrix by length and angle of the slant
 C79   | projection          | The oblique matrix by direction, and that both are the same
-C80   | pipeline            | Foreshortening and vanishing points, shown on a picture
+C80   | pipeline            | Foreshortening and vanishing points, drawn in a picture
 C81   | homog projection    | Parallels meet in the image of their point at infinity
 C82   | projection          | One-point perspective from an eye before the plane z = 0
 C83   | homog projection    | p, q, r count the principal vanishing points
-C84   | pipeline            | What a computer's projection is: view coordinates, a volume, depth kept
+C84   | pipeline            | A computer's projection: view coordinates, a view volume, depth retained
 C85   | projection clip     | View plane, window, space and volume, their corners and planes
 C86   | projection          | A slanted prism is normalised by a shear and a box
 C87   | projection clip     | A slanted frustum is normalised by a shear and a scale; clipping may come there
@@ -161,12 +163,12 @@ C95   | viewport            | Window to viewport by equal ratios
 C96   | viewport            | Window to viewport by translation, scale, translation
 C97   | viewport            | From the screen to normalised coordinates
 C98   | viewport pipeline   | Indices of a grid to [−1, 1]², for height fields
-C99   | viewport            | Viewports with a place and a size, several on one image
+C99   | viewport            | Viewports with position and size, several on one image
 C100  | projection viewport | Handedness, the flip of z, and depth on the screen
 C101  | homog pipeline      | Column vectors, the model matrix first; row vectors want the transpose
 C102  | homog projection    | A classical projection is singular and a computer's is not
 C103  | pipeline            | The stages of the pipeline, one by one
-C104  | documents           | Exercises of our own
+C104  | documents           | Exercises of this project
 ";
 
 const MISPRINT_ROWS: &str = "\
@@ -182,11 +184,11 @@ M9    | projection          | n = 1, f = 2 against the chapter's 0 > n > f
 M10   | documents           | Numbers of equations and figures from several editions
 M11   | camera              | A translation without its 1 in the third row
 M11b  | projection camera   | = for ~ in what P does; a camera “from” −z for one that looks along it
-M12   | projection          | An off-centre window in the fourth column: another projection
+M12   | projection          | An off-center window in the fourth column: another projection
 M13   | projection          | _mid_y for −mid_y
 M14   | projection          | A 1 at the end of the bottom row of a perspective
 M14b  | projection          | The window's lower left corner is (−1, −1)
-M14c  | projection          | Nothing given back for a window off centre, where an error is due
+M14c  | projection          | Nothing returned for an off-center window, where an error is expected
 M15   | projection          | The sign of the depth offset in Ortho
 M15b  | projection          | A parenthesis in Ortho's translation along z
 M16   | projection          | right − left for right + left in glFrustum

@@ -1,4 +1,4 @@
-//! Which tests prove what, read from their source.
+//! Test functions and the items that they name, read from source text.
 //!
 //! A test names an item in one of two ways: by a word of its own name (`c16_the_unit_square`,
 //! `misprint_m11_…`, `exercise_8_and_9_…`) or in the doc comment above it (`/// C31, M28: …`).
@@ -6,12 +6,14 @@
 use super::items::exercise_item;
 use std::collections::BTreeSet;
 
-/// A test function and what it says it proves.
+/// A test function and the items that it names.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Test {
     /// The file, from the root.
     pub path: String,
+    /// The name of the function.
     pub name: String,
+    /// Ids such as `C16`, `M11b` or `exercise 3`.
     pub ids: BTreeSet<String>,
 }
 

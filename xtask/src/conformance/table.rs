@@ -1,4 +1,4 @@
-//! The table as a document.
+//! The Markdown document `tests/CONFORMANCE.md`.
 
 use super::items::{EXERCISES, ITEMS, Item, MISPRINTS};
 use super::scan::Test;
@@ -6,15 +6,17 @@ use super::vectors::VECTORS;
 use std::collections::BTreeMap;
 
 const OPENING: &str = "\
-# What proves what
+# Conformance
 
-The items that the sources of this project teach, the exercises of the textbook's chapter and the misprints found in the sources,
-each with the tests that prove it. `cargo xtask conformance` writes this file from the tests themselves: from their names
-(`c16_…`, `misprint_m11_…`, `exercise_3_…`) and from the doc comments above them. `cargo xtask test conformance` fails if the file
-is stale, or if one of the crates of mathematics has no test of an item it answers for.
+The topics that the sources of this project teach, the exercises of the textbook's chapter and the misprints found in the sources,
+each with its tests. The sources and the formulas are listed in [docs/formulas.md](../docs/formulas.md).
 
-“Not yet” stands where a crate answers for an item and has no test that names it. Files of shared vectors are a second witness;
-they are read where they are at hand.
+`cargo xtask conformance` generates this file from the tests: from their names (`c16_…`, `misprint_m11_…`, `exercise_3_…`) and
+from the doc comments above them. `cargo xtask test conformance` fails if the file is out of date, or if one of the crates of
+mathematics has no test of a topic that it implements.
+
+“Not yet” marks a crate that implements a topic and has no test that names it. The files of
+[exact vectors](vectors/data/README.md) are a second, independent test.
 ";
 
 /// The whole document.
@@ -23,7 +25,7 @@ pub fn conformance_document(tests: &[Test]) -> String {
     let sections: [(&str, &[Item]); 3] =
         [("Items", &ITEMS), ("Exercises", &EXERCISES), ("Misprints", &MISPRINTS)];
     for (heading, items) in sections {
-        text += &format!("\n## {heading}\n\n| | what | proved by |\n| --- | --- | --- |\n");
+        text += &format!("\n## {heading}\n\n| id | topic | tests |\n| --- | --- | --- |\n");
         for item in items {
             let proofs = item_proofs(item, tests).join("<br>");
             text += &format!("| {} | {} | {proofs} |\n", item.id, item.title);

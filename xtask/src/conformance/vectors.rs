@@ -1,7 +1,7 @@
-//! Which files of shared vectors judge which items. They are a second witness: whoever does not have
-//! the files still has the tests.
+//! The items that each file of `tests/vectors/data` tests, as a second witness to the tests of the
+//! crates.
 
-/// The name of a file of vectors, and the items it judges.
+/// The name of a file of vectors, and the items it tests.
 pub const VECTORS: &[(&str, &[&str])] = &[
     ("clip_polygon", &["C4", "C31", "M28"]),
     ("clip_segment", &["C4", "C31", "C36", "C54", "M28"]),

@@ -1,6 +1,7 @@
-//! Models of several files as one binary file, for the targets read no other files; and what is compressed in them.
+//! Models of several files as one binary file, for the targets read no other files; and what is
+//! compressed in them.
 
-use crate::glb::encode_glb;
+use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -9,14 +10,15 @@ use std::path::Path;
 pub struct PackedModel {
     /// The whole file.
     pub file: Vec<u8>,
+    /// The document; its only buffer is the binary chunk.
     pub json: Value,
     /// The bytes of the first buffer.
     pub binary: Vec<u8>,
 }
 
 impl PackedModel {
-    /// Reads a `.glb`, or a `.gltf` with all the files it names. `None` for what is no glTF; a file that cannot be
-    /// packed is as it is.
+    /// Reads a `.glb`, or a `.gltf` with all the files it names. `None` for what is no glTF; a file
+    /// that cannot be packed is as it is.
     pub fn read_model(path: &Path) -> Option<Self> {
         let file = fs::read(path).ok()?;
         if let Some((json, binary)) = glb_chunks(&file) {
@@ -73,7 +75,7 @@ impl PackedModel {
     }
 }
 
-/// Appends a file; gives its first byte's place, a multiple of 4.
+/// Appends a file and returns its offset, a multiple of 4.
 fn append_aligned(binary: &mut Vec<u8>, file: &[u8]) -> usize {
     let start = binary.len().next_multiple_of(4);
     binary.resize(start, 0);

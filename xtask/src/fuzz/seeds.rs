@@ -1,4 +1,4 @@
-//! What a target begins with: real files and the hostile ones, in the form that it reads.
+//! Seeds of the fuzz targets: real and hostile files, in the form that a target reads.
 
 use super::assets_folder;
 use super::pack::PackedModel;
@@ -148,7 +148,8 @@ fn image_seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// Bytes from a generator (splitmix64), each time after another number: there are fewer functions than 512.
+/// Bytes from a generator (splitmix64), each time after another number: there are fewer functions
+/// than 512.
 fn number_seeds() -> Vec<Vec<u8>> {
     let mut state = 0u64;
     let mut word = || {

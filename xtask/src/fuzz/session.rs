@@ -1,4 +1,5 @@
-//! A run of one target: libFuzzer's processes, how long they may work, and what they report.
+//! Fuzzing sessions: a run of one target: libFuzzer's processes, how long they may work, and what
+//! they report.
 
 use crate::workspace::relative_path;
 use std::collections::BTreeSet;
@@ -9,27 +10,32 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// What is to be run.
+/// Settings of a run.
 pub struct Session {
+    /// The target's executable.
     pub program: PathBuf,
     /// The dictionary.
     pub words: Option<PathBuf>,
     /// Where `seeds`, `corpus` and `artifacts` are.
     pub folder: PathBuf,
+    /// Time limit of the run.
     pub minutes: f64,
+    /// Processes at a time.
     pub jobs: usize,
 }
 
-/// What came of it.
+/// Results of a run.
 pub struct SessionReport {
+    /// The target.
     pub name: String,
     /// Of the processors, all jobs together.
     time: Duration,
     executions: u64,
-    /// Branches that were reached, and branches told apart by how often.
+    /// Coverage: branches reached, and branches by how often they are taken.
     edges: u64,
     features: u64,
     corpus: usize,
+    /// Inputs that crashed the target or exceeded a limit.
     pub crashes: Vec<PathBuf>,
 }
 
@@ -142,7 +148,8 @@ impl FuzzJob {
 /// The time that a process has run on the processors, where the system tells.
 fn processor_time(process: u32) -> Option<Duration> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The name, in brackets, may have blanks. Linux counts in hundredths of a second, whatever its own clock does.
+    // The name, in brackets, may have blanks. Linux counts in hundredths of a second, whatever its
+    // own clock does.
     let (_, after) = text.rsplit_once(')')?;
     let mut fields = after.split_whitespace().skip(11);
     let ticks = fields.next()?.parse::<u64>().ok()? + fields.next()?.parse::<u64>().ok()?;
@@ -163,7 +170,8 @@ fn last_number(log: &str, word: &str) -> Option<u64> {
     after.split_whitespace().next()?.parse().ok()
 }
 
-/// How many inputs were tried: by the statistics at the end, or, after a crash, by the last line of progress.
+/// How many inputs were tried: by the statistics at the end, or, after a crash, by the last line of
+/// progress.
 fn executed_runs(log: &str) -> Option<u64> {
     if let Some((_, after)) = log.rsplit_once("stat::number_of_executed_units:") {
         return after.split_whitespace().next()?.parse().ok();
@@ -172,7 +180,7 @@ fn executed_runs(log: &str) -> Option<u64> {
     progress.split_whitespace().next()?.parse().ok()
 }
 
-/// What a log says of the end: from the panic on, if there was one, else its last lines. Progress is left out.
+/// The end of a log without progress lines: from the panic on, or else the last lines.
 fn last_lines(log: &str) -> String {
     let lines: Vec<&str> = log.lines().filter(|line| !line.starts_with('#')).collect();
     let last = lines.len().saturating_sub(LAST_LINES);
@@ -184,6 +192,7 @@ fn last_lines(log: &str) -> String {
 const LAST_LINES: usize = 30;
 
 impl SessionReport {
+    /// Column headings of the table of reports.
     pub const HEADING: &str =
         "target    CPU min  executions   per s    edges  features  corpus  crashes";
 }

@@ -1,16 +1,16 @@
-//! Whether the crates of mathematics do without the standard library.
+//! `no_std` of the crates of mathematics, checked by building each of them by itself.
 //!
-//! That they say `#![no_std]` is a rule of tidy. Here each is built by itself, without what tests
-//! need, and Cargo is asked which crates and which features that build has: none may be one that
-//! brings the standard library back.
+//! The attribute `#![no_std]` is a rule of tidy. This step lists the crates and features of each
+//! build without dev-dependencies: none may bring the standard library back.
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, run_command};
 use crate::tidy::NO_STD;
 
-/// What such a crate may depend on; macros that only run in the compiler do not count.
+/// Allowed dependencies; procedural macros, which run in the compiler, do not count.
 const ALLOWED_DEPENDENCIES: &[&str] = &["homog", "glam", "libm", "thiserror"];
 
+/// Builds each crate and inspects its dependency tree.
 pub fn check_no_std() -> Outcome {
     for name in NO_STD {
         run_command(&mut cargo_command(&["build", "--quiet", "--package", name]))?;
@@ -25,7 +25,7 @@ pub fn check_no_std() -> Outcome {
     Ok(())
 }
 
-/// What is wrong with a line of the tree: `crate version …|feature,feature`.
+/// The violation in a line of the tree: `crate version …|feature,feature`.
 fn dependency_fault(name: &str, line: &str) -> Option<String> {
     let (package, features) = line.split_once('|')?;
     let package = package.split_whitespace().next()?;

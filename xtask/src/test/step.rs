@@ -1,4 +1,4 @@
-//! A step of the tests: what it runs, and what came of it.
+//! Steps of the tests: a command, its output, its result.
 
 use crate::Outcome;
 use crate::program::{cargo_command, command_line};
@@ -9,12 +9,15 @@ use std::time::{Duration, Instant};
 
 /// One step.
 pub struct Step {
+    /// The name by which the command line selects it.
     pub name: String,
+    /// The line in the list of steps.
     pub about: String,
+    /// The command.
     pub action: Action,
 }
 
-/// What a step runs.
+/// The command of a step.
 pub enum Action {
     /// Cargo with these arguments, one call after the other.
     Cargo(Vec<Vec<String>>),
@@ -24,12 +27,15 @@ pub enum Action {
     Own(fn() -> Outcome),
 }
 
-/// What came of a step.
+/// The result of a step.
 pub struct StepReport {
+    /// The name by which the command line selects it.
     pub name: String,
+    /// Wall-clock time.
     pub time: Duration,
+    /// Why it failed.
     pub failure: Option<String>,
-    /// The lines by which it says that it could not do something.
+    /// The lines of its output that begin with `SKIPPED`.
     pub skipped: Vec<String>,
 }
 
@@ -71,22 +77,23 @@ impl Step {
     }
 }
 
-/// The folders that a person names for a test, from where the person stands: the test itself runs
-/// in another folder.
+/// The folders of test data that environment variables name, made absolute: a test runs in another
+/// current folder.
 fn named_folders() -> Vec<(&'static str, PathBuf)> {
     let here = std::env::current_dir().unwrap_or_default();
     let named = |name| Some((name, here.join(std::env::var_os(name)?)));
-    ["VECTORS", "ASSETS"].into_iter().filter_map(named).collect()
+    ["VECTORS", "ASSETS", "REFERENCES"].into_iter().filter_map(named).collect()
 }
 
-/// Runs a command, shows what it prints as it comes, and keeps the lines that begin with `SKIPPED`.
+/// Runs a command, forwards its output line by line, and collects the lines that begin with
+/// `SKIPPED`.
 fn follow_output(command: &mut Command, skipped: &mut Vec<String>) -> Outcome {
     let name = command_line(command);
-    let said = |error: std::io::Error| format!("{name}: {error}");
-    let mut child = command.stdout(Stdio::piped()).spawn().map_err(said)?;
+    let with_name = |error: std::io::Error| format!("{name}: {error}");
+    let mut child = command.stdout(Stdio::piped()).spawn().map_err(with_name)?;
     if let Some(output) = child.stdout.take() {
         for line in BufReader::new(output).split(b'\n') {
-            let line = String::from_utf8_lossy(&line.map_err(said)?).into_owned();
+            let line = String::from_utf8_lossy(&line.map_err(with_name)?).into_owned();
             // A closed terminal is no reason to stop testing.
             let _ = writeln!(std::io::stdout(), "{line}");
             if line.starts_with("SKIPPED") {
@@ -94,6 +101,6 @@ fn follow_output(command: &mut Command, skipped: &mut Vec<String>) -> Outcome {
             }
         }
     }
-    let status = child.wait().map_err(said)?;
+    let status = child.wait().map_err(with_name)?;
     if status.success() { Ok(()) } else { Err(format!("`{name}` failed ({status})")) }
 }

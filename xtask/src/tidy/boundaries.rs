@@ -1,12 +1,12 @@
-//! Which part may know which: the arrows of the code map, as rules.
+//! Crate boundaries: which crate may depend on which, and which source may name a crate.
 
 use super::Violation;
 use super::code::is_word_char;
 use super::source::Source;
-use crate::workspace::{project_root, read_text};
+use crate::metadata::Metadata;
 
-/// Crates that only one part may name, so that they can be exchanged, and the paths that part
-/// begins with.
+/// Crates that only one part of the code may name, so that they can be replaced, and the paths of
+/// that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/model/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
@@ -15,16 +15,66 @@ const NAMED_BY: &[(&str, &[&str])] = &[
     ("clap", &["crates/alberti/src"]),
 ];
 
-/// The stages: no stage knows another, and all that a stage may depend on.
-const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
-const STAGE_DEPENDENCIES: &[&str] = &["homog", "glam", "libm", "thiserror"];
+/// Packages of the workspace that each crate may depend on: the arrows of the code map.
+///
+/// No stage depends on another one, `model` knows no scene, and `shade` and `drawing` do not know
+/// the pipeline that uses both.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("homog", &[]),
+    ("camera", &["homog"]),
+    ("projection", &["homog"]),
+    ("clip", &["homog"]),
+    ("viewport", &["homog"]),
+    ("raster", &["homog"]),
+    ("model", &["homog", "raster"]),
+    ("shade", &["homog", "camera", "raster", "model"]),
+    ("drawing", &["homog", "camera", "projection", "clip", "viewport", "raster", "model", "shade"]),
+    (
+        "pipeline",
+        &[
+            "homog",
+            "camera",
+            "projection",
+            "clip",
+            "viewport",
+            "raster",
+            "model",
+            "shade",
+            "drawing",
+        ],
+    ),
+    (
+        "alberti",
+        &[
+            "homog",
+            "camera",
+            "projection",
+            "clip",
+            "viewport",
+            "raster",
+            "model",
+            "shade",
+            "drawing",
+            "pipeline",
+        ],
+    ),
+];
 
-/// What a stage may depend on besides: the vector instructions of the rasteriser.
+/// The stages, and the only packages of others that they may depend on.
+const STAGES: &[&str] = &["homog", "camera", "projection", "clip", "viewport", "raster"];
+const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
+
+/// Exceptions: the vector instructions of the rasterizer.
 const EXTRA_DEPENDENCIES: &[(&str, &str)] = &[("raster", "fearless_simd")];
+
+/// Packages that a crate must not be built with, however indirectly: users of the library do not
+/// compile those of the program.
+const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[("pipeline", &["clap", "gif", "terminal_size"])];
 
 /// The stages that promise to work without the standard library.
 pub const NO_STD: &[&str] = &["homog", "camera", "projection", "clip", "viewport"];
 
+/// Names of crates outside of the part that may use them.
 pub fn crate_boundaries(source: &Source) -> Vec<Violation> {
     if !source.path.starts_with("crates/") {
         return Vec::new();
@@ -50,6 +100,7 @@ fn names_crate(line: &str, name: &str) -> bool {
     })
 }
 
+/// Crates that promise to work without the standard library say so.
 pub fn no_std_where_promised(source: &Source) -> Vec<Violation> {
     let promised = NO_STD.iter().any(|name| source.path == format!("crates/{name}/src/lib.rs"));
     if !promised || source.code.iter().any(|line| line.trim() == "#![no_std]") {
@@ -58,35 +109,42 @@ pub fn no_std_where_promised(source: &Source) -> Vec<Violation> {
     vec![Violation::new(&source.path, "this crate promises `#![no_std]`")]
 }
 
-/// The dependencies of the stages' manifests.
+/// Dependencies between the packages of the workspace, and of the stages on others.
 pub fn dependencies() -> Result<Vec<Violation>, String> {
-    let mut faults = Vec::new();
-    for stage in STAGES {
-        let manifest = read_text(&project_root().join("crates").join(stage).join("Cargo.toml"))?;
-        faults.extend(stage_dependencies(stage, &manifest));
+    Ok(dependency_violations(&Metadata::load()?))
+}
+
+fn dependency_violations(metadata: &Metadata) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    for (name, allowed) in ARROWS {
+        let manifest = format!("crates/{name}/Cargo.toml");
+        let Some(package) = metadata.package(name) else {
+            violations.push(Violation::new(manifest, "no such package"));
+            continue;
+        };
+        let is_stage = STAGES.contains(name);
+        for dependency in &package.dependencies {
+            let is_legal = if metadata.package(dependency).is_some() {
+                allowed.contains(&dependency.as_str())
+            } else {
+                !is_stage
+                    || STAGE_DEPENDENCIES.contains(&dependency.as_str())
+                    || EXTRA_DEPENDENCIES.contains(&(name, dependency))
+            };
+            if !is_legal {
+                let message = format!("`{name}` may not depend on `{dependency}`");
+                violations.push(Violation::new(&manifest, message));
+            }
+        }
     }
-    Ok(faults)
-}
-
-fn stage_dependencies(stage: &str, manifest: &str) -> Vec<Violation> {
-    let strange = manifest_table(manifest, "[dependencies]").into_iter().filter(|name| {
-        let own = stage == "homog" && name == "homog";
-        let allowed = STAGE_DEPENDENCIES.contains(&name.as_str());
-        own || !(allowed || EXTRA_DEPENDENCIES.contains(&(stage, name.as_str())))
-    });
-    let message = |name: String| format!("a stage may not depend on `{name}`");
-    strange
-        .map(|name| Violation::new(format!("crates/{stage}/Cargo.toml"), message(name)))
-        .collect()
-}
-
-/// The keys of a table of a manifest, up to the next table.
-fn manifest_table(manifest: &str, header: &str) -> Vec<String> {
-    let lines = manifest.lines().map(str::trim).skip_while(|line| *line != header).skip(1);
-    let entries = lines.take_while(|line| !line.starts_with('[')).filter(|line| line.contains('='));
-    let key =
-        |line: &str| line.chars().take_while(|c| is_word_char(*c) || *c == '-').collect::<String>();
-    entries.filter(|line| !line.starts_with('#')).map(key).collect()
+    for (name, forbidden) in NEVER_BUILT_WITH {
+        let built_with = metadata.transitive_dependencies(name);
+        for dependency in forbidden.iter().filter(|dependency| built_with.contains(*dependency)) {
+            let message = format!("`{name}` is built with `{dependency}`: see `cargo tree`");
+            violations.push(Violation::new(format!("crates/{name}/Cargo.toml"), message));
+        }
+    }
+    violations
 }
 
 #[cfg(test)]
@@ -108,23 +166,6 @@ mod tests {
             ["crates/pipeline/src/scene/file.rs:2"]
         );
         assert_eq!(places("crates/model/src/import/mesh.rs"), [""; 0]);
-    }
-
-    #[test]
-    fn stages_know_only_homog() {
-        let manifest = r#"
-[dependencies]
-homog.workspace = true
-# x = 1
-clip = { path = "a" }
-
-[dev-dependencies]
-proptest = "1"
-"#;
-        let faults = stage_dependencies("camera", manifest);
-        assert_eq!(faults.len(), 1);
-        assert!(faults[0].message.contains("`clip`"));
-        assert_eq!(stage_dependencies("homog", "[dependencies]\nhomog = \"1\"\n").len(), 1);
     }
 
     #[test]

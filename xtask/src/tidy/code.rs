@@ -1,5 +1,4 @@
-//! Rust source with everything blanked out that is not code, so that rules may look for words and
-//! braces plainly.
+//! A small lexer: Rust source with comments and literals blanked, so that rules can search code.
 
 /// The source with comments and the insides of strings and characters replaced by spaces. Lines
 /// stay where they are.
@@ -28,6 +27,7 @@ pub fn blank_comments_and_strings(source: &str) -> String {
     code
 }
 
+/// Whether a character can be part of an identifier.
 pub fn is_word_char(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }

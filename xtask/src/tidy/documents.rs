@@ -1,5 +1,5 @@
-//! What the documents point at must exist, and their code blocks must say what language they are
-//! in.
+//! Markdown documents: their links and paths must lead to files, their code blocks must name a
+//! language.
 
 use super::Violation;
 use super::source::text_files;
@@ -9,6 +9,7 @@ use std::path::Path;
 /// Folders of the workspace; a word of a document that begins with one is a path.
 const FOLDERS: [&str; 5] = ["crates/", "scenes/", "tests/", "xtask/", ".ci/"];
 
+/// Links and paths that lead nowhere, and code blocks without a language.
 pub fn broken_links() -> Result<Vec<Violation>, String> {
     let files = text_files()?;
     let documents = files.iter().filter(|(path, _)| path.ends_with(".md"));

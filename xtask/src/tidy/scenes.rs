@@ -1,11 +1,11 @@
-//! Every scene has its golden, a caption, and a row in the table of `scenes/README.md`; and nothing
-//! else has.
+//! Scenes: each has a golden, a caption and a row in `scenes/README.md`, and nothing else has.
 
 use super::Violation;
 use crate::workspace::{list_files, list_scenes, project_root, read_text};
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// Scenes without golden, caption or row, and goldens or rows without a scene.
 pub fn goldens_and_table() -> Result<Vec<Violation>, String> {
     let mut names = BTreeSet::new();
     let mut faults = Vec::new();

@@ -1,16 +1,35 @@
-//! How long files and functions may be.
+//! Sizes: lines of files and of functions, arguments of functions.
 
 use super::Violation;
 use super::code::is_word_char;
 use super::source::Source;
 
-/// A file is one subject; past this many lines it is worth a second look,
+/// Lines past which a file is noted: it may hold two subjects.
 const LONG_FILE_LINES: usize = 400;
-/// and past this many it is two subjects.
+/// Lines past which a file must be split.
 const MAX_FILE_LINES: usize = 500;
-/// A `lib.rs` names and re-exports.
-const MAX_LIB_LINES: usize = 120;
+/// Lines of a `lib.rs`, which declares and re-exports.
+const MAX_LIB_LINES: usize = 140;
+/// Lines of a function.
 const MAX_FUNCTION_LINES: usize = 60;
+
+/// Arguments of a function, `self` included.
+const MAX_ARGUMENTS: usize = 6;
+/// Functions with more arguments, by file and name. Inner loops of the rasterizer and of the tiled
+/// renderer take their whole state as arguments; nothing else may.
+const MANY_ARGUMENTS: &[(&str, &str)] = &[
+    ("crates/pipeline/src/render/primitive_assembly.rs", "submit_clipped_triangle"),
+    ("crates/pipeline/src/render/renderer.rs", "render_region"),
+    ("crates/pipeline/src/render/renderer.rs", "render_tiles"),
+    ("crates/pipeline/src/render/renderer.rs", "render_tile"),
+    ("crates/pipeline/src/render/shadow_maps/casters.rs", "draw_casters"),
+    ("crates/raster/src/vertex_projection.rs", "project_selected_positions"),
+    ("crates/raster/src/tile_resolve.rs", "write_row"),
+    ("crates/raster/src/tile_loop.rs", "for_each_tile_in_row"),
+    ("crates/raster/src/rasterize.rs", "rasterize_partial_block"),
+    ("crates/raster/src/rasterize.rs", "depth_test_row"),
+    ("crates/raster/src/frame.rs", "add_mesh_runs"),
+];
 
 /// A note on a file that is long but not yet too long.
 pub fn long_file(source: &Source) -> Option<Violation> {
@@ -19,6 +38,7 @@ pub fn long_file(source: &Source) -> Option<Violation> {
     long.then(|| Violation::new(&source.path, format!("{lines} lines: is it still one subject?")))
 }
 
+/// Files above the limit.
 pub fn file_length(source: &Source) -> Vec<Violation> {
     let lines = source.text.lines().count();
     let most = if source.path.ends_with("/src/lib.rs") { MAX_LIB_LINES } else { MAX_FILE_LINES };
@@ -28,6 +48,7 @@ pub fn file_length(source: &Source) -> Vec<Violation> {
     vec![Violation::new(&source.path, format!("{lines} lines, where {most} are allowed"))]
 }
 
+/// Functions above the limit.
 pub fn function_length(source: &Source) -> Vec<Violation> {
     let long = |start: usize| {
         let lines = function_lines(&source.code[start..]);
@@ -40,6 +61,61 @@ pub fn function_length(source: &Source) -> Vec<Violation> {
     (0..source.code.len()).filter(|i| begins_function(&source.code[*i])).filter_map(long).collect()
 }
 
+/// Functions with more arguments than the limit, `self` included.
+pub fn argument_count(source: &Source) -> Vec<Violation> {
+    if !source.path.starts_with("crates/") {
+        return Vec::new();
+    }
+    let many = |start: usize| {
+        let count = count_arguments(&source.code[start..]);
+        let is_listed = MANY_ARGUMENTS.iter().any(|(path, name)| {
+            source.path == *path && source.code[start].contains(&format!("fn {name}"))
+        });
+        (count > MAX_ARGUMENTS && !is_listed).then(|| {
+            let message = format!("{count} arguments, where {MAX_ARGUMENTS} are allowed");
+            Violation::new(source.line_text(start + 1), message)
+        })
+    };
+    (0..source.code.len()).filter(|i| begins_function(&source.code[*i])).filter_map(many).collect()
+}
+
+/// Arguments of the function that begins in the first line: the commas of its parameter list
+/// outside of inner brackets, and one more if the last one has no trailing comma.
+fn count_arguments(lines: &[String]) -> usize {
+    let signature = lines[..lines.len().min(80)].join("\n");
+    let Some((_, after_fn)) = signature.split_once("fn ") else { return 0 };
+    let (mut depth, mut angles, mut count, mut is_open) = (0, 0, 0, false);
+    let mut previous = ' ';
+    for c in after_fn.chars() {
+        match c {
+            '<' if depth <= 1 => angles += 1,
+            // The arrow of a function type closes nothing.
+            '>' if depth <= 1 && previous != '-' => angles -= 1,
+            '(' | '[' | '{' if angles == 0 || depth > 0 => depth += 1,
+            ')' | ']' | '}' if depth > 0 => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 && is_list_end(c, angles) {
+            return count + usize::from(is_open);
+        }
+        match c {
+            ',' if depth == 1 && angles == 0 => {
+                count += 1;
+                is_open = false;
+            }
+            _ if depth >= 1 && c != '(' && !c.is_whitespace() => is_open = true,
+            _ => {}
+        }
+        previous = c;
+    }
+    0
+}
+
+/// Whether a character that closes the outermost bracket ends the parameter list.
+fn is_list_end(c: char, angles: i32) -> bool {
+    c == ')' && angles == 0
+}
+
 fn begins_function(line: &str) -> bool {
     let Some(at) = line.find("fn ") else { return false };
     let before = line[..at].chars().next_back();
@@ -47,13 +123,13 @@ fn begins_function(line: &str) -> bool {
     named && !before.is_some_and(is_word_char)
 }
 
-/// Lines from a function's first to that of its closing brace; 0 for one without a body.
+/// Lines from the signature to the closing brace; 0 for a function without a body.
 fn function_lines(lines: &[String]) -> usize {
     let mut depth = 0;
     for (number, line) in lines.iter().enumerate() {
         for c in line.chars() {
             match c {
-                // A bracket holds the `;` of an array type; it is no end.
+                // Brackets may hold the `;` of an array type, which does not end the signature.
                 '{' | '(' | '[' => depth += 1,
                 '}' | ')' | ']' => depth -= 1,
                 ';' if depth == 0 => return 0,
@@ -70,6 +146,24 @@ fn function_lines(lines: &[String]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn arguments_are_counted_outside_of_inner_brackets() {
+        let table = [
+            ("fn f() {", 0),
+            ("fn f(a: u8) -> (u8, u8) {", 1),
+            ("pub fn f<A, B>(&self, a: Map<A, B>, b: [(A, B); 2]) {", 3),
+            ("fn f(a: impl Fn(u8, u8) -> u8, b: u8,) {", 2),
+            ("fn f<F: Fn(u8, u8) -> u8>(a: F, b: u8, c: u8) {", 3),
+        ];
+        for (signature, expected) in table {
+            assert_eq!(count_arguments(&[signature.to_owned()]), expected, "{signature}");
+        }
+        let source =
+            |path: &str| Source::new(path, "fn f(a: A, b: B, c: C, d: D, e: E, f: F, g: G) {}\n");
+        assert_eq!(argument_count(&source("crates/a/src/b.rs")).len(), 1);
+        assert_eq!(argument_count(&source("tests/a.rs")).len(), 0);
+    }
 
     fn function_of(lines: usize) -> Source {
         let body = "    let x = [0; 3];\n".repeat(lines - 2);

@@ -1,20 +1,22 @@
-//! The files that the rules look at.
+//! Source files as the rules see them: text, and code without comments and strings.
 
 use super::code::blank_comments_and_strings;
 use crate::workspace::{project_root, read_text, relative_path};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A file of Rust.
+/// A Rust source file.
 pub struct Source {
     /// From the root, with forward slashes.
     pub path: String,
+    /// The file as it is.
     pub text: String,
     /// The lines with comments and the insides of strings blanked out: what is left is code.
     pub code: Vec<String>,
 }
 
 impl Source {
+    /// A file from its path and text.
     pub fn new(path: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
         let code = blank_comments_and_strings(&text).lines().map(str::to_owned).collect();
@@ -35,19 +37,20 @@ impl Source {
         lines.enumerate().map(|(i, line)| (i + 1, line.as_str()))
     }
 
+    /// A location of this file: `PATH:LINE`.
     pub fn line_text(&self, number: usize) -> String {
         format!("{}:{number}", self.path)
     }
 }
 
-/// Every file of Rust in the workspace.
+/// Every Rust file in the workspace.
 pub fn rust_files() -> Result<Vec<Source>, String> {
     let paths = walk_files(project_root())?;
-    let rust = paths.iter().filter(|path| path.extension().is_some_and(|found| found == "rs"));
+    let rust = paths.iter().filter(|path| path.extension().is_some_and(|actual| actual == "rs"));
     rust.map(|path| Ok(Source::new(relative_path(path), read_text(path)?))).collect()
 }
 
-/// Every file that a person reads, by path and text.
+/// Path and text of every text file in the workspace.
 pub fn text_files() -> Result<Vec<(String, String)>, String> {
     let text = ["rs", "toml", "ron", "md", "lock", "svg", "sh"];
     let mut paths = walk_files(project_root())?;

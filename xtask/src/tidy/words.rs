@@ -1,53 +1,58 @@
-//! Words: how files open, and what may not stay in them.
+//! Words: the opening of files, markers of unfinished work, printing macros, machine paths.
 
 use super::Violation;
 use super::source::Source;
 
-/// This folder must name the words it forbids.
+/// The rules themselves must name the words that they forbid.
 const EXEMPT: &str = "xtask/src/tidy";
 
-/// Marks of work that was put off; what is known to be missing belongs into an issue or the README.
+/// Markers of postponed work, which belongs in an issue or in the README.
 const UNFINISHED: [&str; 3] = ["TODO", "FIXME", "XXX"];
 
-/// Macros that print or stop, which a library leaves to the program.
+/// Macros that print or abort, which a library must not do.
 const PRINTING: [&str; 7] =
     ["todo!", "dbg!", "println!", "eprintln!", "print!", "eprint!", "unimplemented!"];
 
-/// Beginnings of paths that exist on one machine only.
+/// Prefixes of paths that exist on one machine only.
 const MACHINE_PATHS: [&str; 5] = ["/home/", "/root/", "/tmp/", "/Users/", "C:\\Users"];
 
+/// Files begin with module documentation.
 pub fn module_docs(source: &Source) -> Vec<Violation> {
     let first = source.text.lines().find(|line| !line.trim().is_empty());
-    if first.is_some_and(|line| line.starts_with("//!")) {
+    if first
+        .is_some_and(|line| line.starts_with("//!") || line.starts_with("#![doc = include_str!("))
+    {
         return Vec::new();
     }
     vec![Violation::new(&source.path, "open the file with `//!`: what it is and why")]
 }
 
+/// Markers of postponed work.
 pub fn unfinished_markers(source: &Source) -> Vec<Violation> {
     if source.path.starts_with(EXEMPT) {
         return Vec::new();
     }
     let lines = source.text.lines().enumerate();
-    let found = lines.filter_map(|(i, line)| {
+    let violations = lines.filter_map(|(i, line)| {
         let word = UNFINISHED.iter().find(|word| has_word(line, word))?;
         Some(Violation::new(source.line_text(i + 1), format!("`{word}`: do it, or file an issue")))
     });
-    found.collect()
+    violations.collect()
 }
 
+/// Printing macros in libraries.
 pub fn printing_macros(source: &Source) -> Vec<Violation> {
     if !source.is_library() {
         return Vec::new();
     }
-    let found = source.code_without_tests().filter_map(|(number, line)| {
+    let violations = source.code_without_tests().filter_map(|(number, line)| {
         let word = PRINTING.iter().find(|word| has_word(line, word))?;
         Some(Violation::new(source.line_text(number), format!("a library may not use `{word}`")))
     });
-    found.collect()
+    violations.collect()
 }
 
-/// In any file that a person reads.
+/// Machine paths in any text file.
 pub fn machine_path_mentions(files: &[(String, String)]) -> Vec<Violation> {
     let mut faults = Vec::new();
     for (path, text) in files.iter().filter(|(path, _)| !path.starts_with(EXEMPT)) {

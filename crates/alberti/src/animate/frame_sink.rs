@@ -1,4 +1,4 @@
-//! Where the pictures of a film go, one after the other.
+//! The output of a frame sequence, which takes one frame after the other.
 
 use crate::CliError;
 use crate::template::NameTemplate;
@@ -9,19 +9,24 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// A taker of pictures. Files that hold several appear under their names once they are whole.
+/// An output of frames. A file of several frames appears under its name once it is complete.
 pub(super) enum FrameSink {
-    /// A file for each picture, with the word for `{stem}`.
+    /// One PNG per frame, with the value of `{stem}`.
     Files(NameTemplate, String),
     /// One animated PNG.
     Png { writer: Box<png::Writer<SharedFile>>, file: SharedFile, opaque: bool, path: PathBuf },
     /// One animated GIF.
     Gif { encoder: Box<gif::Encoder<SharedFile>>, fps: f64, path: PathBuf },
-    /// Red, green, blue, alpha of all pixels on the standard output.
+    /// Raw RGBA pixels, 8 bits per channel, on the standard output.
     Raw,
 }
 
 impl FrameSink {
+    /// Opens the output that a name stands for; nothing appears under the name yet.
+    ///
+    /// # Errors
+    ///
+    /// If the name has no supported extension, or the file cannot be created.
     pub(super) fn open(
         input: &Path,
         output: &Path,
@@ -37,7 +42,7 @@ impl FrameSink {
             NameTemplate::parse(&name, &["stem"], &["frame"]).map_err(CliError::Usage)?;
         if template.has_field("frame") {
             if !name.to_lowercase().ends_with(".png") {
-                let help = "pictures of a film are PNGs: name_{frame:04}.png";
+                let help = "frames are written as PNG: NAME_{frame:04}.png";
                 return Err(CliError::Usage(format!(
                     "{name} does not end in .png\n  = help: {help}"
                 )));
@@ -48,11 +53,14 @@ impl FrameSink {
             Some("png" | "apng") => Self::open_png(output, film, fps),
             Some("gif") => Self::open_gif(output, film, fps),
             _ => Err(CliError::Usage(format!(
-                "the output {name} is none of name_{{frame:04}}.png, .png, .gif and -"
+                "unsupported output {name}: expected NAME_{{frame:04}}.png, .png, .gif or -"
             ))),
         }
     }
 
+    /// Opens an animated PNG: RGB if every frame is opaque, else RGBA.
+    ///
+    /// The delay of a frame is a fraction of 16-bit numbers, 1000 / (1000 fps).
     fn open_png(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let ((width, height), opaque) = (film.image_size(), film.is_opaque());
         let file = SharedFile::create(output)?;
@@ -70,12 +78,13 @@ impl FrameSink {
         Ok(Self::Png { writer, file, opaque, path: output.to_owned() })
     }
 
+    /// Opens an animated GIF that repeats forever.
     fn open_gif(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let (width, height) = film.image_size();
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
             let most = u16::MAX;
             return Err(CliError::Usage(format!(
-                "a GIF has sides of {most} pixels at most, and these pictures have {width} x {height}"
+                "the width and height of a GIF are at most {most}, but the frames are {width} x {height}"
             )));
         };
         let fault = |error| gif_error(output, error);
@@ -85,6 +94,7 @@ impl FrameSink {
         Ok(Self::Gif { encoder: Box::new(encoder), fps, path: output.to_owned() })
     }
 
+    /// Appends one frame, or writes it to a file of its own.
     pub(super) fn write_frame(&mut self, frame: usize, picture: &Picture) -> Result<(), CliError> {
         match self {
             Self::Files(template, stem) => {
@@ -109,7 +119,7 @@ impl FrameSink {
         }
     }
 
-    /// Puts a file of several pictures in its place.
+    /// Finishes a file of several frames and renames it into place.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self {
             Self::Files(..) => Ok(()),
@@ -126,16 +136,17 @@ impl FrameSink {
     }
 }
 
-/// A file that an encoder writes and never gives back.
+/// A temporary file shared with an encoder that owns its writer and does not return it.
 #[derive(Clone)]
 pub(super) struct SharedFile(Rc<RefCell<BufWriter<AtomicFile>>>);
 
 impl SharedFile {
+    /// Creates the temporary file of an output.
     fn create(output: &Path) -> Result<Self, CliError> {
         Ok(Self(Rc::new(RefCell::new(BufWriter::new(AtomicFile::create(output)?)))))
     }
 
-    /// Puts the file in its place; the encoder must be gone.
+    /// Renames the file into place; the encoder must have been dropped.
     fn finish(self, path: PathBuf) -> Result<(), CliError> {
         let Ok(file) = Rc::try_unwrap(self.0) else { return Ok(()) };
         let draft = file.into_inner().into_inner();
@@ -154,13 +165,15 @@ impl Write for SharedFile {
     }
 }
 
-/// The hundredths of a second that a frame is shown: rounded so that they add up.
+/// The display time of a GIF frame in hundredths of a second, rounded so that the sum is exact.
 fn frame_delay(frame: usize, fps: f64) -> u16 {
     let until = |frame: usize| libm::round(100.0 * frame as f64 / fps);
     (until(frame + 1) - until(frame)).min(65_535.0) as u16
 }
 
-/// A picture in 256 colours of its own; what is more than half transparent is wholly so.
+/// Quantizes a picture to a palette of 256 colors of its own.
+///
+/// GIF has no partial transparency: alpha below one half becomes transparent, the rest opaque.
 fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     let mut pixels: Vec<u8> = picture
         .pixels
@@ -174,6 +187,7 @@ fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     frame
 }
 
+/// An error of the PNG encoder as an error about the output.
 fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     let cause = match error {
         png::EncodingError::IoError(cause) => cause,
@@ -182,6 +196,7 @@ fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     OutputError { path: path.to_owned(), cause }.into()
 }
 
+/// An error of the GIF encoder as an error about the output.
 fn gif_error(path: &Path, error: gif::EncodingError) -> CliError {
     let cause = match error {
         gif::EncodingError::Io(cause) => cause,

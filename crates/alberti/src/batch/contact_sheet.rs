@@ -1,17 +1,18 @@
-//! The contact sheet: all pictures on one page, and what failed.
+//! The contact sheet: an HTML page with all pictures and the failures.
 
 use super::report::{FAILED, JobRecord};
+use drawing::escape_markup;
 use std::fmt::Write as _;
 
-/// The page; it needs nothing but the pictures beside it.
+/// The page; it refers to the pictures by paths relative to itself.
 pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     let (failed, shown): (Vec<&JobRecord>, Vec<&JobRecord>) =
         records.iter().partition(|record| record.status == FAILED);
     let mut page = String::from(PAGE_HEAD);
     let _ = writeln!(page, "<p>{} pictures, {} failed</p>\n<main>", shown.len(), failed.len());
     for record in shown {
-        let (file, name) = (relative_url(&record.output), escape_html(&record.output));
-        let title = escape_html(&record.input);
+        let (file, name) = (relative_url(&record.output), escape_markup(&record.output));
+        let title = escape_markup(&record.input);
         let _ = writeln!(
             page,
             "<figure><a href=\"{file}\"><img loading=\"lazy\" src=\"{file}\" alt=\"{title}\"></a>\
@@ -22,7 +23,7 @@ pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     if !failed.is_empty() {
         page += "<h2>Failed</h2>\n<dl>\n";
         for record in failed {
-            let (input, message) = (escape_html(&record.input), escape_html(&record.message));
+            let (input, message) = (escape_markup(&record.input), escape_markup(&record.message));
             let _ = writeln!(page, "<dt>{input}</dt><dd><pre>{message}</pre></dd>");
         }
         page += "</dl>\n";
@@ -30,6 +31,7 @@ pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     page + "</html>\n"
 }
 
+/// The head of the page, with its style sheet.
 const PAGE_HEAD: &str = "<!DOCTYPE html>
 <html lang=\"en\">
 <meta charset=\"utf-8\">
@@ -42,11 +44,7 @@ img { width: 100%; background: #fff; border: 1px solid #ccc } pre { white-space:
 </style>
 ";
 
-fn escape_html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
-}
-
-/// A path as a relative URL.
+/// A relative URL of a path, percent-encoded.
 fn relative_url(path: &str) -> String {
     let mut url = String::from("./");
     for byte in path.bytes() {
@@ -69,6 +67,6 @@ mod tests {
     #[test]
     fn names_are_escaped() {
         assert_eq!(relative_url("a b/c#d%.png"), "./a%20b/c%23d%25.png");
-        assert_eq!(escape_html("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;>");
+        assert_eq!(escape_markup("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
     }
 }

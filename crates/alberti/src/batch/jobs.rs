@@ -1,11 +1,11 @@
-//! What there is to do: models and scenes, and a name for the picture of each.
+//! The jobs of a batch: models and scenes to render, with a unique picture name for each.
 
 use crate::CliError;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// A model or a scene, and where its picture goes.
+/// A model or a scene to render, and the name of its picture.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct BatchJob {
     /// The file.
@@ -14,10 +14,10 @@ pub(super) struct BatchJob {
     pub(super) output: String,
 }
 
-/// Folders in folders that are followed: links may go in circles.
+/// The maximum depth of folders that are searched; symbolic links may form cycles.
 const MAX_DEPTH: usize = 64;
 
-/// The jobs of some inputs in a fixed order, which every shard sees alike.
+/// Finds the jobs of all inputs, sorted, so that every shard sees the same order.
 pub(super) fn find_jobs(inputs: &[PathBuf]) -> Result<Vec<BatchJob>, CliError> {
     let mut found = Vec::new();
     for input in inputs {
@@ -42,27 +42,31 @@ pub(super) fn find_jobs(inputs: &[PathBuf]) -> Result<Vec<BatchJob>, CliError> {
     Ok(name_outputs(found))
 }
 
+/// The error of an input that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> CliError {
     CliError::Usage(format!("cannot read {}: {cause}", path.display()))
 }
 
+/// The extension of a path in lower case.
 fn lowercase_extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
 
-/// The files of a list, one a line, from the folder of the list. Empty lines and those that begin with # are none.
+/// Adds the files of a list, relative to its folder. Empty lines and `#` comments are skipped.
 fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
         list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     found.extend(lines.map(|line| (folder.join(line), normal_components(Path::new(line)))));
 }
 
-/// A path without what leads upwards or begins at the root, to be used below the output folder.
+/// A path without root and `..`, so that it stays below the output folder.
 fn normal_components(path: &Path) -> PathBuf {
     path.components().filter(|part| matches!(part, std::path::Component::Normal(_))).collect()
 }
 
-/// The models below a folder. Scenes are not looked for: among models they are rare, and often name these very models.
+/// Adds the models below a folder, recursively.
+///
+/// Scenes are not searched for: they are rare among models, and often refer to these very models.
 fn add_models_below(
     folder: &Path,
     root: &Path,
@@ -84,8 +88,11 @@ fn add_models_below(
     Ok(())
 }
 
-/// Gives each file the name of its picture: its own with `.png`, after its ending where two would have the same, with a
-/// number where that does not help.
+/// Names the picture of each file: its own name with `.png`.
+///
+/// Where two files would have the same, the original extension stays in the name, and a number is
+/// appended if that does not help. Names are compared without case, because some file systems
+/// ignore it.
 fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
     let stem = |name: &Path| slash_path(&name.with_extension(""));
     let mut shared: BTreeMap<String, usize> = BTreeMap::new();
@@ -105,6 +112,7 @@ fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
     found.into_iter().map(job).collect()
 }
 
+/// A path with `/` as separator on every system, because it is written to reports.
 fn slash_path(path: &Path) -> String {
     let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
     parts.join("/")

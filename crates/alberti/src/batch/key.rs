@@ -1,4 +1,7 @@
-//! What a picture depends on, as a short key: the content of the files, the settings, the version of the program.
+//! Content keys: a hash of everything that a picture depends on.
+//!
+//! That is the version of the program, the settings, and the content of the model or scene with all
+//! files it refers to. A picture is up to date if its key is unchanged.
 
 use crate::render::is_scene_file;
 use pipeline::Origin;
@@ -6,8 +9,9 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
-/// The key of a model or a scene with the given settings. Files that cannot be read count as empty: the work itself will
-/// say what is wrong with them.
+/// The key of a model or a scene: the first 16 bytes of a SHA-256, in hexadecimal.
+///
+/// Files that cannot be read count as empty; rendering reports what is wrong with them.
 pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
     let mut hash = Sha256::new();
     hash_part(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
@@ -20,7 +24,7 @@ pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> 
     hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Adds a model and the files that it names.
+/// Hashes a model with the buffers and images it refers to.
 fn hash_model(hash: &mut Sha256, path: &Path) {
     let bytes = std::fs::read(path).unwrap_or_default();
     hash_part(hash, &bytes);
@@ -30,7 +34,7 @@ fn hash_model(hash: &mut Sha256, path: &Path) {
     }
 }
 
-/// Adds a scene, what it includes, its models and its pictures.
+/// Hashes a scene with its includes, models and images.
 fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     hash_part(hash, &std::fs::read(path).unwrap_or_default());
     let Ok((origin, file)) = Origin::read_scene_allowing(path, allowed) else { return };
@@ -43,13 +47,13 @@ fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     }
 }
 
-/// Adds a part, with its length before it: no two lists of parts give the same bytes.
+/// Hashes one part, prefixed by its length, so that no two lists of parts give the same bytes.
 fn hash_part(hash: &mut Sha256, part: &[u8]) {
     hash.update((part.len() as u64).to_le_bytes());
     hash.update(part);
 }
 
-/// The files that a glTF file names: its buffers and images.
+/// The external buffers and images of a glTF file.
 fn referenced_files(bytes: &[u8]) -> Vec<String> {
     let Ok(json) = serde_json::from_slice::<Value>(json_chunk(bytes)) else { return Vec::new() };
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
@@ -58,7 +62,7 @@ fn referenced_files(bytes: &[u8]) -> Vec<String> {
     names.filter(|uri| !uri.starts_with("data:")).map(|uri| percent_decode(&uri)).collect()
 }
 
-/// The JSON of a binary file, or the whole of another.
+/// The JSON chunk of a GLB file, or all of a `.gltf` file.
 fn json_chunk(bytes: &[u8]) -> &[u8] {
     let Some(rest) = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(8..)) else {
         return bytes;
@@ -68,7 +72,7 @@ fn json_chunk(bytes: &[u8]) -> &[u8] {
     rest.get(8..).map_or(&[], |json| &json[..length.min(json.len())])
 }
 
-/// A URI with its %XX read.
+/// Decodes the `%XX` escapes of a URI (RFC 3986 §2.1).
 fn percent_decode(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();

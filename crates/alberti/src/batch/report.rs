@@ -1,5 +1,7 @@
-//! The report: a line of JSON for each job, written as soon as the job is done, so that a run that is killed is known by what
-//! it did.
+//! The report of a batch: one line of JSON per job, appended as soon as the job is finished.
+//!
+//! A run that is killed therefore leaves a record of what it has done. When a run ends, its report
+//! is rewritten in the order of the jobs.
 
 use super::Shard;
 use crate::CliError;
@@ -9,30 +11,34 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// What became of a job.
+/// The outcome of one job.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct JobRecord {
-    /// The file, as it was given.
+    /// The path of the input, as it was given.
     pub(super) input: String,
-    /// The picture, below the output folder.
+    /// The path of the picture below the output folder.
     pub(super) output: String,
     /// `done`, `done before` or `failed`.
     pub(super) status: String,
-    /// Of what content and settings the picture is.
+    /// The content key that the picture was rendered from.
     pub(super) key: String,
-    /// Seconds that it took.
+    /// Time in seconds.
     pub(super) seconds: f64,
-    /// How many warnings there were.
+    /// The number of warnings.
     pub(super) warnings: usize,
-    /// Why it failed, or the first warning.
+    /// The error, or the first warning.
     pub(super) message: String,
 }
 
+/// The status of a picture that was rendered by this run.
 pub(super) const DONE: &str = "done";
+/// The status of a picture that was up to date.
 pub(super) const DONE_BEFORE: &str = "done before";
+/// The status of a job that failed.
 pub(super) const FAILED: &str = "failed";
 
 impl JobRecord {
+    /// The record as one line of JSON.
     fn to_line(&self) -> String {
         let Self { input, output, status, key, seconds, warnings, message } = self;
         let json = json!({"input": input, "output": output, "status": status, "key": key,
@@ -40,7 +46,7 @@ impl JobRecord {
         format!("{json}\n")
     }
 
-    /// The record of a line; `None` if it is cut off, or of something else.
+    /// Parses a line of a report; `None` if it is truncated or of another schema.
     fn from_line(line: &str) -> Option<Self> {
         let json: Value = serde_json::from_str(line).ok()?;
         let word = |name: &str| Some(json.get(name)?.as_str()?.to_owned());
@@ -56,32 +62,34 @@ impl JobRecord {
     }
 }
 
-/// A report that is being written.
+/// A report that is being written, shared by the worker threads.
 pub(super) struct BatchReport {
+    /// The path of the report, to which it is rewritten at the end.
     path: PathBuf,
+    /// The open report; a lock keeps the lines of several threads apart.
     file: Mutex<File>,
 }
 
 impl BatchReport {
-    /// Opens the report of a shard, to write behind what is there.
+    /// Opens the report of a shard for appending.
     pub(super) fn open_report(folder: &Path, shard: Shard) -> Result<Self, CliError> {
         let path = folder.join(format!("report{}.jsonl", shard.file_suffix()));
         let file = OpenOptions::new().create(true).append(true).open(&path);
         let fault = |cause| CliError::Usage(format!("cannot write {}: {cause}", path.display()));
         let mut file = file.map_err(fault)?;
-        // A run that was killed may have left half a line.
+        // A killed run may have left an incomplete line.
         file.write_all(b"\n")?;
         Ok(Self { path, file: Mutex::new(file) })
     }
 
-    /// Writes down what became of a job.
+    /// Appends a record.
     pub(super) fn append_record(&self, record: &JobRecord) {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        // A full disk is found when the report is finished.
+        // An error here, such as a full disk, comes again when the report is finished.
         let _ = file.write_all(record.to_line().as_bytes());
     }
 
-    /// Puts the whole report in order: a line for each job of this run, in the order of the jobs.
+    /// Rewrites the report: one line per job of this run, in the order of the jobs.
     pub(super) fn finish_report(self, records: &[JobRecord]) -> Result<(), CliError> {
         let text: String = records.iter().map(JobRecord::to_line).collect();
         drop(self.file);
@@ -89,7 +97,7 @@ impl BatchReport {
     }
 }
 
-/// What all reports in a folder say, the later lines last. Lines that are cut off are left out.
+/// The records of all reports in a folder, later ones last; incomplete lines are skipped.
 pub(super) fn read_reports(folder: &Path) -> Vec<JobRecord> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();

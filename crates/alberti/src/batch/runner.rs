@@ -1,13 +1,11 @@
-//! Doing the jobs: several at a time, each with one thread, none of which can stop the others.
+//! Runs the jobs of a batch in parallel, one thread for each, isolated from each other's failures.
 
 use super::jobs::BatchJob;
 use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
 use super::{BatchArgs, key::content_key};
 use crate::CliError;
 use crate::progress::ProgressCounter;
-use crate::render::open_input;
-use pipeline::scene::ResolveOptions;
-use pipeline::{Scene, Timings, render_reported};
+use pipeline::{Picture, RenderContext, Renderer, Textures};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -15,17 +13,23 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// How the jobs are to be done.
+/// The settings of a run, and the records of earlier ones.
 pub(super) struct BatchRun<'a> {
+    /// The flags of the command.
     pub(super) args: &'a BatchArgs,
+    /// Everything in the flags that changes a picture, as text for the content keys.
     pub(super) settings: &'a str,
-    /// What earlier runs did.
+    /// The records of earlier runs in the same folder.
     pub(super) earlier: &'a [JobRecord],
+    /// The number of jobs that run at a time.
     pub(super) threads: usize,
 }
 
 impl BatchRun<'_> {
-    /// Does the jobs that are not done, and tells of all in their order.
+    /// Runs the jobs that are not up to date; returns the records of all, in the order of the jobs.
+    ///
+    /// Worker threads take the next job from a shared counter, so that large models do not leave
+    /// threads idle.
     pub(super) fn run_jobs(&self, jobs: &[&BatchJob], report: &BatchReport) -> Vec<JobRecord> {
         let before: BTreeMap<&str, &JobRecord> = self
             .earlier
@@ -36,10 +40,12 @@ impl BatchRun<'_> {
         let counter = ProgressCounter::start(jobs.len());
         let (next, results) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
         let work = || {
+            let mut renderer = Renderer::default();
             loop {
                 let at = next.fetch_add(1, Ordering::Relaxed);
                 let Some(job) = jobs.get(at) else { break };
-                let record = self.run_job(job, before.get(job.output.as_str()).copied());
+                let before = before.get(job.output.as_str()).copied();
+                let record = self.run_job(job, before, &mut renderer);
                 report.append_record(&record);
                 counter.increment();
                 if let Ok(mut results) = results.lock() {
@@ -56,21 +62,32 @@ impl BatchRun<'_> {
         results.into_inner().map(|all| all.into_values().collect()).unwrap_or_default()
     }
 
-    fn run_job(&self, job: &BatchJob, before: Option<&JobRecord>) -> JobRecord {
+    /// Runs one job, unless its picture is up to date.
+    ///
+    /// A panic is caught and recorded like any other failure: one broken model must not end a run
+    /// of thousands.
+    fn run_job(
+        &self,
+        job: &BatchJob,
+        before: Option<&JobRecord>,
+        renderer: &mut Renderer,
+    ) -> JobRecord {
         let key = content_key(
             &job.input,
             self.settings,
             &self.args.load_options.import_options().allow_outside,
         );
-        let output = self.args.out.join(&job.output);
+        let output = self.args.out_dir.join(&job.output);
         if let Some(before) = before.filter(|before| before.key == key && output.is_file()) {
             return JobRecord { status: DONE_BEFORE.to_owned(), ..before.clone() };
         }
         let begin = Instant::now();
-        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output));
+        let work = AssertUnwindSafe(|| self.render_picture(&job.input, &output, renderer));
         let result = catch_unwind(work).unwrap_or_else(|_| {
+            // Its buffers may be in any state.
+            *renderer = Renderer::default();
             Err(CliError::Usage(
-                "the program failed; this is a fault of its own, please report it".to_owned(),
+                "internal error: the renderer panicked; please report this as a bug".to_owned(),
             ))
         });
         let (status, warnings, message) = match result {
@@ -88,27 +105,27 @@ impl BatchRun<'_> {
         }
     }
 
-    /// Makes one picture; gives the warnings.
-    fn render_picture(&self, input: &Path, output: &Path) -> Result<Vec<String>, CliError> {
-        let (origin, mut file) =
-            open_input(input, &self.args.overrides.import_options(&self.args.load_options))?;
-        self.args.overrides.apply_to(&mut file);
-        let scene = Scene::resolve(
-            &origin,
-            &file,
-            &ResolveOptions { import: self.args.overrides.import_options(&self.args.load_options) },
-        )?;
-        let (picture, drawing) = render_reported(&scene, 1, &Timings::default())?;
+    /// Renders one picture; returns the warnings of its models and of the drawing.
+    fn render_picture(
+        &self,
+        input: &Path,
+        output: &Path,
+        renderer: &mut Renderer,
+    ) -> Result<Vec<String>, CliError> {
+        let (_, _, scene) = self.args.overrides.open_scene(input, &self.args.load_options)?;
+        let textures = Textures::for_scene(&scene);
+        let mut picture = Picture::<u8>::default();
+        let drawing = renderer.render(&RenderContext::new(&scene, &textures, 1), &mut picture)?;
         let png = picture.to_png();
         if let Some(folder) = output.parent() {
             let fault = |cause| {
-                CliError::Usage(format!("cannot make the folder {}: {cause}", folder.display()))
+                CliError::Usage(format!("cannot create the folder {}: {cause}", folder.display()))
             };
             std::fs::create_dir_all(folder).map_err(fault)?;
         }
         pipeline::write_file(output, &png)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
-        let warnings = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        let warnings = warnings.map(model::Diagnostic::sentence);
         Ok(warnings.chain(drawing.iter().map(ToString::to_string)).collect())
     }
 }

@@ -1,29 +1,32 @@
-//! Shards: a part of the jobs for each of several machines.
+//! Shards: the jobs of a batch divided between several machines.
 
 use std::str::FromStr as _;
 
-/// Part `part` of `parts`, counted from 0.
+/// One of `count` shards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Shard {
+    /// The index of the shard, from 0.
     index: usize,
+    /// The number of shards.
     count: usize,
 }
 
 impl Shard {
-    /// All jobs.
+    /// The only shard of a run on one machine.
     pub(super) const ALL_JOBS: Self = Self { index: 0, count: 1 };
 
+    /// Whether there is only one shard.
     pub(super) fn has_all_jobs(self) -> bool {
         self.count == 1
     }
 
-    /// Whether the job with this number is in the shard: every `parts`-th is, so that large models, which often lie
-    /// together, are shared out.
+    /// Whether a job is in the shard. Jobs are dealt out round-robin, because large models are
+    /// often neighbors in a folder.
     pub(super) fn has_job(self, job: usize) -> bool {
         job % self.count == self.index
     }
 
-    /// The end of the report's name.
+    /// The suffix of the report's file name.
     pub(super) fn file_suffix(self) -> String {
         if self.has_all_jobs() {
             String::new()
@@ -32,13 +35,14 @@ impl Shard {
         }
     }
 
+    /// A shard, if its index is valid.
     fn new(part: usize, parts: usize) -> Option<Self> {
         (part < parts).then_some(Self { index: part, count: parts })
     }
 }
 
-/// `I/N`, or `auto` for what the variables of an array job say.
-pub(super) fn parse(text: &str) -> Result<Shard, String> {
+/// Parses `I/N`, or takes both from the environment for `auto`.
+pub(super) fn parse_shard(text: &str) -> Result<Shard, String> {
     if text == "auto" {
         return from_variables(|name| std::env::var(name).ok().as_deref().and_then(parse_count));
     }
@@ -49,12 +53,12 @@ pub(super) fn parse(text: &str) -> Result<Shard, String> {
     part.checked_sub(1).and_then(|part| Shard::new(part, parts)).ok_or_else(fault)
 }
 
+/// Parses a non-negative integer.
 fn parse_count(digits: &str) -> Option<usize> {
     usize::from_str(digits.trim()).ok()
 }
 
-/// The variables in which schedulers tell the number of a task: its own, the least (a name or a number) and how many
-/// there are, or the greatest.
+/// The environment variables of job schedulers: index of the task, first index, and task count.
 const SCHEDULERS: &[(&str, FirstIndex, TaskCount)] = &[
     (
         "SLURM_ARRAY_TASK_ID",
@@ -78,17 +82,19 @@ const SCHEDULERS: &[(&str, FirstIndex, TaskCount)] = &[
     ("CI_NODE_INDEX", FirstIndex::Constant(1), TaskCount::Variable("CI_NODE_TOTAL")),
 ];
 
+/// The index of the first task.
 enum FirstIndex {
     Constant(usize),
     Variable(&'static str),
 }
 
+/// The number of tasks, or the index of the last one.
 enum TaskCount {
     Variable(&'static str),
     Last(&'static str),
 }
 
-/// The shard of the first scheduler that speaks.
+/// The shard of the first scheduler whose variables are set.
 fn from_variables(variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, String> {
     for (own, least, count) in SCHEDULERS {
         let Some(own) = variable(own) else { continue };
@@ -107,7 +113,7 @@ fn from_variables(variable: impl Fn(&str) -> Option<usize>) -> Result<Shard, Str
     }
     let names: Vec<&str> = SCHEDULERS.iter().map(|(own, ..)| *own).collect();
     Err(format!(
-        "no array job is known by its variables: {}, each with its count",
+        "no array job found in the environment: none of {} is set together with its count",
         names.join(", ")
     ))
 }
@@ -118,13 +124,13 @@ mod tests {
 
     #[test]
     fn shards_are_counted_from_one_and_are_a_partition() {
-        assert_eq!(parse("2/8"), Ok(Shard { index: 1, count: 8 }));
+        assert_eq!(parse_shard("2/8"), Ok(Shard { index: 1, count: 8 }));
         for wrong in ["", "2", "0/3", "4/3", "1/0", "-1/2", "a/b"] {
-            assert!(parse(wrong).is_err(), "{wrong}");
+            assert!(parse_shard(wrong).is_err(), "{wrong}");
         }
         for job in 0..20 {
-            let of =
-                (1..=3).filter(|part| parse(&format!("{part}/3")).is_ok_and(|s| s.has_job(job)));
+            let of = (1..=3)
+                .filter(|part| parse_shard(&format!("{part}/3")).is_ok_and(|s| s.has_job(job)));
             assert_eq!(of.count(), 1, "{job}");
         }
     }

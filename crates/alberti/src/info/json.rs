@@ -1,11 +1,12 @@
-//! `alberti info --json`: everything about a model that a script may want to know.
+//! `alberti info --json`: the contents of a model as JSON.
 //!
-//! Things are in the order of the file and numbered from 0, as flags and other things name them. Lengths are in the model's
-//! units, angles in radians, times in seconds, colours linear. What is not there is `null` or an empty list. New members
-//! may come in any release; [`VERSION`] rises when one changes its meaning or goes.
+//! Objects are in the order of the file and referred to by index from 0. Lengths are in units of
+//! the model, angles in radians, times in seconds, colors linear. Absent values are `null` or empty
+//! lists. New members may be added in any release; [`VERSION`] rises when one is removed or changes
+//! its meaning.
 
-use super::materials::{images, materials, textures};
-use super::scenes::{cameras, lights, meshes, nodes, scenes};
+use super::materials::{images_json, materials_json, textures_json};
+use super::scenes::{cameras_json, lights_json, meshes_json, nodes_json, scenes_json};
 use crate::args::InfoArgs;
 use crate::model_state::ModelStateArgs;
 use homog::Bounds;
@@ -17,11 +18,11 @@ use model::{
 use pipeline::scene::file::Finite;
 use serde_json::{Value, json};
 
-/// The version of the schema.
+/// The version of the JSON schema.
 const VERSION: u32 = 1;
 
-/// The whole document, with a newline.
-pub(super) fn document(args: &InfoArgs, model: &Model) -> String {
+/// The document as text, with a final newline.
+pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
     let ModelStateArgs { animation, time, .. } = &args.model_state;
     let posed = animation.is_some() || time.is_some();
     let value = json!({
@@ -31,53 +32,55 @@ pub(super) fn document(args: &InfoArgs, model: &Model) -> String {
         "shown": {
             "scene": model.active_scene,
             "variant": model.active_variant,
-            "animation": posed.then(|| chosen(args, model)),
+            "animation": posed.then(|| chosen_animation_index(args, model)),
             "time": posed.then(|| time.map_or(0.0, Finite::value)),
-            "bounds": bounds(model.bounds()),
-            "counts": counts(model.scene_primitives().map(|(_, primitive)| primitive)),
+            "bounds": bounds_json(model.bounds()),
+            "counts": counts_json(model.scene_primitives().map(|(_, primitive)| primitive)),
             "meshes": model.mesh_instances().count(),
         },
-        "counts": counts(model.meshes.iter().flat_map(|mesh| &mesh.primitives)),
-        "scenes": scenes(model),
-        "nodes": nodes(model),
-        "meshes": meshes(model),
-        "materials": materials(model),
-        "textures": textures(model),
-        "images": images(model),
-        "cameras": cameras(model),
-        "lights": lights(model),
-        "skins": model.skins.iter().map(skin).collect::<Vec<_>>(),
-        "animations": model.animations.iter().map(|of| animation_of(model, of)).collect::<Vec<_>>(),
+        "counts": counts_json(model.meshes.iter().flat_map(|mesh| &mesh.primitives)),
+        "scenes": scenes_json(model),
+        "nodes": nodes_json(model),
+        "meshes": meshes_json(model),
+        "materials": materials_json(model),
+        "textures": textures_json(model),
+        "images": images_json(model),
+        "cameras": cameras_json(model),
+        "lights": lights_json(model),
+        "skins": model.skins.iter().map(skin_json).collect::<Vec<_>>(),
+        "animations": model.animations.iter().map(|of| animation_json(model, of)).collect::<Vec<_>>(),
         "variants": model.variants,
-        "extensions": extensions(model),
-        "warnings": warnings(model),
+        "extensions": extensions_json(model),
+        "warnings": warnings_json(model),
     });
     format!("{value:#}\n")
 }
 
-/// The number of the animation that poses the model.
-fn chosen(args: &InfoArgs, model: &Model) -> Option<usize> {
+/// The index of the animation that poses the model.
+fn chosen_animation_index(args: &InfoArgs, model: &Model) -> Option<usize> {
     pipeline::scene::select_animation(model, args.model_state.animation.as_ref()).ok()
 }
 
-/// A single number as short as it can be written: 0.8 and not 0.800000011920929.
-pub(super) fn short(x: f32) -> Value {
+/// An f32 as the shortest decimal number that rounds to it: 0.8, not 0.800000011920929.
+pub(super) fn shortest_number(x: f32) -> Value {
     x.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }
 
-pub(super) fn shorts(numbers: &[f32]) -> Vec<Value> {
-    numbers.iter().copied().map(short).collect()
+/// Several numbers as [`shortest_number`] writes them.
+pub(super) fn shortest_numbers(numbers: &[f32]) -> Vec<Value> {
+    numbers.iter().copied().map(shortest_number).collect()
 }
 
-pub(super) fn bounds<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
+/// Bounds as two points, or `null`.
+pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
     of.map_or(Value::Null, |bounds| {
         let [min, max] = [bounds.min(), bounds.max()].map(<[f64; 3]>::from);
         json!({"min": min, "max": max})
     })
 }
 
-/// What some primitives have in all.
-pub(super) fn counts<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Value {
+/// Totals of some primitives: vertices, triangles, lines and points.
+pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Value {
     let (mut parts, mut vertices, mut items) = (0_usize, 0_usize, [0_usize; 3]);
     for primitive in primitives {
         parts += 1;
@@ -94,7 +97,8 @@ pub(super) fn counts<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Val
     })
 }
 
-pub(super) fn topology(of: Topology) -> &'static str {
+/// The name of a topology, in the plural.
+pub(super) fn topology_name(of: Topology) -> &'static str {
     match of {
         Topology::Points => "points",
         Topology::Lines => "lines",
@@ -102,34 +106,37 @@ pub(super) fn topology(of: Topology) -> &'static str {
     }
 }
 
-fn skin(skin: &Skin) -> Value {
+/// A skin: its joints.
+fn skin_json(skin: &Skin) -> Value {
     json!({"joints": skin.joints})
 }
 
-fn animation_of(model: &Model, animation: &Animation) -> Value {
+/// An animation: its name, duration and channels.
+fn animation_json(model: &Model, animation: &Animation) -> Value {
     json!({
         "name": animation.name,
         "duration": animation.duration_seconds,
-        "channels": animation.channels.iter().map(|of| channel(model, of)).collect::<Vec<_>>(),
+        "channels": animation.channels.iter().map(|of| channel_json(model, of)).collect::<Vec<_>>(),
     })
 }
 
-fn channel(model: &Model, AnimationChannel { target, curve }: &AnimationChannel) -> Value {
+/// A channel: its target, interpolation, number of keyframes, start and end time.
+fn channel_json(model: &Model, AnimationChannel { target, curve }: &AnimationChannel) -> Value {
     json!({
-        "target": channel_target(model, *target),
+        "target": target_pointer(model, *target),
         "interpolation": match curve.interpolation {
             Interpolation::Step => "STEP",
             Interpolation::Linear | Interpolation::Spherical => "LINEAR",
             Interpolation::CubicSpline => "CUBICSPLINE",
         },
         "keys": curve.times.len(),
-        "start": curve.times.first().copied().map(short),
-        "end": curve.times.last().copied().map(short),
+        "start": curve.times.first().copied().map(shortest_number),
+        "end": curve.times.last().copied().map(shortest_number),
     })
 }
 
-/// What a channel changes, as a JSON pointer into the file.
-fn channel_target(model: &Model, target: AnimationTarget) -> String {
+/// The property that an animation channel changes, as a JSON pointer into the file.
+fn target_pointer(model: &Model, target: AnimationTarget) -> String {
     match target {
         AnimationTarget::Node { node, property } => {
             let property = match property {
@@ -163,7 +170,8 @@ fn channel_target(model: &Model, target: AnimationTarget) -> String {
     }
 }
 
-fn extensions(model: &Model) -> Value {
+/// The extensions of the file, sorted, with the way in which each is supported.
+fn extensions_json(model: &Model) -> Value {
     let mut names: Vec<&String> =
         model.extensions_used.iter().chain(&model.extensions_required).collect();
     names.sort();
@@ -183,8 +191,8 @@ fn extensions(model: &Model) -> Value {
     names.iter().map(describe).collect()
 }
 
-fn warnings(model: &Model) -> Value {
-    let describe =
-        |warning: &model::Warning| json!({"pointer": warning.pointer, "message": warning.message});
+/// The warnings of the importer.
+fn warnings_json(model: &Model) -> Value {
+    let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()
 }

@@ -1,38 +1,41 @@
-//! What `alberti info --json` tells of materials, textures and images.
+//! Materials, textures and images in `alberti info --json`.
 
-use super::json::{short, shorts};
+use super::json::{shortest_number, shortest_numbers};
 use model::{
-    AlphaMode, ImageHeader, Material, MipmapMode, Model, TextureFilter, TextureInfo, TextureSlot,
-    WrapMode,
+    AlphaMode, ImageHeader, Material, MaterialExtensions, MipmapMode, Model, TextureFilter,
+    TextureInfo, TextureSlot, WrapMode,
 };
 use serde_json::{Value, json};
 
-pub(super) fn materials(model: &Model) -> Vec<Value> {
-    model.materials.iter().map(material).collect()
+/// All materials of the file.
+pub(super) fn materials_json(model: &Model) -> Vec<Value> {
+    model.materials.iter().map(material_json).collect()
 }
 
-fn material(material: &Material) -> Value {
+/// A material: the factors and textures of core glTF, and its extensions.
+fn material_json(material: &Material) -> Value {
     let (mode, cutoff) = match material.alpha_mode {
         AlphaMode::Opaque => ("OPAQUE", None),
-        AlphaMode::Mask { cutoff } => ("MASK", Some(short(cutoff))),
+        AlphaMode::Mask { cutoff } => ("MASK", Some(shortest_number(cutoff))),
         AlphaMode::Blend => ("BLEND", None),
     };
     json!({
         "name": material.name,
-        "base_color": shorts(&material.base_color),
-        "metallic": short(material.metallic),
-        "roughness": short(material.roughness),
-        "emissive": shorts(&material.emissive),
+        "base_color": shortest_numbers(&material.base_color),
+        "metallic": shortest_number(material.metallic),
+        "roughness": shortest_number(material.roughness),
+        "emissive": shortest_numbers(&material.emissive),
         "alpha_mode": mode,
         "alpha_cutoff": cutoff,
         "double_sided": material.double_sided,
         "unlit": material.unlit,
-        "textures": material.all_textures().map(texture_use).collect::<Vec<_>>(),
-        "extensions": extensions(material),
+        "textures": material.all_textures().map(texture_use_json).collect::<Vec<_>>(),
+        "extensions": material_extensions_json(material),
     })
 }
 
-fn texture_use((slot, used): (TextureSlot, TextureInfo)) -> Value {
+/// A texture slot of a material.
+fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
     json!({
         "slot": slot.json_path(),
         "texture": used.texture,
@@ -41,66 +44,79 @@ fn texture_use((slot, used): (TextureSlot, TextureInfo)) -> Value {
     })
 }
 
-/// What extensions say of the material, by their names without `KHR_materials_`.
-fn extensions(material: &Material) -> Value {
-    let more = &material.extensions;
-    let mut all = serde_json::Map::new();
-    let mut put = |name: &str, value: Value| all.insert(name.to_owned(), value);
-    if more.ior != 1.5 {
-        put("ior", json!({"ior": short(more.ior)}));
-    }
-    if more.dispersion != 0.0 {
-        put("dispersion", json!({"dispersion": short(more.dispersion)}));
-    }
-    if material.emission.strength != 1.0 {
-        put("emissive_strength", json!({"strength": short(material.emission.strength)}));
-    }
-    if let Some(of) = &more.specular {
-        put("specular", json!({"factor": short(of.factor), "color": shorts(&of.color)}));
-    }
-    if let Some(of) = &more.specular_glossiness {
-        let (specular, glossiness) = (shorts(&of.specular), short(of.glossiness));
-        put("pbrSpecularGlossiness", json!({"specular": specular, "glossiness": glossiness}));
-    }
-    if let Some(of) = &more.clearcoat {
-        put("clearcoat", json!({"factor": short(of.factor), "roughness": short(of.roughness)}));
-    }
-    if let Some(of) = &more.sheen {
-        put("sheen", json!({"color": shorts(&of.color), "roughness": short(of.roughness)}));
-    }
-    if let Some(of) = &more.transmission {
-        put("transmission", json!({"factor": short(of.factor)}));
-    }
-    if let Some(of) = &more.volume {
-        let (distance, color) = (short(of.attenuation_distance), shorts(&of.attenuation_color));
-        let thickness = short(of.thickness);
-        put(
-            "volume",
-            json!({"thickness": thickness, "attenuation_distance": distance, "attenuation_color": color}),
-        );
-    }
-    if let Some(of) = &more.iridescence {
-        let thickness = shorts(&[of.thickness_minimum, of.thickness_maximum]);
-        let (factor, ior) = (short(of.factor), short(of.ior));
-        put(
-            "iridescence",
-            json!({"factor": factor, "ior": ior, "thickness_nanometres": thickness}),
-        );
-    }
-    if let Some(of) = &more.anisotropy {
-        put("anisotropy", json!({"strength": short(of.strength), "rotation": short(of.rotation)}));
-    }
-    Value::Object(all)
+/// The material extensions that differ from their defaults, by name without `KHR_materials_`.
+fn material_extensions_json(material: &Material) -> Value {
+    let (more, strength) = (&material.extensions, material.emission.strength);
+    let ior = (more.ior != 1.5).then(|| json!({"ior": shortest_number(more.ior)}));
+    let dispersion =
+        (more.dispersion != 0.0).then(|| json!({"dispersion": shortest_number(more.dispersion)}));
+    let emissive = (strength != 1.0).then(|| json!({"strength": shortest_number(strength)}));
+    let volume = more.volume.as_ref().map(|of| {
+        json!({
+            "thickness": shortest_number(of.thickness),
+            "attenuation_distance": shortest_number(of.attenuation_distance),
+            "attenuation_color": shortest_numbers(&of.attenuation_color),
+        })
+    });
+    let all = [
+        ("ior", ior),
+        ("dispersion", dispersion),
+        ("emissive_strength", emissive),
+        ("volume", volume),
+    ];
+    let all = all.into_iter().chain(material_layers_json(&material.extensions));
+    all.filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
-pub(super) fn textures(model: &Model) -> Vec<Value> {
+/// The extensions that add or replace a layer of the BRDF; `None` where the material has none.
+fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {
+    // A color or reflectance has three components, every other parameter one.
+    let (one, three) = (shortest_number, |color: &[f32]| shortest_numbers(color));
+    let specular = more
+        .specular
+        .as_ref()
+        .map(|of| json!({"factor": one(of.factor), "color": three(&of.color)}));
+    let glossiness = more
+        .specular_glossiness
+        .as_ref()
+        .map(|of| json!({"specular": three(&of.specular), "glossiness": one(of.glossiness)}));
+    let clearcoat = more
+        .clearcoat
+        .as_ref()
+        .map(|of| json!({"factor": one(of.factor), "roughness": one(of.roughness)}));
+    let sheen = more
+        .sheen
+        .as_ref()
+        .map(|of| json!({"color": three(&of.color), "roughness": one(of.roughness)}));
+    let transmission = more.transmission.as_ref().map(|of| json!({"factor": one(of.factor)}));
+    let iridescence = more.iridescence.as_ref().map(|of| {
+        let thickness = three(&[of.thickness_minimum, of.thickness_maximum]);
+        json!({"factor": one(of.factor), "ior": one(of.ior), "thickness_nanometres": thickness})
+    });
+    let anisotropy = more
+        .anisotropy
+        .as_ref()
+        .map(|of| json!({"strength": one(of.strength), "rotation": one(of.rotation)}));
+    [
+        ("specular", specular),
+        ("pbrSpecularGlossiness", glossiness),
+        ("clearcoat", clearcoat),
+        ("sheen", sheen),
+        ("transmission", transmission),
+        ("iridescence", iridescence),
+        ("anisotropy", anisotropy),
+    ]
+}
+
+/// All textures of the file, with their samplers.
+pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     let describe = |texture: &model::Texture| {
         let sampler = texture.sampler;
         json!({
             "image": texture.image,
-            "wrap": [wrap(sampler.wrap_u), wrap(sampler.wrap_v)],
-            "magnify": filter(sampler.mag_filter),
-            "minify": filter(sampler.min_filter),
+            "wrap": [wrap_name(sampler.wrap_u), wrap_name(sampler.wrap_v)],
+            "magnify": filter_name(sampler.mag_filter),
+            "minify": filter_name(sampler.min_filter),
             "mipmap": match sampler.mipmap_mode {
                 MipmapMode::None => "none",
                 MipmapMode::Nearest => "nearest",
@@ -111,7 +127,8 @@ pub(super) fn textures(model: &Model) -> Vec<Value> {
     model.textures.iter().map(describe).collect()
 }
 
-fn wrap(wrap: WrapMode) -> &'static str {
+/// The name of a wrap mode.
+fn wrap_name(wrap: WrapMode) -> &'static str {
     match wrap {
         WrapMode::Repeat => "repeat",
         WrapMode::MirroredRepeat => "mirror",
@@ -119,14 +136,16 @@ fn wrap(wrap: WrapMode) -> &'static str {
     }
 }
 
-fn filter(filter: TextureFilter) -> &'static str {
+/// The name of a filter.
+fn filter_name(filter: TextureFilter) -> &'static str {
     match filter {
         TextureFilter::Nearest => "nearest",
         TextureFilter::Linear => "linear",
     }
 }
 
-pub(super) fn images(model: &Model) -> Vec<Value> {
+/// All images of the file; `file` has the header of those that can be read.
+pub(super) fn images_json(model: &Model) -> Vec<Value> {
     let describe = |file: &model::ImageInfo| {
         let header = file.header.map(|header: ImageHeader| {
             json!({

@@ -1,25 +1,31 @@
-//! What `alberti info --json` tells of scenes, nodes, meshes, cameras and lights.
+//! Scenes, nodes, meshes, cameras and lights in `alberti info --json`.
 
-use super::json::{bounds, counts, short, shorts, topology};
+use super::json::{bounds_json, counts_json, shortest_number, shortest_numbers, topology_name};
 use model::{
     CameraProjection, EdgeVisibility, LightKind, Mesh, Model, Node, Primitive, PrimitiveEdges,
     SceneRoots, VariantMaterial,
 };
 use serde_json::{Value, json};
 
-pub(super) fn scenes(model: &Model) -> Vec<Value> {
+/// All scenes of the file, with their root nodes and bounds.
+pub(super) fn scenes_json(model: &Model) -> Vec<Value> {
     let describe = |scene: &SceneRoots| {
-        let bounds = bounds(model.scene_bounds(scene));
+        let bounds = bounds_json(model.scene_bounds(scene));
         json!({"name": scene.name, "nodes": scene.nodes, "bounds": bounds})
     };
     model.scenes.iter().map(describe).collect()
 }
 
-pub(super) fn nodes(model: &Model) -> Vec<Value> {
-    model.nodes.iter().map(node).collect()
+/// All nodes of the file.
+pub(super) fn nodes_json(model: &Model) -> Vec<Value> {
+    model.nodes.iter().map(node_json).collect()
 }
 
-fn node(node: &Node) -> Value {
+/// A node: its place in the hierarchy, its transforms, and what hangs on it.
+///
+/// `transform` is the local one, `null` for a node with a matrix; `to_model` is the matrix from the
+/// node to the model, column by column, in the current pose.
+fn node_json(node: &Node) -> Value {
     let parts = node.trs.map(|parts| {
         json!({
             "translation": parts.translation,
@@ -35,14 +41,15 @@ fn node(node: &Node) -> Value {
         "to_model": node.to_model.raw().to_cols_array(),
         "mesh": node.mesh,
         "places": node.instance_transforms.as_ref().map(Vec::len),
-        "weights": node.morph_weights.as_deref().map(shorts),
+        "weights": node.morph_weights.as_deref().map(shortest_numbers),
         "skin": node.skin,
         "camera": node.camera,
         "light": node.light,
     })
 }
 
-pub(super) fn meshes(model: &Model) -> Vec<Value> {
+/// All meshes of the file; `shown` is the number of instances in the drawn scene.
+pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
     let mut shown = vec![0_usize; model.meshes.len()];
     for instance in model.mesh_instances() {
         if let Some(mesh) = model.nodes[instance.node].mesh {
@@ -55,18 +62,19 @@ pub(super) fn meshes(model: &Model) -> Vec<Value> {
             json!({
                 "name": name,
                 "shown": shown,
-                "counts": counts(primitives.iter()),
-                "weights": shorts(weights),
-                "primitives": primitives.iter().map(primitive).collect::<Vec<_>>(),
+                "counts": counts_json(primitives.iter()),
+                "weights": shortest_numbers(weights),
+                "primitives": primitives.iter().map(primitive_json).collect::<Vec<_>>(),
             })
         })
         .collect()
 }
 
-fn primitive(primitive: &Primitive) -> Value {
+/// A primitive: its topology, its counts, and which attributes it has.
+fn primitive_json(primitive: &Primitive) -> Value {
     let variant = |of: &VariantMaterial| json!({"variant": of.variant, "material": of.material});
     json!({
-        "topology": topology(primitive.topology),
+        "topology": topology_name(primitive.topology),
         "count": primitive.item_count(),
         "vertices": primitive.positions.len(),
         "normals": primitive.normals.is_some(),
@@ -77,11 +85,12 @@ fn primitive(primitive: &Primitive) -> Value {
         "morph_targets": primitive.morph_targets.len(),
         "material": primitive.material,
         "variants": primitive.material_variants.iter().map(variant).collect::<Vec<_>>(),
-        "edges": primitive.edges.as_deref().map(edges),
+        "edges": primitive.edges.as_deref().map(edges_json),
     })
 }
 
-fn edges(edges: &PrimitiveEdges) -> Value {
+/// The edges that the file declares visible (EXT_mesh_primitive_edge_visibility).
+fn edges_json(edges: &PrimitiveEdges) -> Value {
     let of_triangles = edges.visibility.iter().flat_map(|all| all.as_flattened());
     let count = |wanted: EdgeVisibility| of_triangles.clone().filter(|v| **v == wanted).count();
     json!({
@@ -92,7 +101,8 @@ fn edges(edges: &PrimitiveEdges) -> Value {
     })
 }
 
-pub(super) fn cameras(model: &Model) -> Vec<Value> {
+/// All cameras of the file, with the nodes that carry them.
+pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let mut value = match lens.projection {
             CameraProjection::Perspective { fov_y, aspect, near, far } => json!({
@@ -111,37 +121,39 @@ pub(super) fn cameras(model: &Model) -> Vec<Value> {
             }),
         };
         value["name"] = json!(lens.name);
-        value["nodes"] = carriers(model, |node| node.camera == Some(number));
+        value["nodes"] = nodes_where(model, |node| node.camera == Some(number));
         value
     };
     model.cameras.iter().enumerate().map(describe).collect()
 }
 
-pub(super) fn lights(model: &Model) -> Vec<Value> {
+/// All punctual lights of the file, with the nodes that carry them.
+pub(super) fn lights_json(model: &Model) -> Vec<Value> {
     let describe = |(number, light): (usize, &model::PunctualLight)| {
         let unit = if light.kind == LightKind::Directional { "lux" } else { "candela" };
         let mut value = json!({
             "name": light.name,
             "kind": light.kind.gltf_name(),
-            "color": shorts(&light.color),
-            "intensity": short(light.intensity),
+            "color": shortest_numbers(&light.color),
+            "intensity": shortest_number(light.intensity),
             "unit": unit,
-            "nodes": carriers(model, |node| node.light == Some(number)),
+            "nodes": nodes_where(model, |node| node.light == Some(number)),
         });
         if let LightKind::Point { range } | LightKind::Spot { range, .. } = light.kind {
-            value["range"] = short(range);
+            value["range"] = shortest_number(range);
         }
         if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } = light.kind
         {
-            (value["inner_angle"], value["outer_angle"]) = (short(inner), short(outer));
+            (value["inner_angle"], value["outer_angle"]) =
+                (shortest_number(inner), shortest_number(outer));
         }
         value
     };
     model.lights.iter().enumerate().map(describe).collect()
 }
 
-/// The nodes that carry something.
-fn carriers(model: &Model, carries: impl Fn(&Node) -> bool) -> Value {
+/// The indices of the nodes that satisfy a predicate.
+fn nodes_where(model: &Model, carries: impl Fn(&Node) -> bool) -> Value {
     let nodes = model.nodes.iter().enumerate().filter(|(_, node)| carries(node));
     nodes.map(|(at, _)| Value::from(at)).collect()
 }

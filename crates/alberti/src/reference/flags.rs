@@ -1,4 +1,4 @@
-//! Sections of the reference from the commands and their flags, as the program itself parses them.
+//! Sections of the reference for commands and flags, from clap's own definitions.
 
 use super::{ReferenceEntry, ReferenceSection};
 use clap::{Arg, Command};
@@ -12,6 +12,7 @@ pub(super) fn command_sections(program: Command) -> Vec<ReferenceSection> {
     sections
 }
 
+/// Appends the section of a command, then those of its subcommands.
 fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     let about = command.get_long_about().or(command.get_about());
     let arguments = command.get_arguments().filter(|arg| !arg.is_hide_set());
@@ -25,6 +26,8 @@ fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
     }
 }
 
+/// The entry of a flag or a positional argument, as clap parses it: names, value, default and
+/// possible values.
 fn argument_entry(arg: &Arg) -> ReferenceEntry {
     let takes_value = arg.get_action().takes_values();
     let names = arg.get_value_names().filter(|_| takes_value).unwrap_or_default();
@@ -42,7 +45,7 @@ fn argument_entry(arg: &Arg) -> ReferenceEntry {
     };
     let mut words = if takes_value { arg.get_possible_values() } else { Vec::new() };
     words.retain(|word| !word.is_hide_set());
-    // Words that speak for themselves need no line each.
+    // Possible values without help are listed in the description of the flag.
     let silent = words.iter().all(|word| word.get_help().is_none());
     let choice = if silent && !words.is_empty() {
         let names: Vec<String> = words.drain(..).map(|word| word.get_name().to_owned()).collect();
@@ -58,7 +61,7 @@ fn argument_entry(arg: &Arg) -> ReferenceEntry {
     ReferenceEntry {
         term: if flags.is_empty() { value.clone() } else { flags.join(", ") },
         value: if flags.is_empty() { String::new() } else { value },
-        note: if arg.is_required_set() { "needed".to_owned() } else { String::new() },
+        note: if arg.is_required_set() { "required".to_owned() } else { String::new() },
         about: format!("{about}{choice}{default}"),
         inner: words.iter().map(word).collect(),
     }

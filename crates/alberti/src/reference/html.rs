@@ -1,7 +1,9 @@
-//! The reference as one page of HTML that needs no other file.
+//! The reference as a self-contained HTML page.
 
 use super::{ReferenceEntry, ReferenceSection};
+use drawing::escape_markup;
 
+/// The style sheet of the page, for light and dark color schemes.
 const PAGE_STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; margin: 0; display: grid; grid-template-columns: 15rem 1fr; color: #1a1f26; background: #fff }
 nav { position: sticky; top: 0; height: 100vh; overflow: auto; padding: 1rem; background: #f4f1ea; box-sizing: border-box }
@@ -11,6 +13,7 @@ dd { margin-left: 1.5rem } a { color: #1f4e79; text-decoration: none } .note { c
 @media (prefers-color-scheme: dark) { body { color: #e6e6e6; background: #16191d } nav { background: #20242a } a { color: #8ab8e6 } }
 ";
 
+/// The page: links to all sections on the left, the sections themselves on the right.
 pub(super) fn format_html(title: &str, sections: &[ReferenceSection]) -> String {
     let titles: Vec<&str> = sections.iter().map(|section| section.title.as_str()).collect();
     let links =
@@ -32,6 +35,7 @@ pub(super) fn format_html(title: &str, sections: &[ReferenceSection]) -> String 
     page
 }
 
+/// Appends entries as a description list, recursively.
 fn write_entries(page: &mut String, entries: &[ReferenceEntry], titles: &[&str]) {
     if entries.is_empty() {
         return;
@@ -40,7 +44,7 @@ fn write_entries(page: &mut String, entries: &[ReferenceEntry], titles: &[&str])
     for entry in entries {
         let flag = entry.term.starts_with('-');
         let gap = if entry.value.is_empty() || flag { " " } else { ": " };
-        let term = if flag { escape_html(&entry.term) } else { link_titles(&entry.term, titles) };
+        let term = if flag { escape_markup(&entry.term) } else { link_titles(&entry.term, titles) };
         let value = link_titles(&entry.value, titles);
         let note = &entry.note;
         page.push_str(&format!(
@@ -53,37 +57,34 @@ fn write_entries(page: &mut String, entries: &[ReferenceEntry], titles: &[&str])
     page.push_str("</dl>\n");
 }
 
+/// The fragment identifier of a section.
 fn section_anchor(title: &str) -> String {
     title.replace(' ', "-")
 }
 
-/// Words that are titles of sections become links to them, wherever they stand behind a bracket or a blank.
+/// Escapes text and turns words that are titles of sections into links to them.
 fn link_titles(text: &str, titles: &[&str]) -> String {
     let mut html = String::new();
     for (number, part) in text.split_inclusive(|c: char| !c.is_alphanumeric()).enumerate() {
         let word = part.trim_end_matches(|c: char| !c.is_alphanumeric());
-        let rest = escape_html(&part[word.len()..]);
-        // The first word of a variant is its own name.
+        let rest = escape_markup(&part[word.len()..]);
+        // The first word of a variant is its own name, not a type.
         let is_link = titles.contains(&word) && (number > 0 || !text.contains('('));
         if is_link {
             html.push_str(&format!("<a href=\"#{}\">{word}</a>{rest}", section_anchor(word)));
         } else {
-            html.push_str(&format!("{}{rest}", escape_html(word)));
+            html.push_str(&format!("{}{rest}", escape_markup(word)));
         }
     }
     html
 }
 
-/// What stands between backticks is code.
+/// Escapes text and turns backticks into `<code>`.
 fn mark_code(text: &str) -> String {
-    let parts = escape_html(text).split('`').map(str::to_owned).collect::<Vec<_>>();
+    let parts = escape_markup(text).split('`').map(str::to_owned).collect::<Vec<_>>();
     let part = |(number, part): (usize, &String)| match number % 2 {
         0 => part.clone(),
         _ => format!("<code>{part}</code>"),
     };
     parts.iter().enumerate().map(part).collect()
-}
-
-fn escape_html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -2,6 +2,7 @@
 
 use super::{ReferenceEntry, ReferenceSection};
 
+/// The document: a heading for each section, and a nested list of its entries.
 pub(super) fn format_markdown(title: &str, sections: &[ReferenceSection]) -> String {
     let mut page = format!("# {title}\n");
     for section in sections {
@@ -17,6 +18,7 @@ pub(super) fn format_markdown(title: &str, sections: &[ReferenceSection]) -> Str
     page
 }
 
+/// Appends an entry as a list item, then the entries inside.
 fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
     let value = match (entry.value.is_empty(), entry.term.starts_with('-')) {
         (true, _) => String::new(),
@@ -30,7 +32,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
     entry.inner.iter().for_each(|inner| write_entry(page, inner, depth + 1));
 }
 
-/// Outside of code, angle brackets and stars are text and not markup.
+/// Escapes angle brackets, stars and underscores outside of code spans.
 fn escape_markdown(text: &str) -> String {
     let parts = text.split('`').enumerate().map(|(number, part)| match number % 2 {
         0 => part.replace('<', "&lt;").replace('*', "\\*").replace('_', "\\_"),

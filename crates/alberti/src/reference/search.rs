@@ -1,12 +1,12 @@
-//! The part of the reference that somebody asks for by a word.
+//! Search in the reference by name, type or path of fields.
 
 use super::{ReferenceEntry, ReferenceSection};
 
-/// The sections and entries that `word` names: a section by its title; a path of fields from the scene on, with the types at its
-/// end; or entries of that name wherever they are.
+/// Finds the section with the title `word`, the end of a path of fields with its types, or all
+/// entries of that name.
 ///
 /// # Errors
-/// If there is nothing of that name: what there is that looks like it.
+/// If nothing has that name; the message suggests the most similar one.
 pub(super) fn find_sections(
     sections: &[ReferenceSection],
     word: &str,
@@ -22,14 +22,14 @@ pub(super) fn find_sections(
     if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
 }
 
-/// Whether it is the type or the command of this name.
+/// Whether a section describes the type or command of this name.
 fn is_titled(section: &ReferenceSection, word: &str) -> bool {
     let title = &section.title;
     title.eq_ignore_ascii_case(word)
         || title.strip_prefix("alberti ").is_some_and(|command| command == word)
 }
 
-/// The entries of one name, each under the title of its section.
+/// The sections reduced to entries of this name.
 fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let with = |section: &ReferenceSection| {
         let entries: Vec<ReferenceEntry> =
@@ -43,7 +43,7 @@ fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSecti
     sections.iter().filter_map(with).collect()
 }
 
-/// An entry of this name, or one with such entries inside, and no others.
+/// An entry of this name, or an entry reduced to inner entries of this name.
 fn prune_entry(entry: &ReferenceEntry, word: &str) -> Option<ReferenceEntry> {
     if is_named(entry, word) {
         return Some(entry.clone());
@@ -53,16 +53,20 @@ fn prune_entry(entry: &ReferenceEntry, word: &str) -> Option<ReferenceEntry> {
     (!inner.is_empty()).then(|| ReferenceEntry { inner, ..entry.clone() })
 }
 
+/// Whether an entry has this name; the dashes of a flag may be omitted.
 fn is_named(entry: &ReferenceEntry, word: &str) -> bool {
     entry_names(entry).any(|name| name == word || name.trim_start_matches('-') == word)
 }
 
-/// The name of a field or a variant, or the short and the long one of a flag.
+/// The name of a field or variant, or the short and long name of a flag.
 fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
     entry.term.split(", ").map(|name| name.split('(').next().unwrap_or(name))
 }
 
-/// The entries at the end of a path such as `camera.view.eye`; variants may be named on it or not.
+/// The entries at the end of a path such as `camera.view.eye`.
+///
+/// Variants on the path may be named or left out. The types of the values at the end are appended,
+/// so that `camera.view` describes `View` as well.
 fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceSection> {
     let is_scene = |section: &&ReferenceSection| section.title == "Scene";
     let mut scopes: Vec<ReferenceSection> = sections.iter().filter(is_scene).cloned().collect();
@@ -74,14 +78,14 @@ fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceS
             .flat_map(|part| open_entries(sections, part, &part.entries, step))
             .collect();
     }
-    // What can stand there.
+    // The types of the values at the end of the path.
     let types =
         scopes.into_iter().filter(|scope| found.iter().all(|part| part.title != scope.title));
     found.extend(types.collect::<Vec<_>>());
     found
 }
 
-/// What the entries of this name lead to: their own fields, and the types of their values.
+/// The scope below the entries of this name: their own fields, and the types of their values.
 fn open_entries(
     sections: &[ReferenceSection],
     part: &ReferenceSection,
@@ -101,6 +105,7 @@ fn open_entries(
     entries.iter().flat_map(open).collect()
 }
 
+/// The message for a word that nothing matches, with the most similar name as a hint.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     fn collect_names<'a>(entry: &'a ReferenceEntry, found: &mut Vec<&'a str>) {
         found.extend(entry_names(entry));

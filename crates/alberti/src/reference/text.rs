@@ -1,10 +1,11 @@
-//! The reference as text for a terminal.
+//! The reference as plain text for a terminal.
 
 use super::{ReferenceEntry, ReferenceSection};
 
-/// The width of a line.
+/// The width of a line in characters.
 const LINE_WIDTH: usize = 100;
 
+/// The text, a block for each section.
 pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     let mut page = String::new();
     for (number, section) in sections.iter().enumerate() {
@@ -19,6 +20,7 @@ pub(super) fn format_text(sections: &[ReferenceSection]) -> String {
     page
 }
 
+/// Appends an entry and, indented, its description and the entries inside.
 fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
     page.push_str(&" ".repeat(indent));
     page.push_str(&entry.term);
@@ -34,7 +36,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
     entry.inner.iter().for_each(|inner| write_entry(page, inner, indent + 4));
 }
 
-/// Paragraphs, broken between words.
+/// Appends paragraphs, wrapped at [`LINE_WIDTH`] and indented.
 fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
     for line in text.lines().filter(|line| !line.is_empty()) {
         let mut column = 0;

@@ -1,4 +1,7 @@
-//! Which pictures a call of `render` makes, and where each goes. All of it is known before work starts.
+//! The pictures that one call of `render` makes, planned before any work starts.
+//!
+//! Every output name is known up front, so that two pictures of one name are refused before the
+//! first is written.
 
 use crate::CliError;
 use crate::args::RenderArgs;
@@ -9,32 +12,35 @@ use clap::ValueEnum;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The words and the numbers that the name of an output may have.
+/// The text and number fields of an output name template.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
+/// The number fields of an output name template.
 const NUMBER_FIELDS: [&str; 2] = ["frame", "index"];
 
-/// A picture to make.
+/// One picture to render.
 #[derive(Debug)]
 pub(crate) struct RenderTask {
     /// The scene or the model; `-` for the standard input.
     pub(crate) input: PathBuf,
+    /// The scene overrides of this picture.
     pub(crate) overrides: SceneOverrideArgs,
+    /// The format of the file.
     pub(crate) format: OutputFormat,
     /// The file; `None` for the standard output.
     pub(crate) output: Option<PathBuf>,
 }
 
-/// Every picture, in the order of the inputs and of the views.
+/// Plans all pictures, in the order of the inputs, then of the views.
 ///
 /// # Errors
-/// If a name is no template, or two pictures have the same one.
+/// If the name is no valid template, or two pictures would have the same name.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
     let looks = overrides_per_view(args);
     let count = args.inputs.len() * looks.len();
     let to_stdout = args.output.as_deref() == Some(Path::new("-"));
     if to_stdout && count > 1 {
         return Err(CliError::Usage(format!(
-            "{count} pictures do not go to the standard output together\n  = help: write a template such as -o '{{stem}}.png'"
+            "cannot write {count} pictures to the standard output\n  = help: use a template such as -o '{{stem}}.png'"
         )));
     }
     let template = output_template(args)?;
@@ -60,7 +66,7 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     Ok(jobs)
 }
 
-/// A look for each view that is asked for.
+/// The overrides of each picture of an input: one for each of `--views`.
 fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
     if args.views.is_empty() {
         return vec![args.overrides.clone()];
@@ -73,7 +79,7 @@ fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
     args.views.iter().map(from).collect()
 }
 
-/// The output that is asked for, or the usual one.
+/// The template of the output name: that of `--output`, or the default.
 fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
     let ending = args.format.unwrap_or(OutputFormat::Png).extension();
     let usual = if args.views.len() > 1 {
@@ -86,7 +92,9 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
         .map_err(CliError::Usage)
 }
 
-/// What stands for a field of a template.
+/// The value of a text field of the template; `default` where no flag sets it.
+///
+/// The value of a flag is its name as written on the command line.
 fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
     let choice = |choice: &Option<pipeline::scene::file::Choice>| {
         choice.as_ref().map(|choice| match choice {
@@ -110,7 +118,7 @@ fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
     word.unwrap_or_else(|| "default".to_owned())
 }
 
-/// No two pictures may go to one file.
+/// Checks that no two pictures have the same file name.
 fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     let mut taken: BTreeMap<&Path, &RenderTask> = BTreeMap::new();
     for job in jobs {
@@ -119,7 +127,7 @@ fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
             let [first, second] = [first, job].map(|job| job.input.display());
             let output = output.display();
             return Err(CliError::Usage(format!(
-                "the pictures of {first} and {second} would both be {output}\n  = help: tell them apart in the name: -o '{{stem}}_{{index}}.png'"
+                "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{{stem}}_{{index}}.png'"
             )));
         }
     }

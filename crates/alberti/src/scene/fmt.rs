@@ -1,27 +1,28 @@
-//! `alberti scene fmt`: lays out scene files.
+//! `alberti scene fmt`: formats scene files.
 
 use crate::{CliError, print_stdout};
-use pipeline::scene::{format_source, parse_scene};
+use pipeline::scene::format_source;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Arguments of `alberti scene fmt`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FmtArgs {
     /// Scenes (.ron); `-` reads one from the standard input and writes it to the standard output
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Write nothing; name the files that are laid out otherwise, and end with 1 if there are any
+    /// Do not write; print the files that are not formatted, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }
 
+/// Formats the files, or with `--check` lists those that are not formatted.
 pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     let mut differ = Vec::new();
     for path in &args.files {
         let text = read_source(path)?;
         let name = path.display().to_string();
-        parse_scene(&name, &text).map_err(pipeline::ResolveError::from)?;
         let better = format_source(&name, &text).map_err(pipeline::ResolveError::from)?;
         let same = better == text;
         if !same {
@@ -41,6 +42,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     Ok(ExitCode::FAILURE)
 }
 
+/// Reads a file, or the standard input for `-`.
 fn read_source(path: &Path) -> Result<String, CliError> {
     let mut text = String::new();
     let read = if path.as_os_str() == "-" {

@@ -1,4 +1,4 @@
-//! `alberti scene init`: a scene file for a model, to go on from.
+//! `alberti scene init`: creates a commented scene file for a model.
 
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_stdout};
@@ -8,27 +8,29 @@ use pipeline::{Origin, ResolveError, Scene};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+/// Arguments of `alberti scene init`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct InitArgs {
-    /// A model (.gltf, .glb)
+    /// Model (.gltf, .glb)
     model: PathBuf,
-    /// Where the scene goes; `-` is the standard output [default: beside the model, with .ron]
+    /// Output file; `-` is the standard output [default: beside the model, with .ron]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Replace a file that is there
+    /// Replace an existing file
     #[arg(long)]
     force: bool,
     #[command(flatten)]
     load_options: LoadArgs,
 }
 
+/// Writes the scene file, and warns if it cannot be read without further permission.
 pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";
     if !to_stdout && !args.force && output.exists() {
         let name = output.display();
         return Err(CliError::Usage(format!(
-            "{name} is there already\n  = help: choose another name with -o FILE, or replace it with --force"
+            "{name} already exists\n  = help: choose another name with -o FILE, or replace it with --force"
         )));
     }
     let (origin, file) = Origin::from_model_path(&args.model);
@@ -49,14 +51,17 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     if path.starts_with("..") || Path::new(&path).is_absolute() {
         let folder = args.model.parent().unwrap_or(Path::new(".")).display();
         let message = format!(
-            "the model is not below the scene's folder: give --allow-outside {folder} to whoever reads it"
+            "the model is not below the scene's folder: commands that read the scene need --allow-outside {folder}"
         );
         print_message("warning", &message);
     }
     Ok(())
 }
 
-/// The path of a file as it is written in a scene of this folder, with `/` between its parts.
+/// The path of a file relative to the folder of the scene, with `/` as separator.
+///
+/// Both paths are made canonical first, so that symbolic links and `..` in the current folder do
+/// not matter.
 fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
@@ -69,7 +74,10 @@ fn relative_path(folder: &Path, file: &Path) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
-/// The text of the scene. Writing to a `String` cannot fail.
+/// The text of the scene, before formatting.
+///
+/// Every comment that shows a field is valid RON, so that removing the slashes is enough to try it.
+/// Writing to a `String` cannot fail.
 fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     let placed = &scene.models[0];
     let model = &placed.model;
@@ -77,15 +85,15 @@ fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     let _ = write!(text, "Scene(\nmodels: [\nModel(\npath: {path:?},\n");
     write_model_states(&mut text, model);
     text.push_str(
-        "// translate: (0, 0, 0), rotate_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
+        "// translation: (0, 0, 0), rotation_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
     );
     write_views(&mut text, scene);
     text.push_str("// or Orthographic(), Isometric, Cavalier(), TwoPoint() …\nprojection: Perspective(fov_y_degrees: 35),\n),\n");
     if model.lights.is_empty() {
-        text.push_str("// Lux of a sun, besides the light from all around; a white matt surface shows lux / π.\n");
-        text.push_str("// lights: [Sun(direction: (-1, -2, -1), lux: 2.6)],\n");
+        text.push_str("// The intensity of a directional light is in lux; a white matte surface shows intensity / π.\n");
+        text.push_str("// lights: [Directional(direction: (-1, -2, -1), intensity: 2.6)],\n");
     } else {
-        text.push_str("// The lights of the model; more can be added: Sun(direction: (-1, -2, -1), lux: 2.6).\n");
+        text.push_str("// The lights of the model; more can be added: Directional(direction: (-1, -2, -1), intensity: 2.6).\n");
         text.push_str("lights: [FromModels],\n");
     }
     text.push_str(
@@ -96,7 +104,7 @@ fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     text
 }
 
-/// What the model is, and what to do with the scene.
+/// The comment at the top: the size of the model, and commands to go on with.
 fn header_comment(model: &Model, path: &str, output: &str) -> String {
     let triangles =
         model.scene_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
@@ -106,14 +114,14 @@ fn header_comment(model: &Model, path: &str, output: &str) -> String {
     let [x, y, z] = size;
     format!(
         "// {}: {triangles} triangles, {x:.3} wide, {y:.3} high, {z:.3} deep.\n\
-         // Draw it: alberti render {output}\n\
-         // What is wrong with it: alberti scene check {output}\n\
-         // What else it may say: alberti scene doc\n",
+         // Render: alberti render {output}\n\
+         // Validate: alberti scene check {output}\n\
+         // Reference of all fields: alberti scene doc\n",
         single_line(path)
     )
 }
 
-/// The states that the model's file offers.
+/// Writes comments for the scenes, variants and animations that the model offers.
 fn write_model_states(text: &mut String, model: &Model) {
     let names = |all: Vec<Option<&str>>, field: &str, text: &mut String| {
         for (number, name) in all.into_iter().enumerate() {
@@ -137,7 +145,10 @@ fn write_model_states(text: &mut String, model: &Model) {
     }
 }
 
-/// The view that frames everything, the same in numbers, and the cameras of the model.
+/// Writes the default view, with the equivalent `LookAt` and the model's cameras as comments.
+///
+/// The target of the `LookAt` is the point on the view axis that is nearest to the center of the
+/// model.
 fn write_views(text: &mut String, scene: &Scene) {
     let model = &scene.models[0].model;
     let camera = scene.view_projection.camera;
@@ -165,7 +176,7 @@ fn write_views(text: &mut String, scene: &Scene) {
     }
 }
 
-/// A name that cannot end a comment.
+/// Replaces control characters, so that a name cannot end the line of a comment.
 fn single_line(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -1,32 +1,48 @@
-//! The axes of charts: where a value is, and which values are named.
+//! Chart axes: linear and logarithmic scales, and round ticks.
+//!
+//! ```text
+//!   linear       position = (v − from) / (to − from)
+//!   logarithmic  position = log(v / from) / log(to / from)
+//! ```
+//!
+//! Ticks are round numbers, few enough to label (Heckbert, *Nice Numbers for Graph Labels*, 1990):
+//! multiples of 1, 2 or 5 times a power of ten.
 
 /// The most ticks of an axis.
 const MAX_TICKS: usize = 9;
 
-/// An axis.
+/// An axis of a chart.
+///
+/// ```
+/// use drawing::{Axis, Spacing};
+///
+/// let axis = Axis { title: "w".into(), from: 1.0, to: 100.0, spacing: Spacing::Logarithmic };
+/// assert_eq!(axis.ticks(), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]);
+/// assert_eq!(axis.fraction_at(10.0), 0.5);
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axis {
-    /// What it measures.
+    /// The quantity it shows.
     pub title: String,
-    /// The value where it begins; with logarithms greater than 0.
+    /// The value at its start; greater than 0 on a logarithmic axis.
     pub from: f64,
-    /// The value where it ends, greater than that.
+    /// The value at its end, greater than `from`.
     pub to: f64,
-    /// How values are spaced.
+    /// Linear or logarithmic.
     pub spacing: Spacing,
 }
 
-/// How the values of an axis are spaced.
+/// The spacing of values on an axis.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Spacing {
-    /// Equal differences.
+    /// Equal distances for equal differences.
     Linear,
-    /// Equal ratios.
+    /// Equal distances for equal ratios.
     Logarithmic,
 }
 
 impl Axis {
-    /// Where a value is on the axis: 0 at its begin, 1 at its end. What is beside it is brought to the ends.
+    /// The position of a value on the axis: 0 at its start, 1 at its end; clamped to that range.
     #[must_use]
     pub fn fraction_at(&self, value: f64) -> f64 {
         let part = match self.spacing {
@@ -39,7 +55,7 @@ impl Axis {
         if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) }
     }
 
-    /// The values that are named: round ones, rising, nine at most.
+    /// Round values in rising order, at most nine.
     #[must_use]
     pub fn ticks(&self) -> Vec<f64> {
         match self.spacing {
@@ -48,17 +64,21 @@ impl Axis {
         }
     }
 
+    /// Ticks at multiples of 1, 2 or 5 · 10ⁿ, with the smallest step that gives at most nine.
+    ///
+    /// Values are quotients where the step is a fraction: 3 / 10 has the bits of 0.3, while 3 · 0.1
+    /// has not.
     fn linear_ticks(&self) -> Vec<f64> {
         let span = self.to - self.from;
         let power = libm::floor(libm::log10(span)) as i32;
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
             let step = nearest_decimal(digit, power);
-            // Half a thousandth of a step beside the ends is at the ends.
+            // Ticks within half a thousandth of a step of the ends are at the ends.
             let first = libm::ceil(self.from / step - 5e-4) as i64;
             let last = libm::floor(self.to / step + 5e-4) as i64;
             if last - first < MAX_TICKS as i64 {
-                // By a quotient where the step is a fraction: 3 / 10 is the number that 0.3 is written as.
+                // A quotient where the step is a fraction: 3 / 10 has the bits of the literal 0.3.
                 let value = |n: i64| match power {
                     ..0 => n as f64 * digit / power_of_ten(-power),
                     _ => n as f64 * step,
@@ -69,6 +89,8 @@ impl Axis {
         vec![self.from, self.to]
     }
 
+    /// Ticks at 1, 2 and 5 · 10ⁿ, or at every k-th power of ten where those are too many; linear
+    /// where they are too few.
     fn logarithmic_ticks(&self) -> Vec<f64> {
         let [low, high] = [self.from, self.to].map(|end| libm::floor(libm::log10(end)) as i32);
         let fitting = |digits: &[f64], every: i32| -> Vec<f64> {
@@ -98,7 +120,7 @@ fn power_of_ten(power: i32) -> f64 {
     nearest_decimal(1.0, power)
 }
 
-/// A round number as short as it can be written.
+/// A round number, as short as it can be written.
 pub(super) fn format_tick(value: f64) -> String {
     let value = value + 0.0;
     let size = value.abs();
@@ -136,24 +158,24 @@ mod tests {
             for power in -300..300 {
                 for ratio in [1.001, 1.5, 7.0, 1e3, 1e7] {
                     let from = power_of_ten(power) * 1.7;
-                    let found = ticks(from, from * ratio, spacing);
-                    assert!((2..=MAX_TICKS).contains(&found.len()), "{from} {ratio} {found:?}");
-                    assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+                    let actual = ticks(from, from * ratio, spacing);
+                    assert!((2..=MAX_TICKS).contains(&actual.len()), "{from} {ratio} {actual:?}");
+                    assert!(actual.windows(2).all(|pair| pair[0] < pair[1]), "{actual:?}");
                     if (-9..9).contains(&power) && ratio > 1.4 {
                         let long =
-                            found.iter().map(|tick| format_tick(*tick)).find(|t| t.len() > 7);
+                            actual.iter().map(|tick| format_tick(*tick)).find(|t| t.len() > 7);
                         assert_eq!(long, None, "{from} {ratio} {spacing:?}");
                     }
-                    let room = from * (ratio - 1.0) * 1e-3;
-                    let on_axis = from - room..=from * ratio + room;
-                    assert!(found.iter().all(|tick| on_axis.contains(tick)), "{from} {found:?}");
+                    let tolerance = from * (ratio - 1.0) * 1e-3;
+                    let on_axis = from - tolerance..=from * ratio + tolerance;
+                    assert!(actual.iter().all(|tick| on_axis.contains(tick)), "{from} {actual:?}");
                 }
             }
         }
     }
 
     #[test]
-    fn numbers_are_written_short() {
+    fn ticks_are_formatted_short() {
         let texts = [0.0, -0.0, 0.3, 1e-7, 2e5, 1000.0].map(format_tick);
         assert_eq!(texts, ["0", "0", "0.3", "1e-7", "2e5", "1000"]);
     }

@@ -1,4 +1,16 @@
-//! Why an edge is drawn: what the faces on its two sides do there.
+//! Classification of edges: silhouette, boundary, crease, tangent, facet, marked or section.
+//!
+//! ```text
+//!       silhouette          crease               boundary         tangent
+//!       n·v > 0 > m·v       angle(n, m) > crease one face         materials differ
+//!         ╲ n               ╲n ╱m                │n               n│m
+//!       ───●                 ──●──               ─●               ─●─
+//!          │ m
+//! ```
+//!
+//! The test for silhouettes is the sign of n·v in object space, which is exact for perspective and
+//! parallel projection alike; on the screen it would be the sign of a difference of rounded
+//! products.
 
 use super::half_edges::HalfEdge;
 use super::world_mesh::{Face, WorldMesh};
@@ -7,30 +19,35 @@ use crate::{DrawOptions, EdgeClass};
 use glam::DVec3;
 use model::EdgeVisibility;
 
-/// Of each face the unit normal, and whether it looks to the viewer.
+/// The unit normal of each face, and whether the face is front-facing.
 #[derive(Clone, Debug)]
 struct FaceNormals(Vec<(DVec3, bool)>);
 
 impl FaceNormals {
-    fn new(shape: &WorldMesh, sight: &Projector) -> Self {
+    /// Computes normals, and their signs towards the viewer, for all faces.
+    fn new(mesh: &WorldMesh, projector: &Projector) -> Self {
         let normal = |face: &Face| {
-            let [a, b, c] = face.vertices.map(|corner| shape.points[corner as usize]);
+            let [a, b, c] = face.vertices.map(|vertex| mesh.points[vertex as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero();
-            (normal, normal.dot(sight.towards_viewer(a)) > 0.0)
+            (normal, normal.dot(projector.towards_viewer(a)) > 0.0)
         };
-        Self(shape.faces.iter().map(normal).collect())
+        Self(mesh.faces.iter().map(normal).collect())
     }
 
-    /// The normal and the look of a side's face, as if it ran along the rising edge.
+    /// The normal and facing of the face at a half-edge, flipped where the half-edge runs backward.
+    ///
+    /// Seen along the edge from its lower to its higher end, the faces at both sides then need no
+    /// common orientation: meshes with inconsistent winding classify like others.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
-        let (normal, looks) = self.0[side.face as usize];
-        if side.is_forward { (normal, looks) } else { (-normal, !looks) }
+        let (normal, is_front) = self.0[side.face as usize];
+        if side.is_forward { (normal, is_front) } else { (-normal, !is_front) }
     }
 }
 
+/// Names the class of each edge for one viewer.
 pub(super) struct EdgeClassifier<'a> {
     faces: &'a [Face],
-    /// The edges that sections made, sorted.
+    /// The edges that section planes made, sorted.
     section_edges: &'a [[u32; 2]],
     normals: FaceNormals,
     /// The cosine of the crease angle.
@@ -38,47 +55,56 @@ pub(super) struct EdgeClassifier<'a> {
 }
 
 impl<'a> EdgeClassifier<'a> {
-    pub(super) fn new(shape: &'a WorldMesh, sight: &Projector, options: &DrawOptions) -> Self {
-        let normals = FaceNormals::new(shape, sight);
+    /// A classifier of a mesh's edges for a viewer and its crease angle.
+    pub(super) fn new(mesh: &'a WorldMesh, projector: &Projector, options: &DrawOptions) -> Self {
+        let normals = FaceNormals::new(mesh, projector);
         Self {
-            faces: &shape.faces,
-            section_edges: &shape.section_edges,
+            faces: &mesh.faces,
+            section_edges: &mesh.section_edges,
             normals,
             crease_cosine: libm::cos(options.crease_angle),
         }
     }
 
+    /// The face at a half-edge.
     fn face_of_half_edge(&self, side: HalfEdge) -> &Face {
         &self.faces[side.face as usize]
     }
 
-    /// The first of the objects that meet at an edge.
+    /// The lowest index of the objects that meet at an edge: the edge is drawn as a part of that
+    /// one.
     pub(super) fn lowest_object(&self, sides: &[HalfEdge]) -> u32 {
         sides.iter().map(|&side| self.face_of_half_edge(side).object).min().unwrap_or(0)
     }
 
+    /// The class of an edge: section, then what the file says, then the geometry.
     pub(super) fn classify_edge(&self, ends: [u32; 2], sides: &[HalfEdge]) -> EdgeClass {
         if self.section_edges.binary_search(&ends).is_ok() {
             return EdgeClass::Section;
         }
-        let shape = self.class_by_geometry(sides);
+        let mesh = self.class_by_geometry(sides);
         let mark = |&side: &HalfEdge| {
             Some(self.face_of_half_edge(side).edge_visibility?[usize::from(side.side)])
         };
-        match (sides.iter().filter_map(mark).max(), shape) {
-            (None, shape) => shape,
+        match (sides.iter().filter_map(mark).max(), mesh) {
+            (None, mesh) => mesh,
             (Some(EdgeVisibility::Hard | EdgeVisibility::RepeatedHard), _) => EdgeClass::Marked,
             (Some(EdgeVisibility::Silhouette), EdgeClass::Silhouette) => EdgeClass::Silhouette,
             _ => EdgeClass::Facet,
         }
     }
 
-    /// The class by the shape alone: the strongest that any object has there. Borders of two objects make a pair.
+    /// The class by the faces alone: the strongest that any object has at the edge.
+    ///
+    /// With two half-edges it is the class between their faces. With more, each object is judged
+    /// for itself: two of its faces make a pair, three or more a crease, one is unpaired. Two
+    /// unpaired faces of different objects are a pair as well, so that a body modeled in several
+    /// objects has no boundaries inside.
     fn class_by_geometry(&self, sides: &[HalfEdge]) -> EdgeClass {
         if let &[one, other] = sides {
             return self.class_between(one, other);
         }
-        // A third face of an object makes more than a surface of it.
+        // Three faces of one object at an edge are not a manifold surface.
         let of_object = |object| {
             sides.iter().filter(move |&&side| self.face_of_half_edge(side).object == object)
         };
@@ -102,12 +128,16 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
-    /// The class of an edge between two faces.
+    /// The class of the edge between two faces: silhouette, crease, tangent (materials differ) or
+    /// facet.
+    ///
+    /// With both normals taken along the edge, those of a smooth surface are opposite: n·(−m) is
+    /// the cosine of the dihedral angle, and facing flags that *agree* mark a silhouette.
     fn class_between(&self, one: HalfEdge, other: HalfEdge) -> EdgeClass {
-        let ((n, looks), (m, other_looks)) =
+        let ((n, is_front), (m, other_is_front)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));
-        // As if both ran along the rising edge: then one of the normals of a smooth surface points inwards.
-        if looks == other_looks {
+        // Both normals are taken along the rising edge: on a smooth surface they are opposite.
+        if is_front == other_is_front {
             EdgeClass::Silhouette
         } else if n.dot(-m) < self.crease_cosine {
             EdgeClass::Crease

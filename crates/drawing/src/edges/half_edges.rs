@@ -1,28 +1,39 @@
-//! The edges between welded points, each with the faces that end there.
+//! Half-edge table: the sides of all faces, sorted by their end vertices.
+//!
+//! Each edge of a welded mesh is a run of half-edges with the same two ends: one for a boundary,
+//! two on a manifold surface, more where surfaces join. A counting sort by the lower end builds the
+//! table in linear time; only the few half-edges of one vertex are compared.
 
 use super::world_mesh::Face;
 
-/// A side of a face.
+/// One side of one face.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct HalfEdge {
-    /// The end with the greater number.
+    /// The end with the higher index; the table knows the lower one.
     pub(super) high_vertex: u32,
+    /// The index of the face.
     pub(super) face: u32,
-    /// Which side of the face it is.
+    /// Which side of the face: 0 from its first vertex to the second, and so on.
     pub(super) side: u8,
-    /// Whether the face runs from the end with the lesser number to the other.
+    /// Whether the face runs from the lower end to the higher. On an oriented manifold the two
+    /// half-edges of an edge differ in it.
     pub(super) is_forward: bool,
 }
 
-/// The sides of all faces, sorted by their ends.
+/// The half-edges of all faces, sorted by their ends.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HalfEdges {
-    /// Where in `all` the sides of each point begin that have it as their end with the lesser number.
+    /// For each vertex, where in `half_edges` the half-edges begin that have it as their lower end.
     starts: Vec<u32>,
+    /// Sorted by lower end, higher end, face and side.
     half_edges: Vec<HalfEdge>,
 }
 
 impl HalfEdges {
+    /// Builds the table of faces whose vertex indices are below `points`.
+    ///
+    /// A counting sort: count the half-edges of each lower end, sum up to starts, place each
+    /// half-edge, then sort the run of each vertex.
     pub(super) fn new(faces: &[Face], points: usize) -> Self {
         let mut starts = vec![0_u32; points + 2];
         let low = |[a, b]: [u32; 2]| a.min(b) as usize;
@@ -34,13 +45,13 @@ impl HalfEdges {
         }
         let none = HalfEdge { high_vertex: 0, face: 0, side: 0, is_forward: false };
         let mut half_edges = vec![none; faces.len() * 3];
-        for (face, number) in faces.iter().zip(0..) {
+        for (face, index) in faces.iter().zip(0..) {
             for (ends, side) in face_sides(face).into_iter().zip(0..) {
                 let slot = &mut starts[low(ends) + 1];
                 let [from, to] = ends;
                 half_edges[*slot as usize] = HalfEdge {
                     high_vertex: from.max(to),
-                    face: number,
+                    face: index,
                     side,
                     is_forward: from < to,
                 };
@@ -53,7 +64,7 @@ impl HalfEdges {
         Self { starts, half_edges }
     }
 
-    /// The edges in the order of their ends, each with its sides.
+    /// The edges in the order of their ends, each with its half-edges.
     pub(super) fn edges(&self) -> impl Iterator<Item = ([u32; 2], &[HalfEdge])> {
         self.starts.windows(2).zip(0..).flat_map(|(range, low)| {
             let here = &self.half_edges[range[0] as usize..range[1] as usize];
@@ -63,6 +74,7 @@ impl HalfEdges {
     }
 }
 
+/// The three sides of a face as pairs of vertices.
 fn face_sides(face: &Face) -> [[u32; 2]; 3] {
     let [a, b, c] = face.vertices;
     [[a, b], [b, c], [c, a]]

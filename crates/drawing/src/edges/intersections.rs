@@ -1,9 +1,17 @@
-//! Where surfaces cross: the lines that two triangles have in common (Möller, *A fast triangle-triangle intersection
-//! test*, 1997).
+//! Intersection edges: the segments in which faces cross each other.
 //!
-//! Each triangle cuts the plane of the other in a segment; both segments lie on the line where the planes meet, and what
-//! they share is the crossing. Triangles in one plane, or that only touch, do not cross, and nor do those so nearly in one
-//! plane that their crossing is made by rounding: decals, and copies of a surface.
+//! The test is that of Möller, *A fast triangle-triangle intersection test* (1997). Each triangle
+//! cuts the plane of the other in a segment; both segments lie on the line in which the planes
+//! meet, and their overlap is the intersection.
+//!
+//! ```text
+//!         ╱│           c ├─────────┤ d          this triangle's segment on the common line
+//!    ────╱─┼────             a ├──────────┤ b   the other's
+//!       ╱  │                   ├───┤            the intersection: max(a, c) to min(b, d)
+//! ```
+//!
+//! Triangles that are coplanar, or only touch, do not intersect. Nor do triangles so nearly
+//! coplanar that the segment would be an effect of rounding: decals, and copies of a surface.
 
 use super::seams::{BorderEdge, WeldRadii, half_surface_area};
 use super::world_mesh::{Face, WorldMesh};
@@ -12,91 +20,103 @@ use crate::parallel::map_in_order;
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Triangles nowhere farther than this from each other's planes are in one plane: in the distances that only touch.
+/// Triangles nowhere farther from each other's planes than this many touching distances are
+/// coplanar.
 const COPLANAR_FACTOR: f64 = 512.0;
 
-/// The least sine of the angle between planes that cross: about one degree.
+/// The least sine of the angle between planes that intersect: about one degree.
 const MIN_PLANE_SINE: f64 = 1.0 / 64.0;
 
-/// A crossing: its ends, and the lesser number of the faces' objects.
+/// An intersection edge: its ends in the world, and the lower index of the two objects.
 pub(super) type IntersectionSegment = ([DVec3; 2], u32);
 
-/// The crossings that were found.
+/// The intersection edges of a mesh.
+#[derive(Clone, Debug)]
 pub(super) struct Intersections {
+    /// In the order of the faces.
     pub(super) segments: Vec<IntersectionSegment>,
-    /// Whether there were so many that the search was cut off.
+    /// Whether the search ended early because there were too many.
     pub(super) is_cut_off: bool,
 }
 
-/// About as many crossings are found at most.
+/// About the greatest number of intersections that are found.
 const MAX_INTERSECTIONS: usize = 1 << 22;
 
-/// All crossings of a shape's faces, in the order of the faces. What is nearer than `touching` only touches. Crossings along
-/// borders of both, nearer than twice what may be welded, are left out: the borders are drawn.
+/// Finds all intersection edges of a mesh's faces, with up to `threads` threads.
+///
+/// Faces nearer than `touching` only touch. Intersections along boundaries of both faces are left
+/// out, for the boundaries are drawn. Of each pair the face with the smaller box asks for the
+/// larger: large faces are few wherever one looks. The work is bounded by [`Bvh::query_budget`] and
+/// [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
 pub(super) fn intersect_faces(
-    shape: &WorldMesh,
-    (borders, reach): (&[BorderEdge], &WeldRadii),
+    mesh: &WorldMesh,
+    (borders, weld_radii): (&[BorderEdge], &WeldRadii),
     touching: f64,
     threads: usize,
 ) -> Intersections {
     let mut triangles: Vec<IntersectionTriangle> =
-        shape.faces.iter().map(|face| IntersectionTriangle::from_face(shape, face)).collect();
+        mesh.faces.iter().map(|face| IntersectionTriangle::from_face(mesh, face)).collect();
     for (ends, side) in borders {
         let triangle = &mut triangles[side.face as usize];
         triangle.borders[usize::from(side.side)] = true;
-        triangle.border_distance = 2.0 * reach.edge_radius(*ends);
+        triangle.border_distance = 2.0 * weld_radii.edge_radius(*ends);
     }
     let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::from_points(t.vertices)).collect();
-    let tree = Bvh::new(&boxes, half_surface_area);
-    // The lesser of two asks for the greater, of which there are few where it is.
-    let size = |at: usize| (half_surface_area(boxes[at].max - boxes[at].min), at);
-    let count = shape.faces.len();
-    let (most, most_crossed) =
-        (Bvh::query_budget(count), (MAX_INTERSECTIONS / count.max(1)).max(16));
+    let bvh = Bvh::new(&boxes, half_surface_area);
+    // Each pair is tested once, by the smaller box: few large boxes overlap it.
+    let size = |face: usize| (half_surface_area(boxes[face].max - boxes[face].min), face);
+    let count = mesh.faces.len();
+    let budget = Bvh::query_budget(count);
+    let most_per_face = (MAX_INTERSECTIONS / count.max(1)).max(16);
     let is_cut_off = AtomicBool::new(false);
-    let crossings = map_in_order(count, threads, |range, open: &mut Vec<u32>, found| {
+    let segments = map_in_order(count, threads, |range, stack: &mut Vec<u32>, segments| {
         for one in range {
-            let before = found.len();
-            let visited = tree.for_each_overlapping(&boxes[one], most, open, |other| {
+            let before = segments.len();
+            let visited = bvh.for_each_overlapping(&boxes[one], budget, stack, |other| {
                 let other = other as usize;
-                let faces = [&shape.faces[one], &shape.faces[other]];
-                let is_asked = size(one) < size(other) && found.len() - before < most_crossed;
-                if !is_asked || shares_edge(faces) {
-                    return;
+                let faces = [&mesh.faces[one], &mesh.faces[other]];
+                let is_asked = size(one) < size(other) && segments.len() - before < most_per_face;
+                if is_asked && !shares_edge(faces) {
+                    let segment = triangles[one].intersect_triangle(&triangles[other], touching);
+                    let object = faces[0].object.min(faces[1].object);
+                    segments.extend(segment.map(|ends| (ends, object)));
                 }
-                let crossing = triangles[one].intersect_triangle(&triangles[other], touching);
-                found.extend(crossing.map(|ends| (ends, faces[0].object.min(faces[1].object))));
             });
-            if !visited || found.len() - before >= most_crossed {
+            if !visited || segments.len() - before >= most_per_face {
                 is_cut_off.store(true, Ordering::Relaxed);
             }
         }
     });
-    Intersections { segments: crossings, is_cut_off: is_cut_off.into_inner() }
+    Intersections { segments, is_cut_off: is_cut_off.into_inner() }
 }
 
+/// Whether two faces share two vertices: neighbors meet in an edge and do not intersect.
 fn shares_edge([one, other]: [&Face; 2]) -> bool {
-    one.vertices.iter().filter(|corner| other.vertices.contains(corner)).count() > 1
+    one.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count() > 1
 }
 
+/// A triangle with what the intersection test needs of it.
 #[derive(Clone, Copy, Debug)]
 struct IntersectionTriangle {
     vertices: [DVec3; 3],
+    /// The unit normal.
     normal: DVec3,
-    /// Which sides are borders.
+    /// Which sides are boundary edges.
     borders: [bool; 3],
-    /// What is nearer than this to a border is on it.
+    /// A point nearer than this to a boundary side is on it.
     border_distance: f64,
 }
 
 impl IntersectionTriangle {
-    fn from_face(shape: &WorldMesh, face: &Face) -> Self {
-        let vertices = face.vertices.map(|corner| shape.points[corner as usize]);
+    /// The triangle of a face, without boundary sides.
+    fn from_face(mesh: &WorldMesh, face: &Face) -> Self {
+        let vertices = face.vertices.map(|vertex| mesh.points[vertex as usize]);
         let [a, b, c] = vertices;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         Self { vertices, normal, borders: [false; 3], border_distance: 0.0 }
     }
 
+    /// The segment in which two triangles intersect; `None` if they do not, touch, or are coplanar.
     fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
         let heights =
             [self.distances_to_plane(other, touching), other.distances_to_plane(self, touching)];
@@ -120,7 +140,7 @@ impl IntersectionTriangle {
         (is_long && !is_seam()).then_some(ends)
     }
 
-    /// Whether a segment runs along a border.
+    /// Whether both ends of a segment are on one boundary side.
     fn runs_along_border(&self, ends: [DVec3; 2]) -> bool {
         let is_on = |k: usize| {
             let (from, to) = (self.vertices[k], self.vertices[(k + 1) % 3]);
@@ -132,15 +152,17 @@ impl IntersectionTriangle {
         (0..3).any(|k| self.borders[k] && is_on(k))
     }
 
-    /// How far the corners are above another triangle's plane.
+    /// The signed distances of the vertices from another triangle's plane, with those below
+    /// `touching` made zero.
     fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
-        self.vertices.map(|corner| {
-            let height = other.normal.dot(corner - other.vertices[0]);
+        self.vertices.map(|vertex| {
+            let height = other.normal.dot(vertex - other.vertices[0]);
             if height.abs() <= touching { 0.0 } else { height }
         })
     }
 
-    /// Where the triangle cuts the plane that its corners are so high above; `None` if it is on one side of it.
+    /// The segment of the triangle where a linear function with these vertex values is zero; `None`
+    /// if it has one sign.
     fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
         let lowest = heights.into_iter().fold(f64::INFINITY, f64::min);
         let highest = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);

@@ -1,10 +1,13 @@
-//! Seams: borders of surfaces that only look like borders, because the file does not say that they belong together.
+//! Seams: false boundaries closed by near welding and by cutting edges at T-junctions.
 //!
 //! ```text
-//!   ●───────●───────●   Three faces above, two below: no side of the upper ones is a side of the lower ones. Cut at each
-//!   ●────●─────●────●   other's vertices they are (T-junctions).
+//!   ●───────●───────●     two faces above, three below: no side of the upper ones
+//!   ●────●─────●────●     is a side of the lower ones until both are cut at the T-junctions
 //! ```
-//! Only borders are looked at, so that closed surfaces stay as they are, however fine.
+//!
+//! Only boundary edges are examined, so a closed surface stays as it is, however fine its
+//! triangles. A boundary that finds its partner here is classified like any other edge; one that
+//! does not is drawn.
 
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::weld::remap_vertices;
@@ -12,134 +15,153 @@ use super::world_mesh::{Face, WorldMesh};
 use crate::hidden_line::{Aabb, Bvh};
 use glam::DVec3;
 
-/// Points of borders nearer than this are one, in diagonals of the smaller of their objects: what quantisation to 12 bits
-/// may part.
+/// The weld radius in diagonals of an object: 1/4096, the step of positions quantized to 12 bits.
 pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 
-/// An edge that one face alone has, or a part of it.
+/// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
+/// half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
 
-/// Of each point the greatest distance at which it may be one with another.
+/// The weld radius of each vertex: within this distance another boundary vertex may be the same
+/// one.
+///
+/// The radius is relative to the object, since each is quantized in its own bounding box; where
+/// objects share a vertex the smaller counts.
 #[derive(Clone, Debug)]
 pub(super) struct WeldRadii(Vec<f64>);
 
 impl WeldRadii {
-    pub(super) fn from_mesh(shape: &WorldMesh) -> Self {
-        let mut boxes = vec![Aabb::EMPTY; shape.objects.len()];
-        let corners =
-            || shape.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
-        for (corner, object) in corners() {
+    /// The radii of all vertices of a mesh; infinite for vertices without a face.
+    pub(super) fn from_mesh(mesh: &WorldMesh) -> Self {
+        let mut boxes = vec![Aabb::EMPTY; mesh.objects.len()];
+        let vertices =
+            || mesh.faces.iter().flat_map(|f| f.vertices.map(|c| (c as usize, f.object)));
+        for (vertex, object) in vertices() {
             let bounds = &mut boxes[object as usize];
-            *bounds = bounds.union(Aabb::from_points([shape.points[corner]]));
+            *bounds = bounds.union(Aabb::from_points([mesh.points[vertex]]));
         }
-        let mut reach = vec![f64::INFINITY; shape.points.len()];
-        for (corner, object) in corners() {
+        let mut radii = vec![f64::INFINITY; mesh.points.len()];
+        for (vertex, object) in vertices() {
             let bounds = boxes[object as usize];
-            reach[corner] = reach[corner].min((bounds.max - bounds.min).length() * WELD_FRACTION);
+            radii[vertex] = radii[vertex].min((bounds.max - bounds.min).length() * WELD_FRACTION);
         }
-        Self(reach)
+        Self(radii)
     }
 
-    /// The lesser of those of two ends.
+    /// The lesser radius of the two ends of an edge.
     pub(super) fn edge_radius(&self, [a, b]: [u32; 2]) -> f64 {
         self.0[a as usize].min(self.0[b as usize])
     }
 }
 
-/// The edges that one face alone has.
+/// The edges with a single half-edge.
 pub(super) fn border_edges(sides: &HalfEdges) -> Vec<BorderEdge> {
     let alone = sides.edges().filter(|(_, sides)| sides.len() == 1);
     alone.map(|(ends, sides)| (ends, sides[0])).collect()
 }
 
-/// Makes points of borders that nearly coincide one. True if there were any.
+/// Welds boundary vertices that are within each other's weld radius; `true` if there were any.
+///
+/// Vertices are visited by index, and each one takes in its unwelded neighbors, found by a BVH over
+/// the points. A chain of near vertices does not collapse into one, because a vertex that was taken
+/// in does not search again.
 pub(super) fn weld_near_borders(
-    shape: &mut WorldMesh,
+    mesh: &mut WorldMesh,
     borders: &[BorderEdge],
-    reach: &WeldRadii,
+    radii: &WeldRadii,
 ) -> bool {
     let points = border_vertices(borders);
     let boxes: Vec<Aabb> =
-        points.iter().map(|&at| Aabb::from_points([shape.points[at as usize]])).collect();
-    let tree = Bvh::new(&boxes, half_surface_area);
-    let mut same: Vec<u32> = (0..shape.points.len() as u32).collect();
+        points.iter().map(|&vertex| Aabb::from_points([mesh.points[vertex as usize]])).collect();
+    let bvh = Bvh::new(&boxes, half_surface_area);
+    let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();
     let mut is_taken = vec![false; points.len()];
-    let mut open = Vec::new();
-    let mut any = false;
-    for (number, &at) in points.iter().enumerate() {
-        if is_taken[number] {
+    let mut stack = Vec::new();
+    let mut has_welded = false;
+    for (index, &vertex) in points.iter().enumerate() {
+        if is_taken[index] {
             continue;
         }
-        let (here, far) = (boxes[number].min, reach.0[at as usize]);
-        let area = boxes[number].expanded_by(DVec3::splat(far));
-        tree.for_each_overlapping(&area, usize::MAX, &mut open, |item| {
+        let (position, radius) = (boxes[index].min, radii.0[vertex as usize]);
+        let area = boxes[index].expanded_by(DVec3::splat(radius));
+        bvh.for_each_overlapping(&area, usize::MAX, &mut stack, |item| {
             let other = points[item as usize];
-            let radius = far.min(reach.0[other as usize]);
-            let is_near = (boxes[item as usize].min - here).length() <= radius;
-            if item as usize > number && !is_taken[item as usize] && is_near {
+            let radius = radius.min(radii.0[other as usize]);
+            let is_near = (boxes[item as usize].min - position).length() <= radius;
+            if item as usize > index && !is_taken[item as usize] && is_near {
                 is_taken[item as usize] = true;
-                same[other as usize] = at;
-                any = true;
+                representative[other as usize] = vertex;
+                has_welded = true;
             }
         });
     }
-    if any {
-        remap_vertices(shape, &same);
+    if has_welded {
+        remap_vertices(mesh, &representative);
     }
-    any
+    has_welded
 }
 
-/// Cuts borders at points of other borders that lie on them; and the triangles between each border and its parts, which have
-/// a width where the points lie on it but for rounding.
+/// Cuts boundary edges at the boundary vertices that lie on them, and returns the parts and the
+/// sliver triangles in between.
+///
+/// ```text
+///       a ●─────────────● b
+///          ╲───── ● ────╱
+///                 p
+/// ```
+///
+/// The edge a–b passes within the weld radius of p: its parts are a–p and p–b. The sliver a, p, b
+/// closes the gap, which is as wide as rounding made it; it hides and is cut by sections, but is
+/// never drawn.
+///
+/// Parts are sorted by their ends, so that coincident ones of both sides of a seam are neighbors.
 pub(super) fn split_at_t_junctions(
-    shape: &WorldMesh,
+    mesh: &WorldMesh,
     borders: &[BorderEdge],
-    reach: &WeldRadii,
+    radii: &WeldRadii,
 ) -> (Vec<BorderEdge>, Vec<Face>) {
     let points = border_vertices(borders);
-    let position = |at: u32| shape.points[at as usize];
-    let boxes: Vec<Aabb> = points.iter().map(|&at| Aabb::from_points([position(at)])).collect();
-    let tree = Bvh::new(&boxes, half_surface_area);
-    let (mut open, mut cuts) = (Vec::new(), Vec::new());
-    let most = Bvh::query_budget(borders.len());
+    let position = |vertex: u32| mesh.points[vertex as usize];
+    let boxes: Vec<Aabb> =
+        points.iter().map(|&vertex| Aabb::from_points([position(vertex)])).collect();
+    let bvh = Bvh::new(&boxes, half_surface_area);
+    let (mut stack, mut cuts) = (Vec::new(), Vec::new());
+    let budget = Bvh::query_budget(borders.len());
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (position(a), position(b) - position(a));
-        let radius = reach.edge_radius([a, b]);
+        let radius = radii.edge_radius([a, b]);
         cuts.clear();
         let area = Aabb::from_points([position(a), position(b)]).expanded_by(DVec3::splat(radius));
-        tree.for_each_overlapping(&area, most, &mut open, |item| {
-            let (at, offset) = (points[item as usize], boxes[item as usize].min - from);
+        bvh.for_each_overlapping(&area, budget, &mut stack, |item| {
+            let (vertex, offset) = (points[item as usize], boxes[item as usize].min - from);
             let t = offset.dot(along) / along.length_squared();
             let is_on = t > 0.0 && t < 1.0 && (offset - along * t).length() <= radius;
-            if at != a && at != b && is_on {
-                cuts.push((t, at));
+            if vertex != a && vertex != b && is_on {
+                cuts.push((t, vertex));
             }
         });
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-        let neighbors =
-            cuts.iter().map(|&(_, at)| at).zip(cuts.iter().skip(1).map(|&(_, at)| at).chain([b]));
-        let face = shape.faces[side.face as usize];
-        let filling = |(from, to)| Face { vertices: [a, from, to], ..face };
-        fillings.extend(neighbors.map(filling));
-        let stops = cuts.iter().map(|&(_, at)| at).chain([b]);
-        parts.extend(
-            stops.scan(a, |from, to| Some(border_part([std::mem::replace(from, to), to], side))),
-        );
+        let stops = || cuts.iter().map(|&(_, vertex)| vertex).chain([b]);
+        // A fan of slivers about `a`: one between each cut and the next stop.
+        let face = mesh.faces[side.face as usize];
+        let sliver = |(from, to)| Face { vertices: [a, from, to], ..face };
+        fillings.extend(stops().zip(stops().skip(1)).map(sliver));
+        let ends = stops().scan(a, |from, to| Some([std::mem::replace(from, to), to]));
+        parts.extend(ends.map(|ends| border_part(ends, side)));
     }
     parts.sort_unstable();
     (parts, fillings)
 }
 
-/// A part of a rising edge as an edge of its own.
+/// A part of a boundary edge as an edge of its own, with the orientation of the original.
 fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
-    let rises = side.is_forward == (from < to);
-    (
-        [from.min(to), from.max(to)],
-        HalfEdge { high_vertex: from.max(to), is_forward: rises, ..side },
-    )
+    let (low, high) = (from.min(to), from.max(to));
+    let is_forward = side.is_forward == (from < to);
+    ([low, high], HalfEdge { high_vertex: high, is_forward, ..side })
 }
 
+/// The vertices of boundary edges, sorted, each once.
 fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     let mut points: Vec<u32> = borders.iter().flat_map(|(ends, _)| *ends).collect();
     points.sort_unstable();
@@ -147,7 +169,7 @@ fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     points
 }
 
-/// Half the surface of a box.
+/// Half the surface area of a box: the cost of a box in space for the BVH.
 pub(super) fn half_surface_area(size: DVec3) -> f64 {
     size.x * size.y + size.y * size.z + size.z * size.x
 }

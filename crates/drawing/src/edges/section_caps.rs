@@ -1,19 +1,32 @@
-//! Which loops of a cut are holes in which, and the triangles of the caps.
+//! Section caps: nesting of the loops of a cut into outlines and holes, and their triangulation.
 //!
-//! Loops of a surface that is wound as it should be run counter-clockwise around matter and clockwise around holes. So each hole
-//! is given to the smallest outline around it and each outline is capped by itself: bodies of one object that overlap, as those
-//! of games do, are capped one over the other, and no part of one makes a hole in the other.
+//! ```text
+//!   ┌──────────────┐ ↺ outline, area > 0
+//!   │  ┌────────┐  │
+//!   │  │ ↻ hole │  │   area < 0: belongs to the smallest outline around it
+//!   │  │ ┌────┐ │  │
+//!   │  │ │ ↺  │ │  │   an island is an outline again
+//!   │  │ └────┘ │  │
+//!   │  └────────┘  │
+//!   └──────────────┘
+//! ```
+//!
+//! Loops of a consistently oriented surface run counterclockwise around matter and clockwise around
+//! holes. Each outline is capped by itself: bodies of one
+//! object that overlap, as in many game models, are capped one over the other, and no part of one
+//! makes a hole in the other. An even-odd rule over all loops would do that.
 
 use clip::Outline;
 use homog::{Plane, Point, World};
 
-/// A closed loop; the last point is joined to the first.
+/// A closed loop in the section plane; the last point is joined to the first.
 pub(super) type SectionLoop = Vec<Point<World>>;
 
-/// The most points of a cap: the time to fill it grows with their square.
+/// The most points of a cap: triangulation takes time quadratic in them.
 const MAX_CAP_POINTS: usize = 1 << 14;
 
-/// The triangles of the caps of one object's loops; `None` if they are too fine to be filled.
+/// The triangles of the caps of one object's loops; `None` if there are more than
+/// [`MAX_CAP_POINTS`] points.
 pub(super) fn triangulate_caps(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,
@@ -26,7 +39,11 @@ pub(super) fn triangulate_caps(
     Some(regions.into_iter().flat_map(cap).collect())
 }
 
-/// An outline first, then its holes.
+/// Groups loops by region: an outline first, then its holes.
+///
+/// The sign of the total area tells the orientation of the surface; an object that a negative scale
+/// has turned inside out is handled alike. A hole without an outline around it is matter that was
+/// modeled inside out, and becomes an outline.
 fn group_holes_with_outlines(
     loops: Vec<SectionLoop>,
     plane: Plane<World>,
@@ -35,7 +52,7 @@ fn group_holes_with_outlines(
     let mut outer: Vec<(f64, Vec<SectionLoop>)> = Vec::new();
     let mut holes: Vec<SectionLoop> = Vec::new();
     let areas: Vec<f64> = loops.iter().map(|points| axes.doubled_area(points)).collect();
-    // A surface that is turned inside out as a whole, by a mirror say.
+    // A negative total area: the surface is inside out, by a reflection for example.
     let sign = if areas.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     for (points, area) in loops.into_iter().zip(areas) {
         if area * sign < 0.0 {
@@ -50,20 +67,24 @@ fn group_holes_with_outlines(
             outer.iter_mut().find(|(_, region)| axes.loop_contains_point(&region[0], hole[0]));
         match around {
             Some((_, region)) => region.push(hole),
-            // A hole in nothing is matter turned inside out.
+            // A hole outside every outline is a body modeled inside out.
             None => outer.push((f64::INFINITY, vec![hole])),
         }
     }
     outer.into_iter().map(|(_, region)| region).collect()
 }
 
-/// Two coordinates of a plane: all but the axis nearest to its normal, in the order in which areas are positive as seen from the
-/// side the normal points to.
+/// Two-dimensional coordinates of a plane: the two axes along which it extends most.
+///
+/// The axis nearest to the normal is dropped, and the others are ordered so that areas are positive
+/// as seen from the side to which the normal points. Dropping an axis instead of rotating keeps the
+/// coordinates' bits.
 struct PlaneAxes {
     axes: [usize; 2],
 }
 
 impl PlaneAxes {
+    /// The axes for a plane: all but the dominant component of its normal.
     fn dominant(plane: Plane<World>) -> Self {
         let normal = plane.normal().raw().to_array();
         let size = normal.map(f64::abs);
@@ -72,11 +93,13 @@ impl PlaneAxes {
         Self { axes: if normal[left_out] < 0.0 { [v, u] } else { [u, v] } }
     }
 
+    /// The two coordinates of a point.
     fn plane_coordinates(&self, point: Point<World>) -> [f64; 2] {
         self.axes.map(|axis| point.raw()[axis])
     }
 
-    /// Twice the area, measured from the first point so that far away from the origin nothing is lost.
+    /// Twice the signed area of a loop (shoelace formula), relative to its first point to avoid
+    /// cancellation far from the origin.
     fn doubled_area(&self, points: &[Point<World>]) -> f64 {
         let [x, y] = self.plane_coordinates(points[0]);
         let from = |point| {
@@ -90,7 +113,8 @@ impl PlaneAxes {
         points.windows(2).map(turn).sum()
     }
 
-    /// True if a ray from the point along the first axis meets the loop an odd number of times.
+    /// Whether a ray from the point along the first axis crosses the loop an odd number of times
+    /// (Jordan curve theorem).
     fn loop_contains_point(&self, points: &[Point<World>], point: Point<World>) -> bool {
         let [x, y] = self.plane_coordinates(point);
         let ends = points.iter().zip(points.iter().cycle().skip(1));
@@ -108,12 +132,12 @@ mod tests {
     use homog::Normal;
 
     fn square_loop(x: f64, r: f64, turns_left: bool) -> SectionLoop {
-        let mut corners =
+        let mut vertices =
             [[-r, -r], [r, -r], [r, r], [-r, r]].map(|[a, b]| Point::new(x + a, b, 5.0));
         if !turns_left {
-            corners.reverse();
+            vertices.reverse();
         }
-        corners.to_vec()
+        vertices.to_vec()
     }
 
     fn cap_area(loops: Vec<SectionLoop>) -> f64 {
@@ -140,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_turned_inside_out_are_filled_alike() {
+    fn inside_out_surfaces_get_the_same_caps() {
         assert_eq!(
             cap_area(vec![square_loop(0.0, 3.0, false), square_loop(0.0, 2.0, true)]),
             36.0 - 16.0

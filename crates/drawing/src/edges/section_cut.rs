@@ -1,12 +1,18 @@
-//! Section cuts: what a plane leaves of the surfaces, and the caps that close them again.
+//! Section cuts: clipping of surfaces by a plane, and the caps that close them again.
 //!
 //! ```text
-//!    ╱──╲        ╱──╲             Each triangle is cut by itself; the edges that the plane leaves in it join to loops without a
-//!   ╱    ╲  ─►  ┌────┐ caps,      tolerance, for neighbours are cut at the same bits. Loops are capped: what is behind a cap is
-//!  ╱──────╲     └────┘ hatched    hidden like anything behind a face.
+//!    ╱──╲        ╱──╲
+//!   ╱    ╲  ─►  ┌────┐ caps,
+//!  ╱──────╲     └────┘ hatched
 //! ```
-//! The triangles that fill the gaps beside T-junctions are cut like faces, so that borders which only almost meet give closed
-//! loops too. What does not close belongs to a surface that is open itself; its curve is drawn without a cap.
+//!
+//! Each triangle is cut by itself. The edges that the plane leaves in it join to loops without a
+//! tolerance, since neighbors are cut at the same bits. Loops are capped, and what is behind a cap
+//! is hidden as behind any face.
+//!
+//! The slivers that close the gaps at T-junctions are cut like faces, so that boundaries which only
+//! nearly meet give closed loops too. A curve that does not close belongs to a surface that is
+//! itself open; it is drawn without a cap, and reported.
 
 use super::section_caps::{SectionLoop, triangulate_caps};
 use super::world_mesh::{Face, LineEdge, WorldMesh};
@@ -20,120 +26,152 @@ use std::collections::BTreeMap;
 /// An edge that the plane leaves in a face, and the object of the face.
 type CutEdge = ([Point<World>; 2], u32);
 
-/// Cuts a shape by a plane, the positive side of which stays, and caps what it opens. `fillings` are cut with the faces, but
-/// nothing of them is kept. Points are not welded anew.
+/// Cuts a mesh by a plane, retains its positive side, and caps what the cut opens.
+///
+/// 1. Each face is clipped by the plane; the edge on the plane becomes a cut edge.
+/// 2. So are the slivers of T-junctions (`fillings`), for the sake of closed loops; what is left of
+///    them is dropped.
+/// 3. Lines are clipped.
+/// 4. Cut edges are joined to loops, loops are nested and triangulated, and the triangles become
+///    faces with a `cap_section`.
+///
+/// New points are appended and not welded; the caller welds. Open and too complex sections are
+/// added to `warnings`.
 pub(super) fn cut_mesh(
-    shape: &mut WorldMesh,
+    mesh: &mut WorldMesh,
     fillings: &[Face],
     plane: Plane<World>,
-    number: u16,
+    section: u16,
     warnings: &mut Vec<Warning>,
 ) {
     let mut openings = Vec::new();
-    let mut retained = Vec::with_capacity(shape.faces.len());
-    for face in std::mem::take(&mut shape.faces) {
-        cut_face(shape, &face, plane, &mut retained, &mut openings);
+    let mut retained = Vec::with_capacity(mesh.faces.len());
+    for face in std::mem::take(&mut mesh.faces) {
+        cut_face(mesh, &face, plane, &mut retained, &mut openings);
     }
-    let mut none = Vec::new();
+    let mut discarded = Vec::new();
     for face in fillings {
-        none.clear();
-        cut_face(shape, face, plane, &mut none, &mut openings);
+        discarded.clear();
+        cut_face(mesh, face, plane, &mut discarded, &mut openings);
     }
-    shape.faces = retained;
-    cut_line_edges(shape, plane);
+    mesh.faces = retained;
+    cut_line_edges(mesh, plane);
     openings.sort_by_key(|(_, object)| *object);
     for &(ends, _) in &openings {
-        let cut = ends.map(|end| add_point(shape, end));
-        shape.section_edges.push(cut);
+        let section_edge = ends.map(|end| add_point(mesh, end));
+        mesh.section_edges.push(section_edge);
     }
-    for (object, loops) in close_loops(shape, &openings, warnings) {
+    add_caps(mesh, &openings, (plane, section), warnings);
+}
+
+/// Closes a cut: the loops of its edges become faces with a material of their own.
+///
+/// Cap materials count down from `u32::MAX`, one for each section, so they equal no other.
+fn add_caps(
+    mesh: &mut WorldMesh,
+    openings: &[CutEdge],
+    (plane, section): (Plane<World>, u16),
+    warnings: &mut Vec<Warning>,
+) {
+    let material = u32::MAX - u32::from(section);
+    let (edge_visibility, cap_section) = (None, Some(section));
+    for (object, loops) in close_loops(mesh, openings, warnings) {
         let Some(triangles) = triangulate_caps(loops, plane) else {
-            let object = shape.objects[object as usize].clone();
+            let object = mesh.objects[object as usize].clone();
             warnings.push(Warning::SectionTooComplex { object });
             continue;
         };
         for triangle in triangles {
-            let corners = triangle.map(|corner| add_point(shape, corner));
-            let material = u32::MAX - u32::from(number);
-            let face = Face {
-                vertices: corners,
-                object,
-                material,
-                edge_visibility: None,
-                cap_section: Some(number),
-            };
-            shape.faces.push(face);
+            let vertices = triangle.map(|vertex| add_point(mesh, vertex));
+            mesh.faces.push(Face { vertices, object, material, edge_visibility, cap_section });
         }
     }
 }
 
-fn add_point(shape: &mut WorldMesh, point: Point<World>) -> u32 {
-    shape.points.push(point.raw());
-    shape.points.len() as u32 - 1
+/// Appends a point and returns its index.
+fn add_point(mesh: &mut WorldMesh, point: Point<World>) -> u32 {
+    mesh.points.push(point.raw());
+    mesh.points.len() as u32 - 1
 }
 
-/// Keeps what a plane leaves of a face, and notes the edge it leaves on the plane.
+/// Cuts one face: pushes what is left as a fan of triangles, and the edge on the plane if there is
+/// one.
+///
+/// A vertex that the plane leaves keeps its index, so that uncut neighbors still share it.
 fn cut_face(
-    shape: &mut WorldMesh,
+    mesh: &mut WorldMesh,
     face: &Face,
     plane: Plane<World>,
-    kept: &mut Vec<Face>,
+    retained: &mut Vec<Face>,
     openings: &mut Vec<CutEdge>,
 ) {
-    let corners = face.vertices.map(|corner| Point::from_raw(shape.points[corner as usize]));
-    let remaining = cut_triangle(corners, plane);
+    let vertices = face.vertices.map(|vertex| Point::from_raw(mesh.points[vertex as usize]));
+    let remaining = cut_triangle(vertices, plane);
     openings.extend(remaining.edge().map(|ends| (ends, face.object)));
-    let numbers: Vec<u32> = remaining
+    let indices: Vec<u32> = remaining
         .vertices()
         .iter()
-        .map(|vertex| match corners.iter().position(|corner| *corner == vertex.point) {
+        .map(|vertex| match vertices.iter().position(|corner| *corner == vertex.point) {
             Some(corner) => face.vertices[corner],
-            None => add_point(shape, vertex.point),
+            None => add_point(mesh, vertex.point),
         })
         .collect();
-    for k in 2..numbers.len() {
-        let corners = [numbers[0], numbers[k - 1], numbers[k]];
-        let marks = face.edge_visibility.map(|marks| {
+    for k in 2..indices.len() {
+        let vertices = [indices[0], indices[k - 1], indices[k]];
+        let edge_visibility = face.edge_visibility.map(|visibility| {
             [[0, k - 1], [k - 1, k], [k, 0]]
-                .map(|side| part_edge_visibility(side, &remaining, marks))
+                .map(|side| part_edge_visibility(side, &remaining, visibility))
         });
-        kept.push(Face { vertices: corners, edge_visibility: marks, ..*face });
+        retained.push(Face { vertices, edge_visibility, ..*face });
     }
 }
 
-/// What the file says of the side that a part's side lies on; sides that the cut made are not its edges.
+/// The visibility of a side of a part: that of the side of the face it lies on, or hidden if the
+/// cut made it.
+///
+/// Barycentric weights tell the side: on a side of a triangle the weight of the opposite vertex is
+/// zero, exactly.
 fn part_edge_visibility(
     ends: [usize; 2],
-    left: &CutTriangle<World>,
-    marks: [EdgeVisibility; 3],
+    cut: &CutTriangle<World>,
+    visibility: [EdgeVisibility; 3],
 ) -> EdgeVisibility {
-    let weights = ends.map(|end| left.vertices()[end].weights);
+    let weights = ends.map(|end| cut.vertices()[end].weights);
     let side = (0..3).find(|k| weights.iter().all(|weights| weights[(k + 2) % 3] == 0.0));
-    side.map_or(EdgeVisibility::Hidden, |k| marks[k])
+    side.map_or(EdgeVisibility::Hidden, |k| visibility[k])
 }
 
-/// What is left of lines that are edges by themselves.
-fn cut_line_edges(shape: &mut WorldMesh, plane: Plane<World>) {
-    let strokes = std::mem::take(&mut shape.line_edges);
-    for stroke in strokes {
-        let ends = stroke.ends.map(|end| shape.points[end as usize]);
+/// Cuts the lines that are edges by themselves, and retains their part on the positive side.
+fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
+    let lines = std::mem::take(&mut mesh.line_edges);
+    for line in lines {
+        let ends = line.ends.map(|end| mesh.points[end as usize]);
         let heights = ends.map(|end| plane.evaluate(Point::from_raw(end)));
         let retained = match heights.map(|height| height >= 0.0) {
-            [true, true] => stroke.ends,
+            [true, true] => line.ends,
             [false, false] => continue,
             [first, _] => {
                 let t = heights[0] / (heights[0] - heights[1]);
-                let cut = add_point(shape, Point::from_raw(ends[0] + (ends[1] - ends[0]) * t));
-                if first { [stroke.ends[0], cut] } else { [cut, stroke.ends[1]] }
+                let cut = add_point(mesh, Point::from_raw(ends[0] + (ends[1] - ends[0]) * t));
+                if first { [line.ends[0], cut] } else { [cut, line.ends[1]] }
             }
         };
-        shape.line_edges.push(LineEdge { ends: retained, ..stroke });
+        mesh.line_edges.push(LineEdge { ends: retained, ..line });
     }
 }
 
-/// The loops of each object; what does not close within an object may do so together with what others leave open.
+/// Joins cut edges to loops: first within each object, then what remains open across objects.
+///
+/// ```text
+///   object 1  ┌───────        object 2  ───────┐        together  ┌──────────────┐
+///             │                                │                  │              │
+///             └───────                  ───────┘                  └──────────────┘
+/// ```
+///
+/// A body modeled in several objects closes only with all of them. A loop of several objects goes
+/// to the first one that contributed. Each object with a curve that stays open adds a warning.
 fn close_loops(
-    shape: &WorldMesh,
+    mesh: &WorldMesh,
     openings: &[CutEdge],
     warnings: &mut Vec<Warning>,
 ) -> Vec<(u32, Vec<SectionLoop>)> {
@@ -163,26 +201,26 @@ fn close_loops(
     objects.sort_unstable();
     objects.dedup();
     warnings.extend(objects.into_iter().map(|object| {
-        let object = shape.objects[object as usize].clone();
+        let object = mesh.objects[object as usize].clone();
         Warning::SectionOpen { object }
     }));
     closed
 }
 
-/// The segments of chains.
+/// The segments of open polylines.
 fn chain_segments(chains: &[Vec<Point<World>>]) -> impl Iterator<Item = [Point<World>; 2]> {
     chains.iter().flat_map(|chain| chain.windows(2).map(|pair| [pair[0], pair[1]]))
 }
 
 impl WorldMesh {
-    /// The caps by object and plane: their triangles.
+    /// The triangles of the section caps, by object and section plane.
     pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
         let mut capping: Vec<&Face> =
             self.faces.iter().filter(|face| face.cap_section.is_some()).collect();
         capping.sort_by_key(|face| (face.object, face.cap_section));
         let alike = capping.chunk_by(|a, b| (a.object, a.cap_section) == (b.object, b.cap_section));
-        let corners = |face: &&Face| face.vertices.map(|corner| self.points[corner as usize]);
-        alike.map(|faces| (faces[0].object, faces.iter().map(corners).collect())).collect()
+        let vertices = |face: &&Face| face.vertices.map(|vertex| self.points[vertex as usize]);
+        alike.map(|faces| (faces[0].object, faces.iter().map(vertices).collect())).collect()
     }
 }
 
@@ -193,11 +231,12 @@ mod tests {
     use homog::Normal;
     use std::f64::consts::TAU;
 
-    /// A body by rings of points, from one pole to the other; both are left out if they are `None`.
+    /// A solid by rings of points, as radius and height, from one pole to the other; poles have
+    /// radius 0.
     fn solid_of_revolution(rings: &[(f64, f64)], sides: u32) -> WorldMesh {
-        let mut shape = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
+        let mut mesh = WorldMesh { objects: vec!["body".to_owned()], ..WorldMesh::default() };
         for (radius, height) in rings {
-            shape.points.extend((0..sides).map(|side| {
+            mesh.points.extend((0..sides).map(|side| {
                 let (sine, cosine) = libm::sincos(TAU * f64::from(side) / f64::from(sides));
                 DVec3::new(radius * cosine, *height, -radius * sine)
             }));
@@ -205,10 +244,10 @@ mod tests {
         for ring in 0..rings.len() as u32 - 1 {
             for side in 0..sides {
                 let (a, b) = (ring * sides + side, ring * sides + (side + 1) % sides);
-                for corners in [[a, b, b + sides], [a, b + sides, a + sides]] {
+                for vertices in [[a, b, b + sides], [a, b + sides, a + sides]] {
                     let (material, marks, cap) = (0, None, None);
-                    shape.faces.push(Face {
-                        vertices: corners,
+                    mesh.faces.push(Face {
+                        vertices,
                         object: 0,
                         material,
                         edge_visibility: marks,
@@ -217,19 +256,19 @@ mod tests {
                 }
             }
         }
-        weld_equal_vertices(&mut shape);
-        shape
+        weld_equal_vertices(&mut mesh);
+        mesh
     }
 
     /// The area of the cap that a plane leaves, which must close.
-    fn closed_cap_area(mut shape: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
+    fn closed_cap_area(mut mesh: WorldMesh, point: [f64; 3], normal: [f64; 3]) -> f64 {
         let [x, y, z] = normal;
         let normal = Normal::new(x, y, z).normalized().expect("a direction");
         let mut warnings = Vec::new();
-        cut_mesh(&mut shape, &[], Plane::through(point.into(), normal), 0, &mut warnings);
-        weld_equal_vertices(&mut shape);
+        cut_mesh(&mut mesh, &[], Plane::through(point.into(), normal), 0, &mut warnings);
+        weld_equal_vertices(&mut mesh);
         assert!(warnings.is_empty(), "{warnings:?}");
-        let caps = shape.section_caps();
+        let caps = mesh.section_caps();
         let triangles = caps.iter().flat_map(|(_, triangles)| triangles);
         triangles.map(|[a, b, c]| (*b - *a).cross(*c - *a).length() / 2.0).sum()
     }
@@ -246,7 +285,7 @@ mod tests {
         let cylinder = || solid_of_revolution(&CYLINDER, 60);
         let round = closed_cap_area(cylinder(), [0.0, 1.3, 0.0], [0.0, -1.0, 0.0]);
         assert!((round - regular_polygon_area(2.0, 60)).abs() < 1e-12, "{round}");
-        // Along the axis through two edges, and beside it: the chord of the polygon there.
+        // Along the axis through two edges, then off the axis: the chord of the polygon there.
         let along = closed_cap_area(cylinder(), [0.0; 3], [0.0, 0.0, 1.0]);
         assert!((along - 12.0).abs() < 1e-12, "{along}");
         let (sine, cosine) = libm::sincos(TAU / 60.0 * 5.0);
@@ -278,12 +317,12 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_beside_the_body_takes_nothing_or_all() {
+    fn a_plane_that_misses_the_body_removes_nothing_or_all() {
         let cut = |height: f64| {
-            let mut shape = solid_of_revolution(&CYLINDER, 8);
+            let mut mesh = solid_of_revolution(&CYLINDER, 8);
             let plane = Plane::through(Point::new(0.0, height, 0.0), Normal::new(0.0, -1.0, 0.0));
-            cut_mesh(&mut shape, &[], plane, 0, &mut Vec::new());
-            (shape.faces.len(), shape.section_edges.len())
+            cut_mesh(&mut mesh, &[], plane, 0, &mut Vec::new());
+            (mesh.faces.len(), mesh.section_edges.len())
         };
         let whole = solid_of_revolution(&CYLINDER, 8).faces.len();
         assert_eq!(cut(4.0), (whole, 0));
@@ -292,18 +331,18 @@ mod tests {
     }
 
     #[test]
-    fn marks_stay_with_the_sides_they_were_made_for() {
-        let mut shape = solid_of_revolution(&CYLINDER, 8);
+    fn edge_visibility_stays_with_original_sides() {
+        let mut mesh = solid_of_revolution(&CYLINDER, 8);
         let hard = EdgeVisibility::Hard;
-        shape.faces.iter_mut().for_each(|face| face.edge_visibility = Some([hard; 3]));
+        mesh.faces.iter_mut().for_each(|face| face.edge_visibility = Some([hard; 3]));
         let plane = Plane::through(Point::new(0.0, 1.0, 0.0), Normal::new(0.0, -1.0, 0.0));
-        cut_mesh(&mut shape, &[], plane, 0, &mut Vec::new());
-        let sides = shape.faces.iter().filter(|face| face.cap_section.is_none());
+        cut_mesh(&mut mesh, &[], plane, 0, &mut Vec::new());
+        let sides = mesh.faces.iter().filter(|face| face.cap_section.is_none());
         for face in sides {
             let marks = face.edge_visibility.expect("marks");
             for (k, mark) in marks.into_iter().enumerate() {
                 let ends = [face.vertices[k], face.vertices[(k + 1) % 3]];
-                let heights = ends.map(|end| shape.points[end as usize].y);
+                let heights = ends.map(|end| mesh.points[end as usize].y);
                 if heights == [1.0, 1.0] {
                     assert_eq!(mark, EdgeVisibility::Hidden);
                 }

@@ -1,26 +1,36 @@
-//! Welding: points at the same place become one.
+//! Vertex welding: vertices at the same position become one.
 //!
-//! Files split the vertices of a surface where texture coordinates, normals or materials jump, and give each side of the seam
-//! its own copy. Copies have the same bits, or those of a neighbouring grid where positions were quantised apart.
+//! Files split the vertices of a surface where texture coordinates, normals or materials change,
+//! and give each side of the seam a copy. To find the two faces at an edge the copies must share an
+//! index. Exact copies are found by sorting, in O(n log n) and without a hash, so the result
+//! depends on nothing but the coordinates. Copies that differ by quantization are left to
+//! [`seams`](super::seams).
 
 use super::world_mesh::{Face, WorldMesh};
 use glam::DVec3;
 
-/// Gives all points at exactly the same place one number, and leaves out faces that have lost a corner and faces that
-/// are there twice.
-pub(super) fn weld_equal_vertices(shape: &mut WorldMesh) {
-    let sorted_order = sort_by_position(&shape.points);
-    let mut representative: Vec<u32> = (0..shape.points.len() as u32).collect();
+/// Gives all points with exactly equal coordinates one index, that of the first of them.
+///
+/// ```text
+///   points   0 A   1 B   2 A   3 C   4 B         representative  0  1  0  3  1
+/// ```
+///
+/// Faces that lose a vertex by it, and duplicates of other faces, are removed. Negative and
+/// positive zero are equal coordinates but not neighbors in the total order; such points stay apart
+/// until near welding.
+pub(super) fn weld_equal_vertices(mesh: &mut WorldMesh) {
+    let sorted_order = sort_by_position(&mesh.points);
+    let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();
     for pair in sorted_order.windows(2) {
         let [a, b] = [pair[0], pair[1]].map(|at| at as usize);
-        if shape.points[a] == shape.points[b] {
+        if mesh.points[a] == mesh.points[b] {
             representative[b] = representative[a];
         }
     }
-    remap_vertices(shape, &representative);
+    remap_vertices(mesh, &representative);
 }
 
-/// The numbers of the points in the order of their coordinates, equal ones in the order of their numbers.
+/// The indices of the points sorted by x, y, z and index.
 fn sort_by_position(points: &[DVec3]) -> Vec<u32> {
     let mut keyed: Vec<([f64; 3], u32)> =
         points.iter().zip(0..).map(|(point, at)| (point.to_array(), at)).collect();
@@ -31,35 +41,38 @@ fn sort_by_position(points: &[DVec3]) -> Vec<u32> {
     keyed.into_iter().map(|(_, at)| at).collect()
 }
 
-/// Replaces each point by another.
-pub(super) fn remap_vertices(shape: &mut WorldMesh, same: &[u32]) {
-    for face in &mut shape.faces {
-        face.vertices = face.vertices.map(|corner| same[corner as usize]);
+/// Replaces each vertex index `v` by `same[v]`, and removes faces and lines that degenerate by it.
+pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
+    for face in &mut mesh.faces {
+        face.vertices = face.vertices.map(|vertex| same[vertex as usize]);
     }
-    for stroke in &mut shape.line_edges {
+    for stroke in &mut mesh.line_edges {
         stroke.ends = stroke.ends.map(|end| same[end as usize]);
     }
-    for cut in &mut shape.section_edges {
+    for cut in &mut mesh.section_edges {
         let [a, b] = cut.map(|end| same[end as usize]);
         *cut = [a.min(b), a.max(b)];
     }
-    shape.section_edges.sort_unstable();
-    shape.section_edges.dedup();
-    shape.faces.retain(|Face { vertices: [a, b, c], .. }| a != b && b != c && c != a);
-    shape.line_edges.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
-    drop_duplicate_faces(&mut shape.faces, shape.keeps_duplicates);
+    mesh.section_edges.sort_unstable();
+    mesh.section_edges.dedup();
+    mesh.faces.retain(|Face { vertices: [a, b, c], .. }| a != b && b != c && c != a);
+    mesh.line_edges.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
+    drop_duplicate_faces(&mut mesh.faces, mesh.keeps_duplicates);
 }
 
-/// Leaves one of faces with the same three corners, whichever way they run: two-sided surfaces are often made of two. If it is
-/// wanted, each object is looked at by itself.
+/// Removes all but the first of faces with the same three vertices, whatever their orientation.
+///
+/// Two-sided surfaces are often modeled as two coincident faces; drawn as two they would have
+/// creases and no boundaries. With `by_object` faces of different objects are not duplicates of
+/// each other.
 fn drop_duplicate_faces(faces: &mut Vec<Face>, by_object: bool) {
     let mut keyed: Vec<(([u32; 3], u32), u32)> = faces
         .iter()
         .zip(0..)
         .map(|(face, at)| {
-            let mut corners = face.vertices;
-            corners.sort_unstable();
-            ((corners, if by_object { face.object } else { 0 }), at)
+            let mut vertices = face.vertices;
+            vertices.sort_unstable();
+            ((vertices, if by_object { face.object } else { 0 }), at)
         })
         .collect();
     keyed.sort_unstable();

@@ -1,67 +1,93 @@
-//! The welded surfaces of a scene: what is drawn of it, and what hides.
+//! Welded surface: the mesh that is drawn and that hides, and the search for its feature edges.
+//!
+//! ```text
+//!   gather ─► weld equal ─► weld near borders ─► split T-junctions ─┐
+//!                 ┌── for each section: cut, cap, weld equal ◄──────┘
+//! ```
+//!
+//! Welding depends on the models and the section planes and not on the viewer, so one surface
+//! serves every view of a drawing sheet. Edges with several half-edges are classified at once;
+//! boundary edges only after they are split, by the runs of their coincident parts.
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
-use super::intersections::intersect_faces;
+use super::intersections::{Intersections, intersect_faces};
 use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, weld_near_borders};
 use super::section_cut::cut_mesh;
 use super::weld::weld_equal_vertices;
 use super::world_mesh::{Face, WorldMesh};
 use crate::hidden_line::Tolerance;
 use crate::projector::Projector;
-use crate::{DrawOptions, EdgeClass, Subject, Warning};
+use crate::{DrawOptions, EdgeClass, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
+use model::ModelInstance;
+use std::sync::OnceLock;
 
-/// An edge to be drawn.
+/// An edge that will be drawn as far as it is visible.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct CandidateEdge {
+    /// In world space.
     pub(crate) ends: [DVec3; 2],
+    /// Why it is drawn.
     pub(crate) class: EdgeClass,
+    /// The object it belongs to.
     pub(crate) object: u32,
 }
 
-/// The welded surfaces of a scene.
+/// The mesh of a scene after welding and section cuts, with its half-edges.
 #[derive(Clone, Debug)]
 pub(crate) struct WeldedSurface {
     mesh: WorldMesh,
+    /// Of all faces of `mesh`.
     half_edges: HalfEdges,
-    /// Edges that one face alone has, cut where others begin, so that parts of several may be the same.
+    /// Boundary edges, cut at T-junctions; parts with equal ends are neighbors and count as one
+    /// edge.
     border_edges: Vec<BorderEdge>,
-    /// Triangles that close the gaps beside edges that were cut.
+    /// The sliver triangles at T-junctions: they hide, but are not drawn.
     fillings: Vec<Face>,
+    /// Of each point of `mesh`.
     weld_radii: WeldRadii,
+    /// The diagonal of the models' bounding box before sections, so that tolerances do not depend
+    /// on them.
     diagonal: f64,
+    /// Sections that could not be capped.
     warnings: Vec<Warning>,
+    /// Where faces intersect: found at the first request, for wireframes do not ask.
+    intersections: OnceLock<Intersections>,
 }
 
 impl WeldedSurface {
-    pub(crate) fn from_subject(subject: &Subject<'_>) -> Self {
-        let mut shape = WorldMesh::from_subject(subject);
-        shape.keeps_duplicates = !subject.sections.is_empty();
-        weld_equal_vertices(&mut shape);
-        let mut sides = HalfEdges::new(&shape.faces, shape.points.len());
-        let mut seams = border_edges(&sides);
-        let reach = WeldRadii::from_mesh(&shape);
-        if weld_near_borders(&mut shape, &seams, &reach) {
-            sides = HalfEdges::new(&shape.faces, shape.points.len());
-            seams = border_edges(&sides);
+    /// Gathers and welds models, and cuts them open by section planes.
+    ///
+    /// While bodies are being cut, coincident faces of different objects are both retained, since
+    /// each body must be closed by itself; the last welding removes them.
+    pub(crate) fn new(models: &[ModelInstance], sections: &[Plane<World>]) -> Self {
+        let mut mesh = WorldMesh::from_models(models);
+        mesh.keeps_duplicates = !sections.is_empty();
+        weld_equal_vertices(&mut mesh);
+        let mut half_edges = HalfEdges::new(&mesh.faces, mesh.points.len());
+        let mut borders = border_edges(&half_edges);
+        let weld_radii = WeldRadii::from_mesh(&mesh);
+        if weld_near_borders(&mut mesh, &borders, &weld_radii) {
+            half_edges = HalfEdges::new(&mesh.faces, mesh.points.len());
+            borders = border_edges(&half_edges);
         }
-        let (seams, fillings) = split_at_t_junctions(&shape, &seams, &reach);
-        let diagonal = shape.bounds_diagonal();
-        let warnings = Vec::new();
+        let (border_edges, fillings) = split_at_t_junctions(&mesh, &borders, &weld_radii);
         let mut surface = Self {
-            mesh: shape,
-            half_edges: sides,
-            border_edges: seams,
+            diagonal: mesh.bounds_diagonal(),
+            mesh,
+            half_edges,
+            border_edges,
             fillings,
-            weld_radii: reach,
-            diagonal,
-            warnings,
+            weld_radii,
+            warnings: Vec::new(),
+            intersections: OnceLock::new(),
         };
-        for (number, &plane) in subject.sections.iter().enumerate() {
-            surface.cut_by_plane(plane, number as u16);
+        for (index, &plane) in sections.iter().enumerate() {
+            surface.cut_by_plane(plane, index as u16);
         }
+        // Caps of several objects may coincide: duplicates go only when all bodies are closed.
         if surface.mesh.keeps_duplicates {
             surface.mesh.keeps_duplicates = false;
             surface.reweld();
@@ -69,14 +95,15 @@ impl WeldedSurface {
         surface
     }
 
-    /// Cuts what is there by a plane, and closes it again.
-    fn cut_by_plane(&mut self, plane: Plane<World>, number: u16) {
-        let Self { mesh: shape, fillings, warnings, .. } = self;
-        cut_mesh(shape, fillings, plane, number, warnings);
+    /// Cuts the mesh by a section plane, caps it, and welds it again.
+    fn cut_by_plane(&mut self, plane: Plane<World>, index: u16) {
+        let Self { mesh, fillings, warnings, .. } = self;
+        cut_mesh(mesh, fillings, plane, index, warnings);
         self.reweld();
     }
 
-    /// Finds points, edges and borders anew.
+    /// Welds equal vertices, and finds half-edges and boundaries anew. Near welding is not
+    /// repeated.
     fn reweld(&mut self) {
         weld_equal_vertices(&mut self.mesh);
         self.half_edges = HalfEdges::new(&self.mesh.faces, self.mesh.points.len());
@@ -85,96 +112,112 @@ impl WeldedSurface {
             split_at_t_junctions(&self.mesh, &border_edges(&self.half_edges), &self.weld_radii);
     }
 
-    /// What could not be done as it should.
+    /// The sections that could not be capped.
     pub(crate) fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// The triangles of the caps that close cuts, by object and section.
+    /// The triangles of the section caps, by object and section plane.
     pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
         self.mesh.section_caps()
     }
 
-    /// How near is touching on these surfaces.
+    /// The tolerances of hidden-line removal for the size of this scene.
     pub(crate) fn touch_tolerance(&self) -> Tolerance {
         Tolerance::for_scene(self.diagonal)
     }
 
     /// The names of the objects.
-    pub(crate) fn into_object_names(self) -> Vec<String> {
-        self.mesh.objects
+    pub(crate) fn object_names(&self) -> &[String] {
+        &self.mesh.objects
     }
 
-    /// What hides, as triangles of the world.
+    /// All triangles that hide, slivers included, in world space.
     pub(crate) fn occluder_triangles(&self) -> impl Iterator<Item = [Point<World>; 3]> {
-        let corner = |corner: u32| Point::from_raw(self.mesh.points[corner as usize]);
+        let position = |vertex: u32| Point::from_raw(self.mesh.points[vertex as usize]);
         let faces = self.mesh.faces.iter().chain(&self.fillings);
-        faces.map(move |face| face.vertices.map(corner))
+        faces.map(move |face| face.vertices.map(position))
     }
 
-    /// What hides, each face with its object and the linear colour of its surface; caps are as light as paper.
+    /// Each face with its object and the linear color of its material; caps are white like paper.
     pub(crate) fn colored_faces(&self) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
-        let shape = &self.mesh;
-        shape.faces.iter().map(|face| {
-            let color = shape.colors.get(face.material as usize).copied();
-            let corners = face.vertices.map(|corner| shape.points[corner as usize]);
-            (corners, face.object, color.unwrap_or([1.0; 3]))
+        let mesh = &self.mesh;
+        mesh.faces.iter().map(|face| {
+            let color = mesh.colors.get(face.material as usize).copied();
+            let vertices = face.vertices.map(|vertex| mesh.points[vertex as usize]);
+            (vertices, face.object, color.unwrap_or([1.0; 3]))
         })
     }
 
-    /// The same without the caps, which have a hatching of their own.
+    /// The faces without section caps, which have a hatching of their own.
     pub(crate) fn colored_faces_without_caps(
         &self,
     ) -> impl Iterator<Item = ([DVec3; 3], u32, [f32; 3])> {
         let faces = self.colored_faces().zip(&self.mesh.faces);
-        faces.filter(|(_, face)| face.cap_section.is_none()).map(|(painted, _)| painted)
+        faces.filter(|(_, face)| face.cap_section.is_none()).map(|(colored, _)| colored)
     }
 
-    /// The edges that the options ask for, by object and in the order of their points.
+    /// The edges of the wanted classes for one viewer, sorted by object and within an object by
+    /// their vertices; `true` if intersections are missing because there were too many.
+    ///
+    /// The viewer matters for silhouettes only, but their test runs over all faces: O(faces +
+    /// edges), apart from the intersections, which are found once.
     pub(crate) fn candidate_edges(
-        &mut self,
-        sight: &Projector,
+        &self,
+        projector: &Projector,
         options: &DrawOptions,
         threads: usize,
-    ) -> Vec<CandidateEdge> {
-        let (mut found, mut is_cut_off) = (Vec::new(), false);
-        let mut add_candidate = |ends: [DVec3; 2], class, object| {
+    ) -> (Vec<CandidateEdge>, bool) {
+        let mut candidates = self.mesh_edges(projector, options);
+        let mut is_cut_off = false;
+        if options.classes.contains(EdgeClass::Intersection) {
+            let intersections = self.intersections(threads);
+            is_cut_off = intersections.is_cut_off;
+            let class = EdgeClass::Intersection;
+            candidates.extend(intersections.segments.iter().map(|&(ends, object)| CandidateEdge {
+                ends,
+                class,
+                object,
+            }));
+        }
+        candidates.sort_by_key(|candidate| candidate.object);
+        (candidates, is_cut_off)
+    }
+
+    /// The edges of the wanted classes that are sides of faces, or lines by themselves.
+    fn mesh_edges(&self, projector: &Projector, options: &DrawOptions) -> Vec<CandidateEdge> {
+        let mesh = &self.mesh;
+        let mut candidates = Vec::new();
+        let mut add_candidate = |ends: [u32; 2], class, object| {
             if options.classes.contains(class) {
-                found.push(CandidateEdge { ends, class, object });
+                let ends = ends.map(|end| mesh.points[end as usize]);
+                candidates.push(CandidateEdge { ends, class, object });
             }
         };
-        let shape = &self.mesh;
-        let positions = |ends: [u32; 2]| ends.map(|end| shape.points[end as usize]);
-        let classifier = EdgeClassifier::new(shape, sight, options);
+        let classifier = EdgeClassifier::new(mesh, projector, options);
+        let mut classify = |ends: [u32; 2], sides: &[HalfEdge]| {
+            let class = classifier.classify_edge(ends, sides);
+            add_candidate(ends, class, classifier.lowest_object(sides));
+        };
         for (ends, sides) in self.half_edges.edges().filter(|(_, sides)| sides.len() > 1) {
-            add_candidate(
-                positions(ends),
-                classifier.classify_edge(ends, sides),
-                classifier.lowest_object(sides),
-            );
+            classify(ends, sides);
         }
         for parts in self.border_edges.chunk_by(|(a, _), (b, _)| a == b) {
             let sides: Vec<HalfEdge> = parts.iter().map(|(_, side)| *side).collect();
-            add_candidate(
-                positions(parts[0].0),
-                classifier.classify_edge(parts[0].0, &sides),
-                classifier.lowest_object(&sides),
-            );
+            classify(parts[0].0, &sides);
         }
-        for stroke in &shape.line_edges {
-            let class = if stroke.is_marked { EdgeClass::Marked } else { EdgeClass::Line };
-            add_candidate(positions(stroke.ends), class, stroke.object);
+        for line in &mesh.line_edges {
+            let class = if line.is_marked { EdgeClass::Marked } else { EdgeClass::Line };
+            add_candidate(line.ends, class, line.object);
         }
-        if options.classes.contains(EdgeClass::Intersection) {
-            let seams = (self.border_edges.as_slice(), &self.weld_radii);
-            let found = intersect_faces(shape, seams, self.touch_tolerance().world, threads);
-            is_cut_off = found.is_cut_off;
-            for (ends, object) in found.segments {
-                add_candidate(ends, EdgeClass::Intersection, object);
-            }
-        }
-        self.warnings.extend(is_cut_off.then_some(Warning::IntersectionsIncomplete));
-        found.sort_by_key(|candidate| candidate.object);
-        found
+        candidates
+    }
+
+    /// Where faces intersect; the number of threads does not change them.
+    fn intersections(&self, threads: usize) -> &Intersections {
+        self.intersections.get_or_init(|| {
+            let borders = (self.border_edges.as_slice(), &self.weld_radii);
+            intersect_faces(&self.mesh, borders, self.touch_tolerance().world, threads)
+        })
     }
 }

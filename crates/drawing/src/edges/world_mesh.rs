@@ -1,77 +1,94 @@
-//! From the primitives of a scene to one list of points and faces in the world.
+//! The primitives of all models as one indexed mesh in world space.
+//!
+//! Skinning, morph targets and node transforms are applied here. Every node with a mesh becomes one
+//! *object*: the unit in which drawings are grouped and hatched.
 
-use crate::Subject;
 use glam::DVec3;
 use homog::{Affine, Model as ModelSpace, World};
-use model::{EdgeVisibility, MeshInstance, Model, Primitive, SkinnedPrimitive, Topology};
+use model::{
+    EdgeVisibility, MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Topology,
+};
 
-/// A triangle of some object.
+/// A triangle of an object.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Face {
-    /// Places in [`Shape::points`].
+    /// Indices into [`WorldMesh::points`].
     pub(crate) vertices: [u32; 3],
-    /// The object it belongs to.
+    /// The object it belongs to, an index into [`WorldMesh::objects`].
     pub(crate) object: u32,
-    /// A number that faces of the same material share.
+    /// An index that faces of one material share, unique over all models: an index into
+    /// [`WorldMesh::colors`], or one counted down from `u32::MAX` for the caps of section planes.
     pub(crate) material: u32,
-    /// The section it closes, if it is a part of a cap.
+    /// The index of the section plane it closes, if it is part of a section cap.
     pub(crate) cap_section: Option<u16>,
-    /// What the file says of its sides, from the first corner to the second and so on; `None` if it says nothing.
+    /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`), from
+    /// the first vertex to the second and so on; `None` if the file has none.
     pub(crate) edge_visibility: Option<[EdgeVisibility; 3]>,
 }
 
-/// An edge that is a line by itself.
+/// An edge that is a line by itself, not the side of a face.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct LineEdge {
+    /// Indices into [`WorldMesh::points`].
     pub(crate) ends: [u32; 2],
+    /// The object it belongs to.
     pub(crate) object: u32,
-    /// Whether the file marks it as an edge of a surface; else it is a line of its own.
+    /// Whether the file marks it as an edge of a surface; otherwise it is a line primitive.
     pub(crate) is_marked: bool,
 }
 
-/// Everything of a scene that has edges or hides them, in the world.
+/// Everything of a scene that has edges or hides them, as an indexed mesh in world space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WorldMesh {
+    /// Positions in world space.
     pub(crate) points: Vec<DVec3>,
+    /// Triangles; both of their sides hide.
     pub(crate) faces: Vec<Face>,
+    /// Line primitives and lines that the file marks as edges.
     pub(crate) line_edges: Vec<LineEdge>,
-    /// The edges that sections made, each from the lesser number to the greater once they are welded.
+    /// The edges that section planes made; once welded each from the lower index to the higher,
+    /// sorted.
     pub(crate) section_edges: Vec<[u32; 2]>,
-    /// The colours of the materials that faces name, in linear light.
+    /// Base colors of the materials by index, linear RGB.
     pub(crate) colors: Vec<[f32; 3]>,
-    /// Whether faces of several objects may be the same: until cuts are made, for each body must be closed by itself.
+    /// Whether coincident faces of several objects are all retained: until the sections are made,
+    /// since each body must be closed by itself.
     pub(crate) keeps_duplicates: bool,
     /// The names of the objects.
     pub(crate) objects: Vec<String>,
 }
 
 impl WorldMesh {
-    /// All shown primitives as they are posed.
-    pub(crate) fn from_subject(subject: &Subject<'_>) -> Self {
-        let mut shape = Self::default();
+    /// Gathers all visible primitives of the models in their current pose.
+    pub(crate) fn from_models(models: &[ModelInstance]) -> Self {
+        let mut mesh = Self::default();
         let mut first_material = 0;
-        for placed in subject.models {
+        for placed in models {
             let model = &*placed.model;
             for instance in model.mesh_instances() {
-                let object = shape.objects.len() as u32;
-                shape.objects.push(object_name(model, instance));
-                let mesh = model.nodes[instance.node].mesh.map(|mesh| &model.meshes[mesh]);
-                for primitive in mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
+                let object = mesh.objects.len() as u32;
+                mesh.objects.push(object_name(model, instance));
+                let node_mesh = model.nodes[instance.node].mesh.map(|index| &model.meshes[index]);
+                for primitive in node_mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
                     let SkinnedPrimitive { positions, to_model, .. } =
                         model.skin_primitive(instance, primitive);
                     let to_world = to_model.then(placed.model_to_world);
                     let material = first_material + primitive.material.map_or(0, |m| m as u32 + 1);
-                    shape.add_primitive(primitive, &positions, to_world, (object, material));
+                    mesh.add_primitive(primitive, &positions, to_world, (object, material));
                 }
             }
             let colors = model.materials.iter().map(|material| material.base_color);
-            shape.colors.push([1.0; 3]);
-            shape.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
+            mesh.colors.push([1.0; 3]);
+            mesh.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
             first_material += model.materials.len() as u32 + 1;
         }
-        shape
+        mesh
     }
 
+    /// Appends a primitive whose vertices are transformed to world space.
+    ///
+    /// Faces and lines with a vertex that is not finite are left out. A file that lists the edges
+    /// of a primitive lists all of them: other sides are drawn only where they are silhouettes.
     fn add_primitive(
         &mut self,
         primitive: &Primitive,
@@ -80,54 +97,48 @@ impl WorldMesh {
         (object, material): (u32, u32),
     ) {
         let first = self.points.len() as u32;
-        let place =
+        let to_position =
             |position: &[f32; 3]| to_world.transform_point(position.map(f64::from).into()).raw();
-        self.points.extend(positions.iter().map(place));
-        let points = &self.points;
-        let is_here = |corners: &[u32]| corners.iter().all(|&at| points[at as usize].is_finite());
+        self.points.extend(positions.iter().map(to_position));
         match primitive.topology {
             Topology::Points => {}
             Topology::Lines => {
-                let ends =
-                    primitive.indices.as_chunks::<2>().0.iter().map(|e| e.map(|v| v + first));
-                let strokes = ends.filter(|ends| is_here(ends));
-                self.line_edges.extend(strokes.map(|ends| LineEdge {
-                    ends,
-                    object,
-                    is_marked: false,
-                }));
+                let (pairs, _) = primitive.indices.as_chunks::<2>();
+                self.add_lines(pairs, first, object, false);
             }
             Topology::Triangles => {
-                let edges = primitive.edges.as_deref();
-                let marks = |at: usize| Some(*edges?.visibility.as_ref()?.get(at)?);
-                // Who names the lines to be seen wants no others.
-                let rest = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
-                let corners = primitive.indices.as_chunks::<3>().0.iter();
-                let faces = corners.enumerate().map(|(at, corners)| {
-                    let corners = corners.map(|corner| corner + first);
-                    Face {
-                        vertices: corners,
-                        object,
-                        material,
-                        edge_visibility: marks(at).or(rest),
-                        cap_section: None,
-                    }
-                });
-                self.faces.extend(faces.filter(|face| is_here(&face.vertices)));
-                let lines = edges.into_iter().flat_map(|edges| &edges.lines);
-                let ends =
-                    lines.flat_map(|lines| &lines.vertex_pairs).map(|ends| ends.map(|v| v + first));
-                let strokes = ends.filter(|ends| is_here(ends));
-                self.line_edges.extend(strokes.map(|ends| LineEdge {
-                    ends,
-                    object,
-                    is_marked: true,
-                }));
+                self.add_faces(primitive, first, (object, material));
+                let lists = primitive.edges.as_deref().into_iter().flat_map(|edges| &edges.lines);
+                lists.for_each(|list| self.add_lines(&list.vertex_pairs, first, object, true));
             }
         }
     }
 
-    /// The length of the diagonal of the box around all points.
+    /// Appends lines with finite ends; `first` is the index of the primitive's first vertex.
+    fn add_lines(&mut self, pairs: &[[u32; 2]], first: u32, object: u32, is_marked: bool) {
+        let ends = pairs.iter().map(|pair| pair.map(|vertex| vertex + first));
+        let finite = ends.filter(|ends| are_finite(&self.points, ends));
+        self.line_edges.extend(finite.map(|ends| LineEdge { ends, object, is_marked }));
+    }
+
+    /// Appends the triangles of a primitive that have finite vertices.
+    fn add_faces(&mut self, primitive: &Primitive, first: u32, (object, material): (u32, u32)) {
+        let edges = primitive.edges.as_deref();
+        let listed = |face: usize| Some(*edges?.visibility.as_ref()?.get(face)?);
+        // A file that lists visible edges draws no others but silhouettes.
+        let unlisted = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
+        let (triangles, _) = primitive.indices.as_chunks::<3>();
+        let faces = triangles.iter().enumerate().map(|(index, triangle)| Face {
+            vertices: triangle.map(|vertex| vertex + first),
+            object,
+            material,
+            cap_section: None,
+            edge_visibility: listed(index).or(unlisted),
+        });
+        self.faces.extend(faces.filter(|face| are_finite(&self.points, &face.vertices)));
+    }
+
+    /// The diagonal of the bounding box of all finite points, 0 if there are none.
     pub(crate) fn bounds_diagonal(&self) -> f64 {
         let finite = self.points.iter().filter(|point| point.is_finite());
         let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {
@@ -138,7 +149,12 @@ impl WorldMesh {
     }
 }
 
-/// The name of the node, else of its mesh, else its number.
+/// Whether all these vertices have finite coordinates.
+fn are_finite(points: &[DVec3], vertices: &[u32]) -> bool {
+    vertices.iter().all(|&vertex| points[vertex as usize].is_finite())
+}
+
+/// The name of an object: of its node, else of its mesh, else `node N`.
 fn object_name(model: &Model, instance: MeshInstance) -> String {
     let node = &model.nodes[instance.node];
     let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.clone());

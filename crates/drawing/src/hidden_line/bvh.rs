@@ -1,81 +1,100 @@
-//! A tree of boxes, to find the few of many things that a query can touch.
+//! Bounding-volume hierarchy over axis-aligned boxes, built by the binned surface-area heuristic.
 //!
-//! Built from the top by the surface-area heuristic over 16 bins (Wald, *On fast construction of SAH-based bounding volume
-//! hierarchies*, 2007). What a box costs is given by the caller: half its circumference on the screen, where edges are
-//! asked for, or half its surface in space.
+//! After Wald, *On fast construction of SAH-based bounding volume hierarchies* (2007): each node is
+//! split where the expected cost of its children is least, among 16 bins along its longest axis.
+//! The cost of a box is given by the caller, since queries differ: a box on the screen is met in
+//! proportion to half its perimeter by long edges, a box in space in proportion to its surface.
+//!
+//! ```text
+//!   nodes   0 ─┬─ 1 ─┬─ 2 leaf        depth first: the first child follows its parent,
+//!              │     └─ 3 leaf        the second is named by index
+//!              └─ 4 leaf
+//!   order   [ items of 2 │ of 3 │ of 4 ]
+//! ```
 
 use glam::DVec3;
 
-/// A box along the axes.
+/// An axis-aligned bounding box.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Aabb {
+    /// The least coordinates.
     pub(crate) min: DVec3,
+    /// The greatest coordinates; less than `min` for the empty box.
     pub(crate) max: DVec3,
 }
 
 impl Aabb {
-    /// The box around nothing.
+    /// The box around nothing: the identity of [`Self::union`].
     pub(crate) const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// The box around some points.
+    /// The smallest box around some points.
     pub(crate) fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         let grow =
             |grown: Self, point| Self { min: grown.min.min(point), max: grown.max.max(point) };
         points.into_iter().fold(Self::EMPTY, grow)
     }
 
+    /// The smallest box around both.
     pub(crate) fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The box with `by` more on each side.
+    /// The box with a margin `by` on each side.
     pub(crate) fn expanded_by(self, by: DVec3) -> Self {
         Self { min: self.min - by, max: self.max + by }
     }
 
+    /// Whether two boxes have a point in common, borders included.
     pub(crate) fn intersects(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
+    /// The midpoint, by which items are sorted into bins.
     fn box_center(&self) -> DVec3 {
         (self.min + self.max) * 0.5
     }
 }
 
-/// A node of the tree.
+/// A node of the hierarchy: a leaf with items or an inner node with two children.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
+    /// The box around everything below the node.
     pub(crate) bounds: Aabb,
-    /// The first item of a leaf; the second child of another node, whose first child is the next node.
+    /// In a leaf the first item, an index into [`Bvh::order`]; otherwise the second child. The
+    /// first child is the next node.
     first: u32,
-    /// The number of items; 0 if the node is no leaf.
+    /// The number of items of a leaf; 0 marks an inner node.
     count: u32,
 }
 
-/// What is below a node.
+/// The children or the items of a node.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum NodeContents {
-    /// The numbers of two nodes.
+    /// The indices of the two children.
     Nodes([u32; 2]),
-    /// Places in [`Bvh::order`].
+    /// A range of [`Bvh::order`].
     Items(std::ops::Range<usize>),
 }
 
-/// The tree.
+/// The hierarchy.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bvh {
+    /// Depth first, the root at index 0; empty if there are no items.
     nodes: Vec<Node>,
-    /// The numbers of the items, in the order of the leaves.
+    /// The indices of the items, in the order of the leaves.
     pub(crate) order: Vec<u32>,
 }
 
+/// A node with no more items than this becomes a leaf.
 const MAX_LEAF_ITEMS: usize = 4;
+/// The number of bins of the surface-area heuristic.
 const BIN_COUNT: usize = 16;
-/// Below this depth nodes are cut in halves of equal count, so that the depth has a bound whatever the boxes.
+/// Below this depth nodes are split at the median, which bounds the depth whatever the boxes.
 const MAX_BINNED_DEPTH: u32 = 48;
 
 impl Bvh {
-    /// The tree of some boxes. `cost` tells how often a query meets a box of some size.
+    /// Builds the hierarchy of some boxes. `cost` is proportional to the probability that a query
+    /// meets a box of a given extent.
     pub(crate) fn new(boxes: &[Aabb], cost: fn(DVec3) -> f64) -> Self {
         let count = u32::try_from(boxes.len()).unwrap_or(u32::MAX);
         let mut tree = Self { nodes: Vec::new(), order: (0..count).collect() };
@@ -86,15 +105,17 @@ impl Bvh {
         tree
     }
 
-    /// The root, if there is anything.
+    /// The index of the root; `None` if there are no items.
     pub(crate) fn root_node(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
 
+    /// The box of a node.
     pub(crate) fn bounds(&self, node: u32) -> &Aabb {
         &self.nodes[node as usize].bounds
     }
 
+    /// The children or the items of a node.
     pub(crate) fn contents(&self, node: u32) -> NodeContents {
         let Node { first, count, .. } = self.nodes[node as usize];
         match count {
@@ -103,7 +124,11 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit` with every item whose box may meet `area`, but with no more than `most`. False if there were more.
+    /// Calls `visit` with every item whose box may overlap `area`; stops and returns `false` after
+    /// `most` items.
+    ///
+    /// `open` is the stack of the traversal, given by the caller so that its memory is reused.
+    /// Items are visited by leaf: their own boxes are not tested.
     pub(crate) fn for_each_overlapping(
         &self,
         area: &Aabb,
@@ -120,9 +145,9 @@ impl Bvh {
             }
             match self.contents(node) {
                 NodeContents::Nodes(children) => open.extend(children),
-                NodeContents::Items(places) if places.len() <= remaining => {
-                    remaining -= places.len();
-                    self.order[places].iter().for_each(|&item| visit(item));
+                NodeContents::Items(range) if range.len() <= remaining => {
+                    remaining -= range.len();
+                    self.order[range].iter().for_each(|&item| visit(item));
                 }
                 NodeContents::Items(_) => return false,
             }
@@ -130,13 +155,21 @@ impl Bvh {
         true
     }
 
-    /// How many items a query may visit if each of so many items asks, for an amount of work that has a bound, whatever the
-    /// boxes: all of them where there are few, and always more than meet where things are spread as usual.
+    /// The number of items that each of `queries` queries may visit, so that all together stay
+    /// below 2³¹ visits.
+    ///
+    /// It bounds the time on degenerate input, such as a million triangles in one box, where every
+    /// query meets every item. Scenes with a few thousand items are never limited, and each query
+    /// may visit at least 1024.
     pub(crate) fn query_budget(queries: usize) -> usize {
         const ALL: usize = 1 << 31;
         (ALL / queries.max(1)).max(1024)
     }
 
+    /// Builds the subtree over a range of `order`, in place, and appends its nodes depth first.
+    ///
+    /// A node is pushed as a leaf first and turned into an inner node when the index of its second
+    /// child is known.
     fn build_node(
         &mut self,
         boxes: &[Aabb],
@@ -172,7 +205,12 @@ impl Bvh {
     }
 }
 
-/// Parts the items where the sum of the children's costs times their counts is least; the number of those on the left.
+/// Partitions items where the sum of the children's costs times their counts is least; returns the
+/// size of the left part.
+///
+/// Items are binned by their centers along the longest axis of the centers' box, not of the items'
+/// box, so that one large item does not waste bins. `None` if all centers coincide or the best
+/// split leaves a side empty.
 fn partition_by_sah(
     boxes: &[Aabb],
     items: &mut [u32],
@@ -206,7 +244,8 @@ fn partition_by_sah(
     (left > 0 && left < items.len()).then_some(left)
 }
 
-/// The last bin of the left part.
+/// The last bin of the left side at the cheapest split: one sweep from the right for the costs
+/// there, one from the left.
 fn cheapest_bin_split(bins: &[(Aabb, usize); BIN_COUNT], cost: fn(DVec3) -> f64) -> Option<usize> {
     let sah_cost = |bounds: Aabb, count: usize| match count {
         0 => 0.0,
@@ -230,7 +269,7 @@ fn cheapest_bin_split(bins: &[(Aabb, usize); BIN_COUNT], cost: fn(DVec3) -> f64)
     best.map(|(_, at)| at)
 }
 
-/// Parts the items in two halves along the longest axis.
+/// Partitions items into halves of equal count along the longest axis.
 fn partition_at_median(boxes: &[Aabb], items: &mut [u32], centers: Aabb) -> usize {
     let axis = longest_axis(centers.max - centers.min);
     let half = items.len() / 2;
@@ -239,6 +278,7 @@ fn partition_at_median(boxes: &[Aabb], items: &mut [u32], centers: Aabb) -> usiz
     half
 }
 
+/// The index of the greatest component.
 fn longest_axis(extent: DVec3) -> usize {
     if extent.x >= extent.y && extent.x >= extent.z {
         0

@@ -1,48 +1,62 @@
-//! What one face hides of one edge (HL-1).
+//! Occlusion of one edge by one face: the interval of the edge that the face hides (rule HL-1).
 //!
 //! ```text
-//!              ╱╲            On the screen the face is a triangle: the edge is within it where it is on the inner side of
-//!    a ───────╱──╲─── b      each of the three sides, an interval of s. In the world the face is a plane: the edge is
-//!            ╱    ╲          behind it on a half-line of u. What is in both is hidden.
+//!              ╱╲            screen: inside where three linear functions of s are positive
+//!    a ───────╱██╲─── b      world:  behind the plane where its height, linear in u, is negative
+//!            ╱    ╲          each leaves a half-line; their intersection is one interval, █
 //!           ╱──────╲
 //! ```
-//! The sides are measured in pixels and the plane in lengths of the world, where their tolerances have a meaning that
-//! neither the projection nor the slope of the face can change.
+//!
+//! Sides are measured in pixels and heights in lengths of the world. In these units a tolerance has
+//! a meaning that neither the projection nor the slope of the face changes: an edge a thousandth of
+//! a pixel inside a side runs along it, and an edge a millionth of the model behind a plane lies in
+//! it.
 
 use super::{ProjectedEdge, Tolerance};
 use glam::{DVec2, DVec3};
 
-/// A face, or what the view volume leaves of it, as a triangle on the screen.
+/// A face, or a triangle of what clipping to the view volume left of it, ready to hide edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Occluder {
-    /// The corners, with a positive area.
+    /// The vertices on the screen in pixels, ordered so that `(b − a) × (c − a)` is positive.
     pub(super) vertices: [DVec2; 3],
-    /// The unit normal of the face in the world, towards the viewer.
+    /// The unit normal of the face in world space, on the side of the viewer.
     pub(super) normal: DVec3,
-    /// The distance of its plane from the origin, along the normal.
+    /// The distance of the plane from the origin along the normal: points of the plane have `normal
+    /// · p = offset`.
     pub(super) offset: f64,
 }
 
-/// What is hidden: an interval of s, and whether the edge runs along the border there.
+/// The interval of s in which a face hides an edge, and how: by its interior or only along a side.
+///
+/// An edge exactly behind a side is hidden only if another face continues on the other side of it;
+/// a single face would only touch it. Left and right are those of a viewer who follows the edge on
+/// a screen with y up.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Occlusion {
-    /// The edge passes behind the inside of the face.
+    /// The edge passes behind the interior of the face: the interval is hidden without a condition.
     Interior([f64; 2]),
-    /// It runs exactly behind a side of the face, which is on the left as the edge goes (on a screen with y up).
+    /// The edge runs exactly behind a side, and the face is on its left.
     FaceLeft([f64; 2]),
-    /// The same with the face on the right.
+    /// The edge runs exactly behind a side, and the face is on its right.
     FaceRight([f64; 2]),
 }
 
-/// The value at the start and at the end of the edge of a function that is linear along it.
+/// A function that is linear along the edge: its values at the start and at the end.
 type LinearFunction = [f64; 2];
 
+/// The value of a linear function at fraction s.
 fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
     start + (end - start) * s
 }
 
 impl Occluder {
-    /// What the face hides of an edge.
+    /// The part of an edge that this face hides, `None` if there is none.
+    ///
+    /// Three steps, the cheapest rejection first: a triangle side with the whole edge outside; the
+    /// interval inside the triangle; the part of it behind the plane. A side that the edge runs
+    /// along is left out of the second step, because rounding decides on which side of it the edge
+    /// lies.
     pub(super) fn occlude_edge(
         &self,
         edge: &ProjectedEdge,
@@ -55,47 +69,68 @@ impl Occluder {
         }
         let side_along_edge =
             (0..3).find(|&k| runs_along_side(k, &sides, lengths[k], edge, tolerance));
-        let span =
+        let interval =
             positive_interval((0..3).filter(|&k| Some(k) != side_along_edge).map(|k| sides[k]))?;
-        let span = self.interval_behind_plane(edge, span, tolerance)?;
-        let Some(k) = side_along_edge else { return Some(Occlusion::Interior(span)) };
+        let interval = self.interval_behind_plane(edge, interval, tolerance)?;
+        let Some(k) = side_along_edge else { return Some(Occlusion::Interior(interval)) };
         let side = self.vertices[(k + 1) % 3] - self.vertices[k];
         let runs_with = side.dot(edge.screen[1] - edge.screen[0]) > 0.0;
-        Some(if runs_with { Occlusion::FaceLeft(span) } else { Occlusion::FaceRight(span) })
+        Some(if runs_with { Occlusion::FaceLeft(interval) } else { Occlusion::FaceRight(interval) })
     }
 
-    /// How far inside of each side the ends of the edge are, times the length of the side.
+    /// The signed distances of the edge from the three sides, each times the length of its side,
+    /// and those lengths.
+    ///
+    /// The products spare a division for each side; tolerances are multiplied by the length
+    /// instead.
     fn side_functions(&self, edge: &ProjectedEdge) -> ([LinearFunction; 3], [f64; 3]) {
         let [a, b, c] = self.vertices;
         let sides = [[a, b], [b, c], [c, a]];
         (sides.map(|side| side_function(side, edge)), sides.map(|[from, to]| (to - from).length()))
     }
 
-    /// The part of an interval where the edge is behind the plane, if it gets behind it at all.
+    /// The part of an interval of s in which the edge is behind the plane of the face.
+    ///
+    /// ```text
+    ///    height over the plane
+    ///       +│╲
+    ///        ├──╲────────── 0
+    ///       −│    ╲████████        hidden
+    ///        └──────────── u
+    /// ```
+    ///
+    /// The height is linear in u, not in s: its zero is found in the world and mapped to the screen
+    /// by IN-1. An edge that nowhere gets farther behind the plane than `tolerance.world` lies in
+    /// it and is not hidden at all.
     fn interval_behind_plane(
         &self,
         edge: &ProjectedEdge,
-        span: [f64; 2],
+        interval: [f64; 2],
         tolerance: &Tolerance,
     ) -> Option<[f64; 2]> {
         let height = edge.world.map(|end| self.normal.dot(end) - self.offset);
-        let ends = span.map(|s| evaluate_linear(height, edge.world_fraction(s)));
+        let ends = interval.map(|s| evaluate_linear(height, edge.world_fraction(s)));
         if ends[0].min(ends[1]) >= -tolerance.world {
             return None;
         }
-        let pierced =
-            || edge.screen_fraction(height[0] / (height[0] - height[1])).clamp(span[0], span[1]);
-        let span = match ends.map(|height| height < 0.0) {
-            [true, false] => [span[0], pierced()],
-            [false, true] => [pierced(), span[1]],
-            _ => span,
+        let pierced = || {
+            edge.screen_fraction(height[0] / (height[0] - height[1]))
+                .clamp(interval[0], interval[1])
         };
-        (span[0] < span[1]).then_some(span)
+        let interval = match ends.map(|height| height < 0.0) {
+            [true, false] => [interval[0], pierced()],
+            [false, true] => [pierced(), interval[1]],
+            _ => interval,
+        };
+        (interval[0] < interval[1]).then_some(interval)
     }
 }
 
-/// How far to the left of a side the ends of an edge are. Computed from the same end of the side whichever way it runs,
-/// so that the faces on both sides of it see the edge cross at the same bits.
+/// Twice the signed area between a side and each end of the edge; positive where the edge is left
+/// of the side.
+///
+/// It is computed from the same end of the side whichever way the side runs, so that the two faces
+/// at a side find the same bits with opposite signs: no gap and no overlap between what they hide.
 fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction {
     let is_reversed = (to.x, to.y) < (from.x, from.y);
     let [p, q] = if is_reversed { [to, from] } else { [from, to] };
@@ -105,21 +140,25 @@ fn side_function([from, to]: [DVec2; 2], edge: &ProjectedEdge) -> LinearFunction
     })
 }
 
-/// Where all functions are positive.
+/// The open interval of s in [0, 1] where all functions are positive; `None` if it is empty.
 fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<[f64; 2]> {
-    let mut span = [0.0_f64, 1.0];
+    let mut interval = [0.0_f64, 1.0];
     for [start, end] in functions {
         match [start > 0.0, end > 0.0] {
             [true, true] => {}
             [false, false] => return None,
-            [true, false] => span[1] = span[1].min(start / (start - end)),
-            [false, true] => span[0] = span[0].max(start / (start - end)),
+            [true, false] => interval[1] = interval[1].min(start / (start - end)),
+            [false, true] => interval[0] = interval[0].max(start / (start - end)),
         }
     }
-    (span[0] < span[1]).then_some(span)
+    (interval[0] < interval[1]).then_some(interval)
 }
 
-/// Whether, as long as it is inside of the two other sides, the edge runs on this one.
+/// Whether the edge runs along side `k`: within `tolerance.screen` of it as long as it is inside
+/// the two other sides.
+///
+/// The stretch must be longer than eight tolerances; shorter ones occur where the edge crosses a
+/// vertex, and say nothing about its direction.
 fn runs_along_side(
     k: usize,
     sides: &[LinearFunction; 3],
@@ -133,8 +172,8 @@ fn runs_along_side(
         return false;
     }
     let others = [sides[(k + 1) % 3], sides[(k + 2) % 3]];
-    positive_interval(others.into_iter()).is_some_and(|span| {
-        let is_long = (span[1] - span[0]) * edge.screen_length() > 8.0 * tolerance.screen;
-        is_long && span.iter().all(|&s| evaluate_linear(sides[k], s).abs() <= near)
+    positive_interval(others.into_iter()).is_some_and(|interval| {
+        let is_long = (interval[1] - interval[0]) * edge.screen_length() > 8.0 * tolerance.screen;
+        is_long && interval.iter().all(|&s| evaluate_linear(sides[k], s).abs() <= near)
     })
 }

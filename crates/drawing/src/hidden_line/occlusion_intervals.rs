@@ -1,27 +1,41 @@
-//! Sets of parameters along an edge: disjoint closed intervals in rising order.
+//! Interval sets: the hidden parts of one edge as disjoint closed intervals of its parameter s.
+//!
+//! ```text
+//!  s   0 ├───────████████───────────██────┤ 1     two intervals; what is between them is visible
+//! ```
+//!
+//! Faces are met in no particular order, so insertion merges: the set always holds the union of
+//! what was inserted, in rising order. An insertion costs a binary search and moves the intervals
+//! behind it; edges rarely have more than a handful.
 
-/// Disjoint closed intervals in rising order; intervals that touch have become one.
+/// Disjoint closed intervals in rising order; intervals that touch are merged.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct OcclusionIntervals(Vec<[f64; 2]>);
 
 impl OcclusionIntervals {
+    /// Removes all intervals and keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
 
+    /// The intervals in rising order.
     #[cfg(test)]
     pub(crate) fn as_slice(&self) -> &[[f64; 2]] {
         &self.0
     }
 
+    /// Whether nothing is hidden.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Adds an interval.
+    /// Inserts an interval: the set becomes its union with `[start, end]`, with `start` ≤ `end`.
+    ///
+    /// Intervals that overlap or touch the new one are merged with it, so the invariant holds
+    /// without a later pass.
     pub(crate) fn insert_interval(&mut self, [start, end]: [f64; 2]) {
-        let first = self.0.partition_point(|span| span[1] < start);
-        let after = self.0[first..].partition_point(|span| span[0] <= end) + first;
+        let first = self.0.partition_point(|interval| interval[1] < start);
+        let after = self.0[first..].partition_point(|interval| interval[0] <= end) + first;
         if first == after {
             self.0.insert(first, [start, end]);
             return;
@@ -31,13 +45,19 @@ impl OcclusionIntervals {
         self.0.drain(first + 1..after);
     }
 
-    /// Whether an interval lies within the set.
+    /// Whether an interval lies within one interval of the set.
+    ///
+    /// The traversal of the BVH skips a subtree whose part of the edge is hidden already.
     pub(crate) fn contains_interval(&self, [start, end]: [f64; 2]) -> bool {
-        let at = self.0.partition_point(|span| span[1] < end);
-        self.0.get(at).is_some_and(|span| span[0] <= start && end <= span[1])
+        let at = self.0.partition_point(|interval| interval[1] < end);
+        self.0.get(at).is_some_and(|interval| interval[0] <= start && end <= interval[1])
     }
 
-    /// Adds what is in both of two other sets.
+    /// Inserts the intersection of two other sets: a merge over both in rising order, linear in
+    /// their sizes.
+    ///
+    /// It implements the rule for shared sides: an edge that runs exactly behind a side is hidden
+    /// where there is a face on its left *and* one on its right.
     pub(crate) fn insert_intersection(&mut self, one: &Self, other: &Self) {
         let (mut i, mut j) = (0, 0);
         while let (Some(a), Some(b)) = (one.0.get(i), other.0.get(j)) {
@@ -53,16 +73,20 @@ impl OcclusionIntervals {
         }
     }
 
-    /// Closes gaps, also those at the ends 0 and 1, that are shorter than `least`; then leaves out intervals that are.
+    /// Closes gaps shorter than `least`, then removes intervals that are shorter; also at the ends
+    /// 0 and 1.
+    ///
+    /// Rounding leaves such slivers where faces meet. Gaps go first, or a hidden part that many
+    /// small faces make together would vanish.
     pub(crate) fn remove_slivers(&mut self, least: f64) {
-        self.0.dedup_by(|next, kept| {
-            let closes = next[0] - kept[1] < least;
+        self.0.dedup_by(|next, last| {
+            let closes = next[0] - last[1] < least;
             if closes {
-                kept[1] = next[1];
+                last[1] = next[1];
             }
             closes
         });
-        self.0.retain(|span| span[1] - span[0] >= least);
+        self.0.retain(|interval| interval[1] - interval[0] >= least);
         if let Some(first) = self.0.first_mut().filter(|first| first[0] < least) {
             first[0] = 0.0;
         }
@@ -71,14 +95,18 @@ impl OcclusionIntervals {
         }
     }
 
-    /// The whole of [0, 1] in order, each part with whether it is in the set.
+    /// Divides [0, 1] at the ends of the intervals: each part in rising order, with `true` for
+    /// hidden.
+    ///
+    /// Parts without length are left out, so a set that begins at 0 yields no empty visible part
+    /// before it.
     pub(crate) fn divide_unit_interval(&self) -> impl Iterator<Item = ([f64; 2], bool)> + '_ {
-        let starts = std::iter::once(0.0).chain(self.0.iter().map(|span| span[1]));
-        let ends = self.0.iter().map(|span| Some(*span)).chain([None]);
-        starts.zip(ends).flat_map(|(start, span)| {
-            let gap = ([start, span.map_or(1.0, |span| span[0])], false);
+        let starts = std::iter::once(0.0).chain(self.0.iter().map(|interval| interval[1]));
+        let ends = self.0.iter().map(|interval| Some(*interval)).chain([None]);
+        starts.zip(ends).flat_map(|(start, interval)| {
+            let gap = ([start, interval.map_or(1.0, |interval| interval[0])], false);
             let gap = (gap.0[0] < gap.0[1]).then_some(gap);
-            gap.into_iter().chain(span.map(|span| (span, true)))
+            gap.into_iter().chain(interval.map(|interval| (interval, true)))
         })
     }
 }
@@ -87,45 +115,46 @@ impl OcclusionIntervals {
 mod tests {
     use super::*;
 
-    fn interval_set(spans: &[[f64; 2]]) -> OcclusionIntervals {
+    fn interval_set(intervals: &[[f64; 2]]) -> OcclusionIntervals {
         let mut set = OcclusionIntervals::default();
-        spans.iter().for_each(|&span| set.insert_interval(span));
+        intervals.iter().for_each(|&interval| set.insert_interval(interval));
         set
     }
 
     #[test]
     fn intervals_that_touch_become_one() {
-        let spans = interval_set(&[[0.5, 0.6], [0.1, 0.2], [0.8, 0.9], [0.2, 0.5]]);
-        assert_eq!(spans.as_slice(), [[0.1, 0.6], [0.8, 0.9]]);
+        let intervals = interval_set(&[[0.5, 0.6], [0.1, 0.2], [0.8, 0.9], [0.2, 0.5]]);
+        assert_eq!(intervals.as_slice(), [[0.1, 0.6], [0.8, 0.9]]);
         assert_eq!(interval_set(&[[0.1, 0.2], [0.3, 0.4], [0.0, 1.0]]).as_slice(), [[0.0, 1.0]]);
     }
 
     #[test]
     fn only_what_lies_in_one_interval_is_covered() {
-        let spans = interval_set(&[[0.1, 0.4], [0.5, 0.9]]);
-        assert!(spans.contains_interval([0.1, 0.4]) && spans.contains_interval([0.6, 0.6]));
+        let intervals = interval_set(&[[0.1, 0.4], [0.5, 0.9]]);
+        assert!(intervals.contains_interval([0.1, 0.4]) && intervals.contains_interval([0.6, 0.6]));
         assert!(
-            !spans.contains_interval([0.3, 0.6])
-                && !spans.contains_interval([0.0, 0.2])
-                && !spans.contains_interval([0.8, 1.0])
+            !intervals.contains_interval([0.3, 0.6])
+                && !intervals.contains_interval([0.0, 0.2])
+                && !intervals.contains_interval([0.8, 1.0])
         );
     }
 
     #[test]
-    fn what_is_common_is_added() {
-        let mut spans = interval_set(&[[0.0, 0.1]]);
-        spans.insert_intersection(
+    fn intersections_of_sets_are_inserted() {
+        let mut intervals = interval_set(&[[0.0, 0.1]]);
+        intervals.insert_intersection(
             &interval_set(&[[0.2, 0.5], [0.6, 0.9]]),
             &interval_set(&[[0.4, 0.7], [0.9, 1.0]]),
         );
-        assert_eq!(spans.as_slice(), [[0.0, 0.1], [0.4, 0.5], [0.6, 0.7]]);
+        assert_eq!(intervals.as_slice(), [[0.0, 0.1], [0.4, 0.5], [0.6, 0.7]]);
     }
 
     #[test]
-    fn slivers_go() {
-        let mut spans = interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
-        spans.remove_slivers(0.01);
-        assert_eq!(spans.as_slice(), [[0.0, 0.4], [0.8, 1.0]]);
+    fn slivers_are_removed() {
+        let mut intervals =
+            interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
+        intervals.remove_slivers(0.01);
+        assert_eq!(intervals.as_slice(), [[0.0, 0.4], [0.8, 1.0]]);
     }
 
     #[test]

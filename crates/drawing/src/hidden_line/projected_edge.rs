@@ -1,31 +1,49 @@
-//! The visible volume's part of an edge, on the screen and in the world.
+//! An edge clipped to the view volume, on the screen and in the world.
+//!
+//! Positions on the edge are named by s, the fraction of its length on the *screen*. The fraction
+//! of its length in the *world*, u, follows from the perspective interpolation rule IN-1, because a
+//! projective map takes lines to lines:
+//!
+//! ```text
+//!            r s                      q u
+//!  u = ─────────────        s = ─────────────       r, q: the clip-space w of the two ends
+//!       q + s (r − q)            r + u (q − r)
+//! ```
+//!
+//! In a parallel projection r = q and both fractions are equal.
 
 use super::super::projector::Projector;
 use glam::{DVec2, DVec3};
 
-/// An edge within the view volume.
+/// An edge within the view volume, with the map between screen and world fractions.
 ///
-/// Places on it are named by s, the fraction of the way on the screen; the fraction of the way in the world, u, follows
-/// by IN-1, for lines go to lines.
+/// Both ends have a positive w: clipping removes what is at or behind the eye before the divide.
 #[derive(Clone, Debug)]
 pub(crate) struct ProjectedEdge {
-    /// The ends on the screen, in pixels.
+    /// The ends on the screen, in pixels, y down.
     pub(crate) screen: [DVec2; 2],
-    /// The depths of the ends; on the screen they are linear.
+    /// The depths of the ends, 0 at the far plane and 1 at the near plane; linear in s.
     pub(crate) depths: [f64; 2],
-    /// The ends in the world.
+    /// The ends in world space, after clipping.
     pub(crate) world: [DVec3; 2],
-    /// The divisors of the ends.
+    /// The clip-space w of the ends: the divisors of the perspective divide.
     w: [f64; 2],
-    /// The fractions of the whole edge, in the world, at the ends.
+    /// The part of the original edge that clipping left, as fractions of its length in the world.
     clip_range: [f64; 2],
 }
 
 impl ProjectedEdge {
-    /// `None` if nothing of the edge is in the view volume.
-    pub(crate) fn clip_and_project(ends: [DVec3; 2], sight: &Projector) -> Option<Self> {
-        let clipped = sight.clip_edge(ends)?;
-        let [a, b] = [sight.to_screen(clipped.start)?, sight.to_screen(clipped.end)?];
+    /// Clips an edge of the world to the view volume, divides, and maps it to the screen.
+    ///
+    /// `None` if nothing of the edge is within the volume, or an end has no finite image. An end
+    /// that was not clipped keeps the bits of the vertex, so that edges with a common vertex meet
+    /// exactly.
+    pub(crate) fn clip_and_project(ends: [DVec3; 2], projector: &Projector) -> Option<Self> {
+        let clipped = projector.clip_edge(ends)?;
+        let [a, b] = [
+            projector.project_to_screen(clipped.start)?,
+            projector.project_to_screen(clipped.end)?,
+        ];
         let position = |t: f64| match t {
             0.0 => ends[0],
             1.0 => ends[1],
@@ -45,30 +63,31 @@ impl ProjectedEdge {
         (self.screen[1] - self.screen[0]).length()
     }
 
-    /// The place on the screen at s; at 0 and 1 with the bits of the ends.
+    /// The point on the screen at fraction s; at 0 and 1 with the bits of the ends.
     pub(crate) fn screen_at(&self, s: f64) -> DVec2 {
         let [a, b] = self.screen;
         if s == 1.0 { b } else { a + (b - a) * s }
     }
 
+    /// The depth at fraction s, exact at both ends like [`Self::screen_at`].
     pub(crate) fn depth_at(&self, s: f64) -> f64 {
         let [a, b] = self.depths;
         if s == 1.0 { b } else { a + (b - a) * s }
     }
 
-    /// The fraction of the way in the world at the fraction s of the way on the screen (IN-1, inverse).
+    /// The world fraction u at the screen fraction s: the inverse of IN-1.
     pub(crate) fn world_fraction(&self, s: f64) -> f64 {
         let [r, q] = self.w;
         if r == q { s } else { r * s / (q + s * (r - q)) }
     }
 
-    /// The fraction of the way on the screen at the fraction u of the way in the world (IN-1).
+    /// The screen fraction s at the world fraction u: IN-1.
     pub(crate) fn screen_fraction(&self, u: f64) -> f64 {
         let [r, q] = self.w;
         if r == q { u } else { q * u / (r + u * (q - r)) }
     }
 
-    /// The fraction of the whole edge, in the world, at s.
+    /// The fraction of the original, unclipped edge in the world at the screen fraction s.
     pub(crate) fn edge_fraction(&self, s: f64) -> f64 {
         let [t0, t1] = self.clip_range;
         t0 + (t1 - t0) * self.world_fraction(s)

@@ -1,21 +1,26 @@
-//! The horizon, and the vanishing points of the axes (C80, C81).
+//! Perspective overlays: the horizon, and the vanishing points of the axes (C80, C81).
+//!
+//! The image of a direction d, a point at infinity, is its vanishing point: clip coordinates of (d,
+//! 0), divided. The images of all horizontal directions lie on one line, the horizon: the cross
+//! product of the images of x and z.
 
-use super::{AXES, BROWN, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use super::{AXES, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::palette::BROWN;
 use crate::{Group, Label, Layer, LineType, Polyline, TextAlign};
 use glam::{DVec2, DVec3};
 use homog::Vector;
 
-/// The radius of the ring around a vanishing point, in millimetres.
+/// The radius of the ring around a vanishing point, in millimeters.
 const RING_RADIUS: f64 = 0.8;
 
-/// The sides of a ring.
+/// The number of sides of a ring.
 const RING_SIDES: u32 = 24;
 
-/// What is less than this part of the other coordinates is 0 but for rounding.
+/// A component less than this fraction of the others is zero but for rounding.
 const ZERO_TOLERANCE: f64 = 1e-12;
 
 impl PicturePlane {
-    /// The line in which the images of all horizontal directions lie; there is none in a parallel projection.
+    /// The horizon with its label; empty in a parallel projection, where it is at infinity.
     pub(super) fn horizon_layers(&self) -> Vec<Layer> {
         let Some(ends) = self.horizon_ends() else { return Vec::new() };
         let mut line = overlay_layer("horizon", "horizon", BROWN);
@@ -24,7 +29,7 @@ impl PicturePlane {
         line.groups.push(Group { strokes, ..Group::default() });
         let mut text = overlay_layer("horizon-text", "horizon: text", BROWN);
         let along = (ends[1] - ends[0]).normalize_or(DVec2::X);
-        // Below the line, for the names of vanishing points stand above it.
+        // Below the line: the names of vanishing points are above it.
         let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);
@@ -33,7 +38,12 @@ impl PicturePlane {
         vec![line, text]
     }
 
-    /// Where the horizon enters and leaves the picture, from left to right.
+    /// The points where the horizon enters and leaves the picture, from left to right.
+    ///
+    /// The horizon is the line through the vanishing points of x and z. In homogeneous coordinates
+    /// of the picture plane a line through two points is their cross product (a, b, c), with a x +
+    /// b y + c = 0; its foot from the center is −c (a, b) / (a² + b²), and the line is clipped to
+    /// the picture from there.
     fn horizon_ends(&self) -> Option<[DVec2; 2]> {
         let [x, z] = [Vector::X, Vector::Z].map(|direction| self.project_direction(direction));
         if x.z.max(z.z) <= ZERO_TOLERANCE * x.length().max(z.length()) {
@@ -43,18 +53,22 @@ impl PicturePlane {
         let line = x.cross(z);
         let normal = line.truncate();
         let foot = normal * (-line.z / normal.length_squared());
-        // Straight down there is none, or only one far beyond the picture.
-        let reach = foot.length() + 4.0;
-        if !reach.is_finite() || reach > 1e6 {
+        // A camera that looks straight down has no horizon, or one far beyond the picture.
+        let half_length = foot.length() + 4.0;
+        if !half_length.is_finite() || half_length > 1e6 {
             return None;
         }
-        let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * reach;
-        let [from, to] = [foot - along, foot + along].map(|place| place.extend(1.0));
+        let along = DVec2::new(normal.y, -normal.x).normalize_or(DVec2::X) * half_length;
+        let [from, to] = [foot - along, foot + along].map(|center| center.extend(1.0));
         let [a, b] = self.clip_to_picture(from, to)?;
         Some(if a.x <= b.x { [a, b] } else { [b, a] })
     }
 
-    /// Rings around the vanishing points of the axes, and the lines that run to them from the corners of the models' box.
+    /// Rings around the vanishing points of the axes, and lines to them from the corners of the
+    /// models' bounding box.
+    ///
+    /// An axis parallel to the picture plane has no finite vanishing point (w = 0 but for rounding)
+    /// and is left out.
     pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {
@@ -72,7 +86,7 @@ impl PicturePlane {
             let mut mark = overlay_layer(&format!("vanishing-{name}"), &title, ink);
             let strokes = self
                 .point_in_picture(image)
-                .map(|place| vanishing_point_mark(place, name))
+                .map(|center| vanishing_point_mark(center, name))
                 .unwrap_or_default();
             mark.groups.push(Group { strokes, ..Group::default() });
             layers.extend([lines, mark]);
@@ -87,15 +101,15 @@ impl PicturePlane {
 }
 
 /// A ring with a name.
-fn vanishing_point_mark(place: DVec2, name: &str) -> Vec<Polyline> {
+fn vanishing_point_mark(center: DVec2, name: &str) -> Vec<Polyline> {
     let point = |k: u32| {
         let (sin, cos) =
             libm::sincos(core::f64::consts::TAU * f64::from(k) / f64::from(RING_SIDES));
-        place + DVec2::new(cos, sin) * RING_RADIUS
+        center + DVec2::new(cos, sin) * RING_RADIUS
     };
     let circle = Polyline::through_points(&(0..RING_SIDES).map(point).collect::<Vec<_>>(), true);
     let text = format!("V{name}");
-    let label = Label::new(&text, place - DVec2::new(0.0, 1.8), LETTER_HEIGHT)
+    let label = Label::new(&text, center - DVec2::new(0.0, 1.8), LETTER_HEIGHT)
         .with_align(TextAlign::Middle);
     circle.into_iter().chain(label.strokes()).collect()
 }

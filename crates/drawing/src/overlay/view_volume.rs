@@ -1,6 +1,17 @@
-//! The view volume of another camera, with its eye: the frustum of the lessons (C61 to C64).
+//! View volume overlay: the frustum of another camera, with its eye (C61 to C64).
+//!
+//! ```text
+//!               ╱│         │╲
+//!       eye ───╱ │ near    │ ╲ far        edges of the volume, and rays from the eye
+//!          ╲───╲ │         │ ╱            to the corners of the near plane
+//!               ╲│─────────│╱
+//! ```
+//!
+//! The corners are those of the clip-space cube, taken back to the world by the inverse projection,
+//! so any projection can be shown: an oblique one is a sheared box, one without an eye has no rays.
 
-use super::{BLUE, LETTER_HEIGHT, PicturePlane, overlay_layer};
+use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
+use crate::palette::BLUE;
 use crate::{Group, Label, Layer, TextAlign};
 use camera::ViewProjection;
 use glam::DVec2;
@@ -9,6 +20,9 @@ use projection::{Convention, ViewVolume};
 
 impl PicturePlane {
     /// The twelve edges, and the rays from the eye to the near plane.
+    ///
+    /// Corners at infinity, of a volume without a far plane, have no image; their edges are left
+    /// out.
     pub(super) fn view_volume_layers(&self, view_projection: &ViewProjection) -> Vec<Layer> {
         let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
         let view_to_world = view_projection.camera.view_to_world();
@@ -28,11 +42,11 @@ impl PicturePlane {
         layers
     }
 
-    /// The name of the eye beside it.
+    /// The label of the eye.
     fn eye_layer(&self, eye: Point<World>) -> Layer {
         let mut layer = overlay_layer("volume-eye", "eye of the view volume", BLUE);
-        let strokes = self.point_in_picture(self.project_point(eye)).map(|place| {
-            let at = place - DVec2::new(0.0, 1.5);
+        let strokes = self.point_in_picture(self.project_point(eye)).map(|point| {
+            let at = point - DVec2::new(0.0, 1.5);
             Label::new("eye", at, 0.8 * LETTER_HEIGHT).with_align(TextAlign::Middle).strokes()
         });
         layer.groups.push(Group { strokes: strokes.unwrap_or_default(), ..Group::default() });

@@ -1,10 +1,15 @@
-//! Panels as a web page that needs no other file: figures that flow as the window is wide, with text that can be searched.
+//! HTML output of panels: one self-contained page of figures, with searchable text.
+//!
+//! Drawings are inline SVG, captions are HTML text. The page loads nothing: no scripts, fonts or
+//! images from elsewhere, so it can be mailed and archived. Figures wrap to the width of the
+//! window.
 
-use super::super::svg::escape_xml;
 use super::{Page, Panel, Panels};
+use crate::markup::escape_markup;
 use glam::DVec2;
 use std::fmt::Write as _;
 
+/// The style sheet of the page: figures wrap as the window is wide.
 const STYLE_SHEET: &str = "
   body { margin: 2rem auto; max-width: 100rem; padding: 0 2rem; font: 15px/1.5 Georgia, serif; color: #1a1f26; background: #fff; }
   main { display: flex; flex-wrap: wrap; gap: 2rem 1.5rem; }
@@ -15,10 +20,10 @@ const STYLE_SHEET: &str = "
 ";
 
 impl Panels {
-    /// All of them as an HTML page.
+    /// All panels as an HTML page that refers to no other file.
     #[must_use]
     pub fn to_html(&self) -> String {
-        let title = escape_xml(&self.title);
+        let title = escape_markup(&self.title);
         let mut html = format!(
             "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
              <style>{STYLE_SHEET}</style>\n<h1>{title}</h1>\n<main>\n"
@@ -29,14 +34,18 @@ impl Panels {
     }
 }
 
+/// Appends a panel as a `<figure>` with its drawing as inline SVG.
+///
+/// Ids within a page of HTML are shared by all figures, so those of layers are prefixed by the id
+/// of the panel.
 fn push_figure(html: &mut String, panel: &Panel) {
-    // Names are unique on the page only with that of the panel before them.
+    // Ids are unique on the page only with that of the panel as a prefix.
     let mut page = Page::new(panel.page.size, panel.title.clone(), panel.page.paper);
     page.paste_page(&panel.page, DVec2::ZERO, &format!("{}-", panel.id));
-    let (id, svg, title) = (escape_xml(&panel.id), page.to_svg(), escape_xml(&panel.title));
+    let (id, svg, title) = (escape_markup(&panel.id), page.to_svg(), escape_markup(&panel.title));
     let _ = write!(html, "<figure id=\"{id}\">\n{svg}<figcaption><b>{title}</b>");
     for note in &panel.notes {
-        let _ = write!(html, "<span>{}</span>", escape_xml(note));
+        let _ = write!(html, "<span>{}</span>", escape_markup(note));
     }
     *html += "</figcaption>\n</figure>\n";
 }

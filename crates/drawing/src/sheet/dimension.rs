@@ -1,11 +1,17 @@
-//! Dimensions (ISO 129-1): extension lines, a dimension line with arrowheads between them, and the length above it.
+//! Linear dimensions (ISO 129-1): extension lines, a dimension line with arrowheads, and the length
+//! above it.
 //!
 //! ```text
-//!      │        150        │      Extension lines begin a little beside the outline and end
-//!      │◄─────────────────►│      a little beyond the dimension line. Where the arrows have
-//!      │                   │      no room between them, they stand outside.
-//!      ┌───────────────────┐
+//!      │        150        │      extension lines at both sides,
+//!      │◄─────────────────►│      the dimension line between them
+//!      │                   │
+//!      ┌───────────────────┐      the outline of the object
 //! ```
+//!
+//! Extension lines begin a little beside the outline and end a little beyond the dimension line.
+//! Arrows that do not fit between them are placed outside.
+//!
+//! All distances are multiples of the height of letters.
 
 use super::Sheet;
 use super::view_layout::ViewLayout;
@@ -13,13 +19,13 @@ use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use camera::NamedView;
 use glam::DVec2;
 
-/// From the outline to the dimension line, in heights of letters.
+/// From the outline to the dimension line.
 const LINE_DISTANCE: f64 = 2.4;
 
-/// From the outline to the beginning of the extension line.
+/// From the outline to the start of the extension line.
 const EXTENSION_GAP: f64 = 0.25;
 
-/// How far an extension line goes beyond the dimension line.
+/// The length of an extension line beyond the dimension line.
 const EXTENSION_OVERHANG: f64 = 0.5;
 
 /// The length of an arrowhead; it is a third as wide.
@@ -28,19 +34,19 @@ const ARROW_LENGTH: f64 = 0.9;
 /// From the dimension line to the text above it.
 const TEXT_GAP: f64 = 0.35;
 
-/// A length to be given: between two places of an outline, on the side `out` of it.
+/// A length between two points of an outline, dimensioned on the side `outward` of it.
 struct LinearDimension {
     ends: [DVec2; 2],
     /// The unit vector from the outline to the dimension line.
     outward: DVec2,
-    /// The length of the thing in millimetres.
+    /// The length of the object in millimeters.
     length: f64,
 }
 
-/// The overall width, height and depth of the object.
+/// The overall width, height and depth of the object: a layer of lines and one of texts.
 pub(super) fn overall_dimension_layers(
     sheet: &Sheet,
-    arrangement: &ViewLayout<'_>,
+    layout: &ViewLayout<'_>,
     ink: Ink,
 ) -> Vec<Layer> {
     let height = sheet.lettering_height();
@@ -49,7 +55,7 @@ pub(super) fn overall_dimension_layers(
     let mut lines = Layer::new("dimensions", "dimensions", lines);
     let mut texts =
         Layer::new("dimensions-text", "dimensions: text", Pen::solid(height * 0.1, ink));
-    for dimension in overall_dimensions(arrangement, sheet.side_view) {
+    for dimension in overall_dimensions(layout, sheet.side_view) {
         let text = format_length(dimension.length);
         lines.groups.push(dimension.line_group(height, &text));
         texts
@@ -59,12 +65,14 @@ pub(super) fn overall_dimension_layers(
     vec![lines, texts]
 }
 
-fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
-    let scale = arrangement.scale;
+/// The dimensions of the front view in both directions, and of the side view's width; none where
+/// there is no extent.
+fn overall_dimensions(layout: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
+    let scale = layout.scale;
     let horizontal = |name: NamedView| {
-        let area = arrangement.view_area(name)?;
+        let area = layout.view_area(name)?;
         let (left, right) = (area.x(), area.x() + area.width());
-        let (y, out) = if arrangement.is_top_below {
+        let (y, out) = if layout.is_top_below {
             (area.y(), -DVec2::Y)
         } else {
             (area.y() + area.height(), DVec2::Y)
@@ -73,7 +81,7 @@ fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<Line
         Some(LinearDimension { ends, outward: out, length: scale.to_object_length(area.width()) })
     };
     let vertical = |name: NamedView| {
-        let area = arrangement.view_area(name)?;
+        let area = layout.view_area(name)?;
         let (x, bottom) = (area.x(), area.y() + area.height());
         let ends = [DVec2::new(x, bottom), DVec2::new(x, area.y())];
         Some(LinearDimension {
@@ -82,15 +90,16 @@ fn overall_dimensions(arrangement: &ViewLayout<'_>, side: NamedView) -> Vec<Line
             length: scale.to_object_length(area.height()),
         })
     };
-    // What has no extent has no dimension either.
+    // A flat object has no dimension across.
     let all = [horizontal(NamedView::Front), vertical(NamedView::Front), horizontal(side)];
     all.into_iter().flatten().filter(|dimension| dimension.length > 1e-3).collect()
 }
 
-/// A length in millimetres: to a hundredth, and for things above ten metres to a millimetre.
+/// A length in millimeters: to a hundredth, above ten meters to a millimeter, without trailing
+/// zeros.
 fn format_length(length: f64) -> String {
-    let places = if length < 10_000.0 { 2 } else { 0 };
-    let text = format!("{length:.places$}");
+    let decimals = if length < 10_000.0 { 2 } else { 0 };
+    let text = format!("{length:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -99,21 +108,26 @@ fn format_length(length: f64) -> String {
 }
 
 impl LinearDimension {
-    /// The direction of the dimension line; its text reads along it from the bottom or from the right of the sheet.
+    /// The direction of the dimension line; its text reads along it from the bottom or from the
+    /// right of the sheet.
     fn line_direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
 
-    /// The dimension line's ends.
+    /// The ends of the dimension line.
     fn dimension_line(&self, height: f64) -> [DVec2; 2] {
         self.ends.map(|end| end + self.outward * (LINE_DISTANCE * height))
     }
 
-    /// Whether arrows and text have room between the extension lines.
+    /// Whether arrows and text fit between the extension lines.
     fn fits_arrows(&self, height: f64) -> bool {
         (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW_LENGTH * height
     }
 
+    /// Extension lines, dimension line and arrowheads.
+    ///
+    /// Arrows that do not fit between the extension lines point inward from outside, and the
+    /// dimension line is extended to them, and on to a text that stands beside it.
     fn line_group(&self, height: f64, text: &str) -> Group {
         let [start, end] = self.dimension_line(height);
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
@@ -124,8 +138,8 @@ impl LinearDimension {
             outwards
         };
         let mut strokes: Vec<Polyline> = Vec::new();
-        for (place, line) in self.ends.iter().zip([start, end]) {
-            let from = *place + self.outward * (EXTENSION_GAP * height);
+        for (end, line) in self.ends.iter().zip([start, end]) {
+            let from = *end + self.outward * (EXTENSION_GAP * height);
             strokes.extend(Polyline::through_points(
                 &[from, line + self.outward * (EXTENSION_OVERHANG * height)],
                 false,
@@ -141,20 +155,22 @@ impl LinearDimension {
         Group { strokes, fills: heads.into_iter().flatten().collect(), ..Group::default() }
     }
 
-    /// Whether the text is wider than what is measured, so that it must stand beside it.
+    /// Whether the text is wider than the dimension, so that it stands beside it.
     fn is_text_outside(&self, height: f64, text: &str) -> bool {
-        let room = (self.ends[1] - self.ends[0]).length();
-        self.unplaced_label(height, text).width() > room - 0.5 * height
+        let available = (self.ends[1] - self.ends[0]).length();
+        self.unplaced_label(height, text).width() > available - 0.5 * height
     }
 
+    /// The text in its direction, at the origin: to measure it, or to move it.
     fn unplaced_label<'a>(&self, height: f64, text: &'a str) -> Label<'a> {
         Label::new(text, DVec2::ZERO, height).with_direction(self.line_direction())
     }
 
+    /// The strokes of the text: centered above the dimension line, or beyond its end.
     fn text_strokes(&self, height: f64, text: &str) -> Vec<Polyline> {
         let [start, end] = self.dimension_line(height);
         let along = self.line_direction();
-        // Above the line as the text reads: to the left of its direction.
+        // Above the line in reading direction is to the left of it.
         let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
         let label = self.unplaced_label(height, text);
         let label = if self.is_text_outside(height, text) {
@@ -167,7 +183,7 @@ impl LinearDimension {
     }
 }
 
-/// An arrowhead with its tip at a place; `into` is the direction from the tip to its base.
+/// An arrowhead with this tip; `into` is the direction from the tip to the base.
 fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> Option<Polyline> {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
@@ -179,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_have_no_idle_zeros() {
+    fn lengths_have_no_trailing_zeros() {
         for (length, text) in [
             (150.0, "150"),
             (12.5, "12.5"),

@@ -1,21 +1,26 @@
-//! The frame of a sheet (ISO 5457): a margin of 20 mm at the left for filing and of 10 mm elsewhere, a line of 0.7 mm around the
-//! drawing area, and marks at the middles of the sides.
+//! Sheet frame (ISO 5457): margins, a border line of 0.7 mm and centering marks.
+//!
+//! The margin is 20 mm at the left, for filing, and 10 mm elsewhere.
 
 use super::rectangle_from_size;
 use crate::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
 use glam::DVec2;
 use viewport::{Paper, Rectangle};
 
+/// The left margin in millimeters.
 const FILING_MARGIN: f64 = 20.0;
+/// The other margins in millimeters.
 const MARGIN: f64 = 10.0;
 
-/// The width of the frame's line in millimetres.
+/// The width of the frame's line in millimeters.
 const FRAME_LINE_WIDTH: f64 = 0.7;
 
-/// How far centring marks begin from the edge of the paper, and reach into the drawing area.
+/// The distance of centering marks from the edge of the paper, and their length within the drawing
+/// area.
 const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 
-/// The area within the frame. Where paper is too small for the margins, they are a tenth of it.
+/// The drawing area within the frame; on paper too small for the margins they are a tenth of its
+/// side.
 pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     let margin = |margin: f64, side: f64| margin.min(side * 0.1);
     let (left, right) = (margin(FILING_MARGIN, paper.width()), margin(MARGIN, paper.width()));
@@ -23,7 +28,7 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     rectangle_from_size(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
-/// The frame and its marks; these do not reach into the title block.
+/// The frame and its centering marks; the lower one stops at the title block.
 pub(super) fn frame_layer(paper: Paper, block: Rectangle, ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
@@ -42,19 +47,19 @@ pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
-/// Marks that help to place a sheet in a copier.
+/// Marks at the middles of the sides, by which a sheet is aligned in a copier.
 fn centering_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, area_within_frame(paper));
     let (left, top) = (area.x(), area.y());
     let (right, bottom) = (left + area.width(), top + area.height());
-    let [edge, reach] = CENTERING_MARK;
-    let at_foot = if block.x() > middle.x { reach } else { 0.0 };
+    let [inset, length] = CENTERING_MARK;
+    let at_foot = if block.x() > middle.x { length } else { 0.0 };
     let marks = [
-        [DVec2::new(edge, middle.y), DVec2::new(left + reach, middle.y)],
-        [DVec2::new(size.x - edge, middle.y), DVec2::new(right - reach, middle.y)],
-        [DVec2::new(middle.x, edge), DVec2::new(middle.x, top + reach)],
-        [DVec2::new(middle.x, size.y - edge), DVec2::new(middle.x, bottom - at_foot)],
+        [DVec2::new(inset, middle.y), DVec2::new(left + length, middle.y)],
+        [DVec2::new(size.x - inset, middle.y), DVec2::new(right - length, middle.y)],
+        [DVec2::new(middle.x, inset), DVec2::new(middle.x, top + length)],
+        [DVec2::new(middle.x, size.y - inset), DVec2::new(middle.x, bottom - at_foot)],
     ];
     marks.iter().filter_map(|mark| Polyline::through_points(mark, false)).collect()
 }

@@ -1,4 +1,4 @@
-//! The symbol that says how views are arranged (ISO 5456-2): a cut cone from the side and from its narrow end.
+//! Projection symbol (ISO 5456-2): a truncated cone from the side and from its narrow end.
 //!
 //! ```text
 //!   first angle      ╱│          third angle       │╲
@@ -11,13 +11,17 @@ use crate::Polyline;
 use glam::DVec2;
 use projection::SheetAngle;
 
-/// The sides of the polygon a circle is drawn with.
+/// The number of sides of the polygon that approximates a circle.
 const CIRCLE_SIDES: u32 = 48;
 
-/// The symbol about a middle, so high. The cone is as long as it is high and half as high at its narrow end.
+/// The symbol of a projection angle about a center. The cone is as long as it is high, and half as
+/// high at its narrow end.
+///
+/// The second view shows the narrow end as two circles: in first angle it is drawn on the right of
+/// the cone, in third angle on the left.
 pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -> Vec<Polyline> {
     let half = height * 0.5;
-    // In first angle the view from the left, which shows the narrow end, stands at the right of the cone.
+    // In first angle the view from the left, which shows the narrow end, is right of the cone.
     let side = match angle {
         SheetAngle::First => 1.0,
         SheetAngle::Third => -1.0,
@@ -25,15 +29,15 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     let cone = middle - DVec2::new(side * height * 0.8, 0.0);
     let eye = middle + DVec2::new(side * height * 0.8, 0.0);
     let cone_point = |x: f64, y: f64| cone + DVec2::new(x, y) * half;
-    // The narrow end of the cone is at its left in both.
+    // The narrow end of the cone is on its left in both.
     let corners = [
         cone_point(-1.0, -0.5),
         cone_point(1.0, -1.0),
         cone_point(1.0, 1.0),
         cone_point(-1.0, 0.5),
     ];
-    let axis_ends = |centre: DVec2| {
-        [centre - DVec2::new(half * 1.4, 0.0), centre + DVec2::new(half * 1.4, 0.0)]
+    let axis_ends = |center: DVec2| {
+        [center - DVec2::new(half * 1.4, 0.0), center + DVec2::new(half * 1.4, 0.0)]
     };
     let upright = [eye - DVec2::new(0.0, half * 1.2), eye + DVec2::new(0.0, half * 1.2)];
     let lines = [
@@ -47,11 +51,12 @@ pub(super) fn projection_symbol(angle: SheetAngle, middle: DVec2, height: f64) -
     lines.into_iter().flatten().collect()
 }
 
-fn circle_polygon(centre: DVec2, radius: f64) -> Option<Polyline> {
+/// A circle as a closed polyline.
+fn circle_polygon(center: DVec2, radius: f64) -> Option<Polyline> {
     let point = |k: u32| {
         let angle = core::f64::consts::TAU * f64::from(k) / f64::from(CIRCLE_SIDES);
         let (sin, cos) = libm::sincos(angle);
-        centre + DVec2::new(cos, sin) * radius
+        center + DVec2::new(cos, sin) * radius
     };
     Polyline::through_points(&(0..CIRCLE_SIDES).map(point).collect::<Vec<_>>(), true)
 }

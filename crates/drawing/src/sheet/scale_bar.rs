@@ -1,30 +1,33 @@
-//! The scale bar: it still tells the truth when a sheet is copied larger or smaller.
+//! Scale bar: a graphic scale, which stays right when a sheet is enlarged or reduced.
 //!
 //! ```text
 //!   ┌────┬────┬─────────┐
-//!   │████│    │█████████│      0 to a round length, halves and a whole
+//!   │████│    │█████████│      0 to a round length of the object
 //!   └────┴────┴─────────┘
 //!   0              100 mm
 //! ```
+//!
+//! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar that is
+//! printed along with the drawing scales with it.
 
 use super::{Sheet, rectangle_from_size};
 use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// The longest bar in millimetres.
+/// The longest bar in millimeters of paper.
 const MAX_BAR_LENGTH: f64 = 60.0;
 
-/// The height of the bar.
+/// The height of the bar in millimeters.
 const BAR_HEIGHT: f64 = 1.2;
 
-/// The height of its labels, in heights of the sheet's letters.
+/// The height of its labels, as a multiple of the sheet's lettering height.
 const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 
-/// The parts of the bar, every other one filled.
+/// The number of segments; every other one is filled.
 const BAR_SEGMENTS: u32 = 4;
 
-/// The room for the bar and its labels.
+/// The area of the bar and its labels.
 pub(super) fn scale_bar_area(sheet: &Sheet) -> Rectangle {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
@@ -35,7 +38,7 @@ pub(super) fn scale_bar_area(sheet: &Sheet) -> Rectangle {
     rectangle_from_size(frame.x(), bottom - height, width, height)
 }
 
-/// The bar, in its area.
+/// The bar in its area, for a scale.
 pub(super) fn scale_bar_layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
     let area = scale_bar_area(sheet);
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
@@ -73,7 +76,10 @@ fn bar_segment(corner: DVec2, from: f64, length: f64) -> Polyline {
         .unwrap_or(Polyline { points: vec![[0, 0], [1, 0]], closed: false })
 }
 
-/// The greatest length of the form 1, 2 or 5 times a power of ten that is no longer than this.
+/// The greatest length of the form 1, 2 or 5 · 10ⁿ that is not above `most`.
+///
+/// Lengths below 1 mm are rounded to the quotient of 1 and an integer, so that their shortest
+/// decimal is the label.
 fn round_length(most: f64) -> f64 {
     let mut power = 1e-6;
     while power * 10.0 <= most {
@@ -81,11 +87,11 @@ fn round_length(most: f64) -> f64 {
     }
     let fits = |factor: &&f64| **factor * power <= most * (1.0 + 1e-9);
     let rounded = [5.0, 2.0, 1.0].iter().find(fits).map_or(power, |factor| factor * power);
-    // Powers below 1 are not exact; the label shall not show it.
+    // Powers of ten below 1 are inexact in binary, and labels print all digits.
     if rounded < 1.0 { 1.0 / libm::round(1.0 / rounded) } else { libm::round(rounded) }
 }
 
-/// The unit a length is told in: millimetres in it, and its name.
+/// The unit in which a length is labeled: millimeters in it, and its name.
 fn length_unit(length: f64) -> (f64, &'static str) {
     if length >= 1e6 {
         (1e6, "km")

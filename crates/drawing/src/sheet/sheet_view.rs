@@ -1,38 +1,52 @@
-//! One view of a sheet: a parallel projection whose picture has a known size in millimetres.
+//! Sheet view: one orthographic view of a sheet, with its size in millimeters of the object.
+//!
+//! ```text
+//!   points of the models ─frame─► camera, depths, size      (SheetView::frame_points)
+//!   camera, window ─draw─► LineDrawing of 8192 pixels       (draw)
+//!   drawing, scale ─placement─► millimeters on the sheet    (placement)
+//! ```
+//!
+//! The drawing is made at a fixed resolution and scaled when it is laid out: pixels are only a
+//! unit, as coordinates are f64.
 
 use super::{Placement, SheetError};
-use crate::{DrawOptions, LineDrawing, LineStyle, Subject, draw};
+use crate::draw::draw_surface;
+use crate::edges::WeldedSurface;
+use crate::{DrawOptions, LineDrawing, LineStyle};
 use camera::{Camera, FramingError, NamedView, ViewProjection, frame_parallel};
 use glam::DVec2;
-use homog::{Plane, Point, World};
-use model::ModelInstance;
+use homog::{Point, World};
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
 
-/// The longer side of the picture the engine draws, in pixels. Only its proportion to the window counts.
+/// The longer side of the drawing in pixels; only its ratio to the window counts.
 const LONG_SIDE_PIXELS: f64 = 8192.0;
 
-/// How fine pictures of tones are: 300 dots to the inch.
+/// The resolution of flat fills: 300 dots to the inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 
-/// How much larger the window is than what is in it, so that nothing touches its border.
+/// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
 
-/// A view of the object.
+/// A parallel view of the object in a named direction.
 #[derive(Clone, Debug)]
 pub(super) struct SheetView {
     pub(super) name: NamedView,
     pub(super) camera: Camera,
-    /// From where to where the object reaches ahead of the camera, in units of the scene.
+    /// The nearest and the farthest depth of the object along the view direction, in units of the
+    /// scene.
     depths: [f64; 2],
-    /// Width and height of the object in this view, in millimetres of the thing.
+    /// Width and height of the object in this view, in millimeters of the object.
     pub(super) size: DVec2,
-    /// Millimetres in a unit of the scene.
+    /// Millimeters in a unit of the scene.
     pub(super) millimeters_per_unit: f64,
 }
 
 impl SheetView {
-    /// The view of these points by its name.
+    /// The view of these points in a named direction.
+    ///
+    /// # Errors
+    /// [`SheetError::Empty`] without points, [`SheetError::View`] if the points cannot be framed.
     pub(super) fn frame_points(
         points: &[Point<World>],
         name: NamedView,
@@ -45,25 +59,25 @@ impl SheetView {
         let framed = frame_parallel(points.iter().copied(), name.basis(), 1.0, 0.0)
             .map_err(framing_error)?;
         let world_to_view = framed.camera.world_to_view();
-        let reach =
+        let extents =
             points.iter().map(|&point| world_to_view.transform_point(point).raw().truncate());
-        let half = reach.fold(DVec2::ZERO, |most, point| most.max(point.abs()));
+        let half = extents.fold(DVec2::ZERO, |most, point| most.max(point.abs()));
         let (camera, depths) = (framed.camera, [framed.near, framed.far]);
         Ok(Self { name, camera, depths, size: half * 2.0 * unit, millimeters_per_unit: unit })
     }
 
-    /// The window in units of the scene; never empty, however flat the object.
+    /// Width and height of the window in units of the scene; never zero, however flat the object.
     fn window_size(&self) -> DVec2 {
         let size = self.size / self.millimeters_per_unit;
         let least = size.max_element().max(self.depths[1] - self.depths[0]).max(1e-9) * 0.02;
         (size * WINDOW_MARGIN).max(DVec2::splat(least))
     }
 
-    /// The lines of the view.
+    /// The line drawing of the view. Depths get a margin of 2 % of the extent.
     pub(super) fn draw(
         &self,
-        (models, sections): (&[ModelInstance], &[Plane<World>]),
-        look: &LineStyle,
+        surface: &WeldedSurface,
+        style: &LineStyle,
         scale: DrawingScale,
         threads: usize,
     ) -> Result<LineDrawing, SheetError> {
@@ -76,32 +90,28 @@ impl SheetView {
             .map_err(|error| SheetError::View { view: self.name, reason: error.to_string() })?;
         let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
         let pixels = (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE);
-        let subject = Subject {
-            models,
-            view_projection: ViewProjection { camera: self.camera, view_to_clip },
-            size: [pixels.x as u32, pixels.y as u32],
-            sections,
-        };
-        // Millimetres of the paper for a pixel.
+        let size = [pixels.x as u32, pixels.y as u32];
+        let view_projection = ViewProjection { camera: self.camera, view_to_clip };
+        // Millimeters of paper for a pixel.
         let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
             / LONG_SIDE_PIXELS;
         let options = DrawOptions {
-            hatch_spacing: look.hatch_spacing / pixel,
+            hatch_spacing: style.hatch_spacing / pixel,
             fill_scale: FILL_DOTS_PER_MILLIMETER * pixel,
-            ..look.to_draw_options()
+            ..style.to_draw_options()
         };
-        Ok(draw(&subject, &options, threads)?)
+        Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
     }
 
-    /// Where the view's drawing goes on the sheet: at this scale, its middle at `centre`.
+    /// The placement of the view's drawing on the sheet: at this scale, centered at `center`.
     pub(super) fn placement(
         &self,
         drawing: &LineDrawing,
         scale: DrawingScale,
-        centre: DVec2,
+        center: DVec2,
     ) -> Placement {
         let window = self.window_size() * self.millimeters_per_unit;
         let window = DVec2::new(scale.to_paper_length(window.x), scale.to_paper_length(window.y));
-        Placement { corner: centre - window * 0.5, scale: window / drawing.size }
+        Placement { corner: center - window * 0.5, scale: window / drawing.size }
     }
 }

@@ -1,4 +1,5 @@
-//! The title block (ISO 7200): what the sheet shows, who made it, and at what scale, in the lower right corner.
+//! Title block (ISO 7200): title, author, scale and other fields in the lower right corner of a
+//! sheet.
 //!
 //! ```text
 //!   ┌──────────────────┬────────────┬───────────────────────┐
@@ -17,18 +18,20 @@ use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// The width of the block where the paper is wide enough, and its height, in millimetres.
+/// Width of the block where the paper is wide enough, and its height, in millimeters.
 const BLOCK_SIZE: [f64; 2] = [180.0, 32.0];
 
-/// The heights of letters: of names of fields, of what is in them, of the title.
+/// The height of letters of field names, in millimeters.
 const NAME_HEIGHT: f64 = 1.8;
+/// The height of letters of field values, in millimeters.
 const VALUE_HEIGHT: f64 = 3.5;
+/// The height of letters of the title, in millimeters.
 const TITLE_HEIGHT: f64 = 5.0;
 
-/// From the border of a field to its text.
+/// The distance from the border of a field to its text, in millimeters.
 const FIELD_INSET: f64 = 1.5;
 
-/// A field: where it begins and ends, as parts of the block; its name; and what is in it.
+/// A field: its extent as fractions of the block, its name, and its value.
 struct TitleBlockField<'a> {
     x: [f64; 2],
     y: [f64; 2],
@@ -37,7 +40,26 @@ struct TitleBlockField<'a> {
     height: f64,
 }
 
-/// Where the block is within the frame.
+impl TitleBlockField<'_> {
+    /// Width and height of the field in a block, in millimeters.
+    fn size(&self, block: Rectangle) -> DVec2 {
+        self.corner(block, 1) - self.corner(block, 0)
+    }
+
+    /// The upper left (0) or lower right (1) corner of the field in a block.
+    fn corner(&self, block: Rectangle, end: usize) -> DVec2 {
+        let (x, y) = (self.x[end], self.y[end]);
+        DVec2::new(block.x() + x * block.width(), block.y() + y * block.height())
+    }
+
+    /// The rectangle of the field in a block.
+    fn cell(&self, block: Rectangle) -> Rectangle {
+        let (corner, size) = (self.corner(block, 0), self.size(block));
+        rectangle_from_size(corner.x, corner.y, size.x, size.y)
+    }
+}
+
+/// The area of the block within the frame.
 pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
     let width = BLOCK_SIZE[0].min(frame.width());
     let height = BLOCK_SIZE[1].min(frame.height() * 0.3);
@@ -45,7 +67,10 @@ pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
     rectangle_from_size(right - width, bottom - height, width, height)
 }
 
-/// The borders, the lettering in its three widths, and the symbol.
+/// The borders, the lettering in its three widths, and the projection symbol.
+///
+/// Text that is too wide for its field is reduced in height. On small paper the block shrinks, and
+/// letters with it.
 pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,
@@ -62,19 +87,18 @@ pub(super) fn title_block_layers(
     let mut heading = Layer::new("title-block-title", "title block: title", heading);
     let mut values = Layer::new("title-block-text", "title block: text", Pen::solid(0.35, ink));
     for field in &fields {
-        let block_point =
-            |x: f64, y: f64| DVec2::new(area.x() + x * area.width(), area.y() + y * area.height());
-        let (low, high) =
-            (block_point(field.x[0], field.y[0]), block_point(field.x[1], field.y[1]));
-        let size = high - low;
-        let cell = rectangle_from_size(low.x, low.y, size.x, size.y);
+        let cell = field.cell(area);
+        let (corner, size) = (field.corner(area, 0), field.size(area));
         borders.groups[0].strokes.push(rectangle_outline(cell));
         let text_width = size.x - 2.0 * FIELD_INSET;
         let small = NAME_HEIGHT.min(size.y * 0.2);
-        let name =
-            Label::new(field.name, low + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small), small);
+        let name = Label::new(
+            field.name,
+            corner + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small),
+            small,
+        );
         names.groups.push(label_group(&name.fit_to_width(text_width)));
-        let foot = low + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
+        let foot = corner + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
         let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
         let layer = if field.height == TITLE_HEIGHT { &mut heading } else { &mut values };
         layer.groups.push(label_group(&value.fit_to_width(text_width)));
@@ -85,8 +109,12 @@ pub(super) fn title_block_layers(
     vec![borders, names, heading, values]
 }
 
+/// The name of the field with the projection symbol.
 const PROJECTION_FIELD: &str = "Projection";
 
+/// The fields in reading order.
+///
+/// Columns and rows are fractions of the block, so that it scales with narrow paper.
 fn title_block_fields<'a>(
     sheet: &Sheet,
     title: &str,
@@ -114,6 +142,7 @@ fn title_block_fields<'a>(
     ]
 }
 
+/// The projection symbol in its field.
 fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
     let height = (cell.height() * 0.62).min(cell.width() * 0.2);
     let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() - height * 0.8);
@@ -121,6 +150,7 @@ fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
     Group { strokes, ..Group::default() }
 }
 
+/// A label as a group.
 fn label_group(label: &Label<'_>) -> Group {
     Group { strokes: label.strokes(), ..Group::default() }
 }

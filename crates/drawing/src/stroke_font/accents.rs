@@ -1,9 +1,14 @@
-//! Letters with accents: a letter, and a mark that stands over or under it.
+//! Accented letters of the stroke font: a base letter, and a mark over, under or beside it.
+//!
+//! Marks are composed with letters at run time, so the table of glyphs holds 95 shapes instead of
+//! several hundred. A mark is drawn about x = 0 and moved to the middle of its letter; its y counts
+//! from the top of the letter, that of a cedilla from the baseline.
 
 use super::{Glyph, glyph_for_char, parse_strokes};
 use glam::DVec2;
 
-/// Marks over letters, about x = 0, y from the top of the letter; and under them, y from the baseline.
+/// The marks as paths about x = 0, with y from the top of the letter; those under it, with y from
+/// the baseline.
 const ACUTE: &str = "m -0.7,1.2 l 0.9,2.9";
 const GRAVE: &str = "m 0.7,1.2 l -0.9,2.9";
 const CIRCUMFLEX: &str = "m -1.5,1.2 l 0,2.8 l 1.5,1.2";
@@ -18,7 +23,7 @@ const DOT: &str = "m 0,2 l 0,2.2";
 const CEDILLA: &str = "m 0,0 l 0,-0.7 h 1.1,-1.6 v 0,-2.5 l -0.9,-2.5";
 const APOSTROPHE: &str = "m 0.4,0 l 0,-1.8";
 
-/// The letters of a mark, each with the letter below it.
+/// The letters of each mark: pairs of the accented letter and its base letter.
 const MARKED_LETTERS: &[(&str, &str)] = &[
     (ACUTE, "ÁAÉEÍIÓOÚUÝYĆCŃNŚSŹZŔRĹLáaéeíıóoúuýyćcńnśsźzŕr"),
     (GRAVE, "ÀAÈEÌIÒOÙUàaèeìıòoùu"),
@@ -34,10 +39,13 @@ const MARKED_LETTERS: &[(&str, &str)] = &[
     (CEDILLA, "ÇCŞSŢTçcşsţt"),
 ];
 
-/// Letters that have an apostrophe beside them for a caron.
+/// Letters whose caron is written as an apostrophe at their side, each with its base letter (Czech
+/// and Slovak usage).
 const APOSTROPHE_CARON_LETTERS: &str = "ďdťtľlĽL";
 
-/// The letter with its mark; `None` if it is none of these.
+/// The glyph of an accented letter; `None` if the character is none of these.
+///
+/// A caron at d, t, l and L is an apostrophe at the upper right corner, and widens the letter.
 pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     for (mark, letters) in MARKED_LETTERS {
         if let Some(letter) = base_letter(letters, character) {
@@ -52,6 +60,7 @@ pub(super) fn accented_glyph(character: char) -> Option<Glyph> {
     Some(glyph)
 }
 
+/// The base letter of an accented one, in a list of pairs.
 fn base_letter(letters: &str, character: char) -> Option<char> {
     let mut pairs = letters.chars();
     while let (Some(marked), Some(letter)) = (pairs.next(), pairs.next()) {
@@ -62,23 +71,28 @@ fn base_letter(letters: &str, character: char) -> Option<char> {
     None
 }
 
+/// A letter with a mark over its middle, or a cedilla under it.
+///
+/// A letter without width, such as the dotless i, is widened, so that its mark does not reach into
+/// its neighbors.
 fn glyph_with_mark(letter: char, mark: &str) -> Glyph {
     let mut glyph = glyph_for_char(letter);
     let is_below = mark == CEDILLA;
     let top = glyph.strokes.iter().flatten().fold(0.0, |top: f64, point| point.y.max(top));
     let middle = glyph.width * 0.5;
-    // A letter that is no wider than its stroke makes room for its mark.
+    // A letter that is no wider than its stroke is moved aside to center its mark.
     if middle == 0.0 {
         glyph.strokes.iter_mut().flatten().for_each(|point| point.x += 0.8);
         glyph.width = 1.6;
     }
-    // Over small letters a mark stands a little lower, so that lines of text do not touch.
+    // Marks are a little lower over small letters, so that lines of text do not touch.
     let base = if is_below { 0.0 } else { top - if top > 8.0 { 0.2 } else { 0.1 } };
     let at = DVec2::new(glyph.width * 0.5, base);
     add_strokes(&mut glyph, mark, at);
     glyph
 }
 
+/// Adds the strokes of a path to a glyph, moved by `at`.
 fn add_strokes(glyph: &mut Glyph, path: &str, at: DVec2) {
     let moved = parse_strokes(path).into_iter();
     glyph.strokes.extend(moved.map(|stroke| stroke.into_iter().map(|point| point + at).collect()));

@@ -1,9 +1,13 @@
-//! The shapes of the font: a character, its width, its path.
+//! Glyph table of the stroke font: character, advance width, and path.
+//!
+//! Capitals are 10 units high, small letters 7; paths use the commands described in the parent
+//! module. Accented letters are composed in `accents`. Shapes follow the upright letters of ISO
+//! 3098-2 as far as two or three strokes allow.
 
-/// What is drawn for a character the font has not.
+/// The box that is drawn for characters that the font lacks.
 pub(super) const MISSING_GLYPH: &str = "m 0,0 l 5,0 l 5,10 l 0,10 l 0,0";
 
-/// The characters without accents.
+/// The unaccented characters; searched linearly, since labels are short.
 #[rustfmt::skip]
 pub(super) const GLYPHS: &[(char, f64, &str)] = &[
     ('A', 6.4, "m 0,0 l 3.2,10 l 6.4,0 m 1.12,3.5 l 5.28,3.5"),

@@ -1,21 +1,44 @@
-//! Decoding PNG, JPEG, WebP and, by the feature `basisu`, KTX2 into 8-bit RGBA.
+//! Image decoding: PNG, JPEG, WebP and, with the feature `basisu`, KTX2 into 8-bit RGBA.
 //!
-//! What an image is, its first bytes say; the file's name and the glTF `mimeType` are not asked.
+//! The format is recognized by the first bytes; the file's name and glTF's `mimeType` are ignored.
+//! Sizes are read from the header and checked before any decoder allocates, and a decoder that
+//! panics counts as one that fails.
 
-use super::jpeg::check_chroma_sampling;
-use super::webp::check_frame_sizes;
+mod jpeg;
+#[cfg(feature = "basisu")]
+mod ktx2;
+mod webp;
+
 use crate::Image;
 use image_webp::WebPDecoder;
+use jpeg::check_chroma_sampling;
 use png::{BitDepth, ColorType, Transformations};
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use webp::check_frame_sizes;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-/// Width and height, from the header alone.
-pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
+/// An image of a file that has been read but not decoded.
+pub(crate) struct EncodedImage<'a> {
+    /// Index of the image in the file.
+    pub(crate) index: usize,
+    /// The encoded bytes.
+    pub(crate) bytes: Cow<'a, [u8]>,
+    /// Width and height in texels.
+    pub(crate) size: (u32, u32),
+}
+
+/// Width and height from the header alone.
+///
+/// Refuses decompression bombs: sizes that so few bytes cannot hold.
+///
+/// # Errors
+/// A message for people: the format is not known, the header is broken, or the size is implausible.
+pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
             let mut decoder = png::Decoder::new(Cursor::new(bytes));
@@ -30,7 +53,7 @@ pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
         }
         ImageFormat::WebP => Ok(webp_decoder(bytes)?.dimensions()),
         #[cfg(feature = "basisu")]
-        ImageFormat::Ktx2 => super::ktx2::size(bytes),
+        ImageFormat::Ktx2 => ktx2::size(bytes),
     })
     .and_then(|(width, height)| {
         let (texels, most) = (
@@ -45,8 +68,8 @@ pub(super) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     })
 }
 
-/// The name of the format, or nothing if it is not known.
-pub(super) fn format_name(bytes: &[u8]) -> &'static str {
+/// Name of the format (`png`, `jpeg`, `webp`, `ktx2`); empty if it is not known.
+pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     match ImageFormat::from_magic(bytes) {
         Ok(ImageFormat::Png) => "png",
         Ok(ImageFormat::Jpeg) => "jpeg",
@@ -57,7 +80,15 @@ pub(super) fn format_name(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// An image of at most so many texels, whose header is asked before anything is allocated.
+/// Decodes an image with at most `most` texels; the header is checked before anything is allocated.
+///
+/// ```
+/// let message = model::import::decode_image(b"GIF89a", 1 << 20).unwrap_err();
+/// assert_eq!(message, "this is a GIF image; only PNG, JPEG and WebP are read");
+/// ```
+///
+/// # Errors
+/// A message for people: the format is not known, the data is broken, or the image is too large.
 pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
     let (width, height) = image_size(bytes)?;
     if u64::from(width) * u64::from(height) > most {
@@ -66,29 +97,32 @@ pub fn decode_bounded(bytes: &[u8], most: u64) -> Result<Image, String> {
     decode_rgba(bytes)
 }
 
-/// The whole image. Its size should have been asked first: this allocates as much as the image has texels.
-pub(super) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
+/// Decodes the whole image. Callers check [`image_size`] first: this allocates 4 bytes a texel.
+pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => decode_png(bytes),
         ImageFormat::Jpeg => decode_jpeg(bytes),
         ImageFormat::WebP => decode_webp(bytes),
         #[cfg(feature = "basisu")]
-        ImageFormat::Ktx2 => super::ktx2::decode(bytes),
+        ImageFormat::Ktx2 => ktx2::decode(bytes),
     })
 }
 
-/// A decoder that panics has met a broken image.
+/// Runs a decoder; a panic means that the image is broken.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
 }
 
+/// The message for a header that promises more texels than the bytes can hold.
 fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
     format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
 }
 
-/// The texels of an image that is next to no bytes long, if its format can have such.
+/// Texels that an image of next to no bytes may have, in formats that can store a flat color in
+/// them.
 const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
 
+/// A supported image format.
 enum ImageFormat {
     Png,
     Jpeg,
@@ -98,9 +132,12 @@ enum ImageFormat {
 }
 
 impl ImageFormat {
-    /// No more texels than this can be in so many bytes: deflate makes at most 1,032 bytes of one and a byte has eight
-    /// one-bit texels; a JPEG needs a bit for each block of 64 texels; a WebP of one colour needs next to nothing, so
-    /// that its sheer size is held against it: what [`HOLLOW`] allows takes 70 MB while it is decoded.
+    /// Upper bound of the texels that so many bytes can encode.
+    ///
+    /// - PNG: deflate makes at most 1,032 bytes of one, and a byte has eight 1-bit texels.
+    /// - JPEG: each block of 64 texels takes at least one bit.
+    /// - WebP: a flat image takes next to nothing, so that its size itself is bounded: what
+    ///   [`BOMB_ALLOWANCE_TEXELS`] allows takes 70 MB while it is decoded.
     fn max_plausible_texels(&self, bytes: usize) -> u64 {
         let bytes = bytes as u64;
         match self {
@@ -113,6 +150,8 @@ impl ImageFormat {
         }
     }
 
+    /// Recognizes the format by its magic number; the error names formats that are known but
+    /// unsupported.
     fn from_magic(bytes: &[u8]) -> Result<Self, String> {
         let other = match bytes {
             [0x89, b'P', b'N', b'G', ..] => return Ok(Self::Png),
@@ -121,7 +160,7 @@ impl ImageFormat {
                 return Ok(Self::WebP);
             }
             #[cfg(feature = "basisu")]
-            [..] if bytes.starts_with(&super::ktx2::MAGIC) => return Ok(Self::Ktx2),
+            [..] if bytes.starts_with(&ktx2::MAGIC) => return Ok(Self::Ktx2),
             [] => return Err("the image is empty".to_owned()),
             [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
             [b'D', b'D', b'S', b' ', ..] => "a DDS image",
@@ -138,24 +177,25 @@ fn png_problem(error: &png::DecodingError) -> String {
     format!("the PNG is broken: {error}")
 }
 
+/// Decodes a PNG, converting palettes, gray and 16 bits to RGBA of 8 bits.
 fn decode_png(bytes: &[u8]) -> Result<Image, String> {
-    let problem = |error: png::DecodingError| png_problem(&error);
+    let message = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
         png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: 1 << 30 });
     decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    let mut reader = decoder.read_info().map_err(problem)?;
+    let mut reader = decoder.read_info().map_err(message)?;
     let (width, height) = reader.info().size();
     match reader.output_color_type() {
         (ColorType::Rgba, BitDepth::Eight) => {
             let mut rgba = blank_texels(width, height);
-            reader.next_frame(rgba.as_flattened_mut()).map_err(problem)?;
+            reader.next_frame(rgba.as_flattened_mut()).map_err(message)?;
             Ok(Image { width, height, rgba })
         }
         (ColorType::GrayscaleAlpha, BitDepth::Eight) => {
             let mut grey = vec![0; reader.output_buffer_size().ok_or("the PNG is too large")?];
-            reader.next_frame(&mut grey).map_err(problem)?;
+            reader.next_frame(&mut grey).map_err(message)?;
             let pairs = grey.as_chunks().0.iter();
             checked_image(width, height, pairs.map(|&[y, alpha]| [y, y, y, alpha]).collect())
         }
@@ -179,6 +219,7 @@ fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
     format!("the JPEG is broken: {error}")
 }
 
+/// Decodes a baseline or progressive JPEG; CMYK is refused, as it needs a color profile.
 fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     check_chroma_sampling(bytes)?;
     let mut decoder = jpeg_decoder(bytes);
@@ -203,6 +244,7 @@ fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
     Ok(decoder)
 }
 
+/// Decodes the first frame of a lossy or lossless WebP.
 fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = webp_decoder(bytes)?;
     let (width, height) = decoder.dimensions();
@@ -218,6 +260,7 @@ fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
     checked_image(width, height, rgba.collect())
 }
 
+/// The image, if there are as many texels as its size says.
 fn checked_image(width: u32, height: u32, rgba: Vec<[u8; 4]>) -> Result<Image, String> {
     if rgba.len() as u64 == u64::from(width) * u64::from(height) {
         Ok(Image { width, height, rgba })
@@ -244,8 +287,8 @@ mod tests {
         bytes
     }
 
-    /// A baseline JPEG of 8 x 8 texels, all of middle grey: every coefficient is 0, and each of the two Huffman tables has
-    /// the single code `0`, for "no difference" and for "end of block".
+    /// A baseline JPEG of 8 x 8 texels, all of middle gray: every coefficient is 0, and each of the
+    /// two Huffman tables has the single code `0`, for "no difference" and for "end of block".
     fn jpeg(components: u8) -> Vec<u8> {
         let numbers = || 1..=components;
         let mut bytes = vec![0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0];
@@ -298,7 +341,7 @@ mod tests {
             assert_eq!((image.width, image.height), (8, 8));
             assert_eq!(image.rgba, [[128, 128, 128, 255]; 64], "{components} components");
         }
-        let problem = decode_rgba(&jpeg(4)).unwrap_err();
-        assert_eq!(problem, "the JPEG is in CMYK, for printing; only RGB and grey are read");
+        let message = decode_rgba(&jpeg(4)).unwrap_err();
+        assert_eq!(message, "the JPEG is in CMYK, for printing; only RGB and grey are read");
     }
 }

@@ -1,27 +1,34 @@
-//! How much memory the arrays that a file asks for may take.
+//! Memory budget for the arrays that a file asks for: the defense against decompression bombs.
+//!
+//! Two bounds apply: an absolute one, and one relative to the bytes that have been read. The second
+//! catches small files that ask for much: an honest model's arrays are at most a few times as large
+//! as its files, even when compressed. Charges are made before an array is allocated and never
+//! refunded, as the arrays live as long as the model.
 
-use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
+use crate::diagnostic::{Diagnostic, codes};
 use std::cell::Cell;
 
-/// Arrays may take so many bytes however small the files are.
+/// Bytes that arrays may take however small the files are.
 const FREE_ARRAY_BYTES: u64 = 16 << 20;
 
-/// Counts the bytes of all arrays; see [`Limits::array_bytes`] and [`Limits::array_growth`].
+/// Running total of array bytes; see [`Limits::array_bytes`] and [`Limits::array_growth`].
 #[derive(Debug)]
-pub(super) struct MemoryBudget<'a> {
+pub(crate) struct MemoryBudget<'a> {
     limits: &'a Limits,
     allocated: Cell<u64>,
 }
 
 impl<'a> MemoryBudget<'a> {
-    pub(super) fn new(limits: &'a Limits) -> Self {
+    pub(crate) fn new(limits: &'a Limits) -> Self {
         Self { limits, allocated: Cell::new(0) }
     }
 
-    /// Counts an array that is about to be made. `pointer` is the member that says how long it is, `files` the bytes of
-    /// all files that have been read.
-    pub(super) fn charge_bytes(
+    /// Counts an array before it is allocated.
+    ///
+    /// `pointer` is the location that declares its length, `files` the bytes of all files read so
+    /// far. The error is [`codes::LIMIT_EXCEEDED`].
+    pub(crate) fn charge_bytes(
         &self,
         pointer: &str,
         bytes: u64,
@@ -35,9 +42,9 @@ impl<'a> MemoryBudget<'a> {
             return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
         }
         if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
-            let problem = format!("{what}, more than {array_growth} times the files");
-            let remedy = Diagnostic::raise_limit_help("array_growth");
-            return Err(Diagnostic::new(ImportErrorKind::Limit, pointer, problem, &remedy));
+            let message = format!("{what}, more than {array_growth} times the files");
+            let help = Diagnostic::raise_limit_help("array_growth");
+            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, message, &help));
         }
         Ok(())
     }

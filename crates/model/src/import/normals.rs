@@ -1,25 +1,26 @@
-//! Normals as the model promises them: of unit length, one for each vertex.
+//! Normal repair: every normal of an imported primitive has unit length.
 
 use crate::{Primitive, Topology};
 use glam::DVec3;
 
-/// What was wrong with the normals.
+/// Numbers of normals that had to be corrected.
 #[derive(Default, Debug, PartialEq, Eq)]
 pub(super) struct NormalRepairs {
-    /// Normals that pointed somewhere but were not of unit length.
+    /// Normals with a direction that were not of unit length.
     pub(super) lengths: usize,
-    /// Normals that pointed nowhere (zero, infinite, not a number).
+    /// Normals without a direction (zero, infinite, not a number).
     pub(super) replaced: usize,
 }
 
-/// Makes every normal a unit vector. One that has no direction becomes the mean normal of the triangles around its
-/// vertex, or (0, 0, 1) where they have none either.
+/// Normalizes all normals. One without a direction is replaced by the area-weighted mean of the
+/// triangles around its vertex, or by (0, 0, 1) where those have none either.
 ///
-/// Lengths that rounding to bytes explains are corrected without being counted.
+/// Deviations of up to 2 %, which quantization to bytes explains, are corrected without being
+/// counted.
 pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     let mut repairs = NormalRepairs::default();
     let Some(mut normals) = primitive.normals.take() else { return repairs };
-    let mut lost = Vec::new();
+    let mut undirected = Vec::new();
     for (vertex, normal) in normals.iter_mut().enumerate() {
         let [x, y, z] = normal.map(f64::from);
         let square = x * x + y * y + z * z;
@@ -31,13 +32,13 @@ pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
             *normal = [x / length, y / length, z / length].map(|x| x as f32);
             repairs.lengths += usize::from((length - 1.0).abs() > 0.02);
         } else {
-            lost.push(vertex);
+            undirected.push(vertex);
         }
     }
-    repairs.replaced = lost.len();
-    if !lost.is_empty() {
+    repairs.replaced = undirected.len();
+    if !undirected.is_empty() {
         let means = area_weighted_normals(primitive);
-        for vertex in lost {
+        for vertex in undirected {
             let mean = means[vertex];
             let unit = if mean.length_squared() > 0.0 { mean.normalize() } else { DVec3::Z };
             normals[vertex] = unit.to_array().map(|x| x as f32);
@@ -47,7 +48,8 @@ pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     repairs
 }
 
-/// For each vertex the sum of its triangles' normals, each as long as twice the triangle's area.
+/// For each vertex the sum of the normals of its triangles, each as long as twice the triangle's
+/// area.
 fn area_weighted_normals(primitive: &Primitive) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; primitive.positions.len()];
     if primitive.topology != Topology::Triangles {

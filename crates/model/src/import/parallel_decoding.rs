@@ -1,9 +1,11 @@
-//! Decoding images on all processors while the geometry is read.
+//! Parallel image decoding, on all processors while the geometry is read.
 //!
-//! Which thread decodes which image makes no difference: results are kept by their place.
+//! Threads take images from a common queue and store results by index, so that it makes no
+//! difference which thread decodes which image. The thread that reads the geometry joins in when it
+//! is done.
 
 use super::image_decoder;
-use super::images::EncodedImage;
+use super::image_decoder::EncodedImage;
 use crate::Image;
 use crate::Timings;
 use std::convert::Infallible;
@@ -11,18 +13,18 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// An image, or why there is none.
+/// A decoded image, or a message that says why there is none.
 pub(super) type DecodeResult = Result<Image, String>;
 
-/// Decodes images.
+/// Decodes images on all processors.
 pub(super) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
     let Ok(((), decoded)) =
         decode_images_alongside(encoded, &Timings::default(), || Ok::<_, Infallible>(()));
     decoded
 }
 
-/// Does other work while images are decoded, then helps with those that are left, which is measured as `images`. If the
-/// work fails no further image is begun.
+/// Runs `work` while other threads decode images, then helps with those that are left, which is
+/// measured as `images`. If the work fails no further image is begun.
 pub(super) fn decode_images_alongside<T, E>(
     encoded: &[EncodedImage<'_>],
     timings: &Timings,
@@ -47,10 +49,12 @@ pub(super) fn decode_images_alongside<T, E>(
     Ok((done?, queue.into_results()))
 }
 
-/// Images, of which each thread takes the next one.
+/// Queue of images from which each thread takes the next.
 struct DecodeQueue<'a> {
     encoded: &'a [EncodedImage<'a>],
+    /// Index of the next image that no thread has taken.
     next: AtomicUsize,
+    /// Results by index; `None` where a thread gave up.
     results: Vec<Mutex<Option<DecodeResult>>>,
 }
 
@@ -60,6 +64,7 @@ impl<'a> DecodeQueue<'a> {
         Self { encoded, next: AtomicUsize::new(0), results }
     }
 
+    /// Decodes images until none is left.
     fn decode_until_empty(&self) {
         loop {
             let at = self.next.fetch_add(1, Ordering::Relaxed);
@@ -71,10 +76,12 @@ impl<'a> DecodeQueue<'a> {
         }
     }
 
+    /// Lets no further image be begun.
     fn stop_queue(&self) {
         self.next.store(self.encoded.len(), Ordering::Relaxed);
     }
 
+    /// The results in the order of the images.
     fn into_results(self) -> Vec<DecodeResult> {
         let given_up = || Err("it was not decoded".to_owned());
         let results = self.results.into_iter().map(|slot| slot.into_inner().ok().flatten());

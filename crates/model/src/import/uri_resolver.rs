@@ -1,14 +1,15 @@
-//! Which file a URI of a glTF file means, and whether it may be read.
+//! URI resolution within a sandbox of folders: which file a URI means, and whether it may be read.
 //!
-//! A model comes from a stranger, so its URIs are not trusted: they name files by a relative path below one folder,
-//! the root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no symbolic link that
-//! leads out of it, no device or pipe, no file larger than the limit. Everything is checked before a file is opened,
-//! and a path that would leave the root is refused without looking whether something is there. The person who loads the
-//! model may name other folders: then `..` and symbolic links may lead there too, and nothing else changes.
+//! A model comes from a stranger, so its URIs are not trusted: they are relative paths below one
+//! folder, the root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the
+//! root, no symbolic link that leads out of it, no device or pipe, no file larger than the limit.
+//! Everything is checked before a file is opened, and a path that would leave the root is refused
+//! without looking whether something exists there. The user may allow further folders
+//! ([`ImportOptions::allow_outside`]): then `..` and symbolic links may lead there too.
 
 use super::ImportOptions;
-use super::error::{Diagnostic, ImportErrorKind};
 use super::limits::Limits;
+use crate::diagnostic::{Diagnostic, codes};
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -17,31 +18,33 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// Reads the files that a glTF file refers to.
+/// Reads the files and data URIs that a file refers to.
 #[derive(Debug)]
-pub(super) struct UriResolver<'a> {
-    /// The folder of the glTF file and the one that everything must stay below; `None` if no file may be read.
+pub(crate) struct UriResolver<'a> {
+    /// Where files may be; `None` if none may be read.
     sandbox: Option<AssetSandbox>,
-    pub(super) limits: &'a Limits,
-    /// Whether a missing file stops loading; see [`ImportOptions::lenient`].
-    pub(super) lenient: bool,
-    /// The bytes that have been read so far.
+    /// The limits in effect.
+    pub(crate) limits: &'a Limits,
+    /// Whether a missing file is only a warning; see [`ImportOptions::lenient`].
+    pub(crate) lenient: bool,
+    /// Bytes that have been read so far.
     bytes_read: Cell<u64>,
 }
 
-/// Where files are looked for.
+/// The folders that referenced files may be in.
 #[derive(Debug)]
 struct AssetSandbox {
     /// The folder that relative paths begin at.
     folder: PathBuf,
-    /// The folders of which everything must stay below one.
+    /// Folders, canonical; every file must be below one of them.
     roots: Vec<PathBuf>,
 }
 
 impl<'a> UriResolver<'a> {
-    /// A resolver for the assets of `file`, which must be below the folders that the options name, or below the file's own.
-    /// The file itself has been read: its `length` counts.
-    pub(super) fn new(
+    /// A resolver for the assets of `file`, in its own folder or in those that the options name.
+    ///
+    /// The file itself has been read already: its `length` counts against the limit.
+    pub(crate) fn new(
         file: &Path,
         length: usize,
         options: &'a ImportOptions,
@@ -55,30 +58,34 @@ impl<'a> UriResolver<'a> {
         Self::with_sandbox(Some((folder, root)), length, options)
     }
 
-    /// A resolver for the assets of a glTF file in memory: they begin at the root, or, without one, may not be files.
-    pub(super) fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
+    /// A resolver for a file in memory: its assets are below the root, or, without one, may not be
+    /// files.
+    pub(crate) fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
         let root = options.root.as_deref().map(canonical_folder).transpose()?;
         Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
     }
 
-    /// A resolver for assets that begin at a folder and stay below a root.
+    /// A resolver for assets whose paths begin at a folder and stay below a root.
     fn with_sandbox(
-        place: Option<(PathBuf, PathBuf)>,
+        sandbox: Option<(PathBuf, PathBuf)>,
         length: usize,
         options: &'a ImportOptions,
     ) -> Result<Self, Diagnostic> {
         let ImportOptions { limits, lenient, allow_outside, .. } = options;
-        let others = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
-        let others: Vec<PathBuf> = others.collect::<Result<_, _>>()?;
-        let place = place.map(|(folder, root)| {
-            let roots = std::iter::once(root).chain(others).collect();
+        let further = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
+        let further: Vec<PathBuf> = further.collect::<Result<_, _>>()?;
+        let sandbox = sandbox.map(|(folder, root)| {
+            let roots = std::iter::once(root).chain(further).collect();
             AssetSandbox { folder, roots }
         });
-        Ok(Self { sandbox: place, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
+        Ok(Self { sandbox, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
     }
 
-    /// The bytes that a URI stands for; `pointer` is where the URI is.
-    pub(super) fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+    /// The bytes that a URI refers to; `pointer` is the location of the URI.
+    ///
+    /// # Errors
+    /// The file does not exist, is outside of the sandbox or too large; the data URI is malformed.
+    pub(crate) fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         let bytes = match uri.split_once(':') {
             Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
                 decode_data_uri(data, pointer)?
@@ -98,35 +105,41 @@ impl<'a> UriResolver<'a> {
         Ok(bytes)
     }
 
-    /// The bytes of all files that have been read so far.
-    pub(super) fn total_bytes(&self) -> u64 {
+    /// Bytes of all files that have been read so far.
+    pub(crate) fn total_bytes(&self) -> u64 {
         self.bytes_read.get()
     }
 
-    /// The file that a URI names: as it is written, else percent-decoded, else with `\` read as `/`.
+    /// The file that a URI names: taken literally, else percent-decoded, else with `\` read as `/`.
+    ///
+    /// Exporters disagree about escaping, and some write paths of Windows; the first candidate that
+    /// exists is taken. Each candidate is checked against the sandbox.
+    ///
+    /// # Errors
+    /// The path leaves the sandbox, has a scheme, or no candidate exists.
     fn locate_file(&self, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
         }
-        let Some(place) = &self.sandbox else {
-            let problem = format!("the model is in memory and may not read the file {uri:?}");
-            return Err(forbidden_path(pointer, &problem));
+        let Some(sandbox) = &self.sandbox else {
+            let message = format!("the model is in memory and may not read the file {uri:?}");
+            return Err(forbidden_path(pointer, &message));
         };
         let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
         let candidates =
             [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
         for candidate in candidates.into_iter().flatten() {
-            let path = place.path_below_root(&candidate, pointer)?;
+            let path = sandbox.path_below_root(&candidate, pointer)?;
             if let Ok(path) = path.canonicalize() {
-                return place.check_path(path, uri, pointer);
+                return sandbox.check_path(path, uri, pointer);
             }
         }
         Err(match uri_scheme(uri) {
             Some(scheme) => {
                 forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
             }
-            None => Diagnostic::new(
-                ImportErrorKind::Unreadable,
+            None => Diagnostic::error(
+                codes::IO_ERROR,
                 pointer,
                 format!("the file {uri:?} does not exist"),
                 "put it beside the glTF file",
@@ -141,28 +154,37 @@ impl AssetSandbox {
         self.roots.iter().any(|root| path.starts_with(root))
     }
 
-    /// The path of a relative name, if it stays below a root by its letters alone. With only one root it never leaves it; on
-    /// its way from one of several to another it must.
+    /// Joins a relative path to the folder, if it stays below a root by its components alone.
+    ///
+    /// This is the first of two checks, made before the file system is asked anything: a file that
+    /// contains `../../secret` learns nothing, not even whether that file exists.
+    /// [`check_path`](Self::check_path) is the second, on the canonical path, and catches symbolic
+    /// links.
+    ///
+    /// With a single root the path never leaves it; with several, `..` must be able to cross from
+    /// one to another.
     fn path_below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         let outside =
             || Err(forbidden_path(pointer, &format!("{name:?} is outside of the model's folder")));
-        let drive = cfg!(windows) && name.contains(':');
-        if name.starts_with(['/', '\\']) || name.contains('\0') || drive {
+        let has_drive_letter = cfg!(windows) && name.contains(':');
+        if name.starts_with(['/', '\\']) || name.contains('\0') || has_drive_letter {
             return outside();
         }
-        let (mut path, several) = (self.folder.clone(), self.roots.len() > 1);
+        let (mut path, has_several_roots) = (self.folder.clone(), self.roots.len() > 1);
         for part in Path::new(name).components() {
             match part {
                 Component::Normal(part) => path.push(part),
                 Component::CurDir => {}
-                Component::ParentDir if (several || path != self.roots[0]) && path.pop() => {}
+                Component::ParentDir
+                    if (has_several_roots || path != self.roots[0]) && path.pop() => {}
                 _ => return outside(),
             }
         }
         if self.contains_path(&path) { Ok(path) } else { outside() }
     }
 
-    /// A path that exists, if neither symbolic links lead it out of the roots nor it is something else than a file.
+    /// Checks that an existing canonical path is a regular file that no symbolic link has led
+    /// outside.
     fn check_path(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
         if !self.contains_path(&path) {
             return Err(forbidden_path(
@@ -178,30 +200,31 @@ impl AssetSandbox {
 }
 
 /// Reads a whole regular file, but no more than the limit.
-pub(super) fn read_file(
+///
+/// The size is checked before reading and the read is bounded as well: a file may grow in between,
+/// and special files report a size of 0. One byte more than the limit is read to detect the excess.
+///
+/// # Errors
+/// The file does not exist, may not be read, is not a regular file, or is too large.
+pub(crate) fn read_file(
     path: &Path,
     limits: &Limits,
     pointer: &str,
 ) -> Result<Vec<u8>, Diagnostic> {
-    let fault = |error: std::io::Error| unreadable_file(pointer, path, &error);
-    let metadata = path.metadata().map_err(fault)?;
+    let to_diagnostic = |error: std::io::Error| unreadable_file(pointer, path, &error);
+    let metadata = path.metadata().map_err(to_diagnostic)?;
     if !metadata.is_file() {
-        let problem =
+        let message =
             if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
-        return Err(Diagnostic::new(
-            ImportErrorKind::Unreadable,
-            pointer,
-            problem.to_owned(),
-            "give a file",
-        ));
+        return Err(Diagnostic::error(codes::IO_ERROR, pointer, message.to_owned(), "give a file"));
     }
     let allowed = limits.file_bytes;
     let mut bytes = Vec::new();
     if metadata.len() <= allowed {
         // Room for one byte more: reading to the end then needs no second allocation.
         bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
-        let file = File::open(path).map_err(fault)?;
-        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(fault)?;
+        let file = File::open(path).map_err(to_diagnostic)?;
+        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(to_diagnostic)?;
     }
     let length = metadata.len().max(bytes.len() as u64);
     if length > allowed {
@@ -211,12 +234,12 @@ pub(super) fn read_file(
     Ok(bytes)
 }
 
-/// A folder that the person who loads the model allows files to be in.
+/// Canonical path of a folder that the user allows files to be in.
 fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| {
-        let problem =
+        let message =
             format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
-        Diagnostic::new(ImportErrorKind::Unreadable, "", problem, "name a folder that exists")
+        Diagnostic::error(codes::IO_ERROR, "", message, "name a folder that exists")
     })
 }
 
@@ -224,23 +247,25 @@ fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| unreadable_file("", folder, &error))
 }
 
+/// The error for a file that cannot be opened or read.
 fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
     // Without a pointer it is the file that the message begins with anyway.
     let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
-    let (problem, remedy) = match error.kind() {
+    let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
         std::io::ErrorKind::PermissionDenied => {
             (format!("{name} may not be read"), "check its permissions")
         }
         _ => (format!("{name} cannot be read: {error}"), "check the file"),
     };
-    Diagnostic::new(ImportErrorKind::Unreadable, pointer, problem, remedy)
+    Diagnostic::error(codes::IO_ERROR, pointer, message, help)
 }
 
-fn forbidden_path(pointer: &str, problem: &str) -> Diagnostic {
-    let remedy = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
+/// The error for a path outside of the sandbox.
+fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
+    let help = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
                   with --allow-outside DIR";
-    Diagnostic::new(ImportErrorKind::Forbidden, pointer, problem.to_owned(), remedy)
+    Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message.to_owned(), help)
 }
 
 /// The scheme of a URI (RFC 3986 §3.1), if it has one.
@@ -252,7 +277,7 @@ fn uri_scheme(uri: &str) -> Option<&str> {
     (first && rest).then_some(scheme)
 }
 
-/// The bytes of a text in which `%41` stands for the byte 0x41; `None` where two digits do not follow a `%`.
+/// Decodes `%41` to the byte 0x41 (RFC 3986 §2.1); `None` where two digits do not follow a `%`.
 fn percent_decode(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -273,19 +298,20 @@ fn percent_decode(text: &str) -> Option<Vec<u8>> {
     Some(bytes)
 }
 
-/// Either alphabet of base64, with or without padding.
+/// Base64 with or without padding, with stray bits in the last digit.
 const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_allow_trailing_bits(true)
     .with_decode_padding_mode(DecodePaddingMode::Indifferent);
 
-/// The data of a data URI, whose scheme is already cut off (RFC 2397).
+/// The data of a data URI (RFC 2397) whose scheme has been removed; both alphabets of base64 are
+/// read.
 fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     let Some((kind, data)) = data.split_once(',') else {
         return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));
     };
     if !kind.to_ascii_lowercase().ends_with(";base64") {
-        let problem = "the data URI is neither base64 nor has it two digits after every %";
-        return percent_decode(data).ok_or_else(|| Diagnostic::invalid(pointer, problem));
+        let message = "the data URI is neither base64 nor has it two digits after every %";
+        return percent_decode(data).ok_or_else(|| Diagnostic::invalid(pointer, message));
     }
     let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT_BASE64).decode(data);
     let bytes = standard.or_else(|error| {

@@ -1,22 +1,28 @@
-//! The list of soft faults, kept short even if a file has millions.
+//! The importer's list of warnings, bounded even if a file has millions of faults.
+//!
+//! Errors become warnings in two ways: some always do, because only the look suffers
+//! ([`ImportWarnings::downgrade`]); others only when reading leniently
+//! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: what is
+//! left out, or what replaces it.
 
-use super::error::{Diagnostic, ImportErrorKind};
-use crate::Warning;
+use crate::diagnostic::{Diagnostic, Severity, codes};
 
-/// So many warnings are kept; a reader has lost patience long before.
+/// Warnings beyond this number are counted but not stored.
 const MAX_WARNINGS: usize = 500;
 
-/// Collects warnings while a file is read.
+/// Collector of warnings while a file is read.
 #[derive(Default)]
 pub(super) struct ImportWarnings {
-    /// Whether faults that stop loading are only warnings, where something is left to load.
+    /// Whether errors are downgraded to warnings where something is left to load.
     lenient: bool,
-    list: Vec<Warning>,
+    /// Stored warnings, in the order in which they were found.
+    list: Vec<Diagnostic>,
+    /// Number of warnings that were not stored.
     omitted: usize,
 }
 
 impl ImportWarnings {
-    /// An empty list of a reader who is lenient, or is not; see [`Self::forgive`].
+    /// An empty list; `lenient` decides what [`Self::downgrade_if_lenient`] does.
     pub(super) fn new(lenient: bool) -> Self {
         Self { lenient, ..Self::default() }
     }
@@ -25,46 +31,62 @@ impl ImportWarnings {
         self.lenient
     }
 
+    /// Adds a warning about something that was replaced or corrected.
     pub(super) fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
+        self.push(warning(codes::LEFT_OUT, pointer, message.into()));
+    }
+
+    fn push(&mut self, warning: Diagnostic) {
         if self.list.len() < MAX_WARNINGS {
-            self.list.push(Warning { pointer: pointer.to_owned(), message: message.into() });
+            self.list.push(warning);
         } else {
             self.omitted += 1;
         }
     }
 
-    /// A fault that costs no more than what `consequence` says.
-    pub(super) fn downgrade(&mut self, fault: &Diagnostic, consequence: &str) {
-        self.push_warning(&fault.location, format!("{}; {consequence}", fault.message));
+    /// Adds an error as a warning; `consequence` says what is left out or replaced because of it.
+    pub(super) fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
+        self.push(warning(
+            diagnostic.code,
+            &diagnostic.location,
+            format!("{}; {consequence}", diagnostic.message),
+        ));
     }
 
-    /// A fault that stops loading; of a reader who is lenient it costs no more than what `consequence` says. Limits hold
-    /// for everybody, and what was asked for must be there.
+    /// Adds an error as a warning if reading leniently, and returns it otherwise.
+    ///
+    /// Limits and the scene or variant that was asked for are never waived: those errors are
+    /// returned always.
     pub(super) fn downgrade_if_lenient(
         &mut self,
-        fault: Diagnostic,
+        diagnostic: Diagnostic,
         consequence: &str,
     ) -> Result<(), Diagnostic> {
-        if !self.lenient || matches!(fault.kind, ImportErrorKind::Limit | ImportErrorKind::NotFound)
-        {
-            return Err(fault);
+        if !self.lenient || matches!(diagnostic.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
+            return Err(diagnostic);
         }
-        self.downgrade(&fault, consequence);
+        self.downgrade(&diagnostic, consequence);
         Ok(())
     }
 
-    /// Adds the warnings of another list.
+    /// Moves the warnings of another list to the end of this one.
     pub(super) fn append_warnings(&mut self, other: Self) {
         let Self { list, omitted: left_out, .. } = other;
-        list.iter().for_each(|warning| self.push_warning(&warning.pointer, &*warning.message));
+        list.into_iter().for_each(|warning| self.push(warning));
         self.omitted += left_out;
     }
 
-    pub(super) fn into_list(mut self) -> Vec<Warning> {
+    /// The stored warnings, and one that counts the others.
+    pub(super) fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);
-            self.list.push(Warning { pointer: String::new(), message });
+            self.list.push(warning(codes::LEFT_OUT, "", message));
         }
         self.list
     }
+}
+
+fn warning(code: &'static str, location: &str, message: String) -> Diagnostic {
+    let severity = Severity::Warning;
+    Diagnostic { severity, code, location: location.to_owned(), message, help: None }
 }

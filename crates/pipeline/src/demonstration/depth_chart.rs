@@ -1,4 +1,12 @@
-//! The depth curve on a page: depth against distance, resolution against distance, and the table.
+//! The depth table as a page: charts of depth and of resolution against distance, and the rows.
+//!
+//! ```text
+//!  ┌ heading ────────────────────────────┐
+//!  │ depth      ╭──── normal    │ table   │   Distances are on a logarithmic axis in both charts;
+//!  │           ╱ ╭─── reversed  │ …       │   the resolution has a logarithmic axis too, since it
+//!  │ resolution ╱╱              │         │   spans many powers of ten.
+//!  └─────────────────────────────────────┘
+//! ```
 
 use super::depth_table::{DepthRow, DepthTable};
 use super::number_format::format_short;
@@ -8,30 +16,40 @@ use drawing::{
 use glam::DVec2;
 use projection::DepthFormat;
 
+/// The color of text and axes.
 const INK: Ink = [26, 31, 38];
+/// The color of curves of normal depth.
 const NORMAL_INK: Ink = [26, 86, 176];
+/// The color of curves of reversed depth, which are dashed as well.
 const REVERSED_INK: Ink = [179, 38, 30];
 
-/// The page, the charts and the table in millimetres; the page is A4 across, or longer for long tables.
+/// The page in millimeters: A4 landscape, or longer for long tables.
 const PAGE_SIZE: DVec2 = DVec2::new(297.0, 210.0);
+/// Width and height of each chart in millimeters.
 const CHART_SIZE: DVec2 = DVec2::new(150.0, 66.0);
+/// The upper left corner of the chart of depth.
 const UPPER_CHART_CORNER: DVec2 = DVec2::new(24.0, 38.0);
+/// The upper left corner of the chart of resolution.
 const LOWER_CHART_CORNER: DVec2 = DVec2::new(24.0, 126.0);
+/// The upper left corner of the table.
 const TABLE_CORNER: DVec2 = DVec2::new(184.0, 36.0);
 
-/// The right ends of the table's columns, from its left.
+/// The right ends of the table's columns in millimeters from its left.
 const COLUMN_ENDS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
 
-/// Heights of letters.
+/// Letter heights in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
+/// Letter height of notes and table in millimeters.
 const LETTER_HEIGHT: f64 = 2.3;
+/// Distance of the table's lines in letter heights.
 const LINE_SPACING: f64 = 2.1;
 
-/// The places of a curve: more than a printer tells apart, and enough for every tooth of a floating-point step.
+/// Samples of a curve: more than a printer resolves, and enough for every tooth of the
+/// floating-point resolution.
 const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
-    /// Curves and table on a page.
+    /// Draws curves and table on a page.
     #[must_use]
     pub fn to_page(&self, rows: &[DepthRow]) -> Page {
         let table_end = TABLE_CORNER.y + (rows.len() + 2) as f64 * LETTER_HEIGHT * LINE_SPACING;
@@ -46,7 +64,7 @@ impl DepthTable {
         page
     }
 
-    /// Depth and resolution, both against distance.
+    /// The two charts: depth and resolution against distance.
     fn build_charts(&self) -> [Chart; 2] {
         let samples = self.sample_rows();
         let [from, to] = self.distance_range();
@@ -97,21 +115,21 @@ impl DepthTable {
         ]
     }
 
-    /// Rows close to each other, in equal ratios.
+    /// Densely sampled rows, in equal ratios of distance.
     fn sample_rows(&self) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
-        let distance = |place: u32| match place {
+        let distance = |sample: u32| match sample {
             0 => near,
             CURVE_SAMPLES => end,
-            place => near * libm::exp(ratio * (f64::from(place) / f64::from(CURVE_SAMPLES))),
+            sample => near * libm::exp(ratio * (f64::from(sample) / f64::from(CURVE_SAMPLES))),
         };
-        (0..=CURVE_SAMPLES).filter_map(|place| self.row_at(distance(place)).ok()).collect()
+        (0..=CURVE_SAMPLES).filter_map(|sample| self.row_at(distance(sample)).ok()).collect()
     }
 }
 
-/// From the finest step to the coarsest. Beside the plane that has depth 0 floating-point steps fall to nothing: the finest
-/// fiftieth is left out, else nothing else could be seen.
+/// The range of the resolution axis, finest to coarsest. Next to depth 0 floating-point resolution
+/// becomes arbitrarily fine; the finest fiftieth is left out, or nothing else could be read.
 fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);
@@ -121,17 +139,19 @@ fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let (Some(&finest), Some(&coarsest)) = (steps.get(steps.len() / left_out), steps.last()) else {
         return [0.5, 2.0];
     };
-    // Some room where all steps are alike.
+    // A margin where all steps are equal.
     if coarsest > finest * 2.0 { [finest, coarsest] } else { [finest * 0.5, finest * 4.0] }
 }
 
-/// The part of a curve that is not below a value. The last place is left out too: at the far plane there is no step.
+/// The part of a curve that is not below a value, without the last sample: at the far plane there
+/// is no step.
 fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
     curve.points.pop();
     curve.points.retain(|[_, step]| *step >= least);
     curve
 }
 
+/// Title and notes at the top of the page.
 fn heading_layer(title: &str, notes: &[String]) -> Layer {
     let mut layer = Layer::new("heading", "heading", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     let left = UPPER_CHART_CORNER.x - 12.0;
@@ -142,7 +162,7 @@ fn heading_layer(title: &str, notes: &[String]) -> Layer {
     layer
 }
 
-/// The rows as text, columns flush right.
+/// The rows as text, columns aligned right.
 fn table_layer(cells: &[[String; 5]]) -> Layer {
     let mut layer = Layer::new("table", "table", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     for (number, row) in cells.iter().enumerate() {
@@ -173,8 +193,8 @@ mod tests {
         let layer = page.layers.iter().find(|layer| layer.id == "depth-normal").expect("a curve");
         let points = &layer.groups[0].strokes[0].points;
         assert!(points.len() > 500);
-        for &place in points {
-            let [x, y] = ((to_millimeters(place) - UPPER_CHART_CORNER) / CHART_SIZE).to_array();
+        for &sample in points {
+            let [x, y] = ((to_millimeters(sample) - UPPER_CHART_CORNER) / CHART_SIZE).to_array();
             let distance = 2.0 * libm::pow(20.0, x);
             let depth = 40.0 * (distance - 2.0) / (38.0 * distance);
             assert!((1.0 - y - depth).abs() < 2e-5, "{distance}: {} {depth}", 1.0 - y);

@@ -1,45 +1,57 @@
-//! The depth table: how distance becomes depth after the divide, and how finely depth can tell distances apart (C48, C68; ZP-1).
+//! The depth table: distance against depth after the divide, and depth resolution (C48, C68; ZP-1).
 //!
-//! A perspective keeps lines straight at the price of depth: half of the range is spent on the stretch from N to 2FN/(F + N). What
-//! is stored is rounded, so far away many distances have one depth. Floating-point numbers are finest near 0; with the far plane
-//! there (reversed depth) both effects cancel.
+//! A perspective keeps lines straight at the price of depth: half of the range is spent on the
+//! distances from N to 2FN/(F + N). Stored depth is rounded, so that far away many distances share
+//! one value. Floating-point numbers are finest near 0; with the far plane there (*reversed depth*)
+//! both effects cancel.
+//!
+//! ```text
+//!  depth(D) = F (D − N) / ((F − N) D)        for the range [0, 1] from near N to far F
+//!  resolution of b-bit fixed point: ΔD ≈ D² (F − N) / (F N) / (2^b − 1)
+//! ```
+//! The resolution grows with the square of the distance: doubling N halves it, while F beyond a few
+//! hundred N hardly matters.
 
 use super::number_format::format_short;
 use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
 use std::fmt::Write as _;
 
-/// How many rows a table has that is not told its distances.
+/// The rows of a table with default distances.
 const DEFAULT_ROWS: u32 = 16;
 
-/// How far an infinite far plane is followed, in near distances.
+/// The last distance of a table with an infinite far plane, in near distances.
 const INFINITE_FAR_RATIO: f64 = 1e4;
 
-/// Depths against distances, normal and reversed.
+/// Depth against distance, in normal and in reversed depth.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthTable {
+    /// Distance of the near plane.
     near: f64,
+    /// Distance of the far plane, or infinity.
     far: f64,
+    /// The storage format, which decides the resolution.
     format: DepthFormat,
+    /// Depth as a function of distance: normal, reversed.
     curves: [DepthCurve; 2],
 }
 
-/// A distance, and what becomes of it. Two values are for normal and for reversed depth.
+/// One distance with its depths and resolutions: normal first, then reversed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthRow {
-    /// From the eye, along the line of sight.
+    /// Distance from the eye along the line of sight.
     pub distance: f64,
-    /// After the divide.
+    /// Depth after the divide.
     pub depths: [f64; 2],
-    /// The smallest step away from the eye that gives another stored depth.
+    /// Resolution: the smallest step away from the eye that changes the stored depth.
     pub steps: [f64; 2],
 }
 
 impl DepthTable {
-    /// Of a perspective between these planes, in a convention's range of depths and in the same range reversed. `far` may be
-    /// infinite.
+    /// The table of a perspective between two planes, in a convention's range of depths and in the
+    /// same range reversed. `far` may be infinite.
     ///
     /// # Errors
-    /// If not 0 < near < far, or if the format has no bits or more than 64.
+    /// Unless 0 < near < far, and the format has 1 to 64 bits.
     pub fn new(
         near: f64,
         far: f64,
@@ -53,26 +65,27 @@ impl DepthTable {
         Ok(table)
     }
 
-    /// The curve of normal and that of reversed depth.
+    /// The curves of normal and of reversed depth.
     #[must_use]
     pub const fn curves(&self) -> [DepthCurve; 2] {
         self.curves
     }
 
-    /// How depths are stored.
+    /// The storage format of depths.
     #[must_use]
     pub const fn depth_format(&self) -> DepthFormat {
         self.format
     }
 
-    /// The distance of the near plane, and of the far plane or, if that is infinite, ten thousand times the near one.
+    /// The distances of the near and far plane; ten thousand near distances for an infinite far
+    /// plane.
     #[must_use]
     pub fn distance_range(&self) -> [f64; 2] {
         let end = if self.far.is_finite() { self.far } else { self.near * INFINITE_FAR_RATIO };
         [self.near, end]
     }
 
-    /// Sixteen distances from near to far, in equal ratios, those between rounded to three digits.
+    /// Sixteen distances from near to far in equal ratios, the inner ones rounded to three digits.
     #[must_use]
     pub fn default_distances(&self) -> Vec<f64> {
         let [near, end] = self.distance_range();
@@ -88,10 +101,11 @@ impl DepthTable {
         all
     }
 
-    /// What becomes of a distance.
+    /// The depths and resolutions at a distance.
     ///
     /// # Errors
-    /// If it is not greater than 0 and finite, or has no depth that can be told from the next.
+    /// If the distance is not positive and finite, or its depth cannot be distinguished from the
+    /// next.
     pub fn row_at(&self, distance: f64) -> Result<DepthRow, ProjectionError> {
         let step = |curve: DepthCurve| curve.resolution(distance, self.format);
         let steps = [step(self.curves[0])?, step(self.curves[1])?];
@@ -100,8 +114,8 @@ impl DepthTable {
         Ok(DepthRow { distance, depths: [depth(self.curves[0])?, depth(self.curves[1])?], steps })
     }
 
-    /// What is to be said of the whole: the format, where half of the range is spent, and where the chapter's P moves the middle to
-    /// (C48): z + f + n − fn/z with its signs, the distance N + F − NF/D.
+    /// Notes on the whole table: the planes and format, the distance at which half of the range is
+    /// spent, and the distance N + F − NF/D to which the chapter's P moves the midpoint (C48).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let format = match self.format {
@@ -121,8 +135,8 @@ impl DepthTable {
         notes
     }
 
-    /// The distance in the middle between the planes, and where the chapter's P, before the scaling, moves it; `None` without a far
-    /// plane.
+    /// The midpoint between the planes, and the distance to which the chapter's P moves it before
+    /// scaling; `None` for an infinite far plane.
     #[must_use]
     pub fn moved_midpoint(&self) -> Option<[f64; 2]> {
         let midpoint = 0.5 * self.near + 0.5 * self.far;
@@ -131,7 +145,7 @@ impl DepthTable {
         Some([midpoint, -moved.z()])
     }
 
-    /// A table for people, its columns below each other.
+    /// Formats rows as plain text with aligned columns.
     #[must_use]
     pub fn to_text(&self, rows: &[DepthRow]) -> String {
         let cells = self.table_cells(rows);
@@ -147,7 +161,7 @@ impl DepthTable {
         text
     }
 
-    /// A table in Markdown.
+    /// Formats rows as a Markdown table.
     #[must_use]
     pub fn to_markdown(&self, rows: &[DepthRow]) -> String {
         let mut text = self.notes().join("; ") + ".\n\n";
@@ -160,7 +174,8 @@ impl DepthTable {
         text
     }
 
-    /// The cells of a table for people, the names of the columns first. At the far plane there is no step: no depth is farther.
+    /// The cells of a table, column names first. At the far plane there is no step: no depth is
+    /// farther.
     pub(super) fn table_cells(&self, rows: &[DepthRow]) -> Vec<[String; 5]> {
         let names = ["distance", "depth", "reversed", "step", "step reversed"].map(str::to_owned);
         let fixed = |depth: f64| format!("{:.4}", depth + 0.0);
@@ -174,7 +189,8 @@ impl DepthTable {
         std::iter::once(names).chain(rows.iter().map(row)).collect()
     }
 
-    /// The numbers in full, for programs: a line of names, then a line for each distance, with commas between.
+    /// Formats rows as CSV with all digits, for programs: a line of names, then a line per
+    /// distance.
     #[must_use]
     pub fn to_csv(&self, rows: &[DepthRow]) -> String {
         let mut text = "distance,depth,reversed_depth,step,reversed_step\n".to_owned();
@@ -219,7 +235,7 @@ mod tests {
         assert_eq!((open.notes().len(), open.distance_range()), (2, [1.0, 1e4]));
     }
 
-    /// ZP-1: a step of fixed depth is D²(F−N)/(FN) parts of the range.
+    /// ZP-1: a step of fixed depth is D²(F−N)/(FN) of the range.
     #[test]
     fn steps_grow_with_the_square_of_the_distance() {
         let table = table(0.1, 1000.0, Convention::WEBGPU, DepthFormat::FixedPoint(24));

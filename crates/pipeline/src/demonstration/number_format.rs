@@ -1,11 +1,15 @@
-//! Numbers as captions and tables have them.
+//! Number formatting for captions and tables.
+//!
+//! Captions should be short and equal on every machine: the digits come from Rust's own correctly
+//! rounded formatting, never from a logarithm.
 
-/// A number with this many significant digits at most, without zeros at the end.
+/// Formats a number with at most `digits` significant digits, without trailing zeros; very small
+/// and very large ones with an exponent.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };
     }
-    // Rounding first, so that 9.9996 counts as 10; and −0 is a 0 to people.
+    // Rounding before the choice of notation, so that 9.9996 counts as 10; −0 reads as 0.
     let rounded: f64 = format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x);
     let rounded = rounded + 0.0;
     let size = rounded.abs();

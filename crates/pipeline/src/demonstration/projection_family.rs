@@ -1,7 +1,7 @@
-//! The whole family: one subject in every projection of the textbooks, each with its place in the tree, its formulas and numbers.
+//! The family of planar projections: one subject in each, with class, formulas and measurements.
 //!
-//! What is said of a projection is taken from its matrix, not from its name: the lengths and directions in which a parallel one
-//! draws the axes (C76, C77), the places at which the axes of a perspective vanish (C80, C81).
+//! The measurements come from the matrix, not from the name: lengths and directions in which a
+//! parallel projection draws the axes (C76, C77), vanishing points of a perspective (C80, C81).
 
 use super::DemonstrationError;
 use super::number_format::format_short;
@@ -17,22 +17,23 @@ use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
 
+/// The world axes by name.
 const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
 
-/// A projection by its name.
+/// A projection with its name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct NamedProjection {
-    /// Its name: lower case, hyphens.
+    /// The name: lower case, hyphens.
     pub name: String,
-    /// What it is.
+    /// The projection as a scene file describes it.
     pub projection: ProjectionFile,
 }
 
-/// The models in each of these projections, seen from where each is usually seen from; what the scene says of its camera does not
-/// matter. The number of threads does not change it.
+/// Draws the models in each of the projections, from the default viewpoint of each; the camera of
+/// the scene is ignored. The number of threads does not change the panels.
 ///
 /// # Errors
-/// If the scene makes no sense, there is nothing to draw, or the picture has no pixels.
+/// If the scene cannot be resolved, there is nothing to draw, or the picture has no pixels.
 pub fn projection_panels(
     origin: &Origin,
     file: &SceneFile,
@@ -55,7 +56,7 @@ pub fn projection_panels(
     Ok(Panels::new(format!("{title}: planar projections"), panels))
 }
 
-/// Its place in the tree, its formulas, its numbers.
+/// The notes of a panel: class, formulas, measurements.
 fn projection_notes(
     projection: &ProjectionFile,
     view_projection: &ViewProjection,
@@ -85,7 +86,7 @@ fn projection_notes(
     ]
 }
 
-/// The classes from below the root to this one.
+/// The classes from below the root to this one, such as `parallel, oblique, cavalier`.
 fn class_path(class: ProjectionClass) -> String {
     let mut names: Vec<&str> = class.ancestors().map(ProjectionClass::name).collect();
     names.pop();
@@ -93,6 +94,7 @@ fn class_path(class: ProjectionClass) -> String {
     names.join(", ")
 }
 
+/// The class of a projection: by its name, or for perspectives by the number of vanishing points.
 fn classify_projection(
     projection: &ProjectionFile,
     map: Projective<World, Clip>,
@@ -118,7 +120,7 @@ fn classify_projection(
     }
 }
 
-/// The formulas of the matrix, and before them those of what the projection is by its name.
+/// The formula ids of the projection's class, then those of its matrix, each once.
 fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> String {
     let named = match class {
         ProjectionClass::Multiview => "MV-1",
@@ -138,14 +140,15 @@ fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> Str
     all.join(", ")
 }
 
-/// What the picture's window measures.
+/// The window of a projection, in the units that its kind gives it.
 enum ViewWindow {
-    /// Units of the picture plane.
+    /// In units of the picture plane.
     Parallel(Window),
-    /// The window one unit ahead of the eye.
+    /// On the plane one unit ahead of the eye.
     Perspective(Window),
 }
 
+/// The window of a decomposed projection; `None` if its matrix does not determine one.
 fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     Some(match kind {
         Decomposed::Frustum(frustum) => ViewWindow::Perspective(frustum.slopes()),
@@ -156,8 +159,10 @@ fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     })
 }
 
-/// How long a unit of each axis is drawn, and in which direction, counterclockwise from the right. `pixels` are those of a unit of
-/// the picture plane; where the matrix does not tell them, the longest axis counts as drawn in full, as the plan of a military one.
+/// Length and direction of each axis's unit in the picture, counterclockwise from the right.
+///
+/// `pixels` is the length of a unit of the picture plane. If the matrix does not determine it, the
+/// longest axis counts as drawn to full scale, as the plan of a military projection.
 fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>) -> String {
     let images = AXES.map(|(name, axis)| {
         let image = map.transform_direction(axis);
@@ -182,12 +187,13 @@ fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>)
     drawn.join(" · ")
 }
 
+/// The vertical opening angle of a perspective.
 fn describe_opening_angle(slopes: Window) -> String {
     let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
     format!("{}° high · ", format_short(degrees, 3))
 }
 
-/// Where the axes vanish, in half heights of the picture from its middle.
+/// The vanishing points of the axes, in half heights of the picture from its center.
 fn describe_vanishing_points(map: Projective<World, Clip>, size: DVec2) -> String {
     let Ok(points) = principal_vanishing_points(map) else { return String::new() };
     let aspect = size.x / size.y;
@@ -211,7 +217,8 @@ mod tests {
         panels.panels[0].notes.clone()
     }
 
-    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by half; a plan with heights.
+    /// √(2/3) in isometric; √(8)/3 and √(2)/3 in the dimetric of 42° and 7°; depth in full and by
+    /// half; a plan with heights.
     #[test]
     fn parallel_projections_draw_the_axes_as_the_textbooks_say() {
         let cases = [
@@ -229,7 +236,7 @@ mod tests {
             (ProjectionFile::cabinet(), "OB-1", "x 1 at 0° · y 1 at 90° · z 0.5 at 225°"),
             (ProjectionFile::military(), "OB-1", "x 1 at 45° · y 1 at 90° · z 1 at 315°"),
             (
-                ProjectionFile::Multiview(crate::scene::file::PrincipalFile::Front),
+                ProjectionFile::Multiview(projection::PrincipalView::Front),
                 "MV-1",
                 "x 1 at 0° · y 1 at 90° · z a point",
             ),

@@ -1,7 +1,15 @@
-//! Sweeps: one parameter of camera or lens, from a value to another, a picture for each step (C62, C64, C94).
+//! Sweeps: one parameter of camera or lens from one value to another, a picture for each step (C62,
+//! C64, C94).
 //!
-//! Everything else stays as the scene has it. Only where the parameter is a place of the camera are the near and the far plane
-//! fitted anew, since they would cut off what the step is to show.
+//! Everything else stays as in the scene. Only where the parameter moves the camera are the near
+//! and far plane fitted again, since they would cut off what the step is to show.
+//!
+//! ```text
+//!  fov, lens       tan(fov / 2) = window height / (2 · near)      a smaller angle enlarges
+//!  distance        image size ∝ 1 / distance                      perspective becomes steeper
+//!  dolly           tan(fov / 2) ∝ 1 / distance                    the center keeps its size
+//!  shift           window moved on its plane                      the picture moves undistorted
+//! ```
 
 mod step;
 
@@ -17,52 +25,53 @@ use projection::{Convention, Orthographic};
 use std::fmt;
 use step::SweepBase;
 
-/// The room between a picture and its view volume, in millimetres.
+/// The gap between a picture and its view volume in millimeters.
 const PANEL_GAP: f64 = 4.0;
 
-/// What is varied.
+/// The parameter of a sweep.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SweepParameter {
-    /// The vertical opening angle in degrees, the eye where it is: small ones enlarge.
+    /// Vertical field of view in degrees, from a fixed eye: small angles enlarge.
     Fov,
-    /// The height of the window in a parallel projection, its shape as it is: small ones enlarge.
+    /// Height of the window of a parallel projection, with a fixed aspect ratio: small windows
+    /// enlarge.
     Height,
-    /// Width by height of the window, whatever the picture's: others than that distort.
+    /// Aspect ratio of the window, whatever the picture's: any other distorts.
     Aspect,
-    /// The distance of the near plane, the angle as it is: it only cuts off.
+    /// Distance of the near plane with a fixed angle: it only cuts off.
     Near,
-    /// The distance of the far plane: it only cuts off.
+    /// Distance of the far plane: it only cuts off.
     Far,
-    /// The distance of the near plane with the window on it as it is (`glFrustum`): the angle changes.
+    /// Distance of the near plane with a fixed window on it (`glFrustum`): the angle changes.
     Lens,
-    /// How far the window is moved to the right, in halves of its width: a lens shift.
+    /// Shift of the window to the right, in halves of its width: a lens shift.
     Shift,
-    /// The distance of the eye from the middle of the models, along the line of sight.
+    /// Distance of the eye from the center of the models along the line of sight.
     Distance,
-    /// The same, with the angle such that the middle keeps its size: a dolly zoom.
+    /// Distance of the eye with the angle adapted so that the center keeps its size: a dolly zoom.
     Dolly,
-    /// How far the camera is turned about the upright through the middle of the models, in degrees, counterclockwise as seen
-    /// from above.
+    /// Rotation of the camera about the vertical axis through the center of the models, in degrees,
+    /// counterclockwise seen from above.
     Angle,
 }
 
-/// A parameter and its values.
+/// A parameter with its range of values.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Sweep {
-    /// What is varied.
+    /// The parameter.
     pub parameter: SweepParameter,
     /// The first value.
     pub from: f64,
-    /// The last one.
+    /// The last value.
     pub to: f64,
-    /// How many pictures there are, at least 1.
+    /// The number of pictures, at least 1.
     pub steps: u32,
-    /// Whether the view volume of each picture is shown below it, with the eye, as it stands about the models.
+    /// Whether each picture has a second one below it that shows its view volume around the models.
     pub volumes: bool,
 }
 
 impl SweepParameter {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Self; 10] = [
         Self::Fov,
         Self::Height,
@@ -76,7 +85,7 @@ impl SweepParameter {
         Self::Angle,
     ];
 
-    /// The name.
+    /// The name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -93,7 +102,7 @@ impl SweepParameter {
         }
     }
 
-    /// What it does to the picture, in the words of the lessons.
+    /// Its effect on the picture, in the words of the lessons.
     const fn caption(self) -> &'static str {
         match self {
             Self::Fov => "a smaller angle enlarges",
@@ -131,10 +140,10 @@ impl Sweep {
         (0..=last).map(value).collect()
     }
 
-    /// Camera and projection of each value, with what there is to say of them.
+    /// Camera and projection of each value, with a note on them.
     ///
     /// # Errors
-    /// If the scene's projection has no such parameter, or a value makes no sense.
+    /// If the scene's projection has no such parameter, or a value is out of range.
     pub fn view_projections(
         &self,
         scene: &Scene,
@@ -146,10 +155,10 @@ impl Sweep {
             .collect()
     }
 
-    /// The pictures side by side. The number of threads does not change them.
+    /// Draws the pictures side by side. The number of threads does not change them.
     ///
     /// # Errors
-    /// As for [`shots`](Self::shots); or if a picture has no pixels.
+    /// As [`view_projections`](Self::view_projections), or if a picture has no pixels.
     pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
         let mut scene = scene.clone();
         scene.image.background = [1.0; 4];
@@ -178,7 +187,7 @@ impl Sweep {
     }
 }
 
-/// A picture, and below it where its view volume stands, seen by one who stands aside.
+/// A picture with its view volume below it, seen by an observer aside.
 fn add_volume_panel(
     view: Panel,
     scene: &Scene,
@@ -197,10 +206,10 @@ fn add_volume_panel(
     Ok(Panel { page, ..view })
 }
 
-/// A camera that sees the models, all eyes and all windows from a corner, in parallel projection; `None` if there are no models.
-fn observer_view(scene: &Scene, shots: &[(ViewProjection, String)]) -> Option<ViewProjection> {
+/// A trimetric view that shows the models, all eyes and all near windows; `None` without models.
+fn observer_view(scene: &Scene, views: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();
-    for (view_projection, _) in shots {
+    for (view_projection, _) in views {
         let clip_to_world = view_projection.world_to_clip().inverse()?;
         let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| HPoint::new(x, y, 1.0, 1.0)));
         let near = corners.as_flattened().iter();

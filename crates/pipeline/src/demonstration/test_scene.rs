@@ -1,9 +1,9 @@
-//! What demonstrations are tested with.
+//! The test scene of the demonstrations.
 
 use crate::scene::{Origin, ResolveOptions, Scene, SceneFile};
 use std::path::Path;
 
-/// The house of the lessons as a bare model, small.
+/// The house of the lessons with default settings, at a small size.
 pub(super) fn house_scene() -> (Origin, SceneFile, Scene) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/house.glb");
     let (origin, mut file) = Origin::from_model_path(&path);

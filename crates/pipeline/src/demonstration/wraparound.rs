@@ -1,14 +1,16 @@
-//! The tear: what becomes of a floor that runs from ahead of the eye to behind it, divided at once and clipped first (C36).
+//! Wrap-around at w = 0: a floor that runs from ahead of the eye to behind it, divided at once and
+//! clipped first (C36).
 //!
 //! ```text
 //!    from the side                  divided at once            clipped first
 //!                  eye
-//!    ═══════════════●═══════         ╲ ╱  what is behind          /   \
-//!    ahead        w = 0  behind       ╳   comes out upside       /     \
-//!                                    ╱ ╲  down, in the sky      /       \
+//!    ═══════════════●═══════         ╲ ╱  behind the eye:         /   \
+//!    ahead        w = 0  behind       ╳   upside down,           /     \
+//!                                    ╱ ╲  in the sky            /       \
 //! ```
-//! A point at z = −ε has its image far below, one at z = +ε far above: the segment between them goes through infinity, and what joins
-//! the images of its ends is the part that does not belong to it. Clipping against the near plane before the divide leaves w > 0.
+//! A point at z = −ε has its image far below, one at z = +ε far above. The image of the segment
+//! between them passes through infinity, and the line that joins the images of its ends is the part
+//! that does not belong to it. Clipping against the near plane before the divide leaves w > 0.
 
 use super::DemonstrationError;
 use super::number_format::format_short;
@@ -20,42 +22,52 @@ use glam::DVec2;
 use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
 use projection::{Convention, Fov, Perspective};
 
+/// The color of boards ahead of the eye.
 const INK: Ink = [26, 31, 38];
+/// The color of boards that cross the plane of the eye.
 const RED: Ink = [179, 38, 30];
+/// The color of boards behind the eye.
 const BLUE: Ink = [26, 86, 176];
 
-/// Width and height of each picture in millimetres.
+/// Width and height of each picture in millimeters.
 const PICTURE_SIZE: DVec2 = DVec2::new(88.0, 66.0);
+/// Letter height in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
+/// Line width of boards in millimeters.
 const STROKE_WIDTH: f64 = 0.35;
 
-/// The eye's height above the floor, and the near plane's distance.
+/// The eye's height above the floor.
 const EYE_HEIGHT: f64 = 1.6;
+/// Distance of the near plane.
 const NEAR: f64 = 0.5;
+/// Distance of the far plane.
 const FAR: f64 = 40.0;
 
-/// Where the boards of the floor begin and end, from the horizon towards the eye and beyond it; and their borders from left to
-/// right. The third board crosses the plane of the eye, z = 0.
+/// The z at which rows of boards begin and end, from far ahead to behind the eye. The third row
+/// crosses the plane of the eye, z = 0.
 const BOARD_ENDS: [f64; 5] = [-15.0, -9.0, -3.0, 3.0, 9.0];
+/// The x of the borders between boards.
 const BOARD_BORDERS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// The layers: what is ahead, what crosses the plane of the eye, what is behind it.
+/// The layers of boards by their position to the eye: id, title, color.
 const BOARD_KINDS: [(&str, &str, Ink); 3] = [
     ("ahead", "boards ahead of the eye", INK),
     ("crossing", "boards that cross the plane of the eye", RED),
     ("behind", "boards behind the eye", BLUE),
 ];
 
-/// A board of the floor.
+/// A board of the floor: index of its layer, corners.
 struct Board {
+    /// Index into [`BOARD_KINDS`].
     kind: usize,
+    /// The corners in order around the board.
     corners: [Point<World>; 4],
 }
 
-/// The floor from the side, divided without clipping, and clipped first.
+/// Draws the floor from the side, divided without clipping, and clipped first.
 ///
 /// # Errors
-/// If camera or projection cannot be had; theirs are fixed, so they can.
+/// None in practice: camera and projection are constants.
 pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     let world_to_clip = world_to_clip()?;
     let boards = floor_boards();
@@ -67,7 +79,7 @@ pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     Ok(Panels::new("Clip before the divide: a floor that runs past the eye", panels))
 }
 
-/// From the world to the chapter's canonical volume (PE-3), looking along −z.
+/// World to the chapter's canonical volume (PE-3), looking along −z.
 fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
     let eye = Point::new(0.0, EYE_HEIGHT, 0.0);
     let camera = Camera::look_to(eye, -Vector::Z, Vector::Y)?;
@@ -80,6 +92,7 @@ fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
     Ok(camera.world_to_view().then_project(lens.view_to_clip(Convention::CHAPTER)))
 }
 
+/// The boards of the floor, row by row.
 fn floor_boards() -> Vec<Board> {
     let mut boards = Vec::new();
     for end in BOARD_ENDS.windows(2) {
@@ -101,11 +114,11 @@ fn floor_boards() -> Vec<Board> {
     boards
 }
 
-/// The scene from the side: the gaze to the left, so that what is seen is left of the eye.
+/// The scene from the side, looking to the left: the visible part is left of the eye.
 fn side_panel(boards: &[Board]) -> Panel {
-    let place = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
+    let position = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
     let line = |a: [f64; 2], b: [f64; 2]| {
-        Polyline::through_points(&[place(a[0], a[1]), place(b[0], b[1])], false)
+        Polyline::through_points(&[position(a[0], a[1]), position(b[0], b[1])], false)
     };
     let floor = |kind: usize| {
         let boards_of_kind = boards.iter().filter(|board| board.kind == kind);
@@ -129,10 +142,10 @@ fn side_panel(boards: &[Board]) -> Panel {
         ("angle", "what is seen", [110, 116, 124]),
         angle.into_iter().flatten().collect(),
     );
-    let mut strokes = label_strokes("eye", place(0.6, EYE_HEIGHT), TextAlign::Start);
-    strokes.extend(label_strokes("w = 0", place(0.0, 7.4), TextAlign::Middle));
-    strokes.extend(label_strokes("w > 0", place(-7.5, -1.3), TextAlign::End));
-    strokes.extend(label_strokes("w < 0", place(2.0, -1.3), TextAlign::Start));
+    let mut strokes = label_strokes("eye", position(0.6, EYE_HEIGHT), TextAlign::Start);
+    strokes.extend(label_strokes("w = 0", position(0.0, 7.4), TextAlign::Middle));
+    strokes.extend(label_strokes("w > 0", position(-7.5, -1.3), TextAlign::End));
+    strokes.extend(label_strokes("w < 0", position(2.0, -1.3), TextAlign::Start));
     let words = stroke_layer(("words", "names", INK), strokes);
     page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
     let notes = vec![
@@ -143,7 +156,7 @@ fn side_panel(boards: &[Board]) -> Panel {
     Panel { id, title, notes, page }
 }
 
-/// Each corner divided as it is, and the images joined.
+/// The perspective divide without clipping: images of the corners, joined.
 fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images = board.corners.map(|corner| map.transform_point(corner).divide());
@@ -158,7 +171,7 @@ fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     boards_panel("divided", "divided at once", notes, boards, outline)
 }
 
-/// Clipped before the divide.
+/// Clipping against the view volume, then the divide.
 fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let ring = |board: &Board| {
         clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)
@@ -166,8 +179,8 @@ fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images: Vec<Point<Ndc>> =
             ring(board).points().iter().filter_map(|p| p.divide()).collect();
-        let places: Vec<DVec2> = images.into_iter().map(to_page).collect();
-        Polyline::through_points(&places, true).into_iter().collect()
+        let positions: Vec<DVec2> = images.into_iter().map(to_page).collect();
+        Polyline::through_points(&positions, true).into_iter().collect()
     };
     let least = boards.iter().flat_map(|board| ring(board).points().to_vec()).map(HPoint::w);
     let least = least.fold(f64::INFINITY, f64::min);
@@ -200,9 +213,9 @@ fn boards_panel(
     Panel { id: id.to_owned(), title: title.to_owned(), notes, page }
 }
 
-/// The part of a straight line between images that is in the picture.
+/// The part of a line between two images inside the picture.
 fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
-    // They are divided already: w is 1, and depth does not count.
+    // Divided already: w is 1, and depth is irrelevant.
     let flat = |p: Point<Ndc>| HPoint::<Clip>::new(p.x(), p.y(), 0.0, 1.0);
     let visible = clip_segment(flat(a), flat(b), &Volume::CHAPTER)?;
     Polyline::through_points(
@@ -211,12 +224,12 @@ fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
     )
 }
 
-/// Where an image is on the page, y down.
+/// NDC to millimeters on the page, y down.
 fn to_page(image: Point<Ndc>) -> DVec2 {
     (DVec2::new(image.x(), -image.y()) + 1.0) * 0.5 * PICTURE_SIZE
 }
 
-/// w, and where the point goes.
+/// The w and the image of a point, in words.
 fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     let clip = map.transform_point(point);
     let Some(image) = clip.divide() else { return "has no image".to_owned() };
@@ -224,20 +237,24 @@ fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     format!("has w = {w}, goes to ({x}, {y})")
 }
 
+/// A text as strokes.
 fn label_strokes(words: &str, at: DVec2, align: TextAlign) -> Vec<Polyline> {
     Label::new(words, at, LETTER_HEIGHT).with_align(align).strokes()
 }
 
+/// A group that holds strokes only.
 fn stroke_group(strokes: Vec<Polyline>) -> Group {
     Group { strokes, ..Group::default() }
 }
 
+/// A layer of strokes with the pen of the boards.
 fn stroke_layer((id, title, ink): (&str, &str, Ink), strokes: Vec<Polyline>) -> Layer {
     let mut layer = Layer::new(id, title, Pen::solid(STROKE_WIDTH, ink));
     layer.groups.push(stroke_group(strokes));
     layer
 }
 
+/// The layer with the pen width of letters.
 fn with_thin_pen(mut layer: Layer) -> Layer {
     layer.pen.width = LETTER_HEIGHT * 0.1;
     layer
@@ -251,10 +268,11 @@ mod tests {
     fn stroke_heights(panel: &Panel, layer: &str) -> Vec<f64> {
         let found = panel.page.layers.iter().filter(|found| found.id == layer);
         let lines = found.flat_map(|layer| &layer.groups).flat_map(|group| &group.strokes);
-        lines.flat_map(|line| &line.points).map(|place| to_millimeters(*place).y).collect()
+        lines.flat_map(|line| &line.points).map(|position| to_millimeters(*position).y).collect()
     }
 
-    /// The floor is below the horizon, which is the middle of the picture: nothing of it may be drawn above.
+    /// The floor is below the horizon, which is the middle of the picture: nothing of it may be
+    /// drawn above.
     #[test]
     fn only_what_is_clipped_first_stays_below_the_horizon() {
         let panels = wraparound_panels().expect("the panels").panels;

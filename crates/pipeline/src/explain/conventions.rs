@@ -1,18 +1,28 @@
-//! Whose conventions an explanation speaks in: the canonical volume, the side that view space looks to, and how pixels are
-//! counted. The picture does not depend on them.
+//! Conventions of graphics APIs: canonical view volume, handedness of view space, pixel
+//! coordinates. The picture does not depend on them, the numbers of an explanation do.
+//!
+//! | conventions | NDC z, near to far | y in clip space | view space |
+//! | --- | --- | --- | --- |
+//! | alberti, chapter | +1 to −1 | up | looks along −z |
+//! | OpenGL | −1 to +1 | up | looks along −z |
+//! | Vulkan | 0 to 1 | down | looks along −z |
+//! | Direct3D | 0 to 1 | up | looks along +z |
+//! | WebGPU, Metal | 0 to 1 | up | looks along −z |
 
+use homog::{Affine, PixelConvention, View};
 use projection::{Convention, Handedness, NdcY};
 use std::str::FromStr;
-use viewport::{DepthRange, PixelConvention, Rectangle, Viewport, ViewportError};
+use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
-/// The conventions of a book or of a graphics interface.
+/// The conventions of a textbook or of a graphics API.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ApiConventions {
-    /// Those that this program computes with: the chapter's volume, near at z = +1; pixels as in image files, depth 1 at the
-    /// near plane.
+    /// The program's own: the chapter's volume, near at z = +1; pixels as in image files, depth 1
+    /// at the near plane.
     #[default]
     Alberti,
-    /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centres, y up, z kept.
+    /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centers, y up, z
+    /// unchanged.
     Chapter,
     /// OpenGL: near at z = −1, y up, depth 0 at the near plane.
     OpenGl,
@@ -25,7 +35,7 @@ pub enum ApiConventions {
 }
 
 impl ApiConventions {
-    /// All of them.
+    /// All conventions.
     pub const ALL: [Self; 6] =
         [Self::Alberti, Self::Chapter, Self::OpenGl, Self::Vulkan, Self::Direct3d, Self::WebGpu];
 
@@ -54,7 +64,12 @@ impl ApiConventions {
         }
     }
 
-    /// Whether view space looks along +z.
+    /// The change of view space from −z to the direction of gaze of the conventions.
+    pub(super) fn view_flip(self) -> Affine<View, View> {
+        Affine::scale(1.0, 1.0, if self.looks_along_z() { -1.0 } else { 1.0 })
+    }
+
+    /// Whether view space looks along +z (left-handed).
     pub(super) fn looks_along_z(self) -> bool {
         self.canonical_volume().handedness() == Handedness::Left
     }
@@ -64,13 +79,13 @@ impl ApiConventions {
         self.canonical_volume().ndc_y() == NdcY::Down
     }
 
-    /// The viewport on the whole of an image.
+    /// The viewport that covers an image.
     pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
         let (pixels, depth) = match self {
             Self::Alberti => (PixelConvention::IMAGE, DepthRange::ZERO_ONE),
             Self::Chapter => return Viewport::chapter(width, height),
             Self::OpenGl => (PixelConvention::OPENGL, DepthRange::ZERO_ONE),
-            // Vulkan's y runs down before the viewport; `ndc_to_screen` turns it over there.
+            // In Vulkan y runs down already in clip space: nothing is left to flip.
             Self::Vulkan => (PixelConvention::OPENGL, DepthRange::KEEP),
             Self::Direct3d | Self::WebGpu => (PixelConvention::IMAGE, DepthRange::KEEP),
         };
@@ -83,12 +98,12 @@ impl FromStr for ApiConventions {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
-        let found = Self::ALL.into_iter().find(|conventions| conventions.name() == name);
-        found.ok_or_else(|| format!("there are no conventions `{name}`"))
+        let known = Self::ALL.into_iter().find(|conventions| conventions.name() == name);
+        known.ok_or_else(|| format!("there are no conventions `{name}`"))
     }
 }
 
-/// What people call a canonical volume.
+/// The common name of a canonical volume.
 pub(super) fn volume_name(volume: Convention) -> &'static str {
     const NAMES: [(Convention, &str); 9] = [
         (Convention::OPENGL, "OpenGL (near −1, far +1)"),

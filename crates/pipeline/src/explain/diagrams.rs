@@ -1,6 +1,14 @@
-//! The figures of an explanation: the view volume from above and from the side, the canonical volume, and the picture.
+//! SVG diagrams of an explanation: the view volume from above and from the side, the canonical
+//! volume, and the picture.
 //!
-//! They show the numbers that the steps tell: what is not among these is not drawn.
+//! They show numbers of the steps and nothing else.
+//!
+//! ```text
+//!   view space from above     canonical volume        picture
+//!      ╱───────┐               ┌───────┐            ┌───────┐
+//!   eye    •   │ far           │   •   │            │    •  │
+//!      ╲───────┘               └───────┘            └───────┘
+//! ```
 
 use super::plain_text::format_number;
 use super::transform_chain::TransformChain;
@@ -10,34 +18,39 @@ use base64::engine::general_purpose::STANDARD;
 use homog::HPoint;
 use shade::Picture;
 
-/// Width and height of a figure, and the room around what it shows, in its own units.
+/// Width and height of a diagram in its own units.
 const SIZE: [f64; 2] = [300.0, 220.0];
+/// The margin around its contents.
 const MARGIN: f64 = 24.0;
 
-/// A point of the subject in one of the spaces, with its name.
+/// A point of the subject in one space, with its label.
 struct LabeledPoint {
+    /// The label: empty for a single point.
     name: String,
+    /// Three finite coordinates in the space of the diagram.
     coordinates: Vec<f64>,
 }
 
-/// A figure: what it shows, and the SVG element.
+/// A diagram: caption and SVG element.
 pub(super) struct Diagram {
+    /// The caption below the diagram.
     pub(super) caption: String,
+    /// The SVG element.
     pub(super) svg: String,
 }
 
-/// All figures that an explanation has the numbers for.
+/// All diagrams for which an explanation has the numbers.
 pub(super) fn draw_diagrams(
-    told: &Explanation,
+    explanation: &Explanation,
     chain: &TransformChain,
     picture: Option<&Picture>,
 ) -> Vec<Diagram> {
     let mut figures = Vec::new();
     if let Some(corners) = view_volume_corners(chain) {
-        let marks = labeled_points(told, "view");
+        let marks = labeled_points(explanation, "view");
         let ahead = if chain.looks_along_z() { 1.0 } else { -1.0 };
-        let plan = |place: &[f64]| [ahead * place[2], place[0]];
-        let side = |place: &[f64]| [ahead * place[2], place[1]];
+        let plan = |point: &[f64]| [ahead * point[2], point[0]];
+        let side = |point: &[f64]| [ahead * point[2], point[1]];
         let volume = |project: &dyn Fn(&[f64]) -> [f64; 2]| corners.map(|c| project(&c));
         figures.push(volume_diagram(
             "View space from above: the gaze to the right, u up",
@@ -52,11 +65,11 @@ pub(super) fn draw_diagrams(
             side,
         ));
     }
-    let marks_of_ndc = labeled_points(told, "ndc");
+    let marks_of_ndc = labeled_points(explanation, "ndc");
     if !marks_of_ndc.is_empty() {
         let corners = canonical_corners(chain);
-        let front = |place: &[f64]| [place[0], place[1]];
-        let side = |place: &[f64]| [place[2], place[1]];
+        let front = |point: &[f64]| [point[0], point[1]];
+        let side = |point: &[f64]| [point[2], point[1]];
         figures.push(volume_diagram(
             "The canonical view volume: x to the right, y up",
             corners.map(|c| front(&c)),
@@ -71,43 +84,43 @@ pub(super) fn draw_diagrams(
         ));
     }
     if let Some(picture) = picture {
-        figures.push(picture_diagram(chain, picture, &labeled_points(told, "screen")));
+        figures.push(picture_diagram(chain, picture, &labeled_points(explanation, "screen")));
     }
     figures
 }
 
-/// The points that the steps tell of in a space: of a segment both ends, of a triangle all corners.
-fn labeled_points(told: &Explanation, space: &str) -> Vec<LabeledPoint> {
-    let items = told.steps.iter().flat_map(|step| &step.items);
+/// The points of the steps in a space, found by the ids of items: one, two ends or three vertices.
+fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
+    let items = explanation.steps.iter().flat_map(|step| &step.items);
     let marks = items.filter_map(|item| {
         let name = item.id.strip_prefix(space)?;
         let name = if name.is_empty() { name } else { name.strip_prefix('_')? };
-        let ItemValue::Numbers(place) = &item.value else { return None };
-        let is_place = place.len() == 3 && place.iter().all(|c| c.is_finite());
-        is_place.then(|| LabeledPoint { name: name.to_owned(), coordinates: place.clone() })
+        let ItemValue::Numbers(point) = &item.value else { return None };
+        let is_point = point.len() == 3 && point.iter().all(|c| c.is_finite());
+        is_point.then(|| LabeledPoint { name: name.to_owned(), coordinates: point.clone() })
     });
     marks.collect()
 }
 
-/// The corners of the canonical volume: x fastest, then y, then z.
+/// The corners of the canonical volume in NDC: x varies fastest, then y, then z.
 fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
     let [near, far] = chain.depth_range();
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
     std::array::from_fn(|n| [side(n & 1), side(n >> 1 & 1), if n >> 2 == 0 { near } else { far }])
 }
 
-/// The corners of the view volume in view space; `None` if it reaches to infinity.
+/// The corners of the view volume in view space; `None` if it is infinite.
 fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
     let clip_to_view = chain.view_to_clip().inverse()?;
     let mut corners = [[0.0; 3]; 8];
     for (corner, [x, y, z]) in corners.iter_mut().zip(canonical_corners(chain)) {
-        let place = clip_to_view.transform_hpoint(HPoint::new(x, y, z, 1.0)).divide()?;
-        *corner = <[f64; 3]>::from(place);
+        let point = clip_to_view.transform_hpoint(HPoint::new(x, y, z, 1.0)).divide()?;
+        *corner = <[f64; 3]>::from(point);
     }
     corners.as_flattened().iter().all(|c| c.abs() < 1e12).then_some(corners)
 }
 
-/// The edges of a box by the numbers of its corners.
+/// The edges of a box by the indices of its corners.
 const BOX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
@@ -123,17 +136,17 @@ const BOX_EDGES: [[usize; 2]; 12] = [
     [3, 7],
 ];
 
-/// A volume seen along an axis, with the points of the subject.
+/// The diagram of a volume seen along an axis, with the points of the subject.
 fn volume_diagram(
     caption: &str,
     corners: [[f64; 2]; 8],
     marks: &[LabeledPoint],
     project: impl Fn(&[f64]) -> [f64; 2],
 ) -> Diagram {
-    let places: Vec<[f64; 2]> = marks.iter().map(|mark| project(&mark.coordinates)).collect();
+    let projected: Vec<[f64; 2]> = marks.iter().map(|mark| project(&mark.coordinates)).collect();
     let is_view = caption.starts_with("View");
     let origin = is_view.then_some([0.0; 2]);
-    let window = DiagramWindow::around_points(corners.iter().chain(&places).chain(&origin));
+    let window = DiagramWindow::around_points(corners.iter().chain(&projected).chain(&origin));
     let mut svg = open_svg(SIZE);
     for [from, to] in BOX_EDGES {
         let ([x1, y1], [x2, y2]) =
@@ -149,13 +162,14 @@ fn volume_diagram(
             y + 16.0
         );
     }
-    let placed: Vec<[f64; 2]> = places.iter().map(|&place| window.to_diagram(place)).collect();
-    svg += &subject_svg(marks, &placed, 1.0);
+    let positions: Vec<[f64; 2]> =
+        projected.iter().map(|&point| window.to_diagram(point)).collect();
+    svg += &subject_svg(marks, &positions, 1.0);
     svg += "</svg>";
     Diagram { caption: caption.to_owned(), svg }
 }
 
-/// The picture with the points of the subject.
+/// The diagram of the picture with the points of the subject.
 fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPoint]) -> Diagram {
     let [width, height] = chain.image_size();
     let mut svg = open_svg([width, height]);
@@ -163,29 +177,31 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     svg += &format!(
         "<image width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{png}\"/>"
     );
-    let placed: Vec<[f64; 2]> = marks
+    let positions: Vec<[f64; 2]> = marks
         .iter()
         .map(|mark| chain.from_top_left([mark.coordinates[0], mark.coordinates[1]]))
         .collect();
-    svg += &subject_svg(marks, &placed, width / SIZE[0]);
+    svg += &subject_svg(marks, &positions, width / SIZE[0]);
     svg += "</svg>";
     let caption =
         format!("The picture, {} × {} pixels", format_number(width), format_number(height));
     Diagram { caption, svg }
 }
 
-/// Points with their names, joined if there are several; `unit` is the length of a line's width.
-fn subject_svg(marks: &[LabeledPoint], placed: &[[f64; 2]], unit: f64) -> String {
+/// The points with their labels, joined to a polygon if there are several; `unit` scales lines and
+/// letters.
+fn subject_svg(marks: &[LabeledPoint], positions: &[[f64; 2]], unit: f64) -> String {
     let mut svg = String::new();
-    if placed.len() > 1 {
-        let corners: Vec<String> = placed.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+    if positions.len() > 1 {
+        let corners: Vec<String> =
+            positions.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
         svg += &format!(
             "<polygon class=\"subject\" stroke-width=\"{:.2}\" points=\"{}\"/>",
             1.5 * unit,
             corners.join(" ")
         );
     }
-    for (mark, [x, y]) in marks.iter().zip(placed) {
+    for (mark, [x, y]) in marks.iter().zip(positions) {
         svg += &format!(
             "<circle class=\"mark\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\" stroke-width=\"{:.1}\"/>",
             4.0 * unit,
@@ -204,17 +220,21 @@ fn subject_svg(marks: &[LabeledPoint], placed: &[[f64; 2]], unit: f64) -> String
     svg
 }
 
+/// The opening tag of a diagram.
 fn open_svg([width, height]: [f64; 2]) -> String {
     format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\">")
 }
 
-/// Where points of a plane, y up, are in a figure: all in it, at one scale.
+/// The window-to-viewport map of a diagram: y up to y down, equal scales on both axes.
 struct DiagramWindow {
+    /// The point that is mapped to the diagram's center.
     center: [f64; 2],
+    /// Diagram units per unit of the plane.
     scale: f64,
 }
 
 impl DiagramWindow {
+    /// The map that shows all points, centered.
     fn around_points<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {
@@ -225,9 +245,10 @@ impl DiagramWindow {
         }
         let scale = |axis: usize| (SIZE[axis] - 2.0 * MARGIN) / (max[axis] - min[axis]).max(1e-300);
         let center = [0, 1].map(|axis| 0.5 * (min[axis] + max[axis]));
-        Self { center: center, scale: scale(0).min(scale(1)) }
+        Self { center, scale: scale(0).min(scale(1)) }
     }
 
+    /// A point in the diagram's units.
     fn to_diagram(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [cx, cy] = self.center;
         [0.5 * SIZE[0] + (x - cx) * self.scale, 0.5 * SIZE[1] - (y - cy) * self.scale]

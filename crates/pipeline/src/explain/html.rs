@@ -1,4 +1,7 @@
-//! An explanation as a page: one file that asks for nothing else, with figures beside the steps.
+//! An explanation as a self-contained HTML page: diagrams, then the steps.
+//!
+//! The page has no script and loads nothing: style sheet, diagrams (SVG) and picture (a data URI)
+//! are inside. It follows the color scheme of the reader's system.
 
 use super::diagrams::draw_diagrams;
 use super::plain_text::format_number;
@@ -7,8 +10,8 @@ use super::{Explanation, Item, ItemValue, Step};
 use shade::Picture;
 
 impl Explanation {
-    /// The explanation as an HTML page. `chain` is the one that was explained; `picture`, of any size and the same sides as the
-    /// scene's, shows where the subject lands.
+    /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,
+    /// of any size and of the scene's aspect ratio, shows the position of the subject.
     #[must_use]
     pub fn to_html(&self, chain: &TransformChain, picture: Option<&Picture>) -> String {
         let subject = escape_html(&self.subject);
@@ -31,6 +34,7 @@ impl Explanation {
     }
 }
 
+/// One step as a list item with a table of its values.
 fn step_html(step: &Step) -> String {
     let formulas = step.formula.unwrap_or_default();
     let chips: String = formulas
@@ -43,6 +47,7 @@ fn step_html(step: &Step) -> String {
     format!("<li id=\"{}\"><h2>{title}{chips}</h2>\n<dl>\n{rows}</dl></li>\n", step.id)
 }
 
+/// One value as a term with its description.
 fn item_html(item: &Item) -> String {
     let value = match &item.value {
         ItemValue::Matrix(rows) => {
@@ -62,11 +67,12 @@ fn item_html(item: &Item) -> String {
     format!("<dt>{}</dt><dd>{value}</dd>\n", escape_html(&item.name))
 }
 
-/// Text with nothing in it that HTML would read as its own.
+/// Escapes text for HTML content and attribute values.
 fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// The style sheet of the page, for light and dark color schemes.
 const STYLESHEET: &str = "
 :root { color-scheme: light dark; --ink: #1c2430; --paper: #fff; --faint: #8a94a3; --mark: #c62828; }
 @media (prefers-color-scheme: dark) { :root { --ink: #dfe4ec; --paper: #14181e; --mark: #ff7b72; } }

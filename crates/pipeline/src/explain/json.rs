@@ -1,15 +1,23 @@
-//! An explanation for programs. Numbers are exact: JSON's decimals lead back to the same f64.
+//! An explanation as JSON, for programs. Numbers are exact: the decimals parse to the same f64.
+//!
+//! ```json
+//! {"schema": {"name": "alberti-explain", "version": 1}, "subject": "…", "verdict": "…",
+//!  "steps": [{"id": "camera", "title": "…", "formula": "CA-1, CA-2",
+//!             "items": [{"id": "eye", "name": "eye", "value": [4, 3, 6]}]}]}
+//! ```
 
 use super::{Explanation, Item, ItemValue, Step};
 use serde_json::{Value as Json, json};
 
 /// The name of the schema.
 pub const SCHEMA_NAME: &str = "alberti-explain";
-/// The version of the schema. New members may come in any release; it rises when one changes its meaning or goes.
+/// The version of the schema. It rises when a member changes its meaning or is removed; new members
+/// may come in any release.
 pub const SCHEMA_VERSION: u32 = 1;
 
 impl Explanation {
-    /// The explanation as a JSON document: steps by their ids, and in each the items by theirs. What is not finite is `null`.
+    /// Formats the explanation as a JSON document: a list of steps, each with a list of items.
+    /// Numbers that are not finite become `null`.
     #[must_use]
     pub fn to_json(&self) -> Json {
         json!({
@@ -21,6 +29,7 @@ impl Explanation {
     }
 }
 
+/// One step with its items.
 fn step_json(step: &Step) -> Json {
     json!({
         "id": step.id,
@@ -30,6 +39,7 @@ fn step_json(step: &Step) -> Json {
     })
 }
 
+/// One item; a matrix as an object with its rows.
 fn item_json(item: &Item) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),

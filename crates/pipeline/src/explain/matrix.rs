@@ -1,4 +1,10 @@
-//! Sixteen numbers: what map they are, which projection, and whether they look like a known slip.
+//! Explanation of a 4 × 4 matrix: its kind, the projections it may be in known conventions, and
+//! known misprints it resembles.
+//!
+//! The same sixteen numbers can be several projections, each in another convention: OpenGL's and
+//! the textbook's differ by the sign of z. All readings are listed, the simplest first. Misprints
+//! are those of the chapter and of widespread tutorials, such as a transposed matrix or a sign lost
+//! in the third row.
 
 use super::conventions::volume_name;
 use super::plain_text::format_number;
@@ -28,8 +34,10 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
+/// A projection that the matrix is, with the convention in which it is one.
 type ProjectionReading = (Convention, projection::Decomposition);
 
+/// The kind of map: affine, projective, its rank and determinant.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "What kind of map it is", Some("HO-3"))
@@ -39,7 +47,7 @@ fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
         .with_item("determinant", "determinant", map.raw().determinant())
 }
 
-/// The parts of an affine map: where the origin goes, how long the axes become, and whether they stay at right angles.
+/// The parts of an affine map: translation, scale of each axis, shear, handedness.
 fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
     let matrix = map.to_affine()?.raw();
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
@@ -64,11 +72,12 @@ fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
     Some(step)
 }
 
+/// The vanishing points of the three axes.
 fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
     let words = |meaning: HPointKind<Clip>| match meaning {
-        HPointKind::Finite(place) => {
-            let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
+        HPointKind::Finite(point) => {
+            let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
             format!("vanishes at ({x}, {y}, {z})")
         }
         HPointKind::AtInfinity(_) => "stays parallel".to_owned(),
@@ -81,6 +90,7 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
         .fold(step, |step, (axis, point)| step.with_item(axis, axis, words(point)))
 }
 
+/// The projections that the matrix may be.
 fn readings_step(read: &[ProjectionReading]) -> Step {
     let step =
         Step::new("readings", "Which projection it is, in whose convention", Some("GL-1, PE-2"));
@@ -100,7 +110,7 @@ fn readings_step(read: &[ProjectionReading]) -> Step {
     })
 }
 
-/// A projection in words.
+/// A projection with its parameters in words.
 pub(super) fn describe_projection(kind: &Decomposed) -> String {
     let window = |w: projection::Window| {
         let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
@@ -136,6 +146,7 @@ pub(super) fn describe_projection(kind: &Decomposed) -> String {
     }
 }
 
+/// A known misprint that the matrix resembles, with the correction.
 fn misprint_step(at: usize, slip: &Symptom) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
     let title = format!("It looks like a known misprint ({known})");
@@ -150,6 +161,7 @@ fn misprint_step(at: usize, slip: &Symptom) -> Step {
     }
 }
 
+/// The result in a sentence: the first reading, and the first misprint.
 fn matrix_verdict(
     map: Projective<View, Clip>,
     read: &[ProjectionReading],

@@ -1,4 +1,11 @@
-//! A node: why its mesh is seen, or what keeps it from being seen.
+//! Explanation of a node: why its mesh is visible or not, by the stages that could remove it.
+//!
+//! ```text
+//!  tree ─► model transform ─► outcodes (trivial reject) ─► back-face test ─► alpha ─► visible
+//!            not in a scene       outside of a plane         away, edge-on     transparent
+//! ```
+//! A primitive is counted at the first stage that removes it. Where everything fails at one stage,
+//! the verdict names it and a remedy.
 
 use super::plain_text::format_number;
 use super::point::{describe_node, model_point};
@@ -10,12 +17,17 @@ use homog::{Clip, HPoint, Point, World};
 use model::ModelInstance;
 use model::{AlphaMode, MeshInstance, Model, Primitive, Topology};
 
-/// Tells what becomes of all that a node shows.
+/// Counts the primitives of a node's mesh by the stage that removes them: view volume, back-face
+/// culling, transparency.
 ///
-/// That something stands in front of it is not looked at: what is hidden has come through all of these stages.
+/// Occlusion by other surfaces is not tested: it comes after all of these stages.
 #[must_use]
-pub fn explain_node(chain: &TransformChain, placed: &ModelInstance, node: usize) -> Explanation {
-    let model = &placed.model;
+pub fn explain_node(
+    chain: &TransformChain,
+    model_instance: &ModelInstance,
+    node: usize,
+) -> Explanation {
+    let model = &model_instance.model;
     let subject = describe_node(model, node);
     let mut steps = vec![tree_step(model, node)];
     let instances: Vec<MeshInstance> =
@@ -27,7 +39,7 @@ pub fn explain_node(chain: &TransformChain, placed: &ModelInstance, node: usize)
     for &instance in &instances {
         let mesh = model.nodes[node].mesh.and_then(|mesh| model.meshes.get(mesh));
         for primitive in mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
-            counts.count_primitive(chain, placed, instance, primitive);
+            counts.count_primitive(chain, model_instance, instance, primitive);
         }
     }
     steps.push(counts.bounds_step());
@@ -35,11 +47,11 @@ pub fn explain_node(chain: &TransformChain, placed: &ModelInstance, node: usize)
     Explanation { subject, steps, verdict: counts.verdict() }
 }
 
-/// Where the node is in the tree.
+/// The path from the root to the node.
 fn tree_step(model: &Model, node: usize) -> Step {
     let mut path = Vec::new();
     let mut above = Some(node);
-    // A forest without cycles: the importer has seen to that.
+    // The importer refuses cycles, so this ends.
     while let Some(at) = above {
         path.push(describe_node(model, at));
         above = model.nodes.get(at).and_then(|node| node.parent);
@@ -60,7 +72,7 @@ fn tree_step(model: &Model, node: usize) -> Step {
     }
 }
 
-/// Why a node shows no mesh.
+/// The reason for a node without a visible mesh.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
         None => "There is no such node.".to_owned(),
@@ -75,64 +87,72 @@ fn explain_absence(model: &Model, node: usize) -> String {
     }
 }
 
-/// What becomes of all points, lines and triangles.
+/// The number of points, lines and triangles by the stage that removes them.
 #[derive(Default)]
 struct PrimitiveCounts {
+    /// The bounding box in the world.
     bounds: Option<[DVec3; 2]>,
-    /// The planes that everything is outside of.
+    /// The planes of the view volume that every vertex is outside of.
     common_outcode: Option<Outcode>,
+    /// All points, lines and triangles of the node's mesh.
     total: usize,
-    /// Wholly outside of one plane, for each of the six.
+    /// Trivially rejected, by the first plane that rejects; one count for each of the six.
     outside: [usize; 6],
-    /// Seen from behind, with a material that has no back.
+    /// Culled back faces of single-sided materials.
     back_facing: usize,
-    /// Without area on the screen.
+    /// Seen edge-on: no area on the screen.
     edge_on: usize,
-    /// With a material that is wholly transparent.
+    /// Blended with alpha 0.
     transparent: usize,
+    /// Those that no stage removes.
     visible: usize,
 }
 
 impl PrimitiveCounts {
+    /// Counts all points, lines and triangles of a primitive.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,
-        placed: &ModelInstance,
+        model_instance: &ModelInstance,
         instance: MeshInstance,
         primitive: &Primitive,
     ) {
-        let posed = placed.model.skin_primitive(instance, primitive);
-        let to_world = posed.to_model.then(placed.model_to_world);
+        let skinned = model_instance.model.skin_primitive(instance, primitive);
+        let to_world = skinned.to_model.then(model_instance.model_to_world);
         let world: Vec<Point<World>> =
-            posed.positions.iter().map(|&at| to_world.transform_point(model_point(at))).collect();
+            skinned.positions.iter().map(|&at| to_world.transform_point(model_point(at))).collect();
         let clip: Vec<HPoint<Clip>> =
             world.iter().map(|&at| chain.world_to_clip().transform_point(at)).collect();
-        let material = primitive.material.and_then(|at| placed.model.materials.get(at));
-        let one_sided = material.is_none_or(|material| !material.double_sided);
-        let transparent = material.is_some_and(|material| {
+        let material = primitive.material.and_then(|at| model_instance.model.materials.get(at));
+        let is_single_sided = material.is_none_or(|material| !material.double_sided);
+        let is_transparent = material.is_some_and(|material| {
             material.alpha_mode == AlphaMode::Blend && material.base_color[3] == 0.0
         });
-        let mirrored = to_world.raw().determinant() < 0.0;
+        let is_mirrored = to_world.raw().determinant() < 0.0;
         for item in primitive.indices.chunks_exact(primitive.topology.vertices_per_item()) {
             item.iter().for_each(|&at| self.extend_bounds(world[at as usize].raw()));
             let corners: Vec<HPoint<Clip>> = item.iter().map(|&at| clip[at as usize]).collect();
-            self.classify_primitive(chain, &corners, transparent, |facing| {
-                one_sided && primitive.topology == Topology::Triangles && facing == mirrored
+            self.classify_primitive(chain, &corners, is_transparent, |facing| {
+                is_single_sided
+                    && primitive.topology == Topology::Triangles
+                    && facing == is_mirrored
             });
         }
     }
 
+    /// Extends the bounding box to a point.
     fn extend_bounds(&mut self, point: DVec3) {
         let [least, most] = self.bounds.unwrap_or([point, point]);
         self.bounds = Some([least.min(point), most.max(point)]);
     }
 
-    /// Counts a point, line or triangle. `culled` tells whether one that shows its front to the viewer (or does not) is left out.
+    /// Counts one point, line or triangle. `culled` says for a front face (`true`) or back face
+    /// whether it is culled.
     fn classify_primitive(
         &mut self,
         chain: &TransformChain,
         corners: &[HPoint<Clip>],
-        transparent: bool,
+        is_transparent: bool,
         culled: impl Fn(bool) -> bool,
     ) {
         let codes: Vec<Outcode> =
@@ -146,7 +166,7 @@ impl PrimitiveCounts {
                 *count += 1;
             }
         } else if let Some(facing) = chain.is_front_facing(corners) {
-            match (culled(facing), transparent) {
+            match (culled(facing), is_transparent) {
                 (true, _) => self.back_facing += 1,
                 (false, true) => self.transparent += 1,
                 (false, false) => self.visible += 1,
@@ -156,6 +176,7 @@ impl PrimitiveCounts {
         }
     }
 
+    /// The bounding box and its relation to the view volume.
     fn bounds_step(&self) -> Step {
         let step = Step::new("bounds", "Where all of it is", Some("CL-1"));
         let Some([min, most]) = self.bounds else {
@@ -171,6 +192,7 @@ impl PrimitiveCounts {
             .with_item("outside", "all of it", describe_outcode(common))
     }
 
+    /// The counts as a step.
     fn count_step(&self) -> Step {
         let mut step =
             Step::new("counts", "Its points, lines and triangles", Some("CL-1, CL-3, RA-1"))
@@ -187,6 +209,7 @@ impl PrimitiveCounts {
             .with_item("left", "in the view volume", self.visible as f64)
     }
 
+    /// The result in a sentence: the stage that removes everything, or the visible fraction.
     fn verdict(&self) -> String {
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);
         if self.total == 0 {
@@ -194,9 +217,9 @@ impl PrimitiveCounts {
         } else if !common.is_inside() {
             format!("It is not in the picture: all of it is {}.", describe_outcode(common))
         } else if self.visible > 0 {
-            let share = format_number(100.0 * self.visible as f64 / self.total as f64);
+            let percentage = format_number(100.0 * self.visible as f64 / self.total as f64);
             format!(
-                "{} of {} ({share} %) come into the view volume; what is not seen of them is behind something else.",
+                "{} of {} ({percentage} %) come into the view volume; what is not seen of them is behind something else.",
                 self.visible, self.total
             )
         } else if self.back_facing > 0

@@ -1,4 +1,9 @@
-//! A pixel: the ray that is seen in it, the triangles it shows with their weights and colours, and the place on the nearest.
+//! Explanation of a pixel: its fragments with weights and colors, and the transform chain of the
+//! nearest surface point.
+//!
+//! The fragments come from the renderer itself ([`inspect_pixel`]): the pixel is rendered again
+//! with a recording surface. Several fragments mean an edge within the pixel, or translucent
+//! layers.
 
 use super::point::{describe_node, model_point};
 use super::transform_chain::TransformChain;
@@ -8,7 +13,7 @@ use crate::scene::Scene;
 use homog::{Point, World};
 use model::Topology;
 
-/// Tells why a pixel, counted from the upper left corner, has its colour.
+/// Explains the color of a pixel; x and y count from the upper left corner.
 ///
 /// # Errors
 /// If there is no such pixel, or none of the picture's pixels is shaded; the text says which.
@@ -28,13 +33,13 @@ pub fn explain_pixel(
     );
     let positions = pixel.fragments.iter().filter_map(|seen| fragment_position(scene, seen));
     let nearest = positions
-        .map(|place| (chain.nearness(place), place))
+        .map(|position| (chain.nearness(position), position))
         .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, place)| place);
-    if let Some(place) = nearest {
-        let clip = chain.world_to_clip().transform_point(place);
-        steps.push(chain.camera_step(&[("", place)]));
-        steps.push(chain.projection_step(&[("", place)]));
+        .map(|(_, position)| position);
+    if let Some(position) = nearest {
+        let clip = chain.world_to_clip().transform_point(position);
+        steps.push(chain.camera_step(&[("", position)]));
+        steps.push(chain.projection_step(&[("", position)]));
         steps.push(chain.outcode_step(&[("", clip)]));
         steps.extend(chain.screen_steps(&[("", clip)]));
     }
@@ -43,6 +48,7 @@ pub fn explain_pixel(
     Ok(Explanation { subject, steps, verdict: pixel_verdict(&pixel) })
 }
 
+/// A fragment: the primitive it comes from, weights, color, world position.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
         Some(owner) => format!("Seen: {}", source_name(scene, owner)),
@@ -52,51 +58,54 @@ fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
         Step::new(if at == 0 { "fragment" } else { "other_fragment" }, title, Some("RA-1, IN-2"))
             .with_item("weights", "weights of its corners", seen.weights.map(f64::from))
             .with_item("color", "colour, linear, times alpha", seen.color.map(f64::from));
-    if let Some(place) = fragment_position(scene, seen) {
-        step.add_item("world", "place in the world", <[f64; 3]>::from(place));
+    if let Some(position) = fragment_position(scene, seen) {
+        step.add_item("world", "place in the world", <[f64; 3]>::from(position));
     }
     step
 }
 
+/// The primitive of a fragment in words.
 fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     let FragmentSource { model, node, primitive, element: item } = owner;
-    let Some(placed) = scene.models.get(model) else { return String::new() };
+    let Some(model_instance) = scene.models.get(model) else { return String::new() };
     let what = match find_primitive(scene, owner).map(|primitive| primitive.topology) {
         Some(Topology::Points) => "point",
         Some(Topology::Lines) => "line",
         _ => "triangle",
     };
-    let node = describe_node(&placed.model, node);
+    let node = describe_node(&model_instance.model, node);
     format!(
         "{what} {item} of primitive {primitive} at {node} of model {model} `{}`",
-        placed.model.name
+        model_instance.model.name
     )
 }
 
+/// The glTF primitive that a fragment comes from.
 fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
     mesh.primitives.get(owner.primitive)
 }
 
-/// The place of a fragment of a triangle in the world: its corners times their weights.
+/// The world position of a triangle's fragment: its vertices blended by the barycentric weights.
 fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World>> {
     let owner = seen.source?;
-    let placed = scene.models.get(owner.model)?;
+    let model_instance = scene.models.get(owner.model)?;
     let primitive =
         find_primitive(scene, owner).filter(|shown| shown.topology == Topology::Triangles)?;
     let corners = primitive.indices.as_chunks::<3>().0.get(owner.element)?;
-    let instance = placed.model.mesh_instances().find(|at| at.node == owner.node)?;
-    let posed = placed.model.skin_primitive(instance, primitive);
-    let to_world = posed.to_model.then(placed.model_to_world);
-    let mut place = glam::DVec3::ZERO;
+    let instance = model_instance.model.mesh_instances().find(|at| at.node == owner.node)?;
+    let skinned = model_instance.model.skin_primitive(instance, primitive);
+    let to_world = skinned.to_model.then(model_instance.model_to_world);
+    let mut position = glam::DVec3::ZERO;
     for (corner, weight) in corners.iter().zip(seen.weights) {
-        let corner = posed.positions.get(*corner as usize)?;
-        place += to_world.transform_point(model_point(*corner)).raw() * f64::from(weight);
+        let corner = skinned.positions.get(*corner as usize)?;
+        position += to_world.transform_point(model_point(*corner)).raw() * f64::from(weight);
     }
-    Some(Point::from_raw(place))
+    Some(Point::from_raw(position))
 }
 
+/// The resolved color of the pixel.
 fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
@@ -104,6 +113,7 @@ fn color_step(makeup: &PixelFragments) -> Step {
         .with_item("hex", "as on a web page", format!("#{r:02x}{g:02x}{b:02x}, alpha {alpha}"))
 }
 
+/// The result in a sentence.
 fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;
     let what = match makeup.fragments.len() {

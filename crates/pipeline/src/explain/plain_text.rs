@@ -1,4 +1,11 @@
-//! An explanation as text: names in a column, matrices aligned.
+//! An explanation as plain text: labels in a column, matrices aligned.
+//!
+//! ```text
+//!  1. Camera: from the world to view space (CA-1, CA-2)
+//!     eye                     (4, 3, 6)
+//!     R, u v w to the axes    [ 0.83205 0       -0.5547  0 ]
+//!                             [ …                        ]
+//! ```
 
 use super::{Explanation, Item, ItemValue, Step};
 use homog::MatrixDisplay;
@@ -18,7 +25,7 @@ impl Display for Explanation {
     }
 }
 
-/// The formula of a step, in brackets.
+/// The formula ids of a step in parentheses.
 struct FormulaSuffix<'a>(&'a Step);
 
 impl Display for FormulaSuffix<'_> {
@@ -27,6 +34,7 @@ impl Display for FormulaSuffix<'_> {
     }
 }
 
+/// Writes an item, its label padded to `width`.
 fn write_item_text(f: &mut Formatter<'_>, item: &Item, width: usize) -> fmt::Result {
     let lines = match &item.value {
         ItemValue::Matrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
@@ -45,7 +53,7 @@ fn write_item_text(f: &mut Formatter<'_>, item: &Item, width: usize) -> fmt::Res
     Ok(())
 }
 
-/// Seven significant digits, without zeros at the end.
+/// Formats a number with up to seven significant digits, without trailing zeros; −0 as 0.
 pub(super) fn format_number(x: f64) -> String {
     // −0 is a 0 to people.
     let x = x + 0.0;

@@ -1,4 +1,9 @@
-//! A place of the world, or a vertex of a model, on its way to a pixel.
+//! Explanation of a world point or of a mesh vertex: all transforms to its pixel.
+//!
+//! ```text
+//!  mesh ─nodes─► model ─scene─► world ─camera─► view ─projection─► clip ─÷ w─► NDC ─► pixel
+//! ```
+//! A vertex is explained in the model's current pose: skinned and morphed as the scene has it.
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
@@ -7,7 +12,7 @@ use homog::{Affine, Model as ModelSpace, Point, World};
 use model::ModelInstance;
 use model::{MeshInstance, Model};
 
-/// Tells the maps themselves, without anything that passes them.
+/// Explains the transforms themselves, without a point.
 #[must_use]
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
@@ -20,60 +25,62 @@ pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     }
 }
 
-/// Follows a place of the world through every stage.
+/// Follows a world point through every stage.
 #[must_use]
-pub fn explain_point(chain: &TransformChain, place: Point<World>) -> Explanation {
-    let [x, y, z] = <[f64; 3]>::from(place).map(format_number);
-    explain_world_point(chain, place, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
+pub fn explain_point(chain: &TransformChain, point: Point<World>) -> Explanation {
+    let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
+    explain_world_point(chain, point, format!("The point ({x}, {y}, {z}) of the world"), Vec::new())
 }
 
-/// A vertex of a shown mesh.
+/// The indices of a mesh vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexRef {
-    /// The node's number in its model.
+    /// Index of the node in its model.
     pub node: usize,
-    /// The primitive's number in the mesh of the node.
+    /// Index of the primitive in the node's mesh.
     pub primitive: usize,
-    /// The vertex's number in the primitive.
+    /// Index of the vertex in the primitive.
     pub index: usize,
 }
 
-/// Follows a vertex of a model through every stage, as the model stands.
+/// Follows a vertex of a model through every stage, in the model's current pose.
 ///
 /// # Errors
 /// If the model does not show such a vertex; the text says what there is.
 pub fn explain_vertex(
     chain: &TransformChain,
-    placed: &ModelInstance,
+    model_instance: &ModelInstance,
     vertex: VertexRef,
 ) -> Result<Explanation, String> {
-    let (instance, primitive) = find_shown_primitive(&placed.model, vertex.node, vertex.primitive)?;
-    let posed = placed.model.skin_primitive(instance, primitive);
-    let position = *posed.positions.get(vertex.index).ok_or_else(|| {
-        let count = posed.positions.len();
+    let (instance, primitive) =
+        find_shown_primitive(&model_instance.model, vertex.node, vertex.primitive)?;
+    let skinned = model_instance.model.skin_primitive(instance, primitive);
+    let position = *skinned.positions.get(vertex.index).ok_or_else(|| {
+        let count = skinned.positions.len();
         format!(
             "primitive {} has {count} vertices; there is no vertex {}",
             vertex.primitive, vertex.index
         )
     })?;
-    let to_world = posed.to_model.then(placed.model_to_world);
+    let to_world = skinned.to_model.then(model_instance.model_to_world);
     let mesh_point = model_point(position);
-    let node = describe_node(&placed.model, vertex.node);
+    let node = describe_node(&model_instance.model, vertex.node);
     let world = to_world.transform_point(mesh_point);
-    let step = model_step(placed, posed.to_model, &[("", mesh_point)]);
+    let step = model_step(model_instance, skinned.to_model, &[("", mesh_point)]);
     let subject = format!("Vertex {} of primitive {} at {node}", vertex.index, vertex.primitive);
     Ok(explain_world_point(chain, world, subject, vec![step]))
 }
 
+/// The steps of a world point, after those that led to it.
 fn explain_world_point(
     chain: &TransformChain,
-    place: Point<World>,
+    point: Point<World>,
     subject: String,
     mut steps: Vec<Step>,
 ) -> Explanation {
-    let clip = chain.world_to_clip().transform_point(place);
-    steps.push(chain.camera_step(&[("", place)]));
-    steps.push(chain.projection_step(&[("", place)]));
+    let clip = chain.world_to_clip().transform_point(point);
+    steps.push(chain.camera_step(&[("", point)]));
+    steps.push(chain.projection_step(&[("", point)]));
     steps.push(chain.outcode_step(&[("", clip)]));
     steps.extend(chain.screen_steps(&[("", clip)]));
     let code = chain.clip_volume().outcode(clip);
@@ -87,16 +94,20 @@ fn explain_world_point(
     Explanation { subject, steps, verdict }
 }
 
-/// The way of points of a mesh to the world.
+/// The model transform: mesh to world, for labeled points.
 pub(super) fn model_step(
-    placed: &ModelInstance,
+    model_instance: &ModelInstance,
     to_model: Affine<ModelSpace, ModelSpace>,
     points: &[(&str, Point<ModelSpace>)],
 ) -> Step {
-    let to_world = to_model.then(placed.model_to_world);
+    let to_world = to_model.then(model_instance.model_to_world);
     let mut step = Step::new("model", "Model: from the mesh to the world", Some("HO-4, HO-5"))
         .with_item("node_to_model", "the nodes' transforms", to_model.rows())
-        .with_item("model_to_world", "the model's place in the scene", placed.model_to_world.rows())
+        .with_item(
+            "model_to_world",
+            "the model's place in the scene",
+            model_instance.model_to_world.rows(),
+        )
         .with_item("mesh_to_world", "the product", to_world.rows());
     for (name, point) in points {
         let label = |what: &str| {
@@ -114,7 +125,10 @@ pub(super) fn model_step(
     step
 }
 
-/// The first instance of a node, and one of the primitives it shows.
+/// The first instance of a node's mesh, and one of its primitives.
+///
+/// # Errors
+/// If there is none; the message lists nodes or counts primitives that exist.
 pub(super) fn find_shown_primitive(
     model: &Model,
     node: usize,
@@ -135,7 +149,7 @@ pub(super) fn find_shown_primitive(
     Ok((instance, primitive))
 }
 
-/// A node by its name and number.
+/// A node by its index and name.
 pub(super) fn describe_node(model: &Model, node: usize) -> String {
     match model.nodes.get(node).and_then(|node| node.name.as_deref()) {
         Some(name) => format!("node {node} `{name}`"),
@@ -143,6 +157,7 @@ pub(super) fn describe_node(model: &Model, node: usize) -> String {
     }
 }
 
+/// A vertex position in f64.
 pub(super) fn model_point(position: [f32; 3]) -> Point<ModelSpace> {
     Point::from(position.map(f64::from))
 }

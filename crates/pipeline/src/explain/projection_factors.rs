@@ -1,4 +1,10 @@
-//! The factors of a projection by their names: what shears, what scales, what maps the depth.
+//! Factorization of a projection matrix into shear, scale and depth mapping, and the ids of its
+//! formulas.
+//!
+//! ```text
+//!  perspective = depth · scale · shear   (frustum centered, sides to 45°, depth to clip space)
+//!  oblique     = fit · shear             (projectors upright, box to the canonical volume)
+//! ```
 
 use super::Step;
 use super::conventions::ApiConventions;
@@ -6,17 +12,17 @@ use super::matrix::describe_projection;
 use homog::{Clip, Projective, View};
 use projection::{Classical, Decomposed, decompose};
 
-/// Adds what the projection is, and its factors in the order in which a point passes them.
+/// Adds the kind of a projection, and its factors in the order in which they apply to a point.
 pub(super) fn add_projection_factors(
     step: &mut Step,
     view_to_clip: Projective<View, Clip>,
     conventions: ApiConventions,
 ) {
     let volume = conventions.canonical_volume();
-    let Ok(found) = decompose(view_to_clip.raw(), volume) else { return };
-    step.formula = formula_ids_of_kind(&found.kind, conventions);
-    step.add_item("kind", "it is", describe_projection(&found.kind));
-    match found.kind {
+    let Ok(decomposition) = decompose(view_to_clip.raw(), volume) else { return };
+    step.formula = formula_ids_of_kind(&decomposition.kind, conventions);
+    step.add_item("kind", "it is", describe_projection(&decomposition.kind));
+    match decomposition.kind {
         Decomposed::Frustum(frustum) => {
             let factors = frustum.factors(volume);
             step.add_item(
@@ -36,14 +42,15 @@ pub(super) fn add_projection_factors(
     }
 }
 
-/// The formulas behind a projection of the pipeline's, as the chapter numbers them.
+/// The ids of the formulas of a projection in the pipeline's own conventions, as the chapter
+/// numbers them.
 pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
     let decomposition =
         decompose(view_to_clip.raw(), ApiConventions::Alberti.canonical_volume()).ok()?;
     formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)
 }
 
-/// The formulas behind a projection in these conventions.
+/// The ids of the formulas of a kind of projection in the given conventions.
 fn formula_ids_of_kind(kind: &Decomposed, conventions: ApiConventions) -> Option<&'static str> {
     let chapter = matches!(conventions, ApiConventions::Alberti | ApiConventions::Chapter);
     match kind {

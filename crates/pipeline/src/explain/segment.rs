@@ -1,4 +1,10 @@
-//! A segment: where each plane of the view volume cuts it, before the divide (CL-2).
+//! Explanation of a segment: clipping against the view volume before the divide (CL-2).
+//!
+//! ```text
+//!  p(t) = a + t (b − a) in clip space;  each plane cuts at t = d(a) / (d(a) − d(b))
+//! ```
+//! d is a plane's signed distance, such as w − x for the right plane. The visible part runs from
+//! the largest t where the segment enters to the smallest where it leaves (Liang and Barsky, 1984).
 
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
@@ -6,7 +12,7 @@ use super::{Explanation, Step};
 use clip::{clip_segment, segment_outcomes};
 use homog::{Clip, HPoint, Point, World};
 
-/// Follows a segment of the world through every stage.
+/// Follows a world segment through every stage.
 #[must_use]
 pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Explanation {
     let named = [("a", ends[0]), ("b", ends[1])];
@@ -38,6 +44,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
     Explanation { subject: "A segment from a to b".to_owned(), steps, verdict }
 }
 
+/// The clipping step: the planes through which the visible part enters and leaves.
 fn clip_step(
     chain: &TransformChain,
     a: HPoint<Clip>,

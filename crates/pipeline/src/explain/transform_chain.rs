@@ -1,4 +1,5 @@
-//! The chain of maps from the world to the screen, and what it does to points (PL-1).
+//! The transform chain from world to screen in the conventions of a graphics API, and the steps
+//! that points take through it (PL-1).
 //!
 //! ```text
 //!  World ──T, R──► View ──projection──► Clip ──÷w──► Ndc ──M_vp──► Screen
@@ -8,28 +9,33 @@ use super::conventions::ApiConventions;
 use super::plain_text::format_number;
 use super::projection_factors;
 use super::{Item, ItemValue, Step};
-use camera::Camera;
-use camera::ViewProjection;
+use camera::{Camera, ViewProjection, ViewTransform};
 use clip::{Outcode, Volume};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, View, World};
 use viewport::{Viewport, ViewportError};
 
-/// Camera, projection and viewport in somebody's conventions.
+/// Camera, projection and viewport in the conventions of a graphics API.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
+    /// The camera, whose view space looks along −z.
     camera: Camera,
+    /// The projection, converted to the conventions.
     view_to_clip: Projective<View, Clip>,
+    /// The conventions of all coordinates.
     conventions: ApiConventions,
+    /// The viewport, with its pixel convention.
     viewport: Viewport,
+    /// World → clip → screen in these conventions.
+    transform: ViewTransform,
     /// Whether the window exchanges left and right, or bottom and top.
     is_mirrored: bool,
 }
 
-/// A point of the world with the name it has in an explanation.
+/// A point with its label in an explanation: empty for a single one.
 pub(super) type NamedPoint<'a, P> = (&'a str, P);
 
 impl TransformChain {
-    /// The chain of a picture of so many pixels.
+    /// The chain of a picture of width × height pixels.
     ///
     /// # Errors
     /// If the picture has no pixels.
@@ -38,36 +44,39 @@ impl TransformChain {
         (width, height): (u32, u32),
         conventions: ApiConventions,
     ) -> Result<Self, ViewportError> {
+        let ViewProjection { camera, view_to_clip } = *view_projection;
         let own_volume = ApiConventions::Alberti.canonical_volume();
-        Ok(Self {
-            camera: view_projection.camera,
-            view_to_clip: own_volume
-                .convert(conventions.canonical_volume(), view_projection.view_to_clip),
-            conventions,
-            viewport: conventions.viewport(width, height)?,
-            is_mirrored: view_projection.is_mirrored(),
-        })
+        let view_to_clip = own_volume.convert(conventions.canonical_volume(), view_to_clip);
+        let viewport = conventions.viewport(width, height)?;
+        let world_to_view = camera.world_to_view().then(conventions.view_flip());
+        let transform = ViewTransform::with_world_to_clip(
+            world_to_view.then_project(view_to_clip),
+            viewport.ndc_to_screen(),
+            view_projection.viewer(),
+        );
+        let is_mirrored = view_projection.is_mirrored();
+        Ok(Self { camera, view_to_clip, conventions, viewport, transform, is_mirrored })
     }
 
-    /// From the world to view space, which looks along −z, or along +z where the conventions want it.
+    /// World to view space, which looks along −z, or along +z in left-handed conventions.
     #[must_use]
     pub fn world_to_view(&self) -> Affine<World, View> {
-        self.camera.world_to_view().then(self.view_flip())
+        self.camera.world_to_view().then(self.conventions.view_flip())
     }
 
-    /// From the world to clip space.
+    /// World to clip space.
     #[must_use]
     pub fn world_to_clip(&self) -> Projective<World, Clip> {
-        self.world_to_view().then_project(self.view_to_clip)
+        self.transform.world_to_clip()
     }
 
-    /// From normalised device coordinates to pixels.
+    /// The viewport transform: normalized device coordinates to pixels.
     #[must_use]
     pub fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
-        self.viewport.ndc_to_screen()
+        self.transform.ndc_to_screen()
     }
 
-    /// The volume that is visible, in clip space.
+    /// The view volume in clip space, to clip against.
     #[must_use]
     pub fn clip_volume(&self) -> Volume {
         match self.conventions {
@@ -79,18 +88,18 @@ impl TransformChain {
         }
     }
 
-    /// Where a point of clip space is on the screen; `None` if it has no place there.
+    /// Perspective divide and viewport transform of a clip-space point; `None` where w is 0.
     #[must_use]
     pub fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
-        Some(self.ndc_to_screen().transform_point(point.divide()?))
+        self.transform.project_to_screen(point)
     }
 
-    /// Whether a triangle (a, b, c) shows the viewer the side on which its corners run counter-clockwise; `None` if it is seen
-    /// edge-on. Points and lines have no back.
+    /// Back-face test: whether a triangle shows the viewer the side on which its vertices run
+    /// counterclockwise; `None` if it is seen edge-on. Points and lines have no back.
     pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
         let &[a, b, c] = corners else { return Some(true) };
-        // The volume of (x, y, w) is positive if the corners run counter-clockwise in clip space with y up, also where w is
-        // negative for some (Olano and Greer, 1997).
+        // The determinant of the (x, y, w) is positive for counterclockwise triangles in clip space
+        // with y up, also with w < 0 at some vertices (Olano and Greer, 1997).
         let [a, b, c] = [a, b, c].map(|p| glam::DVec3::new(p.x(), p.y(), p.w()));
         let volume = a.dot(b.cross(c));
         let is_flipped = self.conventions.y_runs_down() != self.is_mirrored;
@@ -98,25 +107,25 @@ impl TransformChain {
         (upright_volume != 0.0).then_some(upright_volume > 0.0)
     }
 
-    /// How near a point is to the viewer: its depth in the pipeline's own volume, larger if nearer.
-    pub(super) fn nearness(&self, place: Point<World>) -> f64 {
+    /// The depth of a point in the pipeline's own volume: larger is nearer, in any convention.
+    pub(super) fn nearness(&self, point: Point<World>) -> f64 {
         let own_volume = ApiConventions::Alberti.canonical_volume();
         let to_own_volume = self.conventions.canonical_volume().clip_to_clip(own_volume);
-        let clip = to_own_volume.transform_hpoint(self.world_to_clip().transform_point(place));
+        let clip = to_own_volume.transform_hpoint(self.world_to_clip().transform_point(point));
         clip.divide().map_or(f64::NEG_INFINITY, Point::z)
     }
 
-    /// From view space to clip space.
+    /// The projection matrix: view to clip space.
     pub(super) fn view_to_clip(&self) -> Projective<View, Clip> {
         self.view_to_clip
     }
 
-    /// Whether view space has the scene at positive z.
+    /// Whether visible points have positive z in view space.
     pub(super) fn looks_along_z(&self) -> bool {
         self.conventions.looks_along_z()
     }
 
-    /// The z of the near and of the far plane after the divide.
+    /// NDC z of the near and of the far plane.
     pub(super) fn depth_range(&self) -> [f64; 2] {
         match self.conventions {
             ApiConventions::Alberti | ApiConventions::Chapter => [1.0, -1.0],
@@ -132,19 +141,14 @@ impl TransformChain {
         [self.viewport.area().width(), self.viewport.area().height()]
     }
 
-    /// A place on the screen in pixels from the upper left corner of the picture, rows running down.
+    /// Screen coordinates as pixels from the upper left corner of the picture, y down.
     pub(super) fn from_top_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let border = self.viewport.convention().centers.image_border();
         let (x, y) = (x - border, y - border);
         [x, if self.rows_run_up() { self.image_size()[1] - y } else { y }]
     }
 
-    fn view_flip(&self) -> Affine<View, View> {
-        let z = if self.conventions.looks_along_z() { -1.0 } else { 1.0 };
-        Affine::scale(1.0, 1.0, z)
-    }
-
-    /// The camera's two factors, and the points in view space.
+    /// The view transform's two factors, and the points in view space.
     pub(super) fn camera_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
         let mut step =
             Step::new("camera", "Camera: from the world to view space", Some("CA-1, CA-2"))
@@ -157,7 +161,7 @@ impl TransformChain {
                 )
                 .with_item("rotation", "R, u v w to the axes", self.camera.rotation().rows());
         if self.conventions.looks_along_z() {
-            step = step.with_item("turn", "z turned over", self.view_flip().rows());
+            step = step.with_item("turn", "z turned over", self.conventions.view_flip().rows());
         }
         step = step.with_item("world_to_view", "M_cam, the product", self.world_to_view().rows());
         let ahead = if self.conventions.looks_along_z() { 1.0 } else { -1.0 };
@@ -178,7 +182,7 @@ impl TransformChain {
         step
     }
 
-    /// The projection's factors, and the points in clip space with their outcodes.
+    /// The projection's factors, and the points in clip space.
     pub(super) fn projection_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
         let mut step = Step::new("projection", "Projection: from view to clip space", None);
         projection_factors::add_projection_factors(&mut step, self.view_to_clip, self.conventions);
@@ -212,7 +216,7 @@ impl TransformChain {
         step
     }
 
-    /// The divide and the viewport, for points that are inside the view volume.
+    /// Perspective divide and viewport transform of clip-space points.
     pub(super) fn screen_steps(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> [Step; 2] {
         let mut divide = Step::new("divide", "The divide by w", Some("HO-1"));
         let mut screen = Step::new(
@@ -226,7 +230,7 @@ impl TransformChain {
                 divide.items.push(infinity_item(name));
                 continue;
             };
-            let place = <[f64; 3]>::from(self.ndc_to_screen().transform_point(ndc));
+            let position = <[f64; 3]>::from(self.ndc_to_screen().transform_point(ndc));
             divide = divide.with_item(
                 format!("ndc{}", id_suffix(name)),
                 label_with_name("ndc", name),
@@ -236,18 +240,18 @@ impl TransformChain {
                 .with_item(
                     format!("screen{}", id_suffix(name)),
                     label_with_name("x, y, depth", name),
-                    place,
+                    position,
                 )
                 .with_item(
                     format!("pixel{}", id_suffix(name)),
                     label_with_name("pixel", name),
-                    self.describe_pixel(place),
+                    self.describe_pixel(position),
                 );
         }
         [divide, screen]
     }
 
-    /// The pixel in words: column and row, as this program and image files count them.
+    /// The pixel in words: column and row from the top, as image files count them.
     fn describe_pixel(&self, [x, y, _]: [f64; 3]) -> String {
         let pixels = self.viewport.convention();
         let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
@@ -261,11 +265,13 @@ impl TransformChain {
         )
     }
 
+    /// Whether pixel rows count from the bottom.
     fn rows_run_up(&self) -> bool {
         matches!(self.conventions, ApiConventions::Chapter | ApiConventions::OpenGl)
     }
 }
 
+/// The item of a point whose w is 0.
 fn infinity_item(name: &str) -> Item {
     let words = "w is 0: it is at infinity and has no place on the screen";
     Item {
@@ -275,7 +281,7 @@ fn infinity_item(name: &str) -> Item {
     }
 }
 
-/// The planes of an outcode in words.
+/// The planes of an outcode in words: `inside`, or `outside of near, left`.
 pub(super) fn describe_outcode(code: Outcode) -> String {
     if code.is_inside() {
         return "inside".to_owned();
@@ -284,10 +290,12 @@ pub(super) fn describe_outcode(code: Outcode) -> String {
     format!("outside of {}", names.join(", "))
 }
 
+/// The end of an item's id for a labeled point.
 fn id_suffix(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("_{name}") }
 }
 
+/// The label of an item for a labeled point.
 fn label_with_name(what: &str, name: &str) -> String {
     if name.is_empty() { what.to_owned() } else { format!("{what} of {name}") }
 }

@@ -1,4 +1,9 @@
-//! A triangle: what each plane cut, what polygon is left, which side it shows (CL-3, RA-1).
+//! Explanation of a triangle: clipping planes, the clipped polygon, its area and winding (CL-3,
+//! RA-1).
+//!
+//! Clipping cuts the triangle at each plane in turn (Sutherland and Hodgman, 1974), in homogeneous
+//! coordinates before the divide. A vertex of the result is a blend of a, b and c; the weights of
+//! the blend are what attributes are interpolated by.
 
 use super::plain_text::format_number;
 use super::point::{describe_node, find_shown_primitive, model_point, model_step};
@@ -15,12 +20,12 @@ use model::Topology;
 /// If the model does not show such a triangle; the text says what there is.
 pub fn explain_triangle(
     chain: &TransformChain,
-    placed: &ModelInstance,
+    model_instance: &ModelInstance,
     node: usize,
     primitive: usize,
     triangle_index: usize,
 ) -> Result<Explanation, String> {
-    let (instance, shown) = find_shown_primitive(&placed.model, node, primitive)?;
+    let (instance, shown) = find_shown_primitive(&model_instance.model, node, primitive)?;
     if shown.topology != Topology::Triangles {
         return Err(format!("primitive {primitive} has no triangles, but points or lines"));
     }
@@ -31,15 +36,19 @@ pub fn explain_triangle(
             "primitive {primitive} has {count} triangles; there is no triangle {triangle_index}"
         )
     })?;
-    let posed = placed.model.skin_primitive(instance, shown);
-    let mesh = indices.map(|at| model_point(posed.positions[at as usize]));
-    let to_world = posed.to_model.then(placed.model_to_world);
+    let skinned = model_instance.model.skin_primitive(instance, shown);
+    let mesh = indices.map(|at| model_point(skinned.positions[at as usize]));
+    let to_world = skinned.to_model.then(model_instance.model_to_world);
     let world = mesh.map(|point| to_world.transform_point(point));
     let named = [("a", world[0]), ("b", world[1]), ("c", world[2])];
     let clip = world.map(|point| chain.world_to_clip().transform_point(point));
     let clipped = clip_triangle(clip, &chain.clip_volume());
     let mut steps = vec![
-        model_step(placed, posed.to_model, &[("a", mesh[0]), ("b", mesh[1]), ("c", mesh[2])]),
+        model_step(
+            model_instance,
+            skinned.to_model,
+            &[("a", mesh[0]), ("b", mesh[1]), ("c", mesh[2])],
+        ),
         chain.camera_step(&named),
         chain.projection_step(&named),
         chain.outcode_step(&[("a", clip[0]), ("b", clip[1]), ("c", clip[2])]),
@@ -64,13 +73,14 @@ pub fn explain_triangle(
         )
     };
     let [a, b, c] = indices;
-    let at = describe_node(&placed.model, node);
+    let at = describe_node(&model_instance.model, node);
     let subject = format!(
         "Triangle {triangle_index} (vertices {a}, {b}, {c}) of primitive {primitive} at {at}"
     );
     Ok(Explanation { subject, steps, verdict })
 }
 
+/// The clipping step: planes, and the vertices of the clipped polygon with their weights.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -90,6 +100,7 @@ fn clip_step(left: &ClippedPolygon) -> Step {
     step
 }
 
+/// The planes of an outcode as a list, or `none`.
 fn plane_list(code: clip::Outcode, none: &str) -> String {
     if code.is_inside() {
         return none.to_owned();
@@ -98,7 +109,8 @@ fn plane_list(code: clip::Outcode, none: &str) -> String {
     names.join(", ")
 }
 
-/// The area on the screen in pixels: positive if the corners run clockwise as the picture is seen with y down.
+/// The signed area on the screen in pixels (shoelace formula): positive if the vertices run
+/// clockwise, with y down.
 fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     let corners: Vec<DVec2> = left
         .vertices()
@@ -110,6 +122,7 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     0.5 * ring.map(|(p, q)| p.perp_dot(*q)).sum::<f64>()
 }
 
+/// The area and winding on the screen.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
         area if area > 0.0 => "from +x towards +y",

@@ -1,54 +1,63 @@
-//! What of a frame occlusion in screen space is told from.
+//! Inputs of screen-space ambient occlusion: the nearest surface of each pixel of the picture.
+//!
+//! The occlusion itself is `shade::AmbientOcclusion`; it reads depths of neighboring pixels, and so
+//! needs the depth buffer of the whole picture even where a region of it is rendered.
 
+use super::RenderError;
+use super::context::RenderContext;
 use super::image_tiles::tile_regions;
+use super::primitive_assembly::assemble_scene;
+use super::renderer::{FrameMemory, RenderBuffers};
 use super::screen_transform::ScreenTransform;
 use super::shadow_maps::DepthOnly;
-use super::{RenderError, Renderer, Textures};
-use crate::render::primitive_assembly::assemble_scene;
-use crate::scene::Scene;
-use raster::{Frame, SurfaceDepth};
-use shade::{AmbientOcclusion, DrawList};
+use raster::SurfaceDepth;
+use shade::AmbientOcclusion;
 
-/// The nearest surfaces of a frame that holds a scene, if its scene asks for occlusion; in memory that was used before.
+/// The depth buffer of a frame that holds the whole picture, written into `nearest`; `None` if the
+/// scene has no ambient occlusion.
+///
+/// # Errors
+/// If the picture is larger than the rasterizer's grid.
 pub(super) fn build_ssao_buffer(
-    scene: &Scene,
-    frame: &Frame,
-    draws: &DrawList<'_>,
-    threads: usize,
+    context: &RenderContext<'_>,
+    memory: &FrameMemory<'_>,
     mut nearest: Vec<SurfaceDepth>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
+    let scene = context.scene;
     let Some(radius) = scene.occlusion_radius else { return Ok(None) };
-    if scene.image.width > raster::MAX_SIDE || scene.image.height > raster::MAX_SIDE {
+    let size @ [width, height] = context.image_size();
+    if width > raster::MAX_SIDE || height > raster::MAX_SIDE {
         return Err(RenderError::OcclusionTooLarge);
     }
-    let (width, height) = (scene.image.width, scene.image.height);
     nearest.resize(width as usize * height as usize, SurfaceDepth::EMPTY);
-    frame.surface_depths(&DepthOnly(draws), threads, &mut nearest);
-    let stage = ScreenTransform::new(&scene.view_projection, width, height)?;
-    let world_to_screen = stage.ndc_to_screen.raw() * scene.view_projection.world_to_clip().raw();
-    // The middle of the view volume is near everything that is seen.
-    let center = scene.view_projection.world_to_clip().raw().inverse()
-        * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
+    memory.frame.surface_depths(&DepthOnly(&memory.draws), context.threads, &mut nearest);
+    let view = &scene.view_projection;
+    let world_to_screen = ScreenTransform::new(view, width, height)?.world_to_screen();
+    // Positions are reconstructed from depths in f32 relative to this point. The center of the view
+    // volume is near everything visible, so that few bits are lost.
+    let center = view.world_to_clip().raw().inverse() * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
     let center = center.truncate() / center.w;
-    let origin = if center.is_finite() { center } else { scene.view_projection.camera.eye().raw() };
-    let right = scene.view_projection.camera.u().raw();
-    let size = [width, height];
+    let origin = if center.is_finite() { center } else { view.camera.eye().raw() };
+    let right = view.camera.u().raw();
     Ok(Some(AmbientOcclusion::new(nearest, size, world_to_screen, origin, right, radius)))
 }
 
-/// The same for a frame that is not there, or not all of it.
+/// The depth buffer of the whole picture for rendering a region of it: a frame of its own, with
+/// depths only.
+///
+/// # Errors
+/// If the picture is larger than one image tile, or the scene has too many primitives.
 pub(super) fn build_full_ssao_buffer(
-    scene: &Scene,
-    textures: &Textures<'_>,
-    threads: usize,
+    context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
-    if scene.occlusion_radius.is_none() {
+    let image = context.scene.image;
+    if context.scene.occlusion_radius.is_none() {
         return Ok(None);
     }
-    let [whole] = tile_regions(scene.image, scene.image.pixel_rect())[..] else {
+    let [whole] = tile_regions(image, image.pixel_rect())[..] else {
         return Err(RenderError::OcclusionTooLarge);
     };
-    let memory = Renderer::default().take_buffers(scene, whole, threads)?;
-    let memory = assemble_scene(scene, textures, threads, memory)?;
-    build_ssao_buffer(scene, &memory.frame, &memory.draws, threads, Vec::new())
+    let memory = RenderBuffers::default().take_frame(context, whole)?;
+    let memory = assemble_scene(context, memory)?;
+    build_ssao_buffer(context, &memory, Vec::new())
 }

@@ -1,60 +1,72 @@
-//! What is behind everything in a frame: two triangles at the far plane that fill the picture.
+//! The background of a frame: environment or backdrop as two triangles at the far plane that fill
+//! the picture.
+//!
+//! Both are draw calls like any other: behind all models by their depth, so that translucent
+//! surfaces blend over them, and shaded for visible fragments only.
+//!
+//! | kind | vertices carry | shading |
+//! | --- | --- | --- |
+//! | environment | positions on the far plane | direction from the eye, blurred radiance |
+//! | backdrop | fractions of the picture | color, gradient or image |
 
 use super::RenderError;
 use super::primitive_assembly::{DEFAULT_MATERIAL, PrimitiveAssembler, QUAD};
 use crate::scene::ImageSpec;
-use homog::PixelRect;
-use homog::{Ndc, Point};
+use homog::{Ndc, PixelRect, Point};
 use model::Primitive;
 use raster::{CullMode, Opacity, ScreenVertex};
-use shade::Backdrop;
-use shade::{Draw, DrawKind, MaterialTextures, POSITION, Tangents, Vertex};
+use shade::{Backdrop, Draw, DrawKind, MaterialTextures, POSITION, Tangents, Vertex};
 
-/// The corners of the picture in the canonical volume: lower left, lower right, upper right, upper left.
+/// The corners of the picture in NDC: lower left, lower right, upper right, upper left.
 const NDC_CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
 
 impl PrimitiveAssembler<'_> {
-    /// Adds the environment behind everything.
+    /// Adds the environment behind everything, blurred by `blur` from 0 to 1. The vertices carry
+    /// their positions in the world, from which the shading derives directions.
     pub(super) fn add_environment(&mut self, blur: f32) -> Result<(), RenderError> {
-        let clip_to_world = self.transform.world_to_clip.raw().inverse();
-        let place = |(x, y): (f64, f64)| {
-            let place = clip_to_world * Point::<Ndc>::new(x, y, -1.0).raw().extend(1.0);
-            (place.truncate() / place.w).as_vec3().to_array()
+        let clip_to_world = self.transform.world_to_clip().raw().inverse();
+        let unproject = |(x, y): (f64, f64)| {
+            let corner = clip_to_world * Point::<Ndc>::new(x, y, -1.0).raw().extend(1.0);
+            (corner.truncate() / corner.w).as_vec3().to_array()
         };
-        self.add_far_quad(DrawKind::Environment(blur), NDC_CORNERS.map(place), Opacity::Opaque)
+        let corners = NDC_CORNERS.map(unproject);
+        self.add_far_quad(DrawKind::Environment(blur), corners, Opacity::Opaque)
     }
 
-    /// Adds what is painted behind everything. Its corners carry their places in the whole picture.
+    /// Adds a backdrop. The vertices carry fractions of the whole picture's width and height, so
+    /// that its image tiles fit together.
     pub(super) fn add_backdrop(
         &mut self,
-        painting: &Backdrop,
+        backdrop: &Backdrop,
         image: ImageSpec,
     ) -> Result<(), RenderError> {
         let PixelRect { x, y, width, height } = self.memory.tile.rect;
-        let fraction = |at: u32, of: u32| (f64::from(at) / f64::from(of)) as f32;
+        let fraction = |at: u32, side: u32| (f64::from(at) / f64::from(side)) as f32;
         let (left, right) = (fraction(x, image.width), fraction(x + width, image.width));
         let (top, bottom) = (fraction(y, image.height), fraction(y + height, image.height));
         let uvs = [[left, bottom, 0.0], [right, bottom, 0.0], [right, top, 0.0], [left, top, 0.0]];
-        let cover = if painting.is_opaque() { Opacity::Opaque } else { Opacity::Translucent };
-        self.add_far_quad(DrawKind::Backdrop, uvs, cover)
+        let opacity = if backdrop.is_opaque() { Opacity::Opaque } else { Opacity::Translucent };
+        self.add_far_quad(DrawKind::Backdrop, uvs, opacity)
     }
 
+    /// Adds a rectangle that fills the picture at the far plane, with an attribute at each corner.
     fn add_far_quad(
         &mut self,
-        role: DrawKind,
-        places: [[f32; 3]; 4],
-        cover: Opacity,
+        kind: DrawKind,
+        attributes: [[f32; 3]; 4],
+        opacity: Opacity,
     ) -> Result<(), RenderError> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
-        let ndc_to_screen = self.transform.ndc_to_screen;
-        // With one w for all of them, what they carry is linear on the screen, as places on a plane across the view are.
+        let ndc_to_screen = self.transform.ndc_to_screen();
+        // With w = 1 at all corners the attributes are linear on the screen, as positions on a
+        // plane parallel to the picture are.
         let corners = NDC_CORNERS.map(|(x, y)| {
             ScreenVertex::snap(ndc_to_screen.transform_point(Point::<Ndc>::new(x, y, -1.0)), 1.0)
         });
-        let vertex = |place: [f32; 3]| {
+        let vertex = |position: [f32; 3]| {
             let mut vertex: Vertex = [0.0; 8];
-            vertex[POSITION..POSITION + 3].copy_from_slice(&place);
+            vertex[POSITION..POSITION + 3].copy_from_slice(&position);
             vertex
         };
         let primitive: &'static Primitive = &QUAD;
@@ -64,17 +76,17 @@ impl PrimitiveAssembler<'_> {
             primitive,
             material: &DEFAULT_MATERIAL,
             textures: MaterialTextures::default(),
-            vertices: places.map(vertex).to_vec(),
+            vertices: attributes.map(vertex).to_vec(),
             tangents: Tangents::None,
             is_smooth: false,
             uv_set: None,
             colors: None,
-            kind: role,
+            kind,
             flips_winding: false,
             world_scale: 1.0,
         });
         let triangles = primitive.indices.as_chunks::<3>().0;
-        self.memory.frame.add_mesh(&corners, triangles, first_id, cover, CullMode::Nothing);
+        self.memory.frame.add_mesh(&corners, triangles, first_id, opacity, CullMode::Nothing);
         Ok(())
     }
 }

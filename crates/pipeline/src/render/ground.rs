@@ -1,9 +1,12 @@
-//! The ground of a frame: a translucent rectangle on which nothing but shadows is seen.
+//! The ground as a shadow catcher: a translucent rectangle that shows nothing but shadows.
+//!
+//! Its fragments have the color black and as alpha the fraction of light that shadows take away;
+//! where everything is lit they are transparent. Blending over the background then darkens it as a
+//! real ground would, without a visible edge of the rectangle.
 
 use super::RenderError;
-use super::primitive_assembly::{
-    DEFAULT_MATERIAL, PrimitiveAssembler, QUAD, submit_clipped_triangle,
-};
+use super::draw_call::DrawCall;
+use super::primitive_assembly::{DEFAULT_MATERIAL, PrimitiveAssembler, QUAD};
 use super::renderer::FrameMemory;
 use crate::scene::Ground;
 use homog::Affine;
@@ -11,21 +14,22 @@ use raster::Opacity;
 use shade::{Draw, DrawKind, MaterialTextures, POSITION, Tangents};
 
 impl PrimitiveAssembler<'_> {
-    /// Adds the ground. It reaches behind the far plane and before the near one, which enclose the models tightly.
+    /// Adds the draw call of the ground.
+    ///
+    /// It is not clipped against near and far plane: these enclose the models tightly, and shadows
+    /// reach beyond them.
     pub(super) fn add_ground(&mut self, ground: Ground) -> Result<(), RenderError> {
         let first_id = self.next_id;
         self.next_id = first_id.checked_add(2).ok_or(RenderError::TooManyPrimitives)?;
-        let mut stage = self.transform;
-        stage.guard_band = stage.guard_band.without_near().without_far();
-        let model_to_clip = stage.model_to_clip(Affine::IDENTITY);
-        let vertex = |place: [f32; 3]| {
-            let mut vertex = [0.0; 8];
-            vertex[POSITION..POSITION + 3].copy_from_slice(&place);
-            vertex
-        };
+        let mut transform = self.transform;
+        transform.guard_band = transform.guard_band.without_near().without_far();
         let mut vertices = self.memory.vertex_pool.pop().unwrap_or_default();
         vertices.clear();
-        vertices.extend(ground.corners.map(vertex));
+        vertices.extend(ground.corners.map(|position| {
+            let mut vertex = [0.0; 8];
+            vertex[POSITION..POSITION + 3].copy_from_slice(&position);
+            vertex
+        }));
         let draw = Draw {
             first_id,
             part_id: self.next_part_id,
@@ -41,23 +45,15 @@ impl PrimitiveAssembler<'_> {
             flips_winding: false,
             world_scale: 1.0,
         };
-        let cull = self.cull_mode(&draw);
-        let FrameMemory { mesh: images, frame, .. } = &mut self.memory;
-        images.unclipped.clear(4);
-        images.to_clip.clear(4);
-        images.to_clip.add_all(2);
-        images.project_vertices(&stage, model_to_clip, &ground.corners, 1);
-        for (id, corners) in (first_id..).zip(QUAD.indices.as_chunks::<3>().0) {
-            submit_clipped_triangle(
-                &stage,
-                images,
-                frame,
-                *corners,
-                id,
-                Opacity::Translucent,
-                cull,
-            );
-        }
+        let cull_mode = self.cull_mode(&draw);
+        let FrameMemory { mesh, frame, .. } = &mut self.memory;
+        mesh.unclipped.clear(4);
+        mesh.to_clip.clear(4);
+        mesh.to_clip.add_all(2);
+        let world_to_clip = transform.model_to_clip(Affine::IDENTITY);
+        mesh.project_vertices(&transform, world_to_clip, &ground.corners, 1);
+        let opacity = Opacity::Translucent;
+        DrawCall { transform: &transform, mesh, frame, opacity, cull_mode }.submit(&QUAD, first_id);
         self.memory.draws.draws.push(draw);
         Ok(())
     }

@@ -1,27 +1,33 @@
-//! Regions of a picture, and the sheets that large pictures are divided into.
+//! Image tiles: how pictures beyond the rasterizer's grid are divided, and regions of pictures.
 //!
 //! ```text
-//!   ┌───────────────┬──────┐   The rasteriser's grid ends at 16,384 pixels. A larger picture is divided into sheets
-//!   │  ┌─────────┐  │      │   of that size, each of which is a picture of its own: the view volume is narrowed to it,
-//!   │  │ region  │  │      │   as a pick matrix does it. Regions are parts of sheets.
-//!   │  └─────────┘  │      │
-//!   ├───────────────┼──────┤   What a pixel shows depends on the scene, on the size of the whole picture and on the
-//!   └───────────────┴──────┘   pixel's sheet, and never on the region: so regions unite bit for bit.
+//!   ┌───────────────┬──────┐   The rasterizer's grid ends at 16,384 pixels. A larger picture is
+//!   │  ┌─────────┐  │      │   divided into tiles of that size, each a picture of its own: the
+//!   │  │ region  │  │      │   view volume is narrowed to it by a pick matrix. A region is
+//!   │  └─────────┘  │      │   rendered tile by tile.
+//!   ├───────────────┼──────┤
+//!   └───────────────┴──────┘
 //! ```
+//! The pixels depend on the scene, on the size of the whole picture and on the tile, and never on
+//! the region: regions therefore fit together bit for bit.
 
 use super::RenderError;
 use crate::scene::{ImageSpec, Scene};
 use homog::{Clip, PixelRect, Projective, World};
-use raster::MAX_SIDE as SHEET;
-use viewport::{Tile, Viewport};
+use raster::MAX_SIDE as TILE_SIDE;
+use viewport::Viewport;
 
-/// The longest side of a picture in pixels. Pictures beyond 16,384 pixels are drawn region by region.
+/// The longest side of a picture in pixels. Pictures with a side beyond 16,384 pixels are rendered
+/// region by region.
 pub const MAX_IMAGE_SIDE: u32 = 1 << 20;
 
-/// The most pixels that are held at once.
-const MAX_PIXELS_IN_MEMORY: u64 = (SHEET as u64) * (SHEET as u64);
+/// The most pixels of one region: a full tile.
+const MAX_PIXELS_IN_MEMORY: u64 = (TILE_SIDE as u64) * (TILE_SIDE as u64);
 
-/// That the region is in the picture and can be held at once.
+/// Checks that a region lies inside the picture and fits into memory.
+///
+/// # Errors
+/// [`RasterError::Size`](raster::RasterError::Size) with the region.
 pub(crate) fn validate_region(image: ImageSpec, region: PixelRect) -> Result<(), RenderError> {
     let image_rect = image.pixel_rect();
     let size_fits = image_rect.width <= MAX_IMAGE_SIDE && image_rect.height <= MAX_IMAGE_SIDE;
@@ -36,46 +42,45 @@ pub(crate) fn validate_region(image: ImageSpec, region: PixelRect) -> Result<(),
     Ok(())
 }
 
-/// A sheet of a picture.
+/// One tile of a picture, at most 16,384 pixels a side.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ImageTile {
     /// Its pixels in the picture.
     pub(super) rect: PixelRect,
-    /// Width and height of the picture, if it has more than this sheet.
+    /// Width and height of the picture, unless this tile is all of it.
     image_size: Option<[u32; 2]>,
 }
 
 impl ImageTile {
-    /// From the world to the clip space in which the sheet is all that is seen.
+    /// World to clip space, narrowed so that the tile fills the view volume (`gluPickMatrix`).
     pub(super) fn world_to_clip(
         &self,
         scene: &Scene,
     ) -> Result<Projective<World, Clip>, RenderError> {
         let world_to_clip = scene.view_projection.world_to_clip();
         let Some([width, height]) = self.image_size else { return Ok(world_to_clip) };
-        let PixelRect { x, y, width: across, height: down } = self.rect;
-        let tile = Tile { x, y, width: across, height: down };
-        let pick_matrix = Viewport::image(width, height)?.pick_matrix(tile.area())?;
+        let pick_matrix = Viewport::image(width, height)?.pick_matrix(self.rect.into())?;
         Ok(Projective::from_raw(pick_matrix.raw() * world_to_clip.raw()))
     }
 }
 
-/// What a region has of a sheet.
+/// The intersection of a region with a tile.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct TileRegion {
+    /// The tile.
     pub(super) tile: ImageTile,
     /// Its pixels in the picture.
     pub(super) rect: PixelRect,
 }
 
 impl TileRegion {
-    /// A pixel of a picture.
+    /// The region of a single pixel.
     pub(super) fn for_pixel(image: ImageSpec, [x, y]: [u32; 2]) -> Self {
         let rect = PixelRect { x, y, width: 1, height: 1 };
-        Self { tile: tile_at(image, [x / SHEET, y / SHEET]), rect }
+        Self { tile: tile_at(image, [x / TILE_SIDE, y / TILE_SIDE]), rect }
     }
 
-    /// The first column and row in the sheet.
+    /// The first column and row, counted in the tile.
     pub(super) const fn offset_in_tile(&self) -> [u32; 2] {
         [self.rect.x - self.tile.rect.x, self.rect.y - self.tile.rect.y]
     }
@@ -85,39 +90,41 @@ impl TileRegion {
         [self.rect.width, self.rect.height]
     }
 
+    /// The number of pixels.
     pub(super) const fn pixel_count(&self) -> usize {
         self.rect.area()
     }
 
-    /// Copies its pixels to their places among those of a region.
+    /// Copies its pixels into those of the region, row by row.
     pub(super) fn copy_into_region<P: Copy>(&self, pixels: &[P], region: PixelRect, all: &mut [P]) {
-        let (width, across) = (self.rect.width as usize, region.width as usize);
+        let (width, region_width) = (self.rect.width as usize, region.width as usize);
         let left = (self.rect.x - region.x) as usize;
         let top = (self.rect.y - region.y) as usize;
-        let rows = all.chunks_exact_mut(across).skip(top).zip(pixels.chunks_exact(width));
+        let rows = all.chunks_exact_mut(region_width).skip(top).zip(pixels.chunks_exact(width));
         for (row, pixels) in rows {
             row[left..left + width].copy_from_slice(pixels);
         }
     }
 }
 
-/// What a region has of each sheet of the picture: of most pictures there is only one.
+/// The parts of a region by tiles, in rows from the upper left; one for most pictures.
 pub(super) fn tile_regions(image: ImageSpec, region: PixelRect) -> Vec<TileRegion> {
-    let (columns, rows) = (image.width.div_ceil(SHEET), image.height.div_ceil(SHEET));
+    let (columns, rows) = (image.width.div_ceil(TILE_SIDE), image.height.div_ceil(TILE_SIDE));
     let tile_indices = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
-    let regions = tile_indices.filter_map(|place| {
-        let sheet = tile_at(image, place);
-        sheet.rect.intersection(region).map(|shown| TileRegion { tile: sheet, rect: shown })
+    let regions = tile_indices.filter_map(|index| {
+        let tile = tile_at(image, index);
+        tile.rect.intersection(region).map(|rect| TileRegion { tile, rect })
     });
     regions.collect()
 }
 
+/// The tile in a column and row of tiles.
 fn tile_at(image: ImageSpec, [column, row]: [u32; 2]) -> ImageTile {
-    let (x, y) = (column * SHEET, row * SHEET);
-    let (width, height) = (SHEET.min(image.width - x), SHEET.min(image.height - y));
+    let (x, y) = (column * TILE_SIDE, row * TILE_SIDE);
+    let (width, height) = (TILE_SIDE.min(image.width - x), TILE_SIDE.min(image.height - y));
     let is_whole = [width, height] == [image.width, image.height];
-    let of = (!is_whole).then_some([image.width, image.height]);
-    ImageTile { rect: PixelRect { x, y, width, height }, image_size: of }
+    let image_size = (!is_whole).then_some([image.width, image.height]);
+    ImageTile { rect: PixelRect { x, y, width, height }, image_size }
 }
 
 #[cfg(test)]
@@ -126,19 +133,12 @@ mod tests {
     use raster::Samples;
 
     fn image_spec(width: u32, height: u32) -> ImageSpec {
-        let (background, backdrop, samples) = ([0.0; 4], None, Samples::One);
-        ImageSpec {
-            width,
-            height,
-            background,
-            environment_blur: backdrop,
-            samples,
-            max_anisotropy: 1,
-        }
+        let (background, environment_blur, samples) = ([0.0; 4], None, Samples::One);
+        ImageSpec { width, height, background, environment_blur, samples, max_anisotropy: 1 }
     }
 
     #[test]
-    fn a_region_is_cut_where_sheets_meet() {
+    fn a_region_is_cut_where_tiles_meet() {
         let image = image_spec(20_000, 40_000);
         let region = PixelRect { x: 16_000, y: 16_300, width: 1000, height: 100 };
         let regions = tile_regions(image, region);
@@ -147,29 +147,34 @@ mod tests {
         assert_eq!(regions[3].offset_in_tile(), [0, 0]);
         assert_eq!(regions[3].tile.rect.width, 20_000 - 16_384);
         let mut all = vec![0; region.area()];
-        for (number, part) in (1..).zip(&regions) {
-            part.copy_into_region(&vec![number; part.pixel_count()], region, &mut all);
+        for (number, tile) in (1..).zip(&regions) {
+            tile.copy_into_region(&vec![number; tile.pixel_count()], region, &mut all);
         }
         let at = |x: usize, y: usize| all[y * 1000 + x];
         assert_eq!([at(383, 83), at(384, 83), at(383, 84), at(384, 84)], [1, 2, 3, 4]);
     }
 
+    /// The rectangle that an error complains about; `None` if the region is valid.
+    fn refused(image: ImageSpec, region: PixelRect) -> Option<PixelRect> {
+        match validate_region(image, region) {
+            Ok(()) => None,
+            Err(RenderError::Raster(raster::RasterError::Size { x, y, width, height })) => {
+                Some(PixelRect { x, y, width, height })
+            }
+            Err(error) => panic!("another error: {error}"),
+        }
+    }
+
     #[test]
-    fn what_is_not_in_the_picture_or_too_much_is_refused() {
-        let wrong = PixelRect { x: 90, y: 0, width: 20, height: 10 };
-        assert!(validate_region(image_spec(100, 100), wrong).is_err());
-        assert!(validate_region(image_spec(100, 100), PixelRect { width: 0, ..wrong }).is_err());
-        assert!(validate_region(image_spec(100, 100), PixelRect { width: 10, ..wrong }).is_ok());
-        assert!(
-            validate_region(image_spec(20_000, 20_000), image_spec(20_000, 20_000).pixel_rect())
-                .is_err()
-        );
-        assert!(
-            validate_region(
-                image_spec(MAX_IMAGE_SIDE + 1, 1),
-                image_spec(MAX_IMAGE_SIDE + 1, 1).pixel_rect()
-            )
-            .is_err()
-        );
+    fn a_region_outside_the_picture_or_beyond_memory_is_refused() {
+        let small = image_spec(100, 100);
+        let outside = PixelRect { x: 90, y: 0, width: 20, height: 10 };
+        assert_eq!(refused(small, outside), Some(outside));
+        let empty = PixelRect { width: 0, ..outside };
+        assert_eq!(refused(small, empty), Some(empty));
+        assert_eq!(refused(small, PixelRect { width: 10, ..outside }), None);
+        for large in [image_spec(20_000, 20_000), image_spec(MAX_IMAGE_SIDE + 1, 1)] {
+            assert_eq!(refused(large, large.pixel_rect()), Some(large.pixel_rect()));
+        }
     }
 }

@@ -1,69 +1,81 @@
-//! Views within a picture: drawn on their own, and put into their places.
+//! Insets: pictures of other cameras composited into rectangles of a picture.
+//!
+//! ```text
+//!  ┌──────────────┐   Insets are rendered like pictures of their own and composited in scene
+//!  │   picture  ┌─┤   order over the picture: opaque, with an optional border inside of their
+//!  │            │2│   rectangle, or in cyan for the right eye of a red-cyan anaglyph.
+//!  │       ┌──┐ └─┤
+//!  └───────┤1 ├───┘   A region of the picture renders only the parts of insets that it contains.
+//!          └──┘
+//! ```
 
+use crate::Picture;
 use crate::scene::{Inset, Scene};
-use crate::{Channel, Picture};
 use homog::PixelRect;
+use shade::Channel;
 
 impl Scene {
-    /// Whether every pixel of its picture is sure to be opaque, by the backgrounds alone.
+    /// Whether every pixel of the picture is certainly opaque: the scene's background and those of
+    /// all insets are.
     #[must_use]
     pub fn has_opaque_background(&self) -> bool {
         let is_opaque = |scene: &Self| scene.image.background[3] >= 1.0;
-        is_opaque(self) && self.insets.iter().all(|view| is_opaque(&view.scene))
+        is_opaque(self) && self.insets.iter().all(|inset| is_opaque(&inset.scene))
     }
 }
 
 impl Inset {
-    /// The part of the view that lies in a region of the picture: in the picture, and in the view.
+    /// The part of the inset in a region of the picture: as pixels of the picture, and as pixels of
+    /// the inset. `None` if they are disjoint.
     pub(super) fn visible_rects(&self, region: PixelRect) -> Option<[PixelRect; 2]> {
-        let visible_rect = self.rect.intersection(region)?;
-        let own = PixelRect {
-            x: visible_rect.x - self.rect.x,
-            y: visible_rect.y - self.rect.y,
-            ..visible_rect
-        };
-        Some([visible_rect, own])
+        let in_picture = self.rect.intersection(region)?;
+        let (x, y) = (in_picture.x - self.rect.x, in_picture.y - self.rect.y);
+        Some([in_picture, PixelRect { x, y, ..in_picture }])
     }
 
-    /// Whether nothing of a region of the picture is seen beside views, as far as is easily told: one fills it, or all do that lie
-    /// beside each other.
-    pub(super) fn covers_region(views: &[Self], region: PixelRect) -> bool {
-        let opaque_insets = views.iter().filter(|view| !view.cyan_only);
-        let opaque_insets: Vec<PixelRect> =
-            opaque_insets.filter_map(|view| view.rect.intersection(region)).collect();
-        let (mut disjoint, mut filled): (Vec<PixelRect>, usize) = (Vec::new(), 0);
-        for part in opaque_insets {
-            if disjoint.iter().all(|other| other.intersection(part).is_none()) {
-                disjoint.push(part);
-                filled += part.area();
+    /// Whether insets hide a region completely, so that the picture below needs no rendering.
+    ///
+    /// The test is conservative: one inset covers the region, or disjoint ones cover it together.
+    /// An inset drawn in cyan for anaglyphs leaves the red channel of the picture below visible.
+    pub(super) fn covers_region(insets: &[Self], region: PixelRect) -> bool {
+        let opaque = || {
+            let opaque = insets.iter().filter(|inset| !inset.cyan_only);
+            opaque.filter_map(|inset| inset.rect.intersection(region))
+        };
+        let (mut disjoint, mut covered): (Vec<PixelRect>, usize) = (Vec::new(), 0);
+        for rect in opaque() {
+            if disjoint.iter().all(|other| other.intersection(rect).is_none()) {
+                disjoint.push(rect);
+                covered += rect.area();
             }
         }
-        filled == region.area()
-            || views
-                .iter()
-                .any(|view| view.rect.intersection(region) == Some(region) && !view.cyan_only)
+        covered == region.area() || opaque().any(|rect| rect == region)
     }
 
-    /// Puts pixels of the view that are `shown` in the picture into a region of it.
+    /// Composites pixels of the inset into a region of the picture. `rect` is the part of the
+    /// picture that they cover.
+    ///
+    /// The border replaces pixels at the inset's edge. A cyan inset replaces green and blue and
+    /// keeps red (anaglyph); the more opaque of both pixels gives alpha.
     pub(super) fn composite_into<C: Channel>(
         &self,
-        part: &Picture<C>,
-        shown: PixelRect,
+        inset: &Picture<C>,
+        rect: PixelRect,
         region: PixelRect,
         picture: &mut Picture<C>,
     ) {
-        let [left, top] = [shown.x - region.x, shown.y - region.y].map(|at| at as usize);
-        let (region_width, width) = (region.width as usize, shown.width as usize);
+        let [left, top] = [rect.x - region.x, rect.y - region.y].map(|at| at as usize);
+        let (region_width, width) = (region.width as usize, rect.width as usize);
         let rows = picture.pixels.chunks_exact_mut(region_width).skip(top);
-        for (y, (row, pixels)) in (shown.y..).zip(rows.zip(part.pixels.chunks_exact(width))) {
+        for (y, (row, pixels)) in (rect.y..).zip(rows.zip(inset.pixels.chunks_exact(width))) {
             let row = &mut row[left..left + width];
-            for (x, (place, pixel)) in (shown.x..).zip(row.iter_mut().zip(pixels)) {
-                *place = match self.border_color_at(x, y) {
+            for (x, (target, pixel)) in (rect.x..).zip(row.iter_mut().zip(pixels)) {
+                *target = match self.border_color_at(x, y) {
                     Some([r, g, b]) => [r, g, b, 255].map(C::from_byte),
                     None if self.cyan_only => {
                         let [_, green, blue, alpha] = *pixel;
-                        let covers = place[3].to_byte() >= alpha.to_byte();
-                        [place[0], green, blue, if covers { place[3] } else { alpha }]
+                        let keeps_alpha = target[3].to_byte() >= alpha.to_byte();
+                        [target[0], green, blue, if keeps_alpha { target[3] } else { alpha }]
                     }
                     None => *pixel,
                 };
@@ -71,14 +83,14 @@ impl Inset {
         }
     }
 
-    /// The colour of the border in a pixel of the picture, if the border is there.
+    /// The color of the border at a pixel of the picture; `None` off the border.
     fn border_color_at(&self, x: u32, y: u32) -> Option<[u8; 3]> {
-        let (ink, width) = self.border?;
-        let is_on_border = |at: u32, from: u32, side: u32| {
-            let distance = at - from;
-            distance < width || side - 1 - distance < width
+        let (color, border) = self.border?;
+        let is_on_border = |at: u32, start: u32, side: u32| {
+            let distance = at - start;
+            distance < border || side - 1 - distance < border
         };
-        let PixelRect { x: left, y: top, width: across, height: down } = self.rect;
-        (is_on_border(x, left, across) || is_on_border(y, top, down)).then_some(ink)
+        let PixelRect { x: left, y: top, width, height } = self.rect;
+        (is_on_border(x, left, width) || is_on_border(y, top, height)).then_some(color)
     }
 }

@@ -1,64 +1,89 @@
-//! The textures of a scene, each with its mip chain, built once before drawing.
+//! Mip chains: the textures of a scene's models prefiltered at all levels, built once and shared by
+//! all renderings.
+//!
+//! ```text
+//!  level 0  64 × 64   the image, decoded
+//!  level 1  32 × 32   each texel the mean of 2 × 2, in linear light for colors
+//!  …
+//!  level 6   1 × 1
+//! ```
+//! A chain costs a third of the image's memory. One image can need two: as a color texture its
+//! texels are decoded from sRGB before they are averaged, as data they are averaged as they are.
 
-use model::ModelInstance;
-use model::{Image, Material, Model, Texture, TextureSlot};
+use crate::scene::Scene;
+use model::{Image, Material, Model, ModelInstance, Texture, TextureSlot};
 use shade::{MipChain, TexelEncoding};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// For each model of a scene, the mip chains of its textures, as colours and as numbers; `None` for those that no material
-/// reads so.
+/// Two chains of a texture: decoded from sRGB for colors, and linear for data such as normals and
+/// roughness. `None` where no material reads it so.
+type ColorAndData<'a> = [Option<MipChain<'a>>; 2];
+
+/// The mip chains of all textures of a scene's models.
 ///
-/// They belong to the models, not to a picture: whoever renders several of the same models builds them once.
+/// They belong to the models and not to a picture: several renderings of the same models share
+/// them. Building them takes about as long as a small picture.
 #[derive(Debug)]
 pub struct Textures<'a> {
-    mip_chains: Vec<Vec<[Option<MipChain<'a>>; 2]>>,
-    /// For each model of the scene whose chains are its: models that are there several times share them.
+    /// The chains of each distinct model, by texture index.
+    mip_chains: Vec<Vec<ColorAndData<'a>>>,
+    /// For each model of the scene the index into `mip_chains`: instances of one model share them.
     chain_indices: Vec<usize>,
 }
 
 impl<'a> Textures<'a> {
-    /// Builds the chains.
+    /// Builds the chains that the pictures of a scene need: none if the scene and its insets are
+    /// line drawings.
+    #[must_use]
+    pub fn for_scene(scene: &'a Scene) -> Self {
+        let insets = scene.insets.iter().map(|inset| &inset.scene);
+        let draws_surfaces = |scene: &Scene| scene.style.draws_surfaces();
+        let is_needed = std::iter::once(scene).chain(insets).any(draws_surfaces);
+        Self::for_models(if is_needed { &scene.models } else { &[] })
+    }
+
+    /// Builds the chains of all textures that the models' materials use.
     #[must_use]
     pub fn for_models(models: &'a [ModelInstance]) -> Self {
-        let mut model_indices: BTreeMap<*const Model, usize> = BTreeMap::new();
-        let mut all = Vec::new();
-        let chain_index = |placed: &'a ModelInstance| {
-            *model_indices.entry(Arc::as_ptr(&placed.model)).or_insert_with(|| {
-                all.push(build_mip_chains(&placed.model));
-                all.len() - 1
+        let mut known: BTreeMap<*const Model, usize> = BTreeMap::new();
+        let mut mip_chains = Vec::new();
+        let chain_index = |instance: &'a ModelInstance| {
+            *known.entry(Arc::as_ptr(&instance.model)).or_insert_with(|| {
+                mip_chains.push(build_mip_chains(&instance.model));
+                mip_chains.len() - 1
             })
         };
         let chain_indices = models.iter().map(chain_index).collect();
-        Self { mip_chains: all, chain_indices }
+        Self { mip_chains, chain_indices }
     }
 
-    /// The chain of a texture of the scene's n-th model, for a slot of a material.
+    /// The chain of a texture of the model with this index in the scene, for a material slot.
     pub(super) fn mip_chain(
         &self,
         model: usize,
         slot: TextureSlot,
         texture: usize,
     ) -> Option<&MipChain<'a>> {
-        self.mip_chains.get(*self.chain_indices.get(model)?)?.get(texture)?
-            [usize::from(!slot.is_srgb())]
-        .as_ref()
+        let chains = self.mip_chains.get(*self.chain_indices.get(model)?)?.get(texture)?;
+        chains[usize::from(!slot.is_srgb())].as_ref()
     }
 }
 
-fn build_mip_chains(model: &Model) -> Vec<[Option<MipChain<'_>>; 2]> {
+/// Builds the chains of one model's textures, as colors or data by the slots that refer to them.
+fn build_mip_chains(model: &Model) -> Vec<ColorAndData<'_>> {
     let mut used = vec![[false; 2]; model.textures.len()];
     for (slot, texture) in model.materials.iter().flat_map(Material::visible_textures) {
         used[texture.texture][usize::from(!slot.is_srgb())] = true;
     }
     let image =
         |texture: &Texture| -> Option<&Image> { model.images.get(texture.image?)?.as_ref() };
-    let chain = |texture: &Texture, texels: TexelEncoding, used: bool| {
-        let image = used.then(|| image(texture)).flatten();
-        image.map(|image| MipChain::new(image, texture.sampler, texels))
+    let chain = |texture: &Texture, encoding: TexelEncoding, is_used: bool| {
+        let image = is_used.then(|| image(texture)).flatten();
+        image.map(|image| MipChain::new(image, texture.sampler, encoding))
     };
-    let color_and_data_chains = |(texture, [color, number]): (&Texture, [bool; 2])| {
-        [chain(texture, TexelEncoding::Srgb, color), chain(texture, TexelEncoding::Linear, number)]
+    let color_and_data = |(texture, [color, data]): (&Texture, [bool; 2])| {
+        [chain(texture, TexelEncoding::Srgb, color), chain(texture, TexelEncoding::Linear, data)]
     };
-    model.textures.iter().zip(used).map(color_and_data_chains).collect()
+    model.textures.iter().zip(used).map(color_and_data).collect()
 }

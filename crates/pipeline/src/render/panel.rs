@@ -1,15 +1,18 @@
-//! Panels of scenes: a scene with its name, as a page among others.
+//! Panels: a scene drawn as one of several pictures on a page.
+//!
+//! Lessons put panels side by side: the same models in several projections, or steps of a sweep.
+//! Lines stay vectors; surfaces become an image of twice the panel's resolution.
 
-use super::{RenderError, draw_lines, render_reported};
+use super::{RenderContext, RenderError, Renderer, Textures, draw_lines};
 use crate::{Picture, Scene, Timings};
 use drawing::{MILLIMETERS_PER_PIXEL, Page, Panel, PlacedImage, to_micrometers};
 use glam::DVec2;
 
-/// Pixels of a pasted picture for each pixel of its panel.
+/// Pixels of a raster picture along each pixel of its panel, for sharp prints.
 const PICTURE_SCALE: u32 = 2;
 
-/// The panel of a scene, as large as its picture at 96 pixels to the inch: lines, or in the styles that show surfaces a
-/// picture. The number of threads does not change it.
+/// Draws a scene as a panel of its picture's size at 96 pixels to the inch: as lines, or as a
+/// raster picture in styles that show surfaces. The number of threads does not change it.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
@@ -27,22 +30,19 @@ pub fn render_panel(
     Ok(Panel { id: id.into(), title: title.into(), notes: Vec::new(), page })
 }
 
-/// A page that a picture of the scene fills.
+/// A page filled by a raster picture of the scene.
 fn picture_page(scene: &Scene, threads: usize) -> Result<Page, RenderError> {
     let mut enlarged = scene.clone();
     let [width, height] = [scene.image.width, scene.image.height];
     (enlarged.image.width, enlarged.image.height) = (width * PICTURE_SCALE, height * PICTURE_SCALE);
-    let (picture, warnings): (Picture, _) =
-        render_reported(&enlarged, threads, &Timings::default())?;
+    let textures = Textures::for_scene(&enlarged);
+    let context = RenderContext::new(&enlarged, &textures, threads);
+    let mut picture = Picture::default();
+    let warnings = Renderer::default().render(&context, &mut picture)?;
     let size = DVec2::new(width.into(), height.into()) * MILLIMETERS_PER_PIXEL;
     let mut page = Page::new(size, scene.model_names(), None);
-    let pasted = PlacedImage {
-        id: "picture".to_owned(),
-        corner: [0, 0],
-        size: to_micrometers(size),
-        picture,
-    };
-    page.images.push(pasted);
+    let (id, corner) = ("picture".to_owned(), [0, 0]);
+    page.images.push(PlacedImage { id, corner, size: to_micrometers(size), picture });
     page.warnings = warnings;
     Ok(page)
 }

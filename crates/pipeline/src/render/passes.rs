@@ -1,12 +1,14 @@
-//! Passes: what is in each pixel of a picture besides its colour, as numbers.
+//! Render passes (AOVs): depth, position, normal, ids and more for each pixel, as numbers.
 //!
 //! ```text
-//!   the picture's primitives ─► nearest at each pixel's centre ─► its triangle and weights ─► depth, position, normal, …
+//!   primitives of the frame ─► nearest at each pixel's center ─► triangle id, barycentric weights
+//!                                                             ─► depth, position, normal, uv, …
 //! ```
-//! One sample at the pixel's centre decides, by the rasteriser's own rules: what is nearest there, translucent or not, with the
-//! holes of masks. The weights of the triangle's corners are then those at the exact centre, in f64, on the triangle as it
-//! is before its corners are snapped to 1/256 pixel (IN-2, by homogeneous coordinates as Olano and Greer have it, 1997); where snapping puts a
-//! centre outside of the triangle, those of a place on its border.
+//! One sample at the pixel's center decides by the rasterizer's own rules: the nearest surface,
+//! opaque or translucent, without the holes of masked materials. The weights are then computed anew
+//! at the exact center, in f64, on the triangle before snapping to 1/256 pixel (IN-2; Olano and
+//! Greer, 1997, homogeneous barycentric coordinates). Where snapping puts a center outside the
+//! exact triangle, the weights are those of a point on its border.
 
 mod buffer;
 mod geometry;
@@ -18,19 +20,23 @@ pub use buffer::{PassBuffer, PassValues};
 pub use pass::{Pass, PassEncoding};
 
 use super::RenderError;
-use super::image_tiles::{TileRegion, tile_regions};
+use super::context::RenderContext;
+use super::fragment_shading::fragment_shading;
+use super::image_tiles::{TileRegion, tile_regions, validate_region};
 use super::mip_chains::Textures;
-use super::primitive_assembly::assemble_with_cover;
-use super::renderer::{Renderer, fragment_shading};
+use super::primitive_assembly::assemble_with_opacity;
+use super::renderer::RenderBuffers;
 use crate::scene::{Scene, Style};
 use geometry::{Hit, SceneGeometry};
 use homog::PixelRect;
 use model::Timings;
 use raster::{Fragment, Opacity, Samples, Surface};
 
-/// Draws the wanted passes of a region of a scene's picture with up to `threads` threads; their number does not change them.
+/// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`
+/// threads, whose number does not change them.
 ///
-/// They show the surfaces of the models whatever the scene's style, and never overlays or the surroundings.
+/// Passes show the surfaces of the models, also of a scene whose style draws lines; overlays,
+/// environment, backdrop and ground are not in them.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
@@ -41,92 +47,100 @@ pub fn render_passes(
     threads: usize,
     timings: &Timings,
 ) -> Result<Vec<PassBuffer>, RenderError> {
-    super::image_tiles::validate_region(scene.image, region)?;
+    validate_region(scene.image, region)?;
     let textures = timings.measure("mip chains", || Textures::for_models(&scene.models));
+    let context = RenderContext::new(scene, &textures, threads);
     let mut buffers: Vec<_> =
         wanted.iter().map(|&pass| PassBuffer::new_empty(pass, region)).collect();
-    for part in tile_regions(scene.image, region) {
-        let drawing = TilePasses { scene, textures: &textures, tile_region: part, threads };
-        let drawn = timings.measure("passes", || drawing.render_all(wanted))?;
-        for (buffer, patch) in buffers.iter_mut().zip(&drawn) {
-            buffer.copy_tile(patch, part, region);
+    for tile_region in tile_regions(scene.image, region) {
+        let passes = TilePasses { context, tile_region };
+        let rendered = timings.measure("passes", || passes.render_all(wanted))?;
+        for (buffer, tile) in buffers.iter_mut().zip(&rendered) {
+            buffer.copy_tile(tile, tile_region, region);
         }
     }
     Ok(buffers)
 }
 
-/// Passes of what a region has of a sheet.
+/// The passes of one image tile.
 struct TilePasses<'a> {
-    scene: &'a Scene,
-    textures: &'a Textures<'a>,
+    /// The scene as it is; each frame draws a variant of it.
+    context: RenderContext<'a>,
+    /// The part of the tile that the region needs.
     tile_region: TileRegion,
-    threads: usize,
 }
 
 impl TilePasses<'_> {
+    /// Renders passes. All but overdraw and coverage share one buffer of triangle ids and weights.
     fn render_all(&self, wanted: &[Pass]) -> Result<Vec<PassBuffer>, RenderError> {
+        let threads = self.context.threads;
         let needs_hits = wanted.iter().any(|pass| !matches!(pass, Pass::Overdraw | Pass::Coverage));
         let hits = if needs_hits { self.nearest_hits()? } else { Vec::new() };
-        let geometry = SceneGeometry::new(self.scene, self.tile_region.tile)?;
-        let draw = |&pass: &Pass| {
+        let geometry = SceneGeometry::new(self.context.scene, self.tile_region.tile)?;
+        let render_pass = |&pass: &Pass| {
             let mut buffer = PassBuffer::new_empty(pass, self.tile_region.rect);
             match (pass, &mut buffer.values) {
                 (Pass::Overdraw, PassValues::Integers(counts)) => self.count_overdraw(counts)?,
-                (Pass::Coverage, PassValues::Floats(shares)) => self.measure_coverage(shares)?,
-                _ => buffer.fill_pixels(&geometry, &hits, self.tile_region, self.threads),
+                (Pass::Coverage, PassValues::Floats(coverage)) => {
+                    self.measure_coverage(coverage)?;
+                }
+                _ => buffer.fill_pixels(&geometry, &hits, self.tile_region, threads),
             }
             Ok(buffer)
         };
-        wanted.iter().map(draw).collect()
+        wanted.iter().map(render_pass).collect()
     }
 
-    /// What is nearest at the centre of each pixel.
+    /// The nearest primitive at each pixel's center: a visibility buffer of ids and weights.
     fn nearest_hits(&self) -> Result<Vec<Hit>, RenderError> {
         let mut hits = vec![Hit::MISS; self.tile_region.pixel_count()];
         self.with_frame(Samples::One, None, |frame, surface| {
-            frame.map_front_fragments(surface, self.threads, &mut hits, |fragment| Hit {
-                id: fragment.id,
-                weights: fragment.weights,
-            });
+            let hit = |fragment: &Fragment<'_>| Hit { id: fragment.id, weights: fragment.weights };
+            frame.map_front_fragments(surface, self.context.threads, &mut hits, hit);
         })?;
         Ok(hits)
     }
 
-    /// How many fragments cover the centre of each pixel.
+    /// Overdraw: the number of fragments at each pixel's center, hidden ones included. All
+    /// primitives are drawn as translucent, since opaque ones would replace each other.
     fn count_overdraw(&self, counts: &mut [u32]) -> Result<(), RenderError> {
         self.with_frame(Samples::One, Some(Opacity::Translucent), |frame, surface| {
-            frame.count_overdraw(surface, self.threads, counts);
+            frame.count_overdraw(surface, self.context.threads, counts);
         })
     }
 
-    /// Which share of the samples of each pixel is covered.
-    fn measure_coverage(&self, shares: &mut [f32]) -> Result<(), RenderError> {
-        self.with_frame(self.scene.image.samples, None, |frame, surface| {
-            let covering = CoverageMask(surface);
-            frame.draw(&covering, [0.0; 4], self.threads, shares, |color: [f32; 4]| color[0]);
+    /// Coverage: the fraction of each pixel's samples that a surface covers.
+    fn measure_coverage(&self, coverage: &mut [f32]) -> Result<(), RenderError> {
+        let RenderContext { scene, threads, .. } = self.context;
+        self.with_frame(scene.image.samples, None, |frame, surface| {
+            let mask = CoverageMask(surface);
+            frame.draw(&mask, [0.0; 4], threads, coverage, |color: [f32; 4]| color[0]);
         })
     }
 
+    /// Assembles a frame of the models alone, with another number of samples, and with another
+    /// opacity if one is given.
     fn with_frame(
         &self,
         samples: Samples,
-        cover: Option<Opacity>,
+        opacity: Option<Opacity>,
         draw: impl FnOnce(&raster::Frame, &shade::Shading<'_>),
     ) -> Result<(), RenderError> {
-        let mut scene = self.scene.clone();
+        let mut scene = self.context.scene.clone();
         (scene.image.samples, scene.image.environment_blur) = (samples, None);
         scene.backdrop = None;
         (scene.ground, scene.occlusion_radius) = (None, None);
-        // Styles may show backs, and what is opaque as glass.
+        // Other styles may show back faces, or draw opaque materials as translucent.
         scene.style = if scene.style == Style::Flat { Style::Flat } else { Style::Shaded };
-        let memory = Renderer::default().take_buffers(&scene, self.tile_region, self.threads)?;
-        let memory = assemble_with_cover(&scene, self.textures, self.threads, memory, cover)?;
-        draw(&memory.frame, &fragment_shading(&scene, &memory.draws, &memory.frame, &[], None));
+        let context = self.context.with_scene(&scene);
+        let memory = RenderBuffers::default().take_frame(&context, self.tile_region)?;
+        let memory = assemble_with_opacity(&context, memory, opacity)?;
+        draw(&memory.frame, &fragment_shading(&scene, &memory, &[], None));
         Ok(())
     }
 }
 
-/// A surface that is white wherever another is.
+/// A surface that is white wherever another passes its alpha test.
 struct CoverageMask<'a, S>(&'a S);
 
 impl<S: Surface> Surface for CoverageMask<'_, S> {

@@ -1,14 +1,19 @@
-//! One pixel, drawn once more with a witness: what is seen in it, from which triangles, with which weights and colours.
+//! Inspection of one pixel: its fragments, their triangles, barycentric weights and colors.
 //!
-//! It goes through the same stages as the picture, as a part of one pixel (whose bits are those of the whole), so that its
-//! colour is the picture's.
+//! The pixel is rendered once more as a region of 1 × 1 pixel, whose bits are those of the picture,
+//! with a surface that records each shading call.
+//!
+//! It answers "why has this pixel this color?": which triangles of which nodes are in it, with
+//! which barycentric weights, and with which linear color each contributes.
 
 use super::RenderError;
 use super::ambient_occlusion::build_full_ssao_buffer;
+use super::context::RenderContext;
+use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::TileRegion;
 use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_scene;
-use super::renderer::{Renderer, fragment_shading, style_surface};
+use super::renderer::RenderBuffers;
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::Scene;
 use model::Model;
@@ -16,41 +21,42 @@ use raster::{F32x8, Fragment, Fragments, Frame, Surface};
 use shade::color::SrgbEncoder;
 use std::sync::{Mutex, PoisonError};
 
-/// What one pixel of a picture is made of.
+/// One pixel of a picture and the fragments behind it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PixelFragments {
-    /// Its colour in the picture: sRGB and straight alpha.
+    /// The color in the picture: sRGB with straight alpha.
     pub color: [u8; 4],
-    /// What was shaded for it, in the order of the scene; it may be hidden in some of the samples.
+    /// The shaded fragments in scene order. With several samples per pixel, a fragment may be
+    /// hidden in some of them.
     pub fragments: Vec<ShadedFragment>,
 }
 
-/// A point, line or triangle in a pixel.
+/// A shaded fragment: one point, line or triangle in the pixel.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ShadedFragment {
-    /// Whose it is; `None` for the surroundings.
+    /// The primitive it comes from; `None` for environment, backdrop and ground.
     pub source: Option<FragmentSource>,
-    /// The shares of its corners at the pixel's centre.
+    /// The barycentric weights of its vertices at the pixel's center.
     pub weights: [f32; 3],
-    /// Its colour: linear, multiplied by alpha.
+    /// Its color: linear, premultiplied by alpha.
     pub color: [f32; 4],
 }
 
-/// The place of a point, line or triangle in a scene.
+/// The indices that lead from a scene to one point, line or triangle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct FragmentSource {
-    /// The model's number in the scene.
+    /// Index of the model in the scene.
     pub model: usize,
-    /// The node's number in the model.
+    /// Index of the node in the model.
     pub node: usize,
-    /// The primitive's number in the mesh of the node.
+    /// Index of the primitive in the node's mesh.
     pub primitive: usize,
-    /// The point's, line's or triangle's number in the primitive.
+    /// Index of the point, line or triangle in the primitive.
     pub element: usize,
 }
 
-/// Draws one pixel of a scene's picture and tells what it is made of; `None` outside of the picture and for line drawings, whose
-/// pixels are not shaded.
+/// Renders one pixel of a scene's picture and lists its fragments. `None` outside the picture, and
+/// for line drawings, which have no fragments.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
@@ -61,49 +67,53 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     }
     let textures = Textures::for_models(&scene.models);
     let pixel_region = TileRegion::for_pixel(image, [x, y]);
-    let memory = Renderer::default().take_buffers(scene, pixel_region, 1)?;
-    let memory = assemble_scene(scene, &textures, 1, memory)?;
+    let context = RenderContext::new(scene, &textures, 1);
+    let memory = RenderBuffers::default().take_frame(&context, pixel_region)?;
+    let memory = assemble_scene(&context, memory)?;
     let mut shadows = ShadowMapRenderer::default();
-    shadows.render_maps(scene, &textures, 1)?;
-    let occlusion = build_full_ssao_buffer(scene, &textures, 1)?;
-    let (frame, draws) = (&memory.frame, &memory.draws);
-    let surface = fragment_shading(scene, draws, frame, &shadows.maps, occlusion.as_ref());
-    let (color, mut seen) = match &style_surface(scene, &surface) {
-        Some(styled) => {
-            record_fragments(frame, styled, pixel_region.offset_in_tile(), image.background)
-        }
-        None => record_fragments(frame, &surface, pixel_region.offset_in_tile(), image.background),
+    shadows.render_maps(&context)?;
+    let occlusion = build_full_ssao_buffer(&context)?;
+    let shading = fragment_shading(scene, &memory, &shadows.maps, occlusion.as_ref());
+    let (frame, offset) = (&memory.frame, pixel_region.offset_in_tile());
+    let (color, mut recorded) = match &style_shading(scene, &shading) {
+        Some(styled) => record_fragments(frame, styled, offset, image.background),
+        None => record_fragments(frame, &shading, offset, image.background),
     };
-    seen.sort_by_key(|(id, ..)| *id);
-    seen.dedup_by_key(|(id, ..)| *id);
-    let fragments = seen.into_iter().map(|(id, weights, color)| ShadedFragment {
-        source: find_source(scene, id),
-        weights,
-        color,
+    // A triangle split by clipping, or several samples of one pixel, shade a fragment repeatedly.
+    recorded.sort_by_key(|(id, ..)| *id);
+    recorded.dedup_by_key(|(id, ..)| *id);
+    let fragments = recorded.into_iter().map(|(id, weights, color)| {
+        let source = find_source(scene, id);
+        ShadedFragment { source, weights, color }
     });
     Ok(Some(PixelFragments { color, fragments: fragments.collect() }))
 }
 
-/// The name, the weights and the colour of a fragment.
+/// Primitive id, weights and color of a shading call.
 type RecordedFragment = (u32, [f32; 3], [f32; 4]);
 
-/// Draws a frame of one pixel, and notes what was shaded for it.
+/// Draws a frame of one pixel, and records its shading calls.
 fn record_fragments<S: Surface>(
     frame: &Frame,
     surface: &S,
     pixel: [u32; 2],
     background: [f32; 4],
 ) -> ([u8; 4], Vec<RecordedFragment>) {
-    let witness = Recorder { surface, place: pixel, fragments: Mutex::default() };
+    let recorder = Recorder { surface, pixel, fragments: Mutex::default() };
     let mut color = [[0; 4]];
-    frame.draw(&witness, background, 1, &mut color, SrgbEncoder::shared());
-    (color[0], witness.fragments.into_inner().unwrap_or_else(PoisonError::into_inner))
+    frame.draw(&recorder, background, 1, &mut color, SrgbEncoder::shared());
+    (color[0], recorder.fragments.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// A surface that notes what is asked of it.
+/// A surface that forwards to another and records the fragments shaded in one pixel.
+///
+/// The rasterizer shades from several threads through a shared reference, hence the mutex.
 struct Recorder<'a, S> {
+    /// The surface that shades.
     surface: &'a S,
-    place: [u32; 2],
+    /// The pixel whose fragments are recorded.
+    pixel: [u32; 2],
+    /// The recorded shading calls, in any order.
     fragments: Mutex<Vec<RecordedFragment>>,
 }
 
@@ -114,9 +124,9 @@ impl<S: Surface> Surface for Recorder<'_, S> {
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let color = self.surface.shade(fragment);
-        if [fragment.x, fragment.y] == self.place {
-            let mut seen = self.fragments.lock().unwrap_or_else(PoisonError::into_inner);
-            seen.push((fragment.id, fragment.weights, color));
+        if [fragment.x, fragment.y] == self.pixel {
+            let mut fragments = self.fragments.lock().unwrap_or_else(PoisonError::into_inner);
+            fragments.push((fragment.id, fragment.weights, color));
         }
         color
     }
@@ -126,20 +136,17 @@ impl<S: Surface> Surface for Recorder<'_, S> {
     }
 }
 
-/// Whose point, line or triangle has a name; names are given in the order of what is shown.
+/// The primitive that a primitive id belongs to. Ids count points, lines and triangles in scene
+/// order, culled ones included.
 fn find_source(scene: &Scene, id: u32) -> Option<FragmentSource> {
     let mut first_id = 0;
-    for (model, placed) in scene.models.iter().enumerate() {
-        for (instance, primitive) in placed.model.scene_primitives() {
+    for (model, model_instance) in scene.models.iter().enumerate() {
+        for (instance, primitive) in model_instance.model.scene_primitives() {
             let element = id as usize - first_id;
             if element < primitive.item_count() {
-                let number = primitive_index(&placed.model, instance.node, primitive)?;
-                return Some(FragmentSource {
-                    model,
-                    node: instance.node,
-                    primitive: number,
-                    element,
-                });
+                let node = instance.node;
+                let primitive = primitive_index(&model_instance.model, node, primitive)?;
+                return Some(FragmentSource { model, node, primitive, element });
             }
             first_id += primitive.item_count();
         }
@@ -147,7 +154,7 @@ fn find_source(scene: &Scene, id: u32) -> Option<FragmentSource> {
     None
 }
 
-/// The number of a primitive in the mesh of a node.
+/// The index of a primitive in the mesh of a node.
 fn primitive_index(model: &Model, node: usize, primitive: &model::Primitive) -> Option<usize> {
     let mesh = model.meshes.get(model.nodes.get(node)?.mesh?)?;
     mesh.primitives.iter().position(|known| std::ptr::eq(known, primitive))

@@ -1,61 +1,64 @@
-//! The geometry half of the pipeline: from the meshes of a scene to the primitives of a frame.
+//! Primitive assembly: the geometry half of the pipeline, from the meshes of a scene to the
+//! primitives of a frame and its list of draw calls.
+//!
+//! Each primitive of each mesh instance is one draw call:
+//!
+//! ```text
+//!  skinning and morphing ─► frustum culling of clusters ─► vertex transform ─► DrawCall::submit
+//!                                                       └► attributes in the world ─► Draw
+//! ```
+//!
+//! The frame gets positions on the screen, the [`Draw`] the vertex attributes for shading; a
+//! primitive id ties them together.
 
 use super::RenderError;
-use super::mip_chains::Textures;
-use super::projected_mesh::ProjectedMesh;
+use super::context::RenderContext;
+use super::draw_call::DrawCall;
 use super::renderer::FrameMemory;
-use super::screen_transform::{ScreenTransform, all_vertices};
+use super::screen_transform::ScreenTransform;
 use super::vertex_inputs::VertexInputs;
 use super::vertex_processing::{VertexArrays, world_tangents};
-use crate::scene::Scene;
-use clip::{Outcode, clip_triangle};
-use glam::DVec3;
-use homog::{Affine, Clip, HPoint, Model, World};
-use model::ModelInstance;
+use homog::{Affine, HPoint, Model, World};
 use model::{
-    Material, MeshInstance, Primitive, SkinnedPrimitive, TextureInfo, TextureSlot, Topology,
+    Material, MeshInstance, ModelInstance, Primitive, SkinnedPrimitive, TextureInfo, TextureSlot,
 };
-use raster::{CullMode, Frame, Opacity, signed_area};
+use raster::{CullMode, Opacity};
 use shade::{Draw, DrawKind, MaterialTextures, MipChain};
-use std::ops::Range;
+use std::sync::LazyLock;
 
-/// The width of lines that a file draws, in pixels: glTF gives none.
-const LINE_WIDTH_PIXELS: f64 = 1.5;
-/// The side of points that a file draws, in pixels: glTF gives none.
-const POINT_SIZE_PIXELS: f64 = 3.0;
-
-/// Puts what may be seen of a scene into an empty frame, and says what its primitives are made of.
+/// Assembles the visible parts of a scene into an empty frame.
+///
+/// # Errors
+/// If the scene has more primitives than ids.
 pub(super) fn assemble_scene<'a>(
-    scene: &'a Scene,
-    textures: &'a Textures<'a>,
-    threads: usize,
+    context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
 ) -> Result<FrameMemory<'a>, RenderError> {
-    assemble_with_cover(scene, textures, threads, memory, None)
+    assemble_with_opacity(context, memory, None)
 }
 
-/// The same, with all primitives covering what is behind them in this way, whatever their materials say.
-pub(super) fn assemble_with_cover<'a>(
-    scene: &'a Scene,
-    textures: &'a Textures<'a>,
-    threads: usize,
+/// [`assemble_scene`] with all primitives opaque, masked or translucent as `opacity` says, whatever
+/// their materials.
+pub(super) fn assemble_with_opacity<'a>(
+    context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
-    cover: Option<Opacity>,
+    opacity: Option<Opacity>,
 ) -> Result<FrameMemory<'a>, RenderError> {
+    let RenderContext { scene, textures, threads, .. } = *context;
     let mut assembler = PrimitiveAssembler {
         transform: ScreenTransform::for_tile(scene, memory.tile)?,
         viewer: scene.view_projection.viewer(),
-        inputs: VertexInputs::for_style(scene.style, cover),
+        inputs: VertexInputs::for_style(scene.style, opacity),
         anisotropy: scene.image.max_anisotropy,
         threads,
         memory,
         next_id: 0,
         next_part_id: 0,
     };
-    for (number, placed) in scene.models.iter().enumerate() {
-        for (instance, primitive) in placed.model.scene_primitives() {
-            let texture = |slot, used: TextureInfo| textures.mip_chain(number, slot, used.texture);
-            assembler.draw_primitive(placed, instance, primitive, texture)?;
+    for (index, model_instance) in scene.models.iter().enumerate() {
+        for (instance, primitive) in model_instance.model.scene_primitives() {
+            let texture = |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);
+            assembler.draw_primitive(model_instance, instance, primitive, texture)?;
         }
     }
     if let Some(ground) = scene.ground {
@@ -64,173 +67,151 @@ pub(super) fn assemble_with_cover<'a>(
     if let Some(blur) = scene.image.environment_blur {
         assembler.add_environment(blur)?;
     }
-    if let Some(painting) = &scene.backdrop {
-        assembler.add_backdrop(painting, scene.image)?;
+    if let Some(backdrop) = &scene.backdrop {
+        assembler.add_backdrop(backdrop, scene.image)?;
     }
     Ok(assembler.memory)
 }
 
+/// The state of an assembly: transform, style, the frame so far, and the next free ids.
 pub(super) struct PrimitiveAssembler<'a> {
+    /// The transform of the image tile.
     pub(super) transform: ScreenTransform,
+    /// The eye, or the direction to it.
     viewer: HPoint<World>,
+    /// The needs of the style.
     inputs: VertexInputs,
+    /// The most texture samples per fragment along the longer axis of its footprint.
     anisotropy: u32,
+    /// The most threads for large meshes.
     threads: usize,
+    /// The frame and its draw calls.
     pub(super) memory: FrameMemory<'a>,
+    /// The id of the next point, line or triangle.
     pub(super) next_id: u32,
+    /// The number of the next draw call, culled ones included.
     pub(super) next_part_id: u32,
 }
 
-/// The material of primitives that name none.
-pub(super) static DEFAULT_MATERIAL: std::sync::LazyLock<Material> =
-    std::sync::LazyLock::new(Material::default);
+/// The default material of glTF 2.0 §3.9, for primitives without one.
+pub(super) static DEFAULT_MATERIAL: LazyLock<Material> = LazyLock::new(Material::default);
 
-/// The triangles of the ground, or of an environment behind everything.
-pub(super) static QUAD: std::sync::LazyLock<Primitive> = std::sync::LazyLock::new(|| Primitive {
-    indices: vec![0, 1, 2, 0, 2, 3],
-    ..Primitive::default()
-});
+/// Two triangles over four vertices: ground, environment and backdrop.
+pub(super) static QUAD: LazyLock<Primitive> =
+    LazyLock::new(|| Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() });
 
 impl<'a> PrimitiveAssembler<'a> {
-    /// Adds what of one primitive may be seen to the frame, and what its vertices carry to the draws.
+    /// Issues the draw call of one primitive, unless all of it is culled.
     fn draw_primitive(
         &mut self,
-        placed: &'a ModelInstance,
+        model_instance: &'a ModelInstance,
         instance: MeshInstance,
         primitive: &'a Primitive,
         texture: impl Fn(TextureSlot, TextureInfo) -> Option<&'a MipChain<'a>>,
     ) -> Result<(), RenderError> {
-        let model = &placed.model;
-        let (first_id, part) = self.allocate_ids(primitive)?;
-        let posed = model.skin_primitive(instance, primitive);
-        let SkinnedPrimitive { positions, normals, to_model } = &posed;
-        let model_to_world = to_model.then(placed.model_to_world);
-        let model_to_clip = self.transform.model_to_clip(model_to_world);
+        let model = &model_instance.model;
+        let (first_id, part_id) = self.allocate_ids(primitive)?;
+        let skinned = model.skin_primitive(instance, primitive);
+        let model_to_world = skinned.to_model.then(model_instance.model_to_world);
         let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
-        let culls_back_faces = !material.double_sided && !self.inputs.shows_back_faces;
-        let viewer = culls_back_faces.then_some(self.viewer);
-        let viewer = viewer.and_then(|viewer| viewer_in_model_space(model_to_world, viewer));
-        let images = &mut self.memory.mesh;
-        images.cull_clusters(&self.transform, model_to_clip, primitive, &posed, viewer);
-        if images.unclipped.is_empty() && images.to_clip.is_empty() {
+        if !self.project_primitive(primitive, material, &skinned, model_to_world) {
             return Ok(());
         }
-        images.project_vertices(&self.transform, model_to_clip, positions, self.threads);
+        let determinant = model_to_world.determinant();
         let mut draw = Draw {
             first_id,
-            part_id: part,
+            part_id,
             primitive,
             material,
             textures: MaterialTextures::new(material, self.anisotropy, texture),
             vertices: self.memory.vertex_pool.pop().unwrap_or_default(),
-            tangents: world_tangents(model, instance, primitive, material, &posed, model_to_world),
-            is_smooth: normals.is_some() && !self.inputs.is_flat,
+            tangents: world_tangents(
+                model,
+                instance,
+                primitive,
+                material,
+                &skinned,
+                model_to_world,
+            ),
+            is_smooth: skinned.normals.is_some() && !self.inputs.is_flat,
             uv_set: self.inputs.uv_set(material, primitive),
             colors: model.morph_colors(instance, primitive),
             kind: DrawKind::Surface,
-            flips_winding: model_to_world.determinant() < 0.0,
-            world_scale: libm::cbrt(model_to_world.determinant().abs()) as f32,
+            flips_winding: determinant < 0.0,
+            world_scale: libm::cbrt(determinant.abs()) as f32,
         };
         self.submit_draw(&draw);
         let uvs = draw.uv_set.and_then(|set| model.morph_uvs(instance, primitive, set));
-        let is_lit = self.inputs.forces_lit_inputs || draw.is_lit();
-        let arrays = VertexArrays {
-            positions: is_lit.then_some(&**positions),
-            normals: normals.as_deref().filter(|_| is_lit && draw.is_smooth),
-            uvs: uvs.as_deref(),
-        };
-        let ProjectedMesh { unclipped: whole, to_clip: cut, .. } = &self.memory.mesh;
-        let selections = [whole, cut];
-        arrays.write_vertices(
-            positions.len(),
-            selections,
-            model_to_world,
-            self.threads,
-            &mut draw.vertices,
-        );
+        self.write_attributes(&mut draw, &skinned, uvs.as_deref(), model_to_world);
         self.memory.draws.draws.push(draw);
         Ok(())
     }
 
-    /// The name of the first point, line or triangle of the next primitive, and the number of the primitive itself.
+    /// The id of the primitive's first point, line or triangle, and the number of the draw call.
     fn allocate_ids(&mut self, primitive: &Primitive) -> Result<(u32, u32), RenderError> {
-        let numbers = (self.next_id, self.next_part_id);
+        let ids = (self.next_id, self.next_part_id);
         let count =
             u32::try_from(primitive.item_count()).map_err(|_| RenderError::TooManyPrimitives)?;
-        self.next_id = numbers.0.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
+        self.next_id = ids.0.checked_add(count).ok_or(RenderError::TooManyPrimitives)?;
         self.next_part_id += 1;
-        Ok(numbers)
+        Ok(ids)
     }
 
-    /// Adds what is selected of the primitive to the frame, in its order: runs of triangles as they are, and in between the points,
-    /// lines and triangles that may have to be clipped.
-    fn submit_draw(&mut self, draw: &Draw<'_>) {
-        let images = std::mem::take(&mut self.memory.mesh);
-        let (cover, cull) =
-            (self.inputs.material_cover_in_style(draw.material), self.cull_mode(draw));
-        let triangles = draw.primitive.indices.as_chunks::<3>().0;
-        for (whole, cut) in images.triangle_runs() {
-            let (screen, first_id) = (&images.screen_vertices, draw.first_id);
-            self.memory.frame.add_mesh_runs(screen, triangles, whole, first_id, cover, cull);
-            self.clip_and_submit(draw, &images, cut, cover, cull);
-        }
-        self.memory.mesh = images;
-    }
-
-    /// Clips a run of points, lines or triangles and adds what is left to the frame.
-    fn clip_and_submit(
+    /// Culls the clusters of a primitive and transforms the vertices of the others; `false` if
+    /// none is left.
+    fn project_primitive(
         &mut self,
-        draw: &Draw<'_>,
-        images: &ProjectedMesh,
-        run: Range<usize>,
-        cover: Opacity,
-        cull: CullMode,
+        primitive: &Primitive,
+        material: &Material,
+        skinned: &SkinnedPrimitive<'_>,
+        model_to_world: Affine<Model, World>,
+    ) -> bool {
+        let culls_back_faces = !material.double_sided && !self.inputs.shows_back_faces;
+        let viewer = culls_back_faces.then_some(self.viewer);
+        let viewer = viewer.and_then(|viewer| viewer_in_model_space(model_to_world, viewer));
+        let model_to_clip = self.transform.model_to_clip(model_to_world);
+        let mesh = &mut self.memory.mesh;
+        mesh.cull_clusters(&self.transform, model_to_clip, primitive, skinned, viewer);
+        if mesh.unclipped.is_empty() && mesh.to_clip.is_empty() {
+            return false;
+        }
+        let positions = &skinned.positions;
+        mesh.project_vertices(&self.transform, model_to_clip, positions, self.threads);
+        true
+    }
+
+    /// Adds the projected primitive to the frame.
+    fn submit_draw(&mut self, draw: &Draw<'_>) {
+        let cull_mode = self.cull_mode(draw);
+        let FrameMemory { mesh, frame, .. } = &mut self.memory;
+        let opacity = self.inputs.opacity(draw.material);
+        DrawCall { transform: &self.transform, mesh, frame, opacity, cull_mode }
+            .submit(draw.primitive, draw.first_id);
+    }
+
+    /// Writes the vertex attributes that the shading reads. Positions and normals are left out
+    /// where neither light nor style asks for them.
+    fn write_attributes(
+        &self,
+        draw: &mut Draw<'_>,
+        skinned: &SkinnedPrimitive<'_>,
+        uvs: Option<&[[f32; 2]]>,
+        model_to_world: Affine<Model, World>,
     ) {
-        if run.is_empty() {
-            return;
-        }
-        let topology = draw.primitive.topology;
-        let corners = topology.vertices_per_item();
-        let indices = draw.primitive.indices.get(run.start * corners..run.end * corners);
-        let elements = indices.unwrap_or_default().chunks_exact(corners);
-        for (id, corners) in (draw.first_id + run.start as u32..).zip(elements) {
-            match (topology, corners) {
-                (Topology::Points, &[p]) => self.submit_point(images, p, id, cover),
-                (Topology::Lines, &[p, q]) => self.submit_line(images, [p, q], id, cover),
-                (Topology::Triangles, &[p, q, r]) => {
-                    let frame = &mut self.memory.frame;
-                    submit_clipped_triangle(
-                        &self.transform,
-                        images,
-                        frame,
-                        [p, q, r],
-                        id,
-                        cover,
-                        cull,
-                    );
-                }
-                _ => {}
-            }
-        }
+        let SkinnedPrimitive { positions, normals, .. } = skinned;
+        let is_lit = self.inputs.forces_lit_inputs || draw.is_lit();
+        let arrays = VertexArrays {
+            positions: is_lit.then_some(&**positions),
+            normals: normals.as_deref().filter(|_| is_lit && draw.is_smooth),
+            uvs,
+        };
+        let selections = [&self.memory.mesh.unclipped, &self.memory.mesh.to_clip];
+        let (count, vertices) = (positions.len(), &mut draw.vertices);
+        arrays.write_vertices(count, selections, model_to_world, self.threads, vertices);
     }
 
-    fn submit_point(&mut self, images: &ProjectedMesh, vertex: u32, id: u32, cover: Opacity) {
-        if let Some(center) = images.screen_vertices[vertex as usize] {
-            self.memory.frame.add_point(center, POINT_SIZE_PIXELS, id, cover);
-        }
-    }
-
-    fn submit_line(&mut self, images: &ProjectedMesh, ends: [u32; 2], id: u32, cover: Opacity) {
-        let ends = ends.map(|vertex| images.clip_positions[vertex as usize]);
-        let Some(visible) = self.transform.clip_line(ends) else { return };
-        if let Some(ends) = self.transform.snap_vertices([visible.start, visible.end]) {
-            let line_parameters = [visible.t0 as f32, visible.t1 as f32];
-            self.memory.frame.add_clipped_line(ends, line_parameters, LINE_WIDTH_PIXELS, id, cover);
-        }
-    }
-
-    /// Which triangles are not to be seen: the backs of surfaces with one side. Fronts run counter-clockwise in the picture,
-    /// unless either the way to the world or that to the screen mirrors.
+    /// The back-face culling of a draw call. Front faces run counter-clockwise in the picture,
+    /// unless either the model matrix or the projection mirrors.
     pub(super) fn cull_mode(&self, draw: &Draw<'_>) -> CullMode {
         let shows_both_faces = draw.material.double_sided || self.inputs.shows_back_faces;
         match (shows_both_faces, draw.flips_winding == self.transform.is_mirrored) {
@@ -241,76 +222,11 @@ impl<'a> PrimitiveAssembler<'a> {
     }
 }
 
-/// Clips a triangle and adds what is left of it to a frame.
-pub(super) fn submit_clipped_triangle(
-    stage: &ScreenTransform,
-    images: &ProjectedMesh,
-    frame: &mut Frame,
-    vertices: [u32; 3],
-    id: u32,
-    cover: Opacity,
-    cull: CullMode,
-) {
-    let ProjectedMesh { clip_positions: clip, outcodes, screen_vertices: screen, .. } = images;
-    let vertices = vertices.map(|vertex| vertex as usize);
-    if let Some(corners) = all_vertices(vertices.map(|vertex| screen[vertex])) {
-        if passes_culling(cull, -signed_area(corners).signum() as f64) {
-            frame.add_triangle(corners, id, cover);
-        }
-        return;
-    }
-    let points = vertices.map(|vertex| clip[vertex]);
-    let outcodes = vertices.map(|vertex| outcodes[vertex]);
-    if !Outcode::trivially_rejects(&outcodes).is_inside()
-        || !passes_culling(cull, clip_space_orientation(points))
-    {
-        return;
-    }
-    for piece in clip_triangle(points, &stage.guard_band).triangles() {
-        if let Some(corners) = stage.snap_vertices(piece.map(|vertex| vertex.point)) {
-            let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
-            frame.add_clipped_triangle(corners, weights, id, cover);
-        }
-    }
-}
-
-/// A place of the world as it is in a model; `None` if the model is flat there.
+/// The viewer in model space, where clusters are tested against it; `None` for a singular model
+/// matrix.
 fn viewer_in_model_space(
     model_to_world: Affine<Model, World>,
-    place: HPoint<World>,
+    viewer: HPoint<World>,
 ) -> Option<HPoint<Model>> {
-    Some(HPoint::from_raw(model_to_world.inverse()?.raw() * place.raw()))
-}
-
-/// Whether a triangle is kept whose [`orientation`] has this sign.
-fn passes_culling(cull: CullMode, orientation: f64) -> bool {
-    match cull {
-        CullMode::Nothing => true,
-        CullMode::Clockwise => orientation > 0.0,
-        CullMode::CounterClockwise => orientation < 0.0,
-    }
-}
-
-/// Positive if a triangle runs counter-clockwise in the picture (y up), without a divide: the sign is right for corners
-/// behind the eye too.
-fn clip_space_orientation([p, q, r]: [HPoint<Clip>; 3]) -> f64 {
-    let column = |point: HPoint<Clip>| DVec3::new(point.x(), point.y(), point.w());
-    column(p).dot(column(q).cross(column(r)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counter_clockwise_is_positive_also_with_corners_behind_the_eye() {
-        let corners =
-            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| HPoint::new(x, y, 0.0, 1.0));
-        assert!(clip_space_orientation(corners) > 0.0);
-        let [p, q, r] = corners;
-        assert!(clip_space_orientation([p, r, q]) < 0.0);
-        // A corner moved through the eye's plane, along the line from another: the surface still shows the same side.
-        let behind = HPoint::from_raw(q.raw() - (r.raw() * 3.0 - q.raw() * 3.0));
-        assert!(clip_space_orientation([p, behind, r]) > 0.0);
-    }
+    Some(HPoint::from_raw(model_to_world.inverse()?.raw() * viewer.raw()))
 }

@@ -1,58 +1,67 @@
-//! The images of one primitive's vertices: which of its triangles may be seen, and where their corners are.
+//! Frustum culling and the vertex transform of one draw call.
 //!
-//! Of a mesh that stays as it is whole clusters of triangles are left out: those outside of the view volume, and those that show
-//! their backs where backs are not drawn. Only vertices that the others need go through the stages, and only where
-//! a cluster reaches beyond the volume and its guard band do they stop in clip space, to be clipped.
+//! A mesh is divided into clusters of neighboring triangles, each with a bounding box and a cone of
+//! normals. Clusters outside the view volume and clusters that show only back faces are left out as
+//! a whole. Vertices of the others are projected; only where a cluster crosses the guard band are
+//! they also stored in clip space, to be clipped.
+//!
+//! ```text
+//!  clusters ─► frustum culling ─► back-face culling by normal cones ─► unclipped │ to_clip
+//! ```
 
 use super::screen_transform::{Containment, ScreenTransform};
 use clip::Outcode;
 use core::ops::Range;
 use homog::{Clip, HPoint, Model, Projective};
 use model::{Primitive, SkinnedPrimitive, Topology};
-use raster::{MeshSelection, ScreenVertex, SimdLevel};
+use raster::{MeshSelection, ScreenVertex, SimdLevel, VertexProjection};
 use std::borrow::Cow;
 
-/// The images of one primitive's vertices; the memory is used again for the next.
+/// The culled and projected vertices of one draw call. The memory is reused for the next.
 #[derive(Debug, Default)]
 pub(super) struct ProjectedMesh {
-    /// What can be drawn as it is.
+    /// Triangles inside the guard band, drawn without clipping.
     pub(super) unclipped: MeshSelection,
-    /// What may have to be clipped.
+    /// Points, lines and triangles that may need clipping.
     pub(super) to_clip: MeshSelection,
-    /// In clip space, where something may have to be clipped.
+    /// Vertices in clip space, valid for those of `to_clip`.
     pub(super) clip_positions: Vec<HPoint<Clip>>,
+    /// Outcodes against the guard band, valid for the vertices of `to_clip`.
     pub(super) outcodes: Vec<Outcode>,
-    /// On the screen; `None` for those outside of the view volume and its guard band.
+    /// Vertices on the rasterizer's grid; `None` outside the guard band.
     pub(super) screen_vertices: Vec<Option<ScreenVertex>>,
 }
 
 impl ProjectedMesh {
-    /// Selects what of a primitive may be seen. `viewer` is where the viewer is in the primitive's own space, if backs are not to
-    /// be drawn.
+    /// Frustum culling and back-face culling of a primitive's clusters.
+    ///
+    /// `viewer` is the viewer in model space, or `None` if back faces are visible. Skinned and
+    /// morphed meshes have no clusters: their positions change with the pose, and one box around
+    /// them all decides.
     pub(super) fn cull_clusters(
         &mut self,
-        stage: &ScreenTransform,
+        transform: &ScreenTransform,
         model_to_clip: Projective<Model, Clip>,
         primitive: &Primitive,
-        posed: &SkinnedPrimitive<'_>,
+        skinned: &SkinnedPrimitive<'_>,
         viewer: Option<HPoint<Model>>,
     ) {
-        let positions = &posed.positions;
+        let positions = &skinned.positions;
         self.unclipped.clear(positions.len());
         self.to_clip.clear(positions.len());
         if primitive.topology != Topology::Triangles {
-            // Points and lines are wider than their vertices tell.
+            // Points and lines are wider than the box around their vertices.
             return self.to_clip.add_all(primitive.item_count());
         }
         let Cow::Borrowed(_) = positions else {
-            return match stage.classify_bounds(model_to_clip, position_bounds(positions)) {
+            return match transform.classify_bounds(model_to_clip, position_bounds(positions)) {
                 Containment::Outside => {}
                 Containment::Inside => self.unclipped.add_all(primitive.item_count()),
                 Containment::Intersecting => self.to_clip.add_all(primitive.item_count()),
             };
         };
         let clusters = primitive.clusters(viewer.is_some());
-        let mesh_containment = stage.classify_bounds(model_to_clip, clusters.bounds());
+        let mesh_containment = transform.classify_bounds(model_to_clip, clusters.bounds());
         if mesh_containment == Containment::Outside {
             return;
         }
@@ -62,7 +71,7 @@ impl ProjectedMesh {
             }
             let containment = match mesh_containment {
                 Containment::Inside => mesh_containment,
-                _ => stage.classify_bounds(model_to_clip, cluster.bounds()),
+                _ => transform.classify_bounds(model_to_clip, cluster.bounds()),
             };
             match containment {
                 Containment::Outside => {}
@@ -72,60 +81,58 @@ impl ProjectedMesh {
         }
     }
 
-    /// Takes the vertices of what is selected to the screen.
+    /// The vertex transform of the selected vertices: model to clip space, perspective divide,
+    /// viewport, snapping.
+    ///
+    /// Vertices of unclipped triangles take one pass of SIMD code from positions to the grid.
     pub(super) fn project_vertices(
         &mut self,
-        stage: &ScreenTransform,
+        transform: &ScreenTransform,
         model_to_clip: Projective<Model, Clip>,
         positions: &[[f32; 3]],
         threads: usize,
     ) {
-        let instructions = SimdLevel::best();
-        ScreenVertex::project_selected_positions(
-            positions,
-            &self.unclipped,
-            model_to_clip,
-            stage.ndc_to_screen,
-            instructions,
-            threads,
-            &mut self.screen_vertices,
-        );
+        let (ndc_to_screen, simd_level) = (transform.ndc_to_screen(), SimdLevel::best());
+        let projection =
+            VertexProjection { to_clip: model_to_clip, ndc_to_screen, simd_level, threads };
+        let screen_vertices = &mut self.screen_vertices;
+        projection.project_selected_positions(positions, &self.unclipped, screen_vertices);
         if self.to_clip.is_empty() {
             return;
         }
         self.clip_positions.resize(positions.len(), HPoint::new(0.0, 0.0, 0.0, 1.0));
         self.outcodes.resize(positions.len(), Outcode::INSIDE);
         for run in self.to_clip.vertices_within(0..positions.len()) {
-            let (clip, outcodes) =
-                (&mut self.clip_positions[run.clone()], &mut self.outcodes[run.clone()]);
-            stage.guard_band.project_positions(
-                model_to_clip,
-                &positions[run.clone()],
-                clip,
-                outcodes,
-            );
+            let clip = &mut self.clip_positions[run.clone()];
+            let outcodes = &mut self.outcodes[run.clone()];
+            let guard_band = &transform.guard_band;
+            guard_band.project_positions(model_to_clip, &positions[run.clone()], clip, outcodes);
             let screen = &mut self.screen_vertices[run];
-            ScreenVertex::divide_and_snap_points(clip, stage.ndc_to_screen, instructions, screen);
+            ScreenVertex::divide_and_snap_points(clip, ndc_to_screen, simd_level, screen);
+            // Outside the guard band a snapped position is off the grid, or wrong behind the eye.
             for (vertex, code) in screen.iter_mut().zip(outcodes) {
                 *vertex = vertex.filter(|_| code.is_inside());
             }
         }
     }
 
-    /// The runs of triangles in their order, for each run that may have to be clipped those before it that need not.
+    /// The runs of selected triangles in mesh order: pairs of unclipped runs and the run to clip
+    /// that follows them. The last pair has an empty run at `usize::MAX`.
+    ///
+    /// Mesh order keeps translucent triangles of equal depth in the order of the file.
     pub(super) fn triangle_runs(&self) -> impl Iterator<Item = (&[Range<usize>], Range<usize>)> {
         let mut remaining = self.unclipped.triangles();
-        let cut = self.to_clip.triangles().iter().cloned();
-        cut.chain(std::iter::once(usize::MAX..usize::MAX)).map(move |cut| {
-            let before = remaining.partition_point(|run| run.start < cut.start);
-            let whole;
-            (whole, remaining) = remaining.split_at(before);
-            (whole, cut)
+        let to_clip = self.to_clip.triangles().iter().cloned();
+        to_clip.chain(std::iter::once(usize::MAX..usize::MAX)).map(move |to_clip| {
+            let before = remaining.partition_point(|run| run.start < to_clip.start);
+            let unclipped;
+            (unclipped, remaining) = remaining.split_at(before);
+            (unclipped, to_clip)
         })
     }
 }
 
-/// The least and the greatest coordinates.
+/// The bounding box of positions: least and greatest coordinates.
 fn position_bounds(positions: &[[f32; 3]]) -> [[f32; 3]; 2] {
     let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for position in positions {

@@ -1,127 +1,148 @@
-//! The way from the world to the screen.
+//! The view transform of one image tile or shadow map, with its guard band.
+//!
+//! ```text
+//!  Model ──model_to_clip──► Clip ──clip against near, far, guard band──► ÷ w ──viewport──► snap
+//! ```
+//!
+//! Triangles are not clipped against the sides of the view volume: a *guard band* far beyond them
+//! takes their place (CL-4), and the rasterizer's tiles discard what lies between. Only the near
+//! and far planes and the limits of the rasterizer's fixed-point grid cost geometric clipping.
 
 use super::RenderError;
 use super::image_tiles::ImageTile;
 use crate::scene::Scene;
-use camera::ViewProjection;
+use camera::{ViewProjection, ViewTransform};
 use clip::{Outcode, OutcodeSummary, Volume, clip_segment};
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
 use raster::{GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
 
-/// The way from the world to the screen.
+/// World → clip → screen for one raster, and the volume that geometry is clipped against.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScreenTransform {
-    /// With the sheet of the picture in the whole of the view volume.
-    pub(super) world_to_clip: Projective<World, Clip>,
-    /// What is kept: the view volume with a guard band.
+    /// For an image tile: with the tile in the whole of the view volume.
+    view: ViewTransform,
+    /// The clipping volume: near and far plane of the view volume, sides moved out to the guard
+    /// band.
     pub(super) guard_band: Volume,
-    pub(super) ndc_to_screen: Affine<Ndc, Screen>,
+    /// The inverse viewport transform.
     screen_to_ndc: Affine<Screen, Ndc>,
+    /// Whether the projection mirrors the picture, which reverses the winding of triangles.
     pub(super) is_mirrored: bool,
 }
 
-/// Where a mesh or a part of it is, as far as the box around its vertices tells.
+/// The result of frustum culling a bounding box.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Containment {
-    /// All of it is inside of the view volume and its guard band.
+    /// Inside the view volume and its guard band: nothing needs clipping.
     Inside,
-    /// All of it is outside of the view volume.
+    /// Outside one plane of the view volume: nothing is visible.
     Outside,
-    /// Vertices must be looked at one by one.
+    /// Neither is certain: its vertices are tested one by one.
     Intersecting,
 }
 
 impl ScreenTransform {
-    pub(super) fn for_tile(scene: &Scene, sheet: ImageTile) -> Result<Self, RenderError> {
-        let mut stage = Self::new(&scene.view_projection, sheet.rect.width, sheet.rect.height)?;
-        stage.world_to_clip = sheet.world_to_clip(scene)?;
-        Ok(stage)
+    /// The transform of an image tile.
+    pub(super) fn for_tile(scene: &Scene, tile: ImageTile) -> Result<Self, RenderError> {
+        let whole = Self::new(&scene.view_projection, tile.rect.width, tile.rect.height)?;
+        let (ndc_to_screen, viewer) = (whole.view.ndc_to_screen(), whole.view.viewer());
+        let world_to_clip = tile.world_to_clip(scene)?;
+        let view = ViewTransform::with_world_to_clip(world_to_clip, ndc_to_screen, viewer);
+        Ok(Self { view, ..whole })
     }
 
-    /// The way to a picture of this size.
+    /// The transform of a raster of `width` × `height` pixels that shows the whole view volume.
     pub(super) fn new(
         view_projection: &ViewProjection,
         width: u32,
         height: u32,
     ) -> Result<Self, RenderError> {
         let viewport = Viewport::image(width, height)?;
-        // Clip only what would leave the rasteriser's grid, with a pixel to spare: its tiles cut the rest (CL-4).
+        // The rasterizer's grid ends GUARD_BAND pixels beyond the raster; one more as a margin for
+        // rounding in the divide.
         let band = |side: u32| {
             let half = 0.5 * f64::from(side);
             (1.0 - (GUARD_BAND.start() + 1.0) / half).clamp(1.0, Volume::MAX_GUARD_BAND)
         };
         let volume = Volume::CHAPTER;
-        let volume = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
+        let guard_band = volume.with_guard_band(band(width), band(height)).unwrap_or(volume);
         Ok(Self {
-            world_to_clip: view_projection.world_to_clip(),
-            guard_band: volume,
-            ndc_to_screen: viewport.ndc_to_screen(),
+            view: ViewTransform::new(view_projection, viewport.ndc_to_screen()),
+            guard_band,
             screen_to_ndc: viewport.screen_to_ndc(),
             is_mirrored: view_projection.is_mirrored(),
         })
     }
 
-    /// From a model to clip space.
+    /// World to clip space, with the tile in the whole of the view volume.
+    pub(super) fn world_to_clip(&self) -> Projective<World, Clip> {
+        self.view.world_to_clip()
+    }
+
+    /// The viewport transform.
+    pub(super) fn ndc_to_screen(&self) -> Affine<Ndc, Screen> {
+        self.view.ndc_to_screen()
+    }
+
+    /// The inverse viewport transform: pixels back to the canonical volume.
+    pub(super) fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
+        self.screen_to_ndc
+    }
+
+    /// World to pixels and depth as one matrix, before the divide.
+    pub(super) fn world_to_screen(&self) -> DMat4 {
+        self.view.world_to_screen().raw()
+    }
+
+    /// Model to clip space: the model-view-projection matrix.
     pub(super) fn model_to_clip(
         &self,
         model_to_world: Affine<Model, World>,
     ) -> Projective<Model, Clip> {
-        model_to_world.then_project(self.world_to_clip)
+        model_to_world.then_project(self.view.world_to_clip())
     }
 
-    /// Where what is in a box is, by the box's least and greatest coordinates. Boxes are convex, and stay so on the way to clip
-    /// space.
+    /// Frustum culling of a box given by its least and greatest coordinates.
+    ///
+    /// The eight corners decide: a box is convex and stays convex in clip space, so a plane that
+    /// has all corners on one side has the whole box there.
     pub(super) fn classify_bounds(
         &self,
         model_to_clip: Projective<Model, Clip>,
         bounds: [[f32; 3]; 2],
     ) -> Containment {
-        let corner = |number: usize, axis: usize| bounds[number >> axis & 1][axis];
-        let corners: [[f32; 3]; 8] = std::array::from_fn(|n| [0, 1, 2].map(|axis| corner(n, axis)));
-        // Corners that are not finite are outside of all planes, which says nothing of what is between them.
+        let coordinate = |corner: usize, axis: usize| bounds[corner >> axis & 1][axis];
+        let corners: [[f32; 3]; 8] =
+            std::array::from_fn(|corner| [0, 1, 2].map(|axis| coordinate(corner, axis)));
+        // Corners at infinity are outside all planes, whatever lies between them.
         if !corners.iter().flatten().all(|c| c.abs() < 1e30) {
             return Containment::Intersecting;
         }
-        if self.project_corners(&self.guard_band, model_to_clip, &corners).is_inside() {
+        if summarize_outcodes(&self.guard_band, model_to_clip, &corners).is_inside() {
             return Containment::Inside;
         }
-        let is_outside =
-            self.project_corners(&Volume::CHAPTER, model_to_clip, &corners).is_outside();
-        if is_outside { Containment::Outside } else { Containment::Intersecting }
+        match summarize_outcodes(&Volume::CHAPTER, model_to_clip, &corners).is_outside() {
+            true => Containment::Outside,
+            false => Containment::Intersecting,
+        }
     }
 
-    fn project_corners(
-        &self,
-        volume: &Volume,
-        model_to_clip: Projective<Model, Clip>,
-        corners: &[[f32; 3]; 8],
-    ) -> OutcodeSummary {
-        let mut points = corners.map(|_| HPoint::new(0.0, 0.0, 0.0, 1.0));
-        volume.project_positions(model_to_clip, corners, &mut points, &mut [Outcode::INSIDE; 8])
-    }
-
-    /// The visible part of a line; `None` if there is none.
+    /// Clips a line segment against near and far plane and the guard band; `None` if nothing of it
+    /// remains.
     pub(super) fn clip_line(&self, ends: [HPoint<Clip>; 2]) -> Option<clip::ClippedSegment> {
         clip_segment(ends[0], ends[1], &self.guard_band)
     }
 
-    /// From pixels back to the canonical volume.
-    pub(super) fn screen_to_ndc(&self) -> Affine<Screen, Ndc> {
-        self.screen_to_ndc
-    }
-
-    /// The divide and the viewport.
-    pub(super) fn project_to_screen(&self, point: HPoint<Clip>) -> Option<Point<Screen>> {
-        Some(self.ndc_to_screen.transform_point(point.divide()?))
-    }
-
+    /// Perspective divide, viewport transform, and snapping to the rasterizer's grid of 1/256
+    /// pixel.
     #[inline]
     pub(super) fn snap_vertex(&self, point: HPoint<Clip>) -> Option<ScreenVertex> {
-        ScreenVertex::snap(self.project_to_screen(point)?, point.w())
+        ScreenVertex::snap(self.view.project_to_screen(point)?, point.w())
     }
 
+    /// The vertices of a primitive on the rasterizer's grid, or `None` if one is off the grid.
     pub(super) fn snap_vertices<const N: usize>(
         &self,
         points: [HPoint<Clip>; N],
@@ -130,18 +151,30 @@ impl ScreenTransform {
     }
 }
 
-/// All vertices of a primitive, if none is missing.
+/// The outcodes of a box's corners combined: all inside, all outside one plane, or neither.
+fn summarize_outcodes(
+    volume: &Volume,
+    model_to_clip: Projective<Model, Clip>,
+    corners: &[[f32; 3]; 8],
+) -> OutcodeSummary {
+    let mut points = corners.map(|_| HPoint::new(0.0, 0.0, 0.0, 1.0));
+    volume.project_positions(model_to_clip, corners, &mut points, &mut [Outcode::INSIDE; 8])
+}
+
+/// All vertices of a primitive, or `None` if one is missing.
 #[inline]
 pub(super) fn all_vertices<const N: usize>(
     vertices: [Option<ScreenVertex>; N],
 ) -> Option<[ScreenVertex; N]> {
     let mut complete = [vertices[0]?; N];
-    for (place, vertex) in complete.iter_mut().zip(vertices) {
-        *place = vertex?;
+    for (slot, vertex) in complete.iter_mut().zip(vertices) {
+        *slot = vertex?;
     }
     Some(complete)
 }
 
+/// A vertex position in f64. All geometry before the rasterizer is f64: the models are f32, and
+/// products of matrices and positions shall not lose a bit of them.
 pub(super) fn model_point(position: [f32; 3]) -> Point<Model> {
     Point::from_raw(DVec3::from_array(position.map(f64::from)))
 }

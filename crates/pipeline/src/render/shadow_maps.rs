@@ -1,52 +1,56 @@
-//! The pictures that lights have of a scene: shadow maps, rendered by the same stages as the picture itself.
+//! Shadow maps: depth maps of the scene seen from its lights, rendered by the same stages as the
+//! picture (Williams, *Casting curved shadows on curved surfaces*, 1978).
+//!
+//! ```text
+//!  light ─► LightCamera fitted to the visible part ─► depth-only draws ─► shade::ShadowMap (PCF)
+//! ```
 
 mod casters;
 mod light_fitting;
 
 use super::RenderError;
+use super::context::RenderContext;
 use super::projected_mesh::ProjectedMesh;
 use super::screen_transform::ScreenTransform;
-use crate::scene::Scene;
+use casters::CasterPass;
 pub(super) use casters::DepthOnly;
-use casters::draw_casters;
 use light_fitting::LightCamera;
 use raster::{Frame, Samples};
-use shade::{Draw, DrawList, ShadowMap};
+use shade::{DrawList, ShadowMap};
 
-/// What shadow maps are made in, kept from picture to picture.
+/// Shadow maps and the memory to render them, reused from picture to picture.
 #[derive(Debug, Default)]
 pub(super) struct ShadowMapRenderer {
+    /// The frame of the last map.
     frame: Option<Frame>,
+    /// Vertices of one draw call.
     mesh: ProjectedMesh,
-    /// The map of each light that casts shadows; as many as there are lights, or none.
+    /// The map of each light, in their order; empty if no light casts shadows.
     pub(super) maps: Vec<Option<ShadowMap>>,
-    /// Maps that are not used at the moment.
+    /// Maps of earlier pictures, for their memory.
     map_pool: Vec<ShadowMap>,
 }
 
 impl ShadowMapRenderer {
-    /// Takes all maps out and keeps their memory.
+    /// Discards all maps and keeps their memory.
     pub(super) fn recycle_maps(&mut self) {
-        // The first map that is asked for next time is the one of the first light.
+        // Reversed, so that the next picture's first map takes the memory of the first light's.
         self.map_pool.extend(self.maps.drain(..).rev().flatten());
     }
 
-    /// Makes the maps of a scene's lights with up to `threads` threads, whose number does not change them.
-    pub(super) fn render_maps<'a>(
-        &mut self,
-        scene: &'a Scene,
-        textures: &'a super::Textures<'a>,
-        threads: usize,
-    ) -> Result<(), RenderError> {
+    /// Renders the maps of a scene's lights; `None` for lights without shadows, and for those whose
+    /// light reaches no triangle.
+    pub(super) fn render_maps(&mut self, context: &RenderContext<'_>) -> Result<(), RenderError> {
+        let scene = context.scene;
         self.recycle_maps();
         if scene.lights.iter().all(|light| light.shadow().is_none()) {
             return Ok(());
         }
         for light in &scene.lights {
-            let fit =
+            let camera =
                 light.shadow().and_then(|shadow| LightCamera::fit_to_light(scene, light, shadow));
-            let map = match fit {
-                Some(fit) => Some(self.render_map(scene, textures, &fit, threads)?),
+            let map = match camera {
+                Some(camera) => Some(self.render_map(context, &camera)?),
                 None => None,
             };
             self.maps.push(map);
@@ -54,14 +58,13 @@ impl ShadowMapRenderer {
         Ok(())
     }
 
-    fn render_map<'a>(
+    /// Renders one shadow map: the nearest surfaces from the light, with alpha test.
+    fn render_map(
         &mut self,
-        scene: &'a Scene,
-        textures: &'a super::Textures<'a>,
-        fit: &LightCamera,
-        threads: usize,
+        context: &RenderContext<'_>,
+        camera: &LightCamera,
     ) -> Result<ShadowMap, RenderError> {
-        let [width, height] = fit.size;
+        let [width, height] = camera.size;
         let mut frame = match self.frame.take() {
             Some(mut frame) => {
                 frame.reset(width, height, Samples::One)?;
@@ -69,15 +72,15 @@ impl ShadowMapRenderer {
             }
             None => Frame::new(width, height, Samples::One)?,
         }
-        .with_threads(threads);
-        let stage = ScreenTransform::new(&fit.view_projection, width, height)?;
-        let mut draws = DrawList { draws: Vec::<Draw<'a>>::new() };
-        draw_casters(scene, textures, &stage, threads, &mut self.mesh, &mut frame, &mut draws)?;
+        .with_threads(context.threads);
+        let transform = ScreenTransform::new(&camera.view_projection, width, height)?;
+        let mut draws = DrawList::default();
+        let (mesh, draw_list) = (&mut self.mesh, &mut draws);
+        CasterPass { transform, mesh, frame: &mut frame, draws: draw_list }.draw_scene(context)?;
         let mut map = self.map_pool.pop().unwrap_or_default();
-        let to_screen = stage.ndc_to_screen.raw();
-        map.reset(to_screen * fit.view_projection.world_to_clip().raw(), fit.size, fit.center);
-        map.set_penumbra(fit.penumbra, fit.depth_at_infinity);
-        frame.surface_depths(&DepthOnly(&draws), threads, &mut map.texels);
+        map.reset(transform.world_to_screen(), camera.size, camera.center);
+        map.set_penumbra(camera.penumbra, camera.depth_at_infinity);
+        frame.surface_depths(&DepthOnly(&draws), context.threads, &mut map.texels);
         self.frame = Some(frame);
         Ok(map)
     }

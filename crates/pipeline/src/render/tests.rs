@@ -1,15 +1,17 @@
-//! That shading eight fragments at once changes nothing.
+//! SIMD shading against scalar shading: eight fragments at once have the bits of one by one.
 
+use super::context::RenderContext;
+use super::fragment_shading::fragment_shading;
 use super::image_tiles::tile_regions;
+use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_scene;
-use super::renderer::FrameMemory;
-use super::{Renderer, Textures};
+use super::renderer::RenderBuffers;
 use crate::scene::{Origin, Scene, Style, parse_scene};
 use raster::{F32x8, Fragment, Fragments, Samples, Surface};
 use shade::Shading;
 use std::path::Path;
 
-/// Shades as `Shading` does, but one fragment after the other.
+/// Shades like `Shading`, but one fragment at a time: the default methods of `Surface`.
 struct ScalarShading<'a>(&'a Shading<'a>);
 
 impl Surface for ScalarShading<'_> {
@@ -26,7 +28,7 @@ impl Surface for ScalarShading<'_> {
     }
 }
 
-/// A scene of the project, small.
+/// A scene of the project at a small size.
 fn load_scene(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let text = std::fs::read_to_string(folder.join(name)).expect("a scene of the project");
@@ -45,22 +47,11 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             scene.image.samples = Samples::from_count(samples).expect("a number of samples");
             let textures = Textures::for_models(&scene.models);
             let tile_region = tile_regions(scene.image, scene.image.pixel_rect())[0];
-            let memory = Renderer::default().take_buffers(&scene, tile_region, 1).expect("a frame");
-            let FrameMemory { frame, draws, .. } =
-                assemble_scene(&scene, &textures, 1, memory).expect("a frame");
-            let viewer = scene.view_projection.viewer();
-            let instructions = frame.simd_level();
-            let shading = Shading {
-                backdrop: None,
-                draws: &draws,
-                lights: &scene.lights,
-                shadows: &[],
-                occlusion: None,
-                environment: scene.environment.as_deref(),
-                tone_mapper: scene.tone_mapper,
-                viewer,
-                simd_level: instructions,
-            };
+            let context = RenderContext::new(&scene, &textures, 1);
+            let memory = RenderBuffers::default().take_frame(&context, tile_region);
+            let memory = assemble_scene(&context, memory.expect("a frame")).expect("a frame");
+            let shading = fragment_shading(&scene, &memory, &[], None);
+            let frame = &memory.frame;
             let mut pictures = [(); 2].map(|()| vec![[0; 4]; 200 * 130]);
             let bits = |color: [f32; 4]| color.map(f32::to_bits);
             let background = scene.image.background;

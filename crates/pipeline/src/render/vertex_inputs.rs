@@ -1,62 +1,67 @@
-//! What a style needs of primitives: what their vertices must carry, what covers what, which sides are seen.
+//! The vertex attributes, opacity and faces that a style needs of each draw call.
+//!
+//! A style that overrides materials (clay, normals, ids …) still needs some of their properties:
+//! the alpha test for the holes of masked surfaces, and whether surfaces are double-sided. The
+//! X-ray style makes everything translucent and shows back faces as well.
 
 use super::vertex_processing::material_uv_set;
 use crate::scene::Style;
 use model::{AlphaMode, Material, Primitive};
 use raster::Opacity;
 
-/// What a style needs.
+/// The needs of a style.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VertexInputs {
-    /// Whether triangles have one normal each.
+    /// Whether triangles have one normal each (flat shading).
     pub(super) is_flat: bool,
-    /// Whether places and normals are needed also where no light falls.
+    /// Whether positions and normals are needed also for unlit materials.
     pub(super) forces_lit_inputs: bool,
-    /// Whether backs are seen of surfaces with one side.
+    /// Whether back faces of single-sided materials are visible.
     pub(super) shows_back_faces: bool,
-    /// How primitives cover what is behind them, if not as their materials have it.
-    cover_rule: CoverRule,
-    /// Whether the first texture coordinates are needed.
+    /// How the opacity follows from the material.
+    opacity_rule: OpacityRule,
+    /// Whether the first set of texture coordinates is needed, whatever the material reads.
     needs_first_uv_set: bool,
 }
 
+/// The opacity of primitives under a style.
 #[derive(Clone, Copy, Debug)]
-enum CoverRule {
-    /// As their materials have it.
+enum OpacityRule {
+    /// By the alpha mode and transmission of their materials.
     FromMaterial,
-    /// All are solid, but for the holes of masks.
-    ForceSolid,
-    /// All in one way.
+    /// Opaque, except for the holes of alpha-tested (masked) materials.
+    ForceOpaque,
+    /// One opacity for all primitives.
     Force(Opacity),
 }
 
 impl VertexInputs {
-    /// What a style needs; `cover` is how all primitives cover what is behind them, if not as usual.
-    pub(super) fn for_style(style: Style, cover: Option<Opacity>) -> Self {
+    /// The needs of a style; `opacity` overrides that of all primitives.
+    pub(super) fn for_style(style: Style, opacity: Option<Opacity>) -> Self {
         let default_rule = match style {
-            Style::XRay => CoverRule::Force(Opacity::Translucent),
-            style if style.overrides_materials() => CoverRule::ForceSolid,
-            _ => CoverRule::FromMaterial,
+            Style::XRay => OpacityRule::Force(Opacity::Translucent),
+            style if style.overrides_materials() => OpacityRule::ForceOpaque,
+            _ => OpacityRule::FromMaterial,
         };
         Self {
             is_flat: style == Style::Flat,
             forces_lit_inputs: style.overrides_materials(),
             shows_back_faces: style == Style::XRay,
-            cover_rule: cover.map_or(default_rule, CoverRule::Force),
+            opacity_rule: opacity.map_or(default_rule, OpacityRule::Force),
             needs_first_uv_set: style == Style::UvChecker,
         }
     }
 
-    /// How surfaces of a material cover what is behind them.
-    pub(super) fn material_cover_in_style(&self, material: &Material) -> Opacity {
-        match (self.cover_rule, material.alpha_mode) {
-            (CoverRule::Force(cover), _) => cover,
-            (CoverRule::ForceSolid, AlphaMode::Opaque | AlphaMode::Blend) => Opacity::Opaque,
-            _ => material_cover(material),
+    /// The opacity of a material's surfaces under the style.
+    pub(super) fn opacity(&self, material: &Material) -> Opacity {
+        match (self.opacity_rule, material.alpha_mode) {
+            (OpacityRule::Force(opacity), _) => opacity,
+            (OpacityRule::ForceOpaque, AlphaMode::Opaque | AlphaMode::Blend) => Opacity::Opaque,
+            _ => material_opacity(material),
         }
     }
 
-    /// The set of texture coordinates that vertices carry.
+    /// The index of the texture coordinates that vertices carry, if any.
     pub(super) fn uv_set(&self, material: &Material, primitive: &Primitive) -> Option<usize> {
         if self.needs_first_uv_set {
             (!primitive.uvs.is_empty()).then_some(0)
@@ -66,8 +71,9 @@ impl VertexInputs {
     }
 }
 
-/// How surfaces of a material cover what is behind them.
-pub(super) fn material_cover(material: &Material) -> Opacity {
+/// The opacity of a material: glTF's alpha mode, with transmission (`KHR_materials_transmission`)
+/// drawn as translucency.
+pub(super) fn material_opacity(material: &Material) -> Opacity {
     match material.alpha_mode {
         AlphaMode::Opaque if material.is_transmissive() => Opacity::Translucent,
         AlphaMode::Opaque => Opacity::Opaque,

@@ -1,22 +1,21 @@
-//! From the background that a scene file asks for to what is painted behind the models.
+//! Resolution of the background: a color, or a backdrop of a gradient or an image.
 
-use super::file::{BackgroundFile, EnvironmentFile, FitFile, SceneFile};
-use super::source_span::PathStep::{self, Field, Index};
+use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile};
 use super::surrounding_light::read_image_bytes;
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use model::import::decode_image;
 use shade::Backdrop;
 use shade::BackdropImage;
 use shade::Gradient;
-use shade::ImageFit;
-use shade::color::{parse_hex_color, parse_hex_srgb};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The most colours of a gradient.
+/// The most colors of a gradient.
 const MAX_GRADIENT_COLORS: usize = 16;
 /// The most pixels of a picture behind the models.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
+/// The path of the background in a scene file; viewports have their own.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
 impl SceneFile {
@@ -35,6 +34,7 @@ impl SceneFile {
         around.into_iter().chain(behind)
     }
 }
+/// An error that points into the background, at the value at the end of `rest`.
 
 fn background_error(
     origin: &Origin,
@@ -45,12 +45,8 @@ fn background_error(
     origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
 }
 
-fn color_error(origin: &Origin, rest: &[PathStep<'_>], text: &str) -> SceneError {
-    let help = Some("write #rgb or #rrggbb, such as #f4f1ea");
-    background_error(origin, rest, format!("`{text}` is no colour"), help)
-}
-
-/// What all samples begin with where nothing is drawn: linear, multiplied by alpha. Where a painting covers it, a colour of the paper that lines can be told from.
+/// The color that all samples are cleared to: linear, premultiplied by alpha. Behind a gradient or
+/// a picture it only serves to choose a color of lines that contrasts with it.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -62,47 +58,39 @@ pub(super) fn resolve_background_color(
             if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
         {
             let help = Some("add one, such as environment: Studio()");
-            let message = "the scene has no environment to be seen".to_owned();
+            let message = "the scene has no environment to show".to_owned();
             Err(background_error(origin, &[], message, help))
         }
         BackgroundFile::Environment { .. } => Ok([0.0, 0.0, 0.0, 1.0]),
-        BackgroundFile::Color(text) => {
-            parse_hex_color(text).map(opaque).ok_or_else(|| color_error(origin, &[], text))
-        }
+        BackgroundFile::Color(color) => Ok(opaque(color.to_linear())),
         BackgroundFile::Gradient { colors, angle_degrees } => {
             let angle = angle_degrees.value().to_radians();
             Ok(resolve_gradient(origin, colors, angle, file.image.size)?.center_color())
         }
-        BackgroundFile::Picture { color, .. } => match color {
-            None => Ok([0.0; 4]),
-            Some(text) => parse_hex_color(text)
-                .map(opaque)
-                .ok_or_else(|| color_error(origin, &[Field("color")], text)),
-        },
+        BackgroundFile::Picture { color, .. } => {
+            Ok(color.map_or([0.0; 4], |color| opaque(color.to_linear())))
+        }
     }
 }
 
+/// The gradient of `colors` in the direction `angle`, in radians.
 fn resolve_gradient(
     origin: &Origin,
-    colors: &[String],
+    colors: &[Color],
     angle: f64,
     (width, height): (u32, u32),
 ) -> Result<Gradient, SceneError> {
     if !(2..=MAX_GRADIENT_COLORS).contains(&colors.len()) {
-        let message = format!("a gradient cannot have {} colours", colors.len());
+        let message = format!("a gradient cannot have {} colors", colors.len());
         let help = Some("from 2 to 16 are possible; one alone is Color(\"#…\")");
         return Err(background_error(origin, &[Field("colors")], message, help));
     }
-    let numbered = colors.iter().enumerate();
-    let codes = numbered.map(|(at, text)| {
-        let at = [Field("colors"), Index(at)];
-        parse_hex_srgb(text).ok_or_else(|| color_error(origin, &at, text))
-    });
-    let codes = codes.collect::<Result<Vec<_>, _>>()?;
+    let codes: Vec<[u8; 3]> = colors.iter().map(|color| color.0).collect();
     Ok(Gradient::new(&codes, angle, [width, height]))
 }
 
-/// What is painted behind the models; `None` for plain backgrounds. A picture's file may lie in one of the `allowed` folders too.
+/// The gradient or image behind the models; `None` for plain backgrounds. An image file may lie in
+/// one of the `allowed` folders too.
 pub(super) fn resolve_backdrop(
     origin: &Origin,
     file: &SceneFile,
@@ -120,13 +108,8 @@ pub(super) fn resolve_backdrop(
             let image = decode_image(&bytes, MAX_IMAGE_TEXELS).map_err(|problem| {
                 background_error(origin, &[Field("path")], format!("{path}: {problem}"), None)
             })?;
-            let fit = match fit {
-                FitFile::Stretch => ImageFit::Stretch,
-                FitFile::Cover => ImageFit::Cover,
-                FitFile::Contain => ImageFit::Contain,
-            };
             let color = resolve_background_color(origin, file)?;
-            Backdrop::Image(BackdropImage::new(&image, fit, [width, height], color))
+            Backdrop::Image(BackdropImage::new(&image, *fit, [width, height], color))
         }
         _ => return Ok(None),
     };

@@ -1,10 +1,10 @@
-//! The way of a camera: its keys, and where it is between them.
+//! Camera paths: keyframes of a camera, and their interpolation by Catmull–Rom splines.
 
 use super::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
 };
 use super::number::Triple;
-use super::source_span::PathStep::{self, Field, Index};
+use super::syntax::PathStep::{self, Field, Index};
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
@@ -15,7 +15,7 @@ const MAX_KEYS: usize = 10_000;
 /// The numbers of a key: eye, target, view-up vector, opening angle in degrees.
 type KeyValues = [f64; 10];
 
-/// The way of a camera.
+/// The path of a camera in time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraPath {
     keys: Vec<(f64, KeyValues)>,
@@ -25,11 +25,11 @@ pub struct CameraPath {
 }
 
 impl CameraPath {
-    /// The way that a scene file has, if it has one.
+    /// The camera path of a scene file, if it has one.
     ///
     /// # Errors
-    /// If there are too few keys or too many, their times do not grow, or a key has an opening angle and the projection has none; the error
-    /// points at it.
+    /// If there are too few keys or too many, their times do not grow, or a key has an opening
+    /// angle and the projection has none; the error points at it.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
         let fault = |rest: &[PathStep<'_>], message: String, help: &str| {
@@ -53,7 +53,7 @@ impl CameraPath {
             }
         }
         let usual = match &file.camera.projection {
-            None => Some(FieldOfView::USUAL),
+            None => Some(FieldOfView::DEFAULT),
             Some(ProjectionFile::Perspective { fov_y_degrees, .. }) => Some(*fov_y_degrees),
             Some(_) => None,
         };
@@ -90,7 +90,7 @@ impl CameraPath {
         camera
     }
 
-    /// The same around models that are loaded, posed and placed.
+    /// The view-projection at a time, around models that are loaded and posed.
     pub(crate) fn view_projection_at(
         &self,
         origin: &Origin,
@@ -103,6 +103,9 @@ impl CameraPath {
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
+    /// The values at a time: those of the first and the last keyframe outside of their range, else
+    /// an interpolation of the keyframes around it, linear or by a cubic Hermite curve with
+    /// Catmull–Rom slopes.
 
     fn interpolate_keys(&self, time: f64) -> KeyValues {
         let after = self.keys.partition_point(|key| key.0 <= time);
@@ -122,13 +125,15 @@ impl CameraPath {
         })
     }
 
-    /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom, 1974, at unequal times).
+    /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom,
+    /// 1974, at unequal times).
     fn catmull_rom_slope(&self, at: usize, number: usize) -> f64 {
         let (start, from) = self.keys[at.saturating_sub(1)];
         let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];
         (to[number] - from[number]) / (end - start)
     }
 }
+/// The values of a keyframe; `usual` is the field of view of keyframes without one.
 
 fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];

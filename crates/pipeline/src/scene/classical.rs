@@ -1,12 +1,14 @@
-//! The classical projections of a scene: each finds a window in which everything is.
+//! The classical projections: axonometric, oblique, planometric, and perspectives by vanishing
+//! points. Each of them fits its own window around the models.
 //!
-//! Those that are given by a picture plane are framed on it: the points are projected, the box around their images is the window, and
-//! the box's depths the near and far planes. Those that are given by vanishing points on the picture fix how the eye looks and where
-//! the window is beside its line of sight; framing finds where the eye stands.
+//! - Projections by a picture plane: the vertices are projected, the box around their images is
+//!   the window, and the depths of that box are the near and far planes.
+//! - Perspectives by vanishing points: the points fix the orientation of the eye and the slopes of
+//!   the window beside its line of sight; framing finds the position of the eye.
 
-use super::SceneError;
-use super::file::{Finite, FromFile, PrincipalFile, ProjectionFile};
-use super::view_projection::CameraResolver;
+use super::file::{Finite, FromFile, ProjectionFile};
+use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};
+use super::{Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;
@@ -24,7 +26,8 @@ struct ProjectedBounds {
 }
 
 impl CameraResolver<'_> {
-    /// A classical projection of the models as seen from a side; the front, unless another is named.
+    /// A classical projection of the models as seen from a side; the front, unless another is
+    /// named.
     pub(super) fn frame_classical(
         &self,
         from: Option<&FromFile>,
@@ -48,9 +51,7 @@ impl CameraResolver<'_> {
         projection: &ProjectionFile,
     ) -> Result<ViewProjection, SceneError> {
         if vanishing_point_construction(projection).is_some() {
-            let help = "take Frame(from: …), or leave the view out".to_owned();
-            let message = "a perspective by vanishing points finds its own eye";
-            return Err(self.view_error(message, Some(help)));
+            return Err(own_eye_error(self.origin));
         }
         self.frame_on_picture_plane(camera, projection, 0.05)
     }
@@ -89,7 +90,8 @@ impl CameraResolver<'_> {
         padding: f64,
     ) -> Result<ViewProjection, SceneError> {
         let fault = |error: ProjectionError| self.projection_error(&error);
-        // The rows of the rotation are the eye's axes as the side from which the models are seen has them.
+        // The rows of the rotation are the eye's axes as the side from which the models are seen
+        // has them.
         let rows = construction.world_to_view().raw().transpose();
         let axis = |row: glam::DVec4| from.to_world(Vector::from_raw(row.truncate()));
         let basis = Basis::from_gaze(-axis(rows.z_axis), axis(rows.y_axis))
@@ -115,6 +117,32 @@ impl CameraResolver<'_> {
     }
 }
 
+/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points
+/// find their own eye: they need a view that is framed.
+pub(super) fn check_classical_projection(
+    origin: &Origin,
+    projection: Option<&ProjectionFile>,
+    is_framed: bool,
+) -> Option<SceneError> {
+    let projection = projection.filter(|projection| projection.is_classical())?;
+    let construction = vanishing_point_construction(projection);
+    if construction.is_some() && !is_framed {
+        return Some(own_eye_error(origin));
+    }
+    let error = match construction {
+        Some(construction) => construction.err()?,
+        None => picture_plane_projection(projection, 1.0).err()?,
+    };
+    Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None))
+}
+
+/// A perspective by vanishing points before a camera whose position is given.
+fn own_eye_error(origin: &Origin) -> SceneError {
+    let help = "take Frame(from: …), or leave the view out".to_owned();
+    let message = "a perspective by vanishing points finds its own eye";
+    origin.error_at(&VIEW_PATH, message, Some(help))
+}
+
 /// The construction, for the projections that are given by vanishing points.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
@@ -134,7 +162,8 @@ fn vanishing_point_construction(
     })
 }
 
-/// The projection that is given by its picture plane; `radius` is that of the models about the camera.
+/// The projection that is given by its picture plane; `radius` is that of the models about the
+/// camera.
 fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,
@@ -153,14 +182,14 @@ fn picture_plane_projection(
         ProjectionFile::Oblique { length, angle_degrees } => {
             Oblique::new(length.value(), phi(angle_degrees))?.into()
         }
-        ProjectionFile::Military { turn_degrees, height } => {
-            Planometric::new(turn_degrees.value().to_radians(), height.value())?.into()
+        ProjectionFile::Military { rotation_degrees, height } => {
+            Planometric::new(rotation_degrees.value().to_radians(), height.value())?.into()
         }
         ProjectionFile::NPoint { p, q, r } => {
             let [p, q, r] = [p, q, r].map(|entry| entry.value() / radius);
             NPoint::new(p, q, r)?.into()
         }
-        ProjectionFile::Multiview(view) => principal_view(view).into(),
+        ProjectionFile::Multiview(view) => view.into(),
         _ => PrincipalView::Front.into(),
     })
 }
@@ -168,17 +197,6 @@ fn picture_plane_projection(
 /// From (2, 3, 6), as the camera of that name sees.
 fn default_trimetric() -> Result<Axonometric, ProjectionError> {
     Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
-}
-
-fn principal_view(file: PrincipalFile) -> PrincipalView {
-    match file {
-        PrincipalFile::Front => PrincipalView::Front,
-        PrincipalFile::Back => PrincipalView::Back,
-        PrincipalFile::Left => PrincipalView::Left,
-        PrincipalFile::Right => PrincipalView::Right,
-        PrincipalFile::Top => PrincipalView::Top,
-        PrincipalFile::Bottom => PrincipalView::Bottom,
-    }
 }
 
 /// The greatest distance of a point from the camera; 1 if there is none.

@@ -1,9 +1,9 @@
-//! The places that a scene's geometry takes up: what framing and automatic depth ranges are made from.
+//! Depth range of a scene along the line of sight, for automatic near and far planes.
 
 use camera::Camera;
 use homog::{Point, World};
 
-/// How far along the gaze the scene begins and ends.
+/// The least and the greatest depth of the vertices, along the line of sight from the eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct DepthSpan {
     pub(super) nearest_depth: f64,
@@ -27,8 +27,9 @@ impl DepthSpan {
         }
     }
 
-    /// Near and far planes for an eye in front of which the scene lies or which is inside it: tight, with a hundredth of
-    /// room, the near plane no nearer than what depth can still tell apart.
+    /// Near and far planes of a perspective: tight around the vertices with a margin of 1 %. The near
+    /// plane is at least 1e-5 of the far distance away from the eye, because depth resolution falls
+    /// with the ratio of the two (ZP-1).
     pub(crate) fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =
             far.unwrap_or(if self.farthest_depth > 0.0 { self.farthest_depth * 1.01 } else { 1.0 });

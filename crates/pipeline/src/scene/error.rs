@@ -4,11 +4,11 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use core::fmt;
 use core::ops::Range;
 
-/// A fault of a scene file.
+/// A mistake in a scene file.
 ///
-/// Its `Display` shows the line with a mark under the fault:
+/// Its `Display` shows the line with a caret under the mistake:
 /// ```text
-/// error: unexpected field `traget` in `LookAt`
+/// unexpected field `traget` in `LookAt`
 ///  --> scene.ron:4:32
 ///   |
 /// 4 |     camera: (view: LookAt(eye: (4, 3, 5.5), traget: (0, 0, 0))),
@@ -17,36 +17,29 @@ use core::ops::Range;
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneError {
-    /// The scene file's path, or what stands for it.
+    /// The scene file's path, or the name of the model if there is no scene file.
     pub file: String,
-    /// The whole text; empty if there is none, for a bare model.
+    /// The whole text; empty for a model without a scene file.
     pub source: String,
-    /// The bytes of the text that the fault is in.
+    /// The bytes of the text that are wrong.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// A description of the mistake.
     pub message: String,
-    /// What to do about it.
+    /// How to correct it.
     pub help: Option<String>,
 }
 
 impl SceneError {
-    /// The line and column of the fault, both from 1; columns count characters.
+    /// The line and column of the mistake, both from 1; columns count characters.
     #[must_use]
     pub fn line_and_column(&self) -> (usize, usize) {
         let before = &self.source[..self.span.start];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
-}
 
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.to_message(false))
-    }
-}
-
-impl SceneError {
-    /// The message with the line and the mark; in colours of a terminal (ECMA-48), if they are wanted.
+    /// The message with the line and the caret; with the colors of a terminal (ECMA-48) if
+    /// `colors`.
     #[must_use]
     pub fn to_message(&self, colors: bool) -> String {
         if self.source.is_empty() {
@@ -66,7 +59,7 @@ impl SceneError {
         renderer.render(&[group])
     }
 
-    /// A mark over many lines hides more than it shows: keep it to the first.
+    /// The part of the span on its first line: carets under many lines hide more than they show.
     fn first_line_of_span(&self) -> Range<usize> {
         let marked = &self.source[self.span.clone()];
         let length = marked.find('\n').unwrap_or(marked.len());
@@ -74,4 +67,81 @@ impl SceneError {
     }
 }
 
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.to_message(false))
+    }
+}
+
 impl std::error::Error for SceneError {}
+
+/// The mistakes of a scene, at least one, in the order of the file. None of them follows from
+/// another.
+///
+/// Its `Display` shows the first [`SHOWN`](Self::SHOWN), and how many more there are.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SceneErrors {
+    first: SceneError,
+    others: Vec<SceneError>,
+}
+
+impl SceneErrors {
+    /// How many mistakes a message shows: more would scroll the first one off the screen.
+    pub const SHOWN: usize = 5;
+
+    /// The mistakes in this order; `None` if there are none.
+    #[must_use]
+    pub fn from_list(errors: Vec<SceneError>) -> Option<Self> {
+        let mut errors = errors.into_iter();
+        Some(Self { first: errors.next()?, others: errors.collect() })
+    }
+
+    /// The first mistake.
+    #[must_use]
+    pub const fn first(&self) -> &SceneError {
+        &self.first
+    }
+
+    /// All mistakes.
+    pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
+        std::iter::once(&self.first).chain(&self.others)
+    }
+
+    /// The messages of the first few mistakes, each but the first with `error: ` before it, and the
+    /// count of the others; with the colors of a terminal if `colors`.
+    #[must_use]
+    pub fn to_message(&self, colors: bool) -> String {
+        let error = if colors { "\x1b[1;31merror\x1b[0m: " } else { "error: " };
+        let messages: Vec<String> =
+            self.iter().take(Self::SHOWN).map(|mistake| mistake.to_message(colors)).collect();
+        let mut text = messages.join(&format!("\n\n{error}"));
+        let count = 1 + self.others.len();
+        if let Some(more) = count.checked_sub(Self::SHOWN).filter(|more| *more > 0) {
+            let mistakes = if more == 1 { "mistake" } else { "mistakes" };
+            text.push_str(&format!(
+                "\n\n… and {more} more {mistakes}; `alberti scene check` lists all"
+            ));
+        }
+        text
+    }
+}
+
+impl From<SceneError> for SceneErrors {
+    fn from(error: SceneError) -> Self {
+        Self { first: error, others: Vec::new() }
+    }
+}
+
+impl From<SceneErrors> for Vec<SceneError> {
+    fn from(errors: SceneErrors) -> Self {
+        std::iter::once(errors.first).chain(errors.others).collect()
+    }
+}
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.to_message(false))
+    }
+}
+
+impl std::error::Error for SceneErrors {}

@@ -1,43 +1,56 @@
-//! One layout for scene files: what fits on a line stands on a line, all else has a line for each part; comments stay.
+//! The formatter of scene files: one layout for all, with the words of today.
 //!
 //! ```text
-//!  text ─► tokens with the line breaks before them ─► groups of items ─► lines
+//!  text ─► older words replaced ─► tokens with the line breaks before them ─► groups of items ─► lines
 //! ```
-//! A bracket that is followed by a line break stays open: the writer decides what is worth several lines, and nothing changes
-//! when it is laid out again. Blank lines between items stay too, one at a time.
+//! A group that fits on a line is written on one line; everything else has a line for each part;
+//! comments stay. A bracket that is followed by a line break stays open: the author decides what is
+//! worth several lines, and formatting again changes nothing. Blank lines between items stay too,
+//! one at a time.
 
-mod tokens;
+mod modernize;
 mod tree;
 
-pub(super) use tokens::{TokenKind, tokenize as tokens};
-
-use super::{SceneError, parse_scene};
-use tree::{Element, Group, Item, Part};
+use super::syntax::tokenize;
+use super::{SceneError, SceneErrors, parse_scene};
+use modernize::replace_legacy_words;
+use tree::{Element, FormatGroup, FormatItem, Part};
 
 /// The longest line that is not broken.
 const MAX_LINE_WIDTH: usize = 100;
-/// Columns of a level.
+/// Columns of an indentation level.
 const INDENT_WIDTH: usize = 4;
 
-/// The text of a scene file in the usual layout. `file` is its name in messages.
+/// Formats the text of a scene file, and replaces words of older scene files. `file` is its name in
+/// messages.
+///
+/// ```
+/// let old = "(models: [(path: \"a.glb\", translate: (1, 2, 3))])";
+/// let new = pipeline::scene::format_source("scene.ron", old)?;
+/// assert_eq!(new, "(models: [(path: \"a.glb\", translation: (1, 2, 3))])\n");
+/// # Ok::<(), pipeline::SceneErrors>(())
+/// ```
 ///
 /// # Errors
-/// If the text is no scene file, or would say something else in another layout.
-pub fn format_source(file: &str, text: &str) -> Result<String, SceneError> {
-    let scene = parse_scene(file, text)?;
-    let top = tree::group_tokens(&tokens::tokenize(text));
+/// The mistakes in the text, if it is not a scene file; or if formatting would change what it
+/// means.
+pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
+    let text = replace_legacy_words(text);
+    let scene = parse_scene(file, &text)?;
+    let top = tree::group_tokens(&tokenize(&text));
     let mut page = String::new();
     write_items(&mut page, &top, 0, "");
     if parse_scene(file, &page).is_ok_and(|again| again == scene) {
         return Ok(page);
     }
     // No text is known that comes here; a person's file is not the place to find one.
-    let message = "this file cannot be laid out without changing what it says".to_owned();
-    Err(SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None })
+    let message = "this file cannot be formatted without changing what it means".to_owned();
+    let error = SceneError { file: file.into(), source: text, span: 0..0, message, help: None };
+    Err(error.into())
 }
 
-/// The items of a group, each on lines of its own; `comma` stands behind each element.
-fn write_items(page: &mut String, items: &[Item], indent: usize, comma: &str) {
+/// Writes the items of a group, each on lines of its own; `comma` stands behind each element.
+fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &str) {
     for (number, item) in items.iter().enumerate() {
         if item.blank_before && number > 0 {
             page.push('\n');
@@ -58,7 +71,8 @@ fn write_items(page: &mut String, items: &[Item], indent: usize, comma: &str) {
     }
 }
 
-/// An element that begins on the line at `line` of the page, with room for `behind` columns after it.
+/// Writes an element that begins on the line at byte `line` of the page, with `behind` columns
+/// after it.
 fn write_element(page: &mut String, element: &Element, indent: usize, line: usize, behind: usize) {
     for part in &element.parts {
         match part {
@@ -82,7 +96,7 @@ fn write_element(page: &mut String, element: &Element, indent: usize, line: usiz
 }
 
 /// A group on one line, if it can be.
-fn single_line(group: &Group) -> Option<String> {
+fn single_line(group: &FormatGroup) -> Option<String> {
     if group.multiline {
         return None;
     }

@@ -1,4 +1,4 @@
-//! The ground below the models: as much of it as their shadows may reach.
+//! The shadow catcher below the models: the smallest rectangle that their shadows need.
 
 use super::file::{GroundFile, SceneFile};
 use glam::DVec3;
@@ -7,14 +7,15 @@ use model::ModelInstance;
 use model::world_points;
 use shade::Light;
 
-/// A level rectangle that only shadows are seen on.
+/// A level rectangle that shows nothing but shadows.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ground {
     /// Its corners in the world, counter-clockwise from above.
     pub corners: [[f32; 3]; 4],
 }
 
-/// How many times the scene's diagonal shadows are followed: low suns cast longer ones, but who sees them?
+/// How many times the scene's diagonal shadows are followed: low suns cast longer ones, but who
+/// sees them?
 const MAX_SHADOW_DIAGONALS: f64 = 20.0;
 
 /// The ground of a scene, if it asks for one and there is something above it.
@@ -41,7 +42,8 @@ pub(super) fn resolve_ground(
     Some(Ground { corners: [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]] })
 }
 
-/// Where the shadow of a place falls on a level plane, no farther away than `reach`; `None` if it casts none on it.
+/// Where the shadow of a place falls on a level plane, no farther away than `reach`; `None` if it
+/// casts none on it.
 fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
     light.shadow()?;
     let travel = match light {

@@ -1,13 +1,16 @@
-//! Pictures of surroundings: the `.hdr` files of Ward's Radiance, an exponent for each three mantissas.
+//! Decoder of Radiance `.hdr` images (RGBE): one shared exponent for three mantissas.
 //!
-//! Source: G. Ward, *Real pixels*, Graphics Gems II, 1991, and the format's own description in Radiance's manual.
+//! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format in Radiance's
+//! manual. Both encodings of scanlines are read, flat with old-style runs and run-length encoded
+//! channels; only the orientation `-Y … +X …`. Sizes are checked against the length of the file
+//! before anything is allocated.
 
-/// The largest side of a picture.
+/// The most texels along a side of an image.
 const MAX_HDR_SIDE: usize = 16384;
-/// The most texels of a picture.
+/// The most texels of an image.
 const MAX_HDR_TEXELS: usize = 64 << 20;
 
-/// A picture of all directions: longitude along the rows, latitude from above to below. Linear.
+/// An equirectangular image: longitude along the rows, latitude from above to below. Linear.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Panorama {
     width: usize,
@@ -19,7 +22,7 @@ impl Panorama {
     /// Reads a file.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A description of the first error in the file.
     pub(crate) fn decode_hdr(bytes: &[u8]) -> Result<Self, String> {
         let (width, height, data) = parse_hdr_header(bytes)?;
         let fits = |side: usize| (1..=MAX_HDR_SIDE).contains(&side);
@@ -28,7 +31,8 @@ impl Panorama {
                 "the picture has {width} x {height} texels; each side has {MAX_HDR_SIDE} at most, all have {MAX_HDR_TEXELS}"
             ));
         }
-        // A row of any kind takes four bytes at least; of runs, four bytes and two for each 127 texels of a channel.
+        // A row of any kind takes four bytes at least; of runs, four bytes and two for each 127
+        // texels of a channel.
         if data.len() / 4 < height {
             return Err("the file ends before its picture does".to_owned());
         }
@@ -46,7 +50,8 @@ impl Panorama {
         Ok(panorama)
     }
 
-    /// The light from a direction, a unit vector: the middle of the picture is +x, its right quarter +z.
+    /// The light from a direction, a unit vector: the middle of the picture is +x, its right
+    /// quarter +z.
     pub(crate) fn sample_direction(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         use std::f32::consts::PI;
         let u = 0.5 + libm::atan2f(z, x) / (2.0 * PI);
@@ -76,6 +81,7 @@ impl Panorama {
         Self { width, height, texels: (0..width * height).map(texel).collect() }
     }
 }
+/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
 
 fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())
@@ -124,7 +130,8 @@ fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     }
 }
 
-/// Reads a row, and returns what follows it; `None` if the bytes end or a run is longer than the row.
+/// Reads a row, and returns what follows it; `None` if the bytes end or a run is longer than the
+/// row.
 fn read_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     let width = row.len();
     let (&start, rest) = bytes.split_first_chunk::<4>()?;

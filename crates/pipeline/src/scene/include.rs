@@ -1,25 +1,30 @@
-//! Scene files that include others: put together, with a note of which part is written where.
+//! Scene files that include others: merged into one scene, with a record of which part comes from
+//! which file.
 //!
 //! ```text
 //!  studio.ron ─┐
-//!  paper.ron ──┴─► what lies below ─┐
-//!  scene.ron ───────────────────────┴─► one scene; errors point into the file that says it
+//!  paper.ron ──┴─► merged includes ─┐
+//!  scene.ron ───────────────────────┴─► one scene; errors point into the file that is wrong
 //! ```
-//! Lists are joined, what is included first; of every other field the including file's goes before the included ones', whole.
+//! Lists are concatenated, included files first; every other field of the including file replaces
+//! the included ones', whole.
 
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
+use super::mistake::Mistake;
 use super::origin::{normalize_path, read_scene_text};
-use super::source_span::PathStep::{self, Field, Index};
-use super::source_span::{has_field, span_of};
-use super::{Origin, ResolveError, SceneError, SceneFile, parse_scene};
+use super::parse::{ParsedScene, parse_recovering, strip_byte_order_mark};
+use super::syntax::PathStep::{self, Field, Index};
+use super::syntax::{parse_tree, span_of};
+use super::{Origin, SceneError, SceneFile};
+use core::ops::Range;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The most files that one scene includes, each counted as often as it is.
+/// The most files that one scene includes, each counted as often as it is included.
 const MAX_INCLUDED_FILES: usize = 64;
 
-/// The fields of a scene that are taken whole.
-const REPLACED_FIELDS: [&str; 10] = [
+/// The fields of a scene that are replaced whole.
+const REPLACED_FIELDS: [&str; 11] = [
     "camera",
     "shadows",
     "ground",
@@ -27,24 +32,28 @@ const REPLACED_FIELDS: [&str; 10] = [
     "ambient_occlusion",
     "style",
     "image",
+    "passes",
     "sheet",
     "camera_path",
     "stereo",
 ];
 
-/// Which parts of a scene are written in which included file. What is not here is in the scene file itself.
+/// For each element of a list of the scene the included file it is from, and its index there.
+type ElementSources = BTreeMap<&'static str, Vec<(Option<usize>, usize)>>;
+
+/// The sources of the parts of a scene. A part without an entry is in the scene file itself.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct IncludeMap {
     /// Name and text of each included file.
     files: Vec<(String, String)>,
-    /// For each field that is taken whole the file it is in, by number.
+    /// For each field that is replaced whole the index of the file it is from.
     fields: BTreeMap<&'static str, Option<usize>>,
-    /// For each element of a list the file it is in, and its number there.
-    lists: BTreeMap<&'static str, Vec<(Option<usize>, usize)>>,
+    lists: ElementSources,
 }
 
 impl IncludeMap {
-    /// Name and text of the included file that the value at the end of `path` is written in, and its path there.
+    /// Name and text of the included file that the value at the end of `path` is written in, and
+    /// its path there.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
@@ -61,133 +70,165 @@ impl IncludeMap {
         let source = file.and_then(|file| self.files.get(file));
         (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
     }
+    /// The names of the included files, in the order in which they were read.
+
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|(name, _)| name.as_str())
+    }
+    /// The texts of the included files, in the order in which they were read.
 
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }
 }
 
-/// The scene of a file and all that it includes.
-pub(super) fn gather_includes(
-    origin: &Origin,
-    allowed: &[PathBuf],
-) -> Result<(SceneFile, IncludeMap), ResolveError> {
-    let own = parse_scene(&origin.file, &origin.text)?;
-    if own.include.0.is_empty() {
-        return Ok((own, IncludeMap::default()));
-    }
-    let mut gatherer = IncludeResolver { origin, allowed, written: IncludeMap::default() };
-    let page =
+/// A mistake in one of the files of a scene.
+pub(super) struct FileMistake {
+    pub(super) error: SceneError,
+    /// The bytes of the field or element that is wrong: nothing else is reported of it.
+    pub(super) scope: Range<usize>,
+}
+
+/// A scene with everything it includes.
+pub(super) struct GatheredScene {
+    /// The scene, without the parts that could not be read.
+    pub(super) file: SceneFile,
+    pub(super) includes: IncludeMap,
+    /// The mistakes of the scene file, then those of the included files in the order in which they
+    /// were read.
+    pub(super) mistakes: Vec<FileMistake>,
+}
+
+/// Parses the text of a scene and the files that it includes.
+pub(super) fn gather_includes(origin: &Origin, allowed: &[PathBuf]) -> GatheredScene {
+    let mut resolver =
+        IncludeResolver { origin, allowed, includes: IncludeMap::default(), mistakes: Vec::new() };
+    let source =
         SourceFile { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
     let own_path = origin.folder.join(Path::new(&origin.file).file_name().unwrap_or_default());
     let mut open = vec![(normalize_path(Path::new(""), &own_path), origin.file.clone())];
-    let layer = gatherer.merge_includes(own, &page, &mut open)?;
-    let MergedScene { file, fields, lists } = layer;
-    Ok((file, IncludeMap { fields, lists, ..gatherer.written }))
+    let MergedScene { file, fields, lists } = resolver.parse_source(&source, &mut open);
+    let IncludeResolver { includes, mistakes, .. } = resolver;
+    GatheredScene { file, includes: IncludeMap { fields, lists, ..includes }, mistakes }
 }
 
 /// A file that is being read.
 struct SourceFile<'a> {
-    /// Its number, if it is included.
+    /// Its index, if it is included.
     file: Option<usize>,
     name: &'a str,
     text: &'a str,
-    /// Its folder, from that of the scene on.
+    /// Its folder, relative to that of the scene.
     folder: &'a Path,
 }
 
-/// What one file says together with all that it includes.
+impl SourceFile<'_> {
+    /// A mistake in the path of an include.
+    fn include_mistake(&self, index: usize, message: String, help: Option<&str>) -> FileMistake {
+        let span = span_of(self.text, &[Field("include"), Index(index)]);
+        let mistake = Mistake::new(span, message, help.map(str::to_owned));
+        FileMistake { error: mistake.to_error(self.name, self.text), scope: mistake.scope }
+    }
+}
+
+/// A file merged with everything it includes.
 #[derive(Default)]
 struct MergedScene {
     file: SceneFile,
     fields: BTreeMap<&'static str, Option<usize>>,
-    lists: BTreeMap<&'static str, Vec<(Option<usize>, usize)>>,
+    lists: ElementSources,
 }
+/// Reads included files depth first, and collects the mistakes in all of them.
 
 struct IncludeResolver<'a> {
     origin: &'a Origin,
     allowed: &'a [PathBuf],
-    written: IncludeMap,
+    includes: IncludeMap,
+    mistakes: Vec<FileMistake>,
 }
 
 impl IncludeResolver<'_> {
-    /// A file with what it includes below it. `open` are the files that are being read, each with its name.
-    fn merge_includes(
+    /// Parses a file and merges it over what it includes. `open` are the files that are being read,
+    /// each with its name.
+    fn parse_source(
         &mut self,
-        mut file: SceneFile,
-        page: &SourceFile<'_>,
+        source: &SourceFile<'_>,
         open: &mut Vec<(PathBuf, String)>,
-    ) -> Result<MergedScene, ResolveError> {
+    ) -> MergedScene {
+        let text = strip_byte_order_mark(source.text);
+        let ParsedScene { scene: mut file, mistakes, retained } = parse_recovering(text);
+        self.mistakes.extend(mistakes.into_iter().map(|mistake| FileMistake {
+            error: mistake.to_error(source.name, text),
+            scope: mistake.scope,
+        }));
         let mut below = MergedScene::default();
-        for (number, include) in std::mem::take(&mut file.include).0.iter().enumerate() {
-            let fault = |message: String, help: Option<String>| SceneError {
-                file: page.name.to_owned(),
-                source: page.text.to_owned(),
-                span: span_of(page.text, &[Field("include"), Index(number)]),
-                message,
-                help,
-            };
-            let inner = self.load_include(&page.folder.join(include), open, fault)?;
-            below = merge_scenes(below, inner);
+        for (index, include) in std::mem::take(&mut file.include).0.iter().enumerate() {
+            match self.load_include(&source.folder.join(include), open) {
+                Ok(inner) => below = merge_scenes(below, inner),
+                Err((message, help)) => {
+                    self.mistakes.push(source.include_mistake(index, message, help));
+                }
+            }
         }
-        rebase_paths(&mut file, page.folder);
-        let said = REPLACED_FIELDS.into_iter().filter(|field| has_field(page.text, field));
-        let elements = |count: usize| (0..count).map(|at| (page.file, at)).collect::<Vec<_>>();
-        let lists = [
-            ("models", elements(file.models.len())),
-            ("lights", elements(file.lights.as_ref().map_or(0, Vec::len))),
-            ("overlays", elements(file.overlays.len())),
-            ("sections", elements(file.sections.len())),
-            ("viewports", elements(file.viewports.len())),
-        ];
-        let fields = said.map(|field| (field, page.file)).collect();
-        Ok(merge_scenes(below, MergedScene { file, fields, lists: lists.into() }))
+        rebase_paths(&mut file, source.folder);
+        let fields = top_level_fields(source.text);
+        let fields = REPLACED_FIELDS.into_iter().filter(|field| fields.contains(field));
+        let fields = fields.map(|field| (field, source.file)).collect();
+        let of_source =
+            |indices: Vec<usize>| indices.into_iter().map(|at| (source.file, at)).collect();
+        let lists =
+            retained.into_iter().map(|(list, indices)| (list, of_source(indices))).collect();
+        merge_scenes(below, MergedScene { file, fields, lists })
     }
 
-    /// An included file; `path` is its place from the scene's folder on.
+    /// An included file, merged over what it includes; `path` is relative to the scene's folder.
     fn load_include(
         &mut self,
         path: &Path,
         open: &mut Vec<(PathBuf, String)>,
-        fault: impl Fn(String, Option<String>) -> SceneError,
-    ) -> Result<MergedScene, ResolveError> {
-        let shown = path.display();
+    ) -> Result<MergedScene, (String, Option<&'static str>)> {
         if !self.origin.allows_path(path, self.allowed) {
             let help = "keep included files below the scene's folder, or allow another with --allow-outside DIR";
-            let message = format!("the path \"{shown}\" leads out of the scene's folder");
-            return Err(fault(message, Some(help.to_owned())).into());
+            let message =
+                format!("the path \"{}\" leads out of the scene's folder", path.display());
+            return Err((message, Some(help)));
         }
-        if self.written.files.len() == MAX_INCLUDED_FILES {
-            let message = format!("the scene includes more than {MAX_INCLUDED_FILES} files");
-            return Err(fault(message, None).into());
+        if self.includes.files.len() == MAX_INCLUDED_FILES {
+            return Err((format!("the scene includes more than {MAX_INCLUDED_FILES} files"), None));
         }
         let whole = self.origin.folder.join(path);
-        let place = normalize_path(Path::new(""), &whole);
+        let normalized = normalize_path(Path::new(""), &whole);
         let name = whole.display().to_string();
-        if let Some(first) = open.iter().position(|(other, _)| *other == place) {
+        if let Some(first) = open.iter().position(|(other, _)| *other == normalized) {
             let names = open[first..].iter().map(|(_, name)| name.as_str()).chain([name.as_str()]);
             let circle = names.collect::<Vec<_>>().join(" → ");
-            let help = Some("remove one of these includes".to_owned());
-            return Err(fault(format!("the file includes itself: {circle}"), help).into());
+            let help = Some("remove one of these includes");
+            return Err((format!("the file includes itself: {circle}"), help));
         }
-        let help = "check the path: it begins at the folder of this file".to_owned();
-        let text = read_scene_text(&whole).map_err(|error| fault(error.to_string(), Some(help)))?;
-        let file = parse_scene(&name, &text)?;
-        let number = self.written.files.len();
-        self.written.files.push((name.clone(), text.clone()));
+        let help = Some("check the path: it begins at the folder of this file");
+        let text = read_scene_text(&whole).map_err(|error| (error.to_string(), help))?;
+        let index = self.includes.files.len();
+        self.includes.files.push((name.clone(), text.clone()));
         let folder = path.parent().unwrap_or(Path::new(""));
-        open.push((place, name.clone()));
-        let layer = self.merge_includes(
-            file,
-            &SourceFile { file: Some(number), name: &name, text: &text, folder },
-            open,
-        )?;
+        open.push((normalized, name.clone()));
+        let source = SourceFile { file: Some(index), name: &name, text: &text, folder };
+        let merged = self.parse_source(&source, open);
         open.pop();
-        Ok(layer)
+        Ok(merged)
     }
 }
 
-/// Makes the paths of a file in `folder` paths from the scene's own folder on. Every field that holds a path belongs here.
+/// The names of the fields that a scene's text gives.
+fn top_level_fields(text: &str) -> Vec<&str> {
+    let root = parse_tree(text).root;
+    let group = root.as_ref().and_then(|root| root.group());
+    let keys =
+        group.into_iter().flat_map(|group| &group.items).filter_map(|item| item.key.as_ref());
+    keys.map(|key| key.name).collect()
+}
+
+/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds
+/// a path belongs here.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;
@@ -206,9 +247,9 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     }
 }
 
-/// Two layers as one.
+/// Merges a scene over another.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
-    // All fields by name: who adds one to the scene decides here whether it is joined or replaced.
+    // All fields by name, so that a new field of the scene has to be concatenated or replaced here.
     let SceneFile {
         include,
         models,
@@ -263,6 +304,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     }
     MergedScene { file, fields, lists }
 }
+/// Both lists in one, the included one first.
 
 fn concat_lists<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
     below.into_iter().chain(above).collect()

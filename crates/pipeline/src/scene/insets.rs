@@ -9,7 +9,7 @@
 
 use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile};
 use super::number::Positive;
-use super::source_span::PathStep::{Field, Index};
+use super::syntax::PathStep::{Field, Index};
 use super::{Origin, ResolveError, Scene, SceneError};
 use camera::ViewProjection;
 use drawing::Ink;
@@ -18,14 +18,14 @@ use homog::PixelRect;
 use homog::{Bounds, Point, Projective};
 use model::ModelInstance;
 use model::world_points;
-use shade::color::parse_hex_srgb;
 use std::path::PathBuf;
 
 /// More viewports than this are a slip.
 const MAX_VIEWPORTS: usize = 256;
 /// The widest border in pixels.
 const MAX_BORDER_WIDTH: u32 = 1000;
-/// How many times as far away as the eyes are apart the plane of convergence is, if nothing is said: the usual rule of stereographers.
+/// How many times as far away as the eyes are apart the plane of convergence is, if nothing is
+/// said: the usual rule of stereographers.
 const CONVERGENCE_PER_EYE_DISTANCE: f64 = 30.0;
 
 /// A rectangle of a picture with a view of its own.
@@ -37,7 +37,7 @@ pub struct Inset {
     pub border: Option<(Ink, u32)>,
     /// Whether only its green and blue are shown, over what is there.
     pub cyan_only: bool,
-    /// What is seen in it; its picture has the rectangle's size.
+    /// The scene in it; its image has the rectangle's size.
     pub scene: Scene,
 }
 
@@ -85,7 +85,8 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
     }
 }
 
-fn resolve_viewport_rect(
+/// The pixels of a viewport.
+pub(super) fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
@@ -94,7 +95,7 @@ fn resolve_viewport_rect(
     let place = |field: &'static str| [Field("viewports"), Index(number), Field(field)];
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {
-            let [x, y, w, h] = [x, y, w, h].map(super::number::Share::value);
+            let [x, y, w, h] = [x, y, w, h].map(super::number::Fraction::value);
             // Rounded border by border, so that neighbours meet.
             let run = |from: f64, length: f64, side: u32| {
                 let end = libm::round((from + length) * f64::from(side));
@@ -131,7 +132,8 @@ fn resolve_viewport_rect(
     Err(origin.error_at(&place(field), message, Some(help).filter(|_| field == "at")))
 }
 
-fn resolve_border(
+/// The color and the width of a viewport's border.
+pub(super) fn resolve_border(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
@@ -143,14 +145,11 @@ fn resolve_border(
         let help = Some(format!("from 1 to {MAX_BORDER_WIDTH} are possible"));
         return Err(origin.error_at(&place("width"), message, help));
     }
-    let ink = parse_hex_srgb(&border.color).ok_or_else(|| {
-        let help = Some("write #rgb or #rrggbb, such as #1a1f26".to_owned());
-        origin.error_at(&place("color"), format!("`{}` is no colour", border.color), help)
-    })?;
-    Ok(Some((ink, border.width)))
+    Ok(Some((border.color.0, border.width)))
 }
 
-/// What the left and the right eye see.
+/// The insets of a stereo pair: the left and the right eye's view, off-axis (zero vertical
+/// parallax).
 fn resolve_stereo(
     origin: &Origin,
     file: &SceneFile,
@@ -211,8 +210,9 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
     (depth > 0.0).then_some(depth)
 }
 
-/// The shot of an eye so far to the right of the camera, through a window that agrees with the camera's at a distance of `plane`: what
-/// the eye sees at a depth is moved as far as the eye was, times that depth over the plane's.
+/// The shot of an eye so far to the right of the camera, through a window that agrees with the
+/// camera's at a distance of `plane`: what the eye sees at a depth is moved as far as the eye was,
+/// times that depth over the plane's.
 fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
     let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;
     let slant =
@@ -229,7 +229,7 @@ pub(super) fn is_viewport_field(field: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use camera::{Camera, StereoRig, Window};
+    use camera::{Camera, StereoRig, ViewWindow};
     use homog::Vector;
     use projection::{Convention, Frustum};
 
@@ -238,9 +238,9 @@ mod tests {
         let camera =
             Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
                 .expect("a camera");
-        let window = Window { left: -0.8, right: 1.0, bottom: -0.5, top: 0.5, distance: 1.0 };
-        let of = |window: Window| {
-            let Window { left, right, bottom, top, distance } = window;
+        let window = ViewWindow { left: -0.8, right: 1.0, bottom: -0.5, top: 0.5, distance: 1.0 };
+        let of = |window: ViewWindow| {
+            let ViewWindow { left, right, bottom, top, distance } = window;
             let frustum =
                 Frustum::new(left, right, bottom, top, distance, 50.0).expect("a frustum");
             frustum.view_to_clip(Convention::CHAPTER)

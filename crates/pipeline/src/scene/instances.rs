@@ -1,12 +1,12 @@
-//! The places of a model's copies: grids, circles and lists.
+//! Instances of a model: grids, circles and lists of transforms.
 //!
 //! ```text
-//!   model ─scale, turn─► ─each copy's own way─► ─translate─► world
+//!   model ─scale, rotate─► ─transform of the instance─► ─translate─► world
 //! ```
 
 use super::file::{Finite, InstanceFile, InstancesFile, ModelFile, SceneFile};
 use super::number::{Scale, Triple};
-use super::source_span::PathStep::{self, Field, Index};
+use super::syntax::PathStep::{self, Field, Index};
 use super::{Origin, SceneError};
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use model::Model;
@@ -15,8 +15,10 @@ use std::sync::Arc;
 
 /// The most copies of models in a scene.
 pub(super) const MAX_INSTANCES: usize = 100_000;
-/// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes each.
+/// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes
+/// each.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
+/// A transform of an instance within the space of its model.
 
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
@@ -51,10 +53,15 @@ impl ModelFile {
         }
     }
 }
+/// The path of a model's `instances`, and of a value in them.
 
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
+/// The count of a model's instances.
+///
+/// # Errors
+/// If there are none.
 
 fn checked_instance_count(
     origin: &Origin,
@@ -81,8 +88,8 @@ pub(super) fn instantiate_model(
     entry: &ModelFile,
     model: &Arc<Model>,
 ) -> Result<Vec<ModelInstance>, SceneError> {
-    let own = scale_then_rotate(entry.scale, entry.rotate_degrees);
-    let there = Affine::<ModelSpace, World>::translation(Vector::from(entry.translate.0));
+    let own = scale_then_rotate(entry.scale, entry.rotation_degrees);
+    let there = Affine::<ModelSpace, World>::translation(Vector::from(entry.translation.0));
     let Some(instances) = &entry.instances else {
         return Ok(vec![ModelInstance {
             model: Arc::clone(model),
@@ -106,20 +113,21 @@ pub(super) fn instantiate_model(
 }
 
 /// Scale, then turns about x, y and z.
-fn scale_then_rotate(scale: Scale, rotate_degrees: Triple) -> InstanceTransform {
+fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransform {
     let [sx, sy, sz] = scale.0;
-    let [rx, ry, rz] = rotate_degrees.0.map(f64::to_radians);
+    let [rx, ry, rz] = rotation_degrees.0.map(f64::to_radians);
     InstanceTransform::scale(sx, sy, sz)
         .then(InstanceTransform::rotation_x(rx))
         .then(InstanceTransform::rotation_y(ry))
         .then(InstanceTransform::rotation_z(rz))
 }
+/// A translation.
 
 fn translate_by(by: [f64; 3]) -> InstanceTransform {
     InstanceTransform::translation(Vector::from(by))
 }
 
-/// The way of each copy from where the model is.
+/// The transform of each instance, relative to the model.
 fn instance_transforms(
     origin: &Origin,
     number: usize,
@@ -131,12 +139,19 @@ fn instance_transforms(
         }
         InstancesFile::List(list) => {
             let way = |copy: &InstanceFile| {
-                scale_then_rotate(copy.scale, copy.rotate_degrees)
-                    .then(translate_by(copy.translate.0))
+                scale_then_rotate(copy.scale, copy.rotation_degrees)
+                    .then(translate_by(copy.translation.0))
             };
             Ok(list.iter().map(way).collect())
         }
-        InstancesFile::Circle { count, radius, axis, start_degrees, sweep_degrees, turned } => {
+        InstancesFile::Circle {
+            count,
+            radius,
+            axis,
+            start_degrees,
+            sweep_degrees,
+            rotate_copies,
+        } => {
             let at = || {
                 let help = Some("such as (0, 1, 0) for a level circle".to_owned());
                 let message = "the axis of the circle is (0, 0, 0), which is no direction";
@@ -144,7 +159,7 @@ fn instance_transforms(
             };
             let axis = normalize_vector(axis.0).ok_or_else(at)?;
             let angles = circle_angles(*count, *start_degrees, *sweep_degrees);
-            let ring = CircleLayout { axis, radius: radius.value(), turned: *turned };
+            let ring = CircleLayout { axis, radius: radius.value(), rotate_copies: *rotate_copies };
             angles.map(|angle| ring.transform_at(angle).ok_or_else(at)).collect()
         }
     }
@@ -171,11 +186,12 @@ fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item
     let steps = f64::from(if is_whole { count } else { count.saturating_sub(1).max(1) });
     (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
 }
+/// Instances on a circle around an axis through the origin.
 
 struct CircleLayout {
     axis: [f64; 3],
     radius: f64,
-    turned: bool,
+    rotate_copies: bool,
 }
 
 impl CircleLayout {
@@ -183,14 +199,15 @@ impl CircleLayout {
     fn transform_at(&self, angle: f64) -> Option<InstanceTransform> {
         let turn = InstanceTransform::rotation(Vector::from(self.axis), angle)?;
         let out = self.zero_degree_direction()?.map(|c| c * self.radius);
-        if self.turned {
+        if self.rotate_copies {
             return Some(translate_by(out).then(turn));
         }
         let there = turn.transform_vector(Vector::from(out)).raw();
         Some(translate_by(there.to_array()))
     }
 
-    /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y about the axis x, of z in doubt.
+    /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y
+    /// about the axis x, of z in doubt.
     fn zero_degree_direction(&self) -> Option<[f64; 3]> {
         let [x, y, z] = self.axis;
         let candidates = [([1.0, 0.0, 0.0], x), ([0.0, 1.0, 0.0], y), ([0.0, 0.0, 1.0], z)];
@@ -198,6 +215,7 @@ impl CircleLayout {
         normalize_vector([from[0] - along * x, from[1] - along * y, from[2] - along * z])
     }
 }
+/// The vector with length 1; `None` if it is 0.
 
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled first, so that no square leaves the range of numbers.
@@ -233,7 +251,7 @@ mod tests {
     #[test]
     fn a_grid_begins_at_the_model_and_runs_along_x_first() {
         let places = instance_points(
-            "translate: (10, 0, 0), scale: 2, instances: Grid(count: (2, 1, 2), step: (3, 0, -5))",
+            "translation: (10, 0, 0), scale: 2, instances: Grid(count: (2, 1, 2), step: (3, 0, -5))",
         );
         let expected = [[10.0, 0.0, 2.0], [13.0, 0.0, 2.0], [10.0, 0.0, -3.0], [13.0, 0.0, -3.0]];
         assert_eq!(places.expect("places"), expected);
@@ -248,7 +266,7 @@ mod tests {
             [[2.0, 0.0, 1.0], [1.0, 0.0, -2.0], [-2.0, 0.0, -1.0], [-1.0, 0.0, 2.0]]
         );
         let still = instance_points(
-            "translate: (0, 1, 0), instances: Circle(count: 2, radius: 2, turned: false)",
+            "translation: (0, 1, 0), instances: Circle(count: 2, radius: 2, rotate_copies: false)",
         );
         assert_eq!(still.expect("places"), [[2.0, 1.0, 1.0], [-2.0, 1.0, 1.0]]);
         let arc = "instances: Circle(count: 3, radius: 1, axis: (0, 0, 5), sweep_degrees: 180, start_degrees: 90)";
@@ -258,8 +276,7 @@ mod tests {
 
     #[test]
     fn a_listed_copy_is_scaled_then_turned_then_moved() {
-        let list =
-            "instances: List([(scale: 3, rotate_degrees: (0, 90, 0), translate: (0, 0, 1)), ()])";
+        let list = "instances: List([(scale: 3, rotation_degrees: (0, 90, 0), translation: (0, 0, 1)), ()])";
         assert_eq!(instance_points(list).expect("places"), [[3.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
     }
 

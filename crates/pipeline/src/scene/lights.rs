@@ -1,15 +1,17 @@
 //! From the lights that a scene file asks for to those that drawing needs.
 
-use super::file::{Finite, LightFile, SceneFile, ShadowsFile};
-use super::number::Positive;
+use super::file::{Finite, LightColor, LightFile, SceneFile, ShadowsFile};
+use super::number::{NonNegative, Positive, Triple};
 use super::shadows::resolve_shadow;
-use super::source_span::PathStep::{Field, Index};
+use super::syntax::PathStep::{Field, Index};
 use super::{Origin, SceneError};
 use camera::ViewProjection;
 use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
 use shade::{Light, Shadow};
+/// The lights of a scene: those of the file, or of the models, or a default key light with ambient
+/// light where nothing else would light the models.
 
 pub(super) fn resolve_lights(
     origin: &Origin,
@@ -43,7 +45,8 @@ pub(super) fn resolve_lights(
     Ok(resolved)
 }
 
-/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make them brighter.
+/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make
+/// them brighter.
 fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
@@ -68,10 +71,13 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a quarter as much ambient.
+/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a
+/// quarter as much ambient.
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
     vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
+/// A directional light from the upper left of the camera, so that all visible sides differ in
+/// brightness.
 
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
@@ -80,72 +86,120 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light of the file, with the scene's shadows where it says nothing of its own; `None` for those of the models.
-pub(super) fn resolve_light(
+/// A light of the file, with the scene's shadows unless it has its own; `None` for those of the
+/// models.
+fn resolve_light(
     origin: &Origin,
-    number: usize,
+    index: usize,
     light: &LightFile,
     shadow: Option<Shadow>,
 ) -> Result<Option<Light>, SceneError> {
     let range = |range: Option<Positive>| range.map_or(f32::INFINITY, |range| range.value() as f32);
-    let direction_of = |direction: [f64; 3], whose: &str| {
-        Vector::<World>::from(direction).normalized().ok_or_else(|| {
-            let at = [Field("lights"), Index(number), Field("direction")];
-            let help = Some("such as (-1, -2, -1): from the right, above and before".to_owned());
-            origin.error_at(
-                &at,
-                format!("the {whose}'s direction is (0, 0, 0), which is none"),
-                help,
-            )
-        })
-    };
-    let own = |file: Option<ShadowsFile>| {
-        let at = [Field("lights"), Index(number), Field("shadows")];
-        file.map_or(Ok(shadow), |file| resolve_shadow(origin, Some(&file), &at))
-    };
-    let times = |strength: f64, color: [f64; 3]| color.map(|channel| (channel * strength) as f32);
+    let single = |point: [f64; 3]| point.map(|c| c as f32);
+    let own_shadow = |file| resolve_light_shadow(origin, index, file, shadow);
     Ok(Some(match *light {
         LightFile::FromModels => return Ok(None),
-        LightFile::Sun { direction, lux, color, shadows } => {
-            let towards = -direction_of(direction.0, "sun")?;
-            let towards = towards.raw().as_vec3().to_array();
+        LightFile::Directional { direction, intensity, color, shadows } => {
+            let to_light = -resolve_direction(origin, index, direction)?;
             Light::Sun {
-                to_light: towards,
-                lux: times(lux.value(), color.0),
-                shadow: own(shadows)?,
+                to_light: to_light.raw().as_vec3().to_array(),
+                lux: scale_color(color, intensity),
+                shadow: own_shadow(shadows)?,
             }
         }
-        LightFile::Spot {
-            position,
-            direction,
-            candela,
-            inner_degrees,
-            outer_degrees,
-            range: end,
-            color,
-            shadows,
-        } => {
-            let axis = direction_of(direction.0, "spot")?.raw().as_vec3().to_array();
-            let inner = inner_degrees.map_or(0.0, Finite::value);
-            let outer = outer_degrees.map_or(45.0, Finite::value);
-            if !(inner >= 0.0 && inner < outer && outer <= 90.0) {
-                let at = [Field("lights"), Index(number), Field("outer_degrees")];
-                let message =
-                    format!("a spot cannot be full up to {inner} degrees and end at {outer}");
-                let help = Some("0 <= inner_degrees < outer_degrees <= 90".to_owned());
-                return Err(origin.error_at(&at, message, help));
+        LightFile::Spot { position, direction, intensity, color, shadows, .. } => {
+            let axis = resolve_direction(origin, index, direction)?.raw().as_vec3().to_array();
+            Light::Spot {
+                position: single(position.0),
+                axis,
+                candela: scale_color(color, intensity),
+                range: range(light.range()),
+                cosines: resolve_cone(origin, index, light)?,
+                shadow: own_shadow(shadows)?,
             }
-            let cosines = [inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32);
-            let position = position.0.map(|c| c as f32);
-            let candela = times(candela.value(), color.0);
-            let shadow = own(shadows)?;
-            Light::Spot { position, axis, candela, range: range(end), cosines, shadow }
         }
-        LightFile::Point { position, candela, range: end, color } => Light::Point {
-            position: position.0.map(|c| c as f32),
-            candela: times(candela.value(), color.0),
-            range: range(end),
+        LightFile::Point { position, intensity, color, .. } => Light::Point {
+            position: single(position.0),
+            candela: scale_color(color, intensity),
+            range: range(light.range()),
         },
-        LightFile::Ambient { lux, color } => Light::Ambient { lux: times(lux.value(), color.0) },
+        LightFile::Ambient { intensity, color } => {
+            Light::Ambient { lux: scale_color(color, intensity) }
+        }
     }))
+}
+
+/// Every mistake of a light of the file.
+pub(super) fn check_light(origin: &Origin, index: usize, light: &LightFile) -> Vec<SceneError> {
+    let (direction, shadows) = match *light {
+        LightFile::Directional { direction, shadows, .. }
+        | LightFile::Spot { direction, shadows, .. } => (direction, shadows),
+        LightFile::Point { .. } | LightFile::FromModels | LightFile::Ambient { .. } => {
+            return Vec::new();
+        }
+    };
+    let direction = resolve_direction(origin, index, direction).err();
+    let cone = resolve_cone(origin, index, light).err();
+    let shadow = resolve_light_shadow(origin, index, shadows, None).err();
+    direction.into_iter().chain(cone).chain(shadow).collect()
+}
+
+impl LightFile {
+    /// The distance at which no light arrives any more, if it is given.
+    const fn range(&self) -> Option<Positive> {
+        match self {
+            Self::Point { range, .. } | Self::Spot { range, .. } => *range,
+            Self::Directional { .. } | Self::FromModels | Self::Ambient { .. } => None,
+        }
+    }
+}
+
+/// The unit vector in which a light travels.
+fn resolve_direction(
+    origin: &Origin,
+    index: usize,
+    direction: Triple,
+) -> Result<Vector<World>, SceneError> {
+    Vector::<World>::from(direction.0).normalized().ok_or_else(|| {
+        let path = [Field("lights"), Index(index), Field("direction")];
+        let help = "such as (-1, -2, -1): from the right, above and the front".to_owned();
+        origin.error_at(&path, "the direction of the light is (0, 0, 0)", Some(help))
+    })
+}
+
+/// The cosines of the inner and the outer cone angle of a spot; those of the defaults for other
+/// lights.
+fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
+    let (inner, outer) = match *light {
+        LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {
+            (inner_cone_degrees, outer_cone_degrees)
+        }
+        _ => (None, None),
+    };
+    let inner = inner.map_or(0.0, Finite::value);
+    let outer = outer.map_or(45.0, Finite::value);
+    if inner >= 0.0 && inner < outer && outer <= 90.0 {
+        return Ok([inner, outer].map(|angle| libm::cos(angle.to_radians()) as f32));
+    }
+    let path = [Field("lights"), Index(index), Field("outer_cone_degrees")];
+    let message =
+        format!("the falloff of a spot cannot begin at {inner} degrees and end at {outer}");
+    let help = "0 <= inner_cone_degrees < outer_cone_degrees <= 90".to_owned();
+    Err(origin.error_at(&path, message, Some(help)))
+}
+
+/// The shadows of a light: its own, or the scene's.
+fn resolve_light_shadow(
+    origin: &Origin,
+    index: usize,
+    own: Option<ShadowsFile>,
+    of_scene: Option<Shadow>,
+) -> Result<Option<Shadow>, SceneError> {
+    let path = [Field("lights"), Index(index), Field("shadows")];
+    own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
+}
+/// The light of a color at an intensity, in the unit of the intensity.
+
+fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
+    color.0.map(|channel| (channel * intensity.value()) as f32)
 }

@@ -1,13 +1,15 @@
-//! What makes sense in a scene and is still probably not meant: a camera inside of a model, a picture of nothing.
+//! Lints: scenes that are valid and still probably not what is meant, such as a camera inside of a
+//! model, or a picture of nothing.
 //!
-//! Everything here is found by looking: the points, lines and triangles of the scene go through its camera and its view volume
-//! (CL-1), once, and what became of them is compared with what the file says.
+//! Every lint looks at the result: the points, lines and triangles of the scene go through its
+//! camera and are clipped against its view volume once (CL-1), and the counts are compared with
+//! what the file says.
 
 mod depth;
 mod visibility_survey;
 
 use super::file::{ProjectionFile, ViewFile};
-use super::source_span::PathStep::{Field, Index};
+use super::syntax::PathStep::{Field, Index};
 use super::view_projection::select_lens;
 use super::{Origin, Scene, SceneError, SceneFile, Style};
 use clip::PlaneIndex;
@@ -15,19 +17,19 @@ use homog::Point;
 use model::CameraProjection;
 use visibility_survey::VisibilitySurvey;
 
-/// Two shapes of pictures differ if their ratios do by more than this part.
+/// Aspect ratios that differ by no more than this fraction count as equal.
 const ASPECT_TOLERANCE: f64 = 0.01;
 
-/// Something that is probably not meant.
+/// A warning about a valid scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lint {
     /// A name for programs, lower case with hyphens.
     pub code: &'static str,
-    /// What it is, where, and what to do about it.
+    /// The message, its place in the file, and the remedy.
     pub error: SceneError,
 }
 
-/// What is probably not meant in a scene that could be resolved.
+/// The lints of a scene that could be resolved, in the order of the file.
 #[must_use]
 pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
     let viewer = scene.view_projection.viewer().divide();
@@ -48,7 +50,7 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice
 }
 
-/// What advice is made from.
+/// The scene under inspection, in every form that the lints need.
 struct Linter<'a> {
     origin: &'a Origin,
     file: &'a SceneFile,
@@ -57,6 +59,7 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
+    /// The name of a model in messages.
     fn model_name(&self, model: usize) -> &str {
         &self.scene.models[model].model.name
     }
@@ -144,7 +147,7 @@ impl Linter<'_> {
             return None;
         }
         let message = "there is no light: surfaces will be black";
-        let help = "leave `lights` out, or add one: lights: [Sun(direction: (-1, -2, -1), lux: 3), Ambient(lux: 1)]";
+        let help = "leave `lights` out, or add one: lights: [Directional(direction: (-1, -2, -1), intensity: 3), Ambient(intensity: 1)]";
         let fault = self.origin.error_at(&[Field("lights")], message, Some(help.to_owned()));
         Some(Lint { code: "no-light", error: fault })
     }
@@ -179,7 +182,7 @@ impl Linter<'_> {
         }
     }
 
-    /// What to do if nothing is seen.
+    /// How to bring the models into the view volume.
     fn suggest_visibility_fix(&self, survey: &VisibilitySurvey) -> String {
         let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
         let span = survey.depth_range();

@@ -1,11 +1,13 @@
-//! What a scene file changes of a model's materials, once it is loaded and posed.
+//! Material overrides: changes of a model's materials, once it is loaded and posed.
+//!
+//! An override replaces factors of metallic-roughness materials. The texture of a replaced factor
+//! goes with it, because glTF multiplies the two: red paint on a blue texture would be black.
 
-use super::file::{AlphaModeFile, MaterialFile, MaterialsFile};
-use super::messages::suggest_name;
-use super::source_span::PathStep::{self, Field, Index};
+use super::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
+use super::suggest::suggest_name;
+use super::syntax::PathStep::{self, Field, Index};
 use super::{Origin, SceneError};
 use model::{AlphaMode, Emission, Material, Model};
-use shade::color::parse_hex_color;
 
 /// Changes the materials of the model with this number in the scene.
 pub(super) fn override_materials(
@@ -19,7 +21,7 @@ pub(super) fn override_materials(
             origin,
             path: [Field("models"), Index(number), Field("materials"), Index(at)],
         };
-        let change = MaterialOverride::from_file(&place, change)?;
+        let change = MaterialOverride { file: change };
         for material in select_materials(&place, &change.file.of, model)? {
             change.apply_to(&mut model.materials[material]);
         }
@@ -34,20 +36,9 @@ struct OverridePath<'a> {
 }
 
 impl OverridePath<'_> {
+    /// An error that points at a field of the override.
     fn error_at(&self, field: &str, message: String, help: Option<String>) -> SceneError {
         self.origin.error_at(&[&self.path[..], &[Field(field)]].concat(), message, help)
-    }
-
-    fn parse_color(
-        &self,
-        field: &str,
-        text: Option<&String>,
-    ) -> Result<Option<[f32; 3]>, SceneError> {
-        let Some(text) = text else { return Ok(None) };
-        parse_hex_color(text).map(Some).ok_or_else(|| {
-            let help = Some("write #rgb or #rrggbb, such as #c9a227".to_owned());
-            self.error_at(field, format!("`{text}` is no colour"), help)
-        })
     }
 }
 
@@ -99,25 +90,17 @@ fn assign_missing_materials(model: &mut Model) {
     }
 }
 
-/// A change whose colours have been read.
+/// An override of one material.
 struct MaterialOverride<'a> {
     file: &'a MaterialFile,
-    base_color: Option<[f32; 3]>,
-    emissive: Option<[f32; 3]>,
 }
 
-impl<'a> MaterialOverride<'a> {
-    fn from_file(place: &OverridePath<'_>, file: &'a MaterialFile) -> Result<Self, SceneError> {
-        Ok(Self {
-            file,
-            base_color: place.parse_color("base_color", file.base_color.as_ref())?,
-            emissive: place.parse_color("emissive", file.emissive.as_ref())?,
-        })
-    }
-
+impl MaterialOverride<'_> {
+    /// Replaces the given fields of a material. Textures of replaced fields go, unless
+    /// `keep_textures` multiplies them by the given values.
     fn apply_to(&self, material: &mut Material) {
         let Self { file, .. } = self;
-        if let Some([r, g, b]) = self.base_color {
+        if let Some([r, g, b]) = file.base_color.map(Color::to_linear) {
             material.base_color = [r, g, b, material.base_color[3]];
         }
         if let Some(alpha) = file.alpha {
@@ -143,29 +126,31 @@ impl<'a> MaterialOverride<'a> {
             self.remove_overridden_textures(material);
         }
     }
+    /// Replaces the emitted light: the color, its strength, or both. Their product is what shading
+    /// reads.
 
     fn apply_emission(&self, material: &mut Material) {
         let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);
-        if let Some(color) = self.emissive {
+        if let Some(color) = self.file.emissive.map(Color::to_linear) {
             material.emission = Emission { color, strength: 1.0 };
         }
         if let Some(strength) = strength {
             material.emission.strength = strength;
         }
-        if self.emissive.is_some() || strength.is_some() {
+        if self.file.emissive.is_some() || strength.is_some() {
             material.emissive = material.emission.scaled_color();
         }
     }
 
     /// Textures of what is given.
     fn remove_overridden_textures(&self, material: &mut Material) {
-        if self.base_color.is_some() {
+        if self.file.base_color.is_some() {
             material.base_color_texture = None;
         }
         if self.file.metallic.is_some() || self.file.roughness.is_some() {
             material.metallic_roughness_texture = None;
         }
-        if self.emissive.is_some() {
+        if self.file.emissive.is_some() {
             material.emissive_texture = None;
         }
     }

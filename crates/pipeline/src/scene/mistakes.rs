@@ -1,26 +1,32 @@
-//! Tests: mistakes people make in scene files, and what they are told.
+//! Tests: mistakes that people make in scene files, and the messages they get.
 
-use super::parse_scene;
+mod vocabulary;
 
-/// What is wrong, where (line and column), and the help.
-fn told(source: &str) -> (String, (usize, usize), String) {
-    let error = parse_scene("scene.ron", source).expect_err(source);
-    let text = error.to_string();
-    let (line, column) = error.line_and_column();
-    // An empty file has no line to show.
-    let place = format!("scene.ron:{line}:{column}");
-    assert!(source.is_empty() || text.contains(&place), "{text}");
-    (error.message.clone(), (line, column), error.help.unwrap_or_default())
+use super::{SceneErrors, format_source, parse_scene};
+
+/// Message, line and column, and help of each mistake.
+fn mistakes(source: &str) -> Vec<(String, (usize, usize), String)> {
+    let errors: SceneErrors = parse_scene("scene.ron", source).expect_err(source);
+    let mistakes = errors.iter().map(|error| {
+        let (line, column) = error.line_and_column();
+        let text = error.to_string();
+        // An empty file has no line to show.
+        let location = format!("scene.ron:{line}:{column}");
+        assert!(source.is_empty() || text.contains(&location), "{text}");
+        (error.message.clone(), (line, column), error.help.clone().unwrap_or_default())
+    });
+    mistakes.collect()
 }
 
+/// Expects one mistake, and no other.
 #[track_caller]
-fn check(source: &str, message: &str, place: (usize, usize), help: &str) {
-    let expected = (message.to_owned(), place, help.to_owned());
-    assert_eq!(told(source), expected, "{source}");
+fn check(source: &str, message: &str, location: (usize, usize), help: &str) {
+    let expected = (message.to_owned(), location, help.to_owned());
+    assert_eq!(mistakes(source), [expected], "{source}");
 }
 
 /// A scene with one more field behind the models.
-fn with(field: &str) -> String {
+fn scene_with(field: &str) -> String {
     format!("Scene(\n  models: [(path: \"a.glb\")],\n  {field}\n)")
 }
 
@@ -30,22 +36,22 @@ fn near_misses_are_answered_with_the_name_that_was_meant() {
         "Scene(models: [Model(path: \"a.glb\", rotate: (0, 30, 0))])",
         "unexpected field `rotate` in `Model`",
         (1, 37),
-        "did you mean `rotate_degrees`?",
+        "did you mean `rotation_degrees`?",
     );
     check(
-        &with("camera: (view: LookAt(eye: (4, 3, 5.5), traget: (0, 0, 0))),"),
+        &scene_with("camera: (view: LookAt(eye: (4, 3, 5.5), traget: (0, 0, 0))),"),
         "unexpected field `traget` in `LookAt`",
         (3, 43),
         "did you mean `target`?",
     );
     check(
-        &with("camera: (projection: Perspectiv(fov_y_degrees: 18)),"),
+        &scene_with("camera: (projection: Perspectiv(fov_y_degrees: 18)),"),
         "unexpected `Perspectiv` for `Projection`",
         (3, 24),
         "did you mean `Perspective`?",
     );
     check(
-        &with("style: Hatched"),
+        &scene_with("style: Hatched"),
         "unexpected `Hatched` for `Style`",
         (3, 10),
         "possible here: `Shaded`, `Flat`, `Gouraud`, `Clay`, `Matcap`, `Normals`, `Depth`, `UvChecker`, `Ids`, `Toon`, `XRay`, `Wireframe`, `Lines`",
@@ -54,17 +60,17 @@ fn near_misses_are_answered_with_the_name_that_was_meant() {
 
 #[test]
 fn numbers_out_of_range_are_named_with_their_path() {
-    let place = |field: &str| (3, field.find('?').expect("a mark") + 3);
+    let location = |field: &str| (3, field.find('?').expect("a mark") + 3);
     for (field, value, message) in [
         (
-            "lights: [Ambient(lux: ?)]",
+            "lights: [Ambient(intensity: ?)]",
             "-1",
-            "`lights[0].Ambient.lux`: expected 0 or a greater number, found -1",
+            "`lights[0].Ambient.intensity`: expected 0 or a greater number, found -1",
         ),
         (
-            "lights: [Ambient(lux: ?)]",
+            "lights: [Ambient(intensity: ?)]",
             "inf",
-            "`lights[0].Ambient.lux`: expected 0 or a greater number, found inf",
+            "`lights[0].Ambient.intensity`: expected 0 or a greater number, found inf",
         ),
         (
             "camera: (view: LookTo(eye: (0, ?, 0), gaze: (0, 0, 1)))",
@@ -97,15 +103,15 @@ fn numbers_out_of_range_are_named_with_their_path() {
             "`camera.projection.Perspective.near`: expected a number greater than 0, found 0",
         ),
     ] {
-        check(&with(&field.replace('?', value)), message, place(field), "");
+        check(&scene_with(&field.replace('?', value)), message, location(field), "");
     }
 }
 
 #[test]
-fn faults_of_grammar_are_pointed_at() {
+fn errors_of_grammar_are_pointed_at() {
     let begin = "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
     check("", "the file is empty", (1, 1), begin);
-    check("[]", "this is no scene", (1, 1), begin);
+    check("[]", "this is not a scene", (1, 1), begin);
     check("Scene(", "the file ends too early", (1, 6), "close the `(` of line 1");
     check(
         "Scene(models: [(path: \"a.glb\")]) more",
@@ -121,33 +127,156 @@ fn faults_of_grammar_are_pointed_at() {
     );
     check(
         "Scene(models: [(path: a)])",
-        "`models[0].path`: expected a text",
+        "`models[0].path`: expected a string, found `a`",
         (1, 23),
-        "texts stand in quotation marks: \"like this\"",
+        "strings are written in quotation marks: \"a\"",
     );
-    let commas = "whole numbers have no decimal point; fields and elements are parted by commas";
     check(
-        &with("image: (size: (800.5, 600))"),
-        "expected a comma or a closing bracket here",
-        (3, 21),
-        commas,
+        &scene_with("image: (size: (800.5, 600))"),
+        "`image.size[0]`: expected a whole number, found `800.5`",
+        (3, 18),
+        "such as 4, without a decimal point",
     );
 }
 
+/// After an error of grammar the parser goes on, and reports no error that follows from it.
 #[test]
-fn deep_nesting_and_binary_rubbish_are_errors_like_others() {
-    let _ = told(&"(".repeat(100_000));
-    let _ = told(&format!("Scene(models: {}", "[".repeat(100_000)));
-    let _ = told("\u{0}\u{1}\u{7f}");
-    let _ = told("Scene(models: [(path: \"ä\\u{110000}\")])");
+fn errors_of_grammar_do_not_hide_others_nor_cause_them() {
+    let comma = "expected a comma or a closing bracket here";
+    for (source, expected) in [
+        ("(models: [(path: \"a.glb\")] style: Falt)", vec![(1, 28, comma), (1, 35, "unexpected")]),
+        ("(models: [(path: \"a.glb\")), style: Falt)", vec![(1, 26, comma), (1, 36, "unexpected")]),
+        (
+            "(models: [(path: \"a.glb\"), style: Falt, image: ())",
+            vec![(1, 10, "this `[` is not closed"), (1, 35, "unexpected")],
+        ),
+        ("(models: [(path: \"a.glb\"], style: Falt)", vec![(1, 25, comma), (1, 35, "unexpected")]),
+        (
+            "(style = Falt, models: [(path \"a.glb\")])",
+            vec![
+                (1, 8, "expected a colon here"),
+                (1, 10, "unexpected"),
+                (1, 31, "expected a colon here"),
+            ],
+        ),
+        (
+            "(models: [], style: , image: (sise: (1, 1)))",
+            vec![(1, 21, "expected a value here"), (1, 31, "unexpected field")],
+        ),
+        ("(models: [(path: \"a.glb)], style: Falt)", vec![(1, 18, "the string that begins here")]),
+        (
+            "(models: [(path: \"a.glb\"], camera: (view: Frame()",
+            vec![(1, 25, comma), (1, 49, "the file ends too early")],
+        ),
+    ] {
+        let found = mistakes(source);
+        let found: Vec<_> = found.iter().map(|(text, at, _)| (at.0, at.1, text.as_str())).collect();
+        assert_eq!(found.len(), expected.len(), "{source}: {found:?}");
+        for (found, expected) in found.iter().zip(expected) {
+            let is_expected = (found.0, found.1) == (expected.0, expected.1);
+            assert!(is_expected && found.2.starts_with(expected.2), "{source}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn deep_nesting_and_binary_garbage_are_errors_like_others() {
+    let _ = mistakes(&"(".repeat(100_000));
+    let _ = mistakes(&format!("Scene(models: {}", "[".repeat(100_000)));
+    let _ = mistakes("\u{0}\u{1}\u{7f}");
+    let _ = mistakes("Scene(models: [(path: \"ä\\u{110000}\")])");
+}
+
+/// No cut of a text breaks the parser, and every mistake points into the text.
+#[test]
+fn every_prefix_of_a_scene_is_parsed() {
+    let source = "#![enable(implicit_some)]\n// A (comment.\nScene(models: [Model(path: r#\"ä\"#), (path: \"c\\\"(.glb\", translation: [1, -2.5, 3e-2])], /* a /* b */ */ camera: (view: LookAt(eye: (4, 3, 6), target: (0, 1, 0))), style: Lines(width: Iso(0.5)))";
+    assert!(parse_scene("s.ron", source).is_ok(), "{:?}", parse_scene("s.ron", source));
+    for (cut, _) in source.char_indices() {
+        let text = &source[..cut];
+        let errors = parse_scene("s.ron", text).expect_err(text);
+        for error in errors.iter() {
+            assert!(text.get(error.span.clone()).is_some(), "{text}: {error:?}");
+        }
+    }
+}
+
+#[test]
+fn numbers_have_the_notations_of_ron() {
+    let far = |text: &str| {
+        let scene = parse_scene(
+            "s.ron",
+            &scene_with(&format!("camera: (projection: Orthographic(far: {text}))")),
+        );
+        let projection = scene.map(|scene| scene.camera.projection);
+        match projection {
+            Ok(Some(super::file::ProjectionFile::Orthographic { far: Some(far), .. })) => {
+                Some(far.value())
+            }
+            _ => None,
+        }
+    };
+    for (text, expected) in [
+        ("1", 1.0),
+        ("+1.5", 1.5),
+        ("-.5", -0.5),
+        ("2.", 2.0),
+        ("1_000", 1000.0),
+        ("0xff", 255.0),
+        ("0b101", 5.0),
+        ("-0o17", -15.0),
+        ("1e3", 1000.0),
+        ("1.5E-2", 0.015),
+        ("Some(4)", 4.0),
+    ] {
+        assert_eq!(far(text), Some(expected), "{text}");
+    }
+    for text in ["1..2", "1x", "--1", "0x", "0xgg", "1e", "infinity", "nan", "_1", "1-2"] {
+        assert_eq!(far(text), None, "{text}");
+    }
 }
 
 #[test]
 fn what_is_left_out_has_a_default_and_marks_of_other_editors_do_not_hurt() {
     let short = parse_scene(
         "s.ron",
-        "\u{feff}(models: [(path: \"a.glb\", scale: (1, 2, 3), translate: [1, 2, 3])])\r\n",
+        "\u{feff}(models: [(path: \"a.glb\", scale: (1, 2, 3), translation: [1, 2, 3])])\r\n",
     );
     let scene = short.expect("a short scene");
-    assert_eq!(scene, parse_scene("s.ron", "Scene(models: [Model(path: \"a.glb\", translate: (1, 2, 3), scale: (1, 2, 3), rotate_degrees: (0, 0, 0))], camera: Camera(), image: Image())").expect("a long scene"));
+    let long = "Scene(models: [Model(path: \"a.glb\", translation: (1, 2, 3), scale: (1, 2, 3), rotation_degrees: (0, 0, 0))], camera: Camera(), image: Image(), stereo: None)";
+    assert_eq!(scene, parse_scene("s.ron", long).expect("a long scene"));
+}
+
+#[test]
+fn older_scene_files_are_rewritten() {
+    let old = "(\n models: [(path: \"a.glb\", translate: (1, 2, 3), instances: List([(rotate_degrees: (0, 9, 0))]))],\n lights: [Sun(direction: (0, -1, 0), lux: 1), Spot(position: (0, 1, 0), direction: (0, -1, 0), candela: 2, inner_degrees: 3)],\n style: Lines(tone: Blank, shown: Facets), // tone: Blank\n sheet: (unit: Metre, axonometric: None),\n)";
+    let new = format_source("s.ron", old).expect("a scene");
+    for word in [
+        "translation: (1, 2, 3)",
+        "rotation_degrees: (0, 9, 0)",
+        "Directional(direction: (0, -1, 0), intensity: 1)",
+        "intensity: 2",
+        "inner_cone_degrees: 3",
+        "Lines(face_fill: None, edges: Facets), // tone: Blank",
+        "unit: Meter, axonometric_view: None",
+    ] {
+        assert!(new.contains(word), "{word}: {new}");
+    }
+    let errors = parse_scene("s.ron", old).expect_err("older words");
+    assert!(
+        errors.iter().all(|error| error.to_string().contains("`alberti scene fmt` rewrites")),
+        "{errors}"
+    );
+}
+
+/// Twelve different mistakes are twelve messages, in the order of the text.
+#[test]
+fn all_mistakes_come_at_once() {
+    let source = include_str!("mistakes/twelve.ron");
+    let found = mistakes(source);
+    let lines: Vec<usize> = found.iter().map(|(_, (line, _), _)| *line).collect();
+    let marked = source.lines().enumerate().filter(|(_, line)| line.contains("// mistake"));
+    let expected: Vec<usize> = marked.map(|(index, _)| index + 1).collect();
+    assert_eq!(lines, expected, "{found:#?}");
+    assert_eq!(lines.len(), 12);
 }

@@ -1,41 +1,9 @@
-//! Numbers of scene files: each type admits what makes sense and names the rest.
+//! Numbers of scene files: each type admits the values that make sense in its fields.
 //!
 //! RON itself accepts `NaN`, `inf` and `1e400`; none of these types does.
 
-use core::fmt;
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
-
-macro_rules! checked_number {
-    ($(#[$doc:meta])* $name:ident, $expected:literal, $allowed:expr) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, PartialEq, Debug)]
-        pub struct $name(f64);
-
-        impl $name {
-            /// The number itself.
-            #[must_use]
-            pub const fn value(self) -> f64 {
-                self.0
-            }
-
-            /// The number as one of this kind; `None` if it is none.
-            #[must_use]
-            pub fn new(value: f64) -> Option<Self> {
-                let allowed: fn(f64) -> bool = $allowed;
-                (value.is_finite() && allowed(value)).then_some(Self(value))
-            }
-        }
-
-        impl<'de> Deserialize<'de> for $name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let value = f64::deserialize(deserializer)?;
-                Self::new(value).ok_or_else(|| {
-                    D::Error::custom(format_args!("expected {}, found {value}", $expected))
-                })
-            }
-        }
-    };
-}
+use super::schema::{Checker, Declared, SceneValue, Shape, TypeEntry, ValueType, checked_number};
+use super::syntax::{Group, Node, NodeKind};
 
 checked_number! {
     /// Any number that is neither infinite nor NaN.
@@ -50,58 +18,55 @@ checked_number! {
     NonNegative, "0 or a greater number", |x| x >= 0.0
 }
 checked_number! {
-    /// An opening angle in degrees, between 0 and 180, both excluded.
+    /// A field of view in degrees, between 0 and 180, both excluded.
     FieldOfView, "an angle between 0 and 180 degrees", |x| x > 0.0 && x < 180.0
 }
-
 checked_number! {
-    /// A part of a whole in per cent, from 0 to 100.
+    /// A fraction in percent, from 0 to 100.
     Percent, "a number from 0 to 100", |x| (0.0..=100.0).contains(&x)
 }
 checked_number! {
-    /// A part of a whole, from 0 to 1.
-    Share, "a number from 0 to 1", |x| (0.0..=1.0).contains(&x)
+    /// A fraction, from 0 to 1.
+    Fraction, "a number from 0 to 1", |x| (0.0..=1.0).contains(&x)
 }
 checked_number! {
-    /// How large a light looks, in degrees across, from 0 to 30.
+    /// The angle that a light subtends in the sky, in degrees, from 0 to 30.
     Softness, "an angle from 0 to 30 degrees", |x| (0.0..=30.0).contains(&x)
 }
-
 checked_number! {
     /// An angle between two faces in degrees, from 0 to 180.
-    Crease, "an angle from 0 to 180 degrees", |x| (0.0..=180.0).contains(&x)
+    CreaseAngle, "an angle from 0 to 180 degrees", |x| (0.0..=180.0).contains(&x)
 }
-
 checked_number! {
-    /// The distance between lines of hatching in millimetres, from 0.1 to 1000.
-    Spacing, "a distance from 0.1 to 1000 millimetres", |x| (0.1..=1000.0).contains(&x)
+    /// The distance between hatch lines in millimeters, from 0.1 to 1000.
+    HatchSpacing, "a distance from 0.1 to 1000 millimeters", |x| (0.1..=1000.0).contains(&x)
 }
 
-impl Spacing {
-    /// 2 millimetres.
-    pub const USUAL: Self = Self(2.0);
+impl HatchSpacing {
+    /// 2 millimeters.
+    pub const DEFAULT: Self = Self(2.0);
 }
 
-impl Share {
-    /// A half.
+impl Fraction {
+    /// One half.
     pub const HALF: Self = Self(0.5);
 }
 
 impl Percent {
-    /// Nothing.
+    /// 0 %.
     pub const ZERO: Self = Self(0.0);
-    /// Eighty.
+    /// 80 %.
     pub const EIGHTY: Self = Self(80.0);
 }
 
-impl Crease {
+impl CreaseAngle {
     /// 30 degrees: a cylinder of twelve sides is still round.
-    pub const USUAL: Self = Self(30.0);
+    pub const DEFAULT: Self = Self(30.0);
 }
 
 impl Positive {
-    /// A number that is known to be greater than 0.
-    pub(super) const fn known(value: f64) -> Self {
+    /// A constant that is greater than 0.
+    pub(super) const fn constant(value: f64) -> Self {
         debug_assert!(value > 0.0, "a positive number is greater than 0");
         Self(value)
     }
@@ -114,8 +79,11 @@ impl Default for Finite {
 }
 
 impl Finite {
-    /// A number that is known to be finite.
-    pub(super) const fn known(value: f64) -> Self {
+    /// 0.
+    pub const ZERO: Self = Self(0.0);
+
+    /// A constant that is finite.
+    pub(super) const fn constant(value: f64) -> Self {
         debug_assert!(value.is_finite(), "a finite number is finite");
         Self(value)
     }
@@ -125,115 +93,127 @@ impl NonNegative {
     /// 1.
     pub const ONE: Self = Self(1.0);
 
-    /// 0.6, the studio's strength for bare models.
+    /// 0.6, the strength of the studio around a model without a scene file.
     pub const SIX_TENTHS: Self = Self(0.6);
 
-    /// 5, the usual margin in per cent.
+    /// 5, the default padding in percent.
     pub const FIVE: Self = Self(5.0);
 }
 
 impl FieldOfView {
-    /// 35 degrees: about what a picture covers that is held at arm's length and a half.
-    pub const USUAL: Self = Self(35.0);
+    /// 35 degrees: about what a picture covers that is viewed from one and a half times its height.
+    pub const DEFAULT: Self = Self(35.0);
 }
 
 impl Default for FieldOfView {
     fn default() -> Self {
-        Self::USUAL
+        Self::DEFAULT
     }
 }
 
-/// Three finite numbers: a point, a vector, angles or a colour. Written `(1, 2, 3)` or `[1, 2, 3]`.
+/// Three finite numbers: a point, a vector, or angles about three axes. Written `(1, 2, 3)` or `[1,
+/// 2, 3]`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Triple(pub [f64; 3]);
 
 impl Triple {
-    pub(super) fn y_axis() -> Self {
-        Self([0.0, 1.0, 0.0])
-    }
-
-    pub(super) fn ones() -> Self {
-        Self([1.0; 3])
-    }
+    /// (0, 0, 0).
+    pub(super) const ZERO: Self = Self([0.0; 3]);
+    /// (0, 1, 0), up in glTF.
+    pub(super) const Y_AXIS: Self = Self([0.0, 1.0, 0.0]);
+    /// (1, 1, 1).
+    pub(super) const ONES: Self = Self([1.0; 3]);
 }
 
-impl<'de> Deserialize<'de> for Triple {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(TripleVisitor).map(Self)
-    }
+impl Declared for Triple {
+    const ENTRY: &'static TypeEntry = &TypeEntry {
+        name: "Triple",
+        doc: "Three finite numbers: a point, a vector, or angles about three axes. Written `(1, 2, 3)` or `[1, 2, 3]`.",
+        shape: Shape::Plain,
+    };
 }
 
-struct TripleVisitor;
-
-impl<'de> Visitor<'de> for TripleVisitor {
-    type Value = [f64; 3];
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("three numbers, such as (1, 2, 3)")
+impl SceneValue for Triple {
+    fn value_type() -> ValueType {
+        ValueType::Declared(Self::ENTRY)
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[f64; 3], A::Error> {
-        let mut numbers = [0.0; 3];
-        let mut found = 0;
-        while let Some(number) = seq.next_element::<Finite>()? {
-            if let Some(place) = numbers.get_mut(found) {
-                *place = number.value();
+    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
+        match unnamed_group(node) {
+            Some(group) => read_three_numbers(node, group, checker).map(Self),
+            None => {
+                checker.report_type(node, "three numbers, such as (1, 2, 3)", None);
+                None
             }
-            found += 1;
         }
-        if found == 3 {
-            return Ok(numbers);
-        }
-        Err(A::Error::custom(format_args!("expected three numbers, found {found}")))
     }
 }
 
-/// A factor for each axis. Written as one number or as three.
+/// A factor for each axis; none of them is 0. Written as one number or as three.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Scale(pub [f64; 3]);
 
+impl Scale {
+    /// The factor 1 for each axis.
+    pub const ONE: Self = Self([1.0; 3]);
+}
+
 impl Default for Scale {
     fn default() -> Self {
-        Self([1.0; 3])
+        Self::ONE
     }
 }
 
-impl<'de> Deserialize<'de> for Scale {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let factors = deserializer.deserialize_any(ScaleVisitor)?;
-        if factors.iter().all(|f| f.is_finite() && *f != 0.0) {
-            return Ok(Self(factors));
+impl Declared for Scale {
+    const ENTRY: &'static TypeEntry = &TypeEntry {
+        name: "Scale",
+        doc: "A factor for each axis; none of them is 0. Written as one number or as three.",
+        shape: Shape::Plain,
+    };
+}
+
+impl SceneValue for Scale {
+    fn value_type() -> ValueType {
+        ValueType::Declared(Self::ENTRY)
+    }
+
+    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
+        let expected = "one factor, such as 2, or three, such as (1, 2, 1)";
+        let factors = match unnamed_group(node) {
+            Some(group) => read_three_numbers(node, group, checker)?,
+            None => [checker.read_number(node, expected)?; 3],
+        };
+        let is_valid = factors.iter().all(|factor| factor.is_finite() && *factor != 0.0);
+        if !is_valid {
+            checker.report_value(node, "expected finite factors other than 0", None);
         }
-        Err(D::Error::custom("expected finite factors other than 0"))
+        is_valid.then_some(Self(factors))
     }
 }
 
-struct ScaleVisitor;
-
-impl<'de> Visitor<'de> for ScaleVisitor {
-    type Value = [f64; 3];
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("one factor, such as 2, or three, such as (1, 2, 1)")
+/// The group of a vector, in brackets of either kind.
+pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>> {
+    match &node.kind {
+        NodeKind::Group(group) if group.name.is_none() && group.open != '{' => Some(group),
+        _ => None,
     }
+}
 
-    fn visit_f64<E: Error>(self, factor: f64) -> Result<[f64; 3], E> {
-        Ok([factor; 3])
+/// Exactly three finite numbers.
+pub(super) fn read_three_numbers(
+    node: &Node<'_>,
+    group: &Group<'_>,
+    checker: &mut Checker<'_>,
+) -> Option<[f64; 3]> {
+    if group.items.len() != 3 {
+        let problem = format!("expected three numbers, found {}", group.items.len());
+        checker.report_value(node, &problem, None);
+        return None;
     }
-
-    fn visit_f32<E: Error>(self, factor: f32) -> Result<[f64; 3], E> {
-        Ok([f64::from(factor); 3])
-    }
-
-    fn visit_u64<E: Error>(self, factor: u64) -> Result<[f64; 3], E> {
-        Ok([factor as f64; 3])
-    }
-
-    fn visit_i64<E: Error>(self, factor: i64) -> Result<[f64; 3], E> {
-        Ok([factor as f64; 3])
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<[f64; 3], A::Error> {
-        TripleVisitor.visit_seq(seq)
-    }
+    let mut numbers = group.items.iter().enumerate();
+    let [x, y, z] = std::array::from_fn(|_| {
+        let (index, item) = numbers.next()?;
+        checker.read_element::<Finite>(index, item)
+    });
+    Some([x?.value(), y?.value(), z?.value()])
 }

@@ -1,9 +1,11 @@
-//! Where a scene comes from: a file with text and a folder, or a bare model and the program's flags.
+//! Where a scene comes from: a file with text and a folder, or a bare model and the program's
+//! flags.
 
-use super::include::{IncludeMap, gather_includes};
+use super::include::{GatheredScene, IncludeMap, gather_includes};
 use super::insets::is_viewport_field;
-use super::source_span::{PathStep, has_value, span_of};
-use super::{ResolveError, SceneError, SceneFile};
+use super::syntax::{PathStep, has_value, span_of};
+use super::validate::with_errors_of_description;
+use super::{ResolveError, SceneError, SceneErrors, SceneFile};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -44,43 +46,59 @@ impl Origin {
     /// Reads and parses a scene file and those it includes, which must lie below its folder.
     ///
     /// # Errors
-    /// If one cannot be read, is not UTF-8, is too long, or is no scene, or if files include each other.
+    /// If one cannot be read, is not UTF-8, is too long, or if files include each other; and every
+    /// mistake in their texts.
     pub fn read_scene(path: &Path) -> Result<(Self, SceneFile), ResolveError> {
         Self::read_scene_allowing(path, &[])
     }
 
-    /// Reads and parses a scene file and those it includes, which must lie below its folder or one that is `allowed`.
+    /// Reads and parses a scene file and those it includes, which must lie below its folder or one
+    /// that is `allowed`.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// As [`read_scene`](Self::read_scene).
     pub fn read_scene_allowing(
         path: &Path,
         allowed: &[PathBuf],
     ) -> Result<(Self, SceneFile), ResolveError> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let text = read_scene_text(path)?;
-        Self::parse_with_includes(
-            Self::from_text(path.display().to_string(), text, folder),
-            allowed,
-        )
+        Self::from_text(path.display().to_string(), text, folder).parse_with_includes(allowed)
     }
 
-    /// Parses a scene's text and the files it includes, which must lie below its folder or one that is `allowed`.
+    /// Parses a scene's text and the files it includes, which must lie below its folder or one that
+    /// is `allowed`.
+    ///
+    /// If there are mistakes in the texts, what could be read is resolved as far as that is
+    /// possible without the models, so that all mistakes come at once.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// As [`read_scene`](Self::read_scene).
     pub fn parse_with_includes(
         mut self,
         allowed: &[PathBuf],
     ) -> Result<(Self, SceneFile), ResolveError> {
-        let (file, written) = gather_includes(&self, allowed)?;
-        self.includes = written;
-        Ok((self, file))
+        let GatheredScene { file, includes, mistakes } = gather_includes(&self, allowed);
+        self.includes = includes;
+        if mistakes.is_empty() {
+            return Ok((self, file));
+        }
+        let errors = with_errors_of_description(&self, &file, mistakes, allowed);
+        match SceneErrors::from_list(errors) {
+            Some(errors) => Err(ResolveError::Scene(errors)),
+            None => Ok((self, file)),
+        }
     }
 
     /// The texts of the files that are included, in the order in which they were read.
     pub fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.includes.included_texts()
+    }
+
+    /// The names of the scene file and of the files it includes, in the order in which they were
+    /// read.
+    pub(super) fn included_files(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(self.file.as_str()).chain(self.includes.names())
     }
 
     /// The origin of a scene that is just one model, with every default.
@@ -92,16 +110,18 @@ impl Origin {
         (Self::from_text(file, "", folder), SceneFile::from_model_path(name))
     }
 
-    /// The origin of a scene that is just one model, whose file is in memory and complete in itself.
+    /// The origin of a scene that is just one model, whose file is in memory and complete in
+    /// itself.
     #[must_use]
     pub fn from_model_bytes(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
         let origin = Self::from_text(name, "", PathBuf::new());
         (Self { model: Some(bytes.into()), ..origin }, SceneFile::from_model_path(name.to_owned()))
     }
 
-    /// Whether a model of a scene file may be read: it must be below the file's folder, or below one of those that are
-    /// `allowed`, by its path and by where symbolic links lead. A path that leads elsewhere is refused without looking whether
-    /// something is there. A bare model may be anywhere: a person has named it.
+    /// Whether a model of a scene file may be read: it must be below the file's folder, or below
+    /// one of those that are `allowed`, by its path and by where symbolic links lead. A path that
+    /// leads elsewhere is refused without looking whether something is there. A bare model may be
+    /// anywhere: a person has named it.
     #[must_use]
     pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
         if self.text.is_empty() {
@@ -117,7 +137,8 @@ impl Origin {
         holds(&wanted) && wanted.canonicalize().map_or(true, |path| holds(&path))
     }
 
-    /// The same where a viewport is spoken of: errors point at what it says itself before what the scene says.
+    /// The origin for a viewport: errors point at the viewport's own fields, and at those of the
+    /// scene where it has none.
     pub(super) fn for_viewport(&self, number: usize) -> Self {
         Self { viewport: Some(number), ..self.clone() }
     }

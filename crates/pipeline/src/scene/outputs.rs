@@ -1,11 +1,10 @@
-//! What is written of a scene's picture: how many bits its channels have, and which passes go with it.
+//! Outputs of a scene: the bits per channel, and the passes that are written beside the picture.
 
-use super::file::{PassEncodingFile, PassFile};
-use super::source_span::PathStep::Field;
+use super::syntax::PathStep::Field;
 use super::{Origin, SceneError, SceneFile};
 use crate::render::passes::{Pass, PassEncoding};
 
-/// What is written of a scene's picture.
+/// The outputs of a scene.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Outputs {
     /// Whether channels have 16 bits, and not 8.
@@ -17,7 +16,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// What a scene file asks for.
+    /// The outputs that a scene file asks for.
     ///
     /// # Errors
     /// If it asks for another number of bits; the error points at it.
@@ -28,48 +27,23 @@ impl Outputs {
             let help = Some("possible are 8 and 16".to_owned());
             return Err(origin.error_at(&[Field("image"), Field("bits")], message, help));
         }
-        let encoding = match file.passes.encoding {
-            PassEncodingFile::Png => PassEncoding::Png,
-            PassEncodingFile::Npy => PassEncoding::Npy,
-        };
-        let mut passes: Vec<Pass> = file.passes.write.iter().copied().map(Pass::from).collect();
+        let mut passes = file.passes.write.clone();
         passes.sort_unstable();
         passes.dedup();
-        Ok(Self { sixteen_bit: bits == 16, passes, encoding })
-    }
-}
-
-impl From<PassFile> for Pass {
-    fn from(file: PassFile) -> Self {
-        match file {
-            PassFile::Depth => Self::Depth,
-            PassFile::Distance => Self::Distance,
-            PassFile::Normal => Self::Normal,
-            PassFile::ViewNormal => Self::ViewNormal,
-            PassFile::Position => Self::Position,
-            PassFile::Uv => Self::Uv,
-            PassFile::Barycentric => Self::Barycentric,
-            PassFile::Id => Self::Id,
-            PassFile::Model => Self::Model,
-            PassFile::Node => Self::Node,
-            PassFile::Mesh => Self::Mesh,
-            PassFile::Material => Self::Material,
-            PassFile::Overdraw => Self::Overdraw,
-            PassFile::Coverage => Self::Coverage,
-        }
+        Ok(Self { sixteen_bit: bits == 16, passes, encoding: file.passes.encoding })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::parse_scene;
+    use super::super::{SceneErrors, parse_scene};
     use super::*;
 
-    fn outputs(text: &str) -> Result<Outputs, SceneError> {
+    fn outputs(text: &str) -> Result<Outputs, SceneErrors> {
         let text = format!("Scene(models: [(path: \"a.glb\")],\n  {text})");
         let file = parse_scene("scene.ron", &text)?;
         let origin = Origin::from_text("scene.ron", text, ".".into());
-        Outputs::from_scene_file(&origin, &file)
+        Ok(Outputs::from_scene_file(&origin, &file)?)
     }
 
     #[test]
@@ -84,9 +58,9 @@ mod tests {
     #[test]
     fn mistakes_are_pointed_at() {
         let error = outputs("image: Image(bits: 10)").expect_err("ten bits");
-        assert_eq!(error.line_and_column(), (2, 22));
-        assert_eq!(error.message, "a channel cannot have 10 bits");
+        assert_eq!(error.first().line_and_column(), (2, 22));
+        assert_eq!(error.first().message, "a channel cannot have 10 bits");
         let error = outputs("passes: (write: [Depht])").expect_err("no such pass");
-        assert_eq!(error.help.as_deref(), Some("did you mean `Depth`?"));
+        assert_eq!(error.first().help.as_deref(), Some("did you mean `Depth`?"));
     }
 }

@@ -1,86 +1,76 @@
-//! From the text of a scene file to its parts, or to an error that points.
+//! Parsing: from the text of a scene file to its parts, and to every mistake in it.
 
-use super::SceneError;
+use super::SceneErrors;
 use super::file::SceneFile;
-use super::messages::explain_parse_error;
-use super::source_span::{PathStep, span_of};
-use core::ops::Range;
-use ron::error::Error as Code;
-use ron::extensions::Extensions;
-use serde_path_to_error::{Path, Segment};
+use super::mistake::Mistake;
+use super::schema::{Checked, Checker, SceneValue};
+use super::syntax::{Node, NodeKind, SAMPLE_SCENE, SyntaxTree, parse_tree};
+use std::collections::BTreeMap;
 
-/// Reads the text of a scene file; `file` is its name in messages.
+/// Parses the text of a scene file; `file` is its name in messages.
+///
+/// ```
+/// let text = "Scene(models: [(path: \"a.glb\")], style: Falt, image: (siez: (9, 9)))";
+/// let errors = pipeline::scene::parse_scene("scene.ron", text).expect_err("two mistakes");
+/// assert_eq!(errors.iter().count(), 2);
+/// assert_eq!(errors.first().help.as_deref(), Some("did you mean `Flat`?"));
+/// ```
 ///
 /// # Errors
-/// Points at the first fault of grammar, unknown name or number out of range.
-pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneError> {
-    // A byte order mark is invisible; whoever has one did not mean it.
-    let source = source.strip_prefix('\u{feff}').unwrap_or(source);
-    let extensions = Extensions::IMPLICIT_SOME
-        | Extensions::UNWRAP_NEWTYPES
-        | Extensions::UNWRAP_VARIANT_NEWTYPES;
-    let options = ron::Options::default().with_default_extension(extensions);
-    let fault = |code: &Code, path: Option<&Path>, at: Range<usize>| {
-        let span = path.filter(|_| points_at_a_value(code)).map_or(at, |p| locate_path(source, p));
-        let (message, help) = explain_parse_error(code, path, source, &span);
-        SceneError { file: file.into(), source: source.into(), span, message, help }
-    };
-    let mut deserializer = ron::Deserializer::from_str_with_options(source, &options)
-        .map_err(|error| fault(&error.code, None, bytes(source, &error.span)))?;
-    let scene = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
-        let path = error.path().clone();
-        let spanned = deserializer.span_error(error.into_inner());
-        fault(&spanned.code, Some(&path), bytes(source, &spanned.span))
-    })?;
-    deserializer.end().map_err(|code| {
-        let end = span_of(source, &[]).end;
-        let blank = source[end..].len() - source[end..].trim_start().len();
-        fault(&code, None, end + blank..source.trim_end().len())
-    })?;
-    Ok(scene)
+/// Every error of grammar, unknown name, wrong type, missing field and value out of range, in the
+/// order of the text.
+pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
+    let source = strip_byte_order_mark(source);
+    let parsed = parse_recovering(source);
+    let error = |mistake: &Mistake| mistake.to_error(file, source);
+    match SceneErrors::from_list(parsed.mistakes.iter().map(error).collect()) {
+        Some(errors) => Err(errors),
+        None => Ok(parsed.scene),
+    }
 }
 
-/// Whether the value at the error's path is a better place to point at than where the parser stood.
-fn points_at_a_value(code: &Code) -> bool {
-    matches!(
-        code,
-        Code::Message(_)
-            | Code::InvalidValueForType { .. }
-            | Code::ExpectedFloat
-            | Code::ExpectedInteger
-            | Code::ExpectedString
-            | Code::ExpectedArray
-            | Code::ExpectedIdentifier
-            | Code::IntegerOutOfBounds
-            | Code::ExpectedDifferentLength { .. }
-            | Code::MissingStructField { .. }
-    )
+/// A byte order mark is invisible, so it is accepted and ignored.
+pub(super) fn strip_byte_order_mark(source: &str) -> &str {
+    source.strip_prefix('\u{feff}').unwrap_or(source)
 }
 
-fn locate_path(source: &str, path: &Path) -> Range<usize> {
-    let steps: Vec<PathStep<'_>> = path
-        .iter()
-        .filter_map(|segment| match segment {
-            Segment::Seq { index } => Some(PathStep::Index(*index)),
-            Segment::Map { key } => Some(PathStep::Field(key)),
-            // The name of an enum's variant is no level of its own in the text.
-            Segment::Enum { .. } | Segment::Unknown => None,
-        })
-        .collect();
-    span_of(source, &steps)
+/// A scene and the mistakes in its text.
+pub(super) struct ParsedScene {
+    /// The scene without what could not be read.
+    pub(super) scene: SceneFile,
+    /// In the order of the text.
+    pub(super) mistakes: Vec<Mistake>,
+    /// For each list of the scene the indices of the elements that could be read.
+    pub(super) retained: BTreeMap<&'static str, Vec<usize>>,
 }
 
-/// The bytes of a span that RON gives in lines and columns of characters; at least one character, if there is one.
-fn bytes(source: &str, span: &ron::error::Span) -> Range<usize> {
-    let offset = |position: &ron::error::Position| {
-        let line_start = match position.line {
-            0 | 1 => 0,
-            line => source.match_indices('\n').nth(line - 2).map_or(source.len(), |(at, _)| at + 1),
-        };
-        let columns = source[line_start..].char_indices().map(|(at, _)| line_start + at);
-        columns.chain([source.len()]).nth(position.col.saturating_sub(1)).unwrap_or(source.len())
-    };
-    let (start, end) = (offset(&span.start), offset(&span.end));
-    let next = source[start..].chars().next().map_or(0, char::len_utf8);
-    start..end.max(start + next)
+/// Parses a text without a byte order mark as far as possible.
+pub(super) fn parse_recovering(source: &str) -> ParsedScene {
+    let SyntaxTree { root, errors: mut mistakes, is_unreliable } = parse_tree(source);
+    let mut scene = None;
+    let mut retained = BTreeMap::new();
+    if let Some(root) = root.filter(|_| !is_unreliable) {
+        let mut checker = Checker::new(source);
+        if is_scene(&root) {
+            scene = SceneFile::from_node(&root, &mut checker);
+        } else if root.kind != NodeKind::Invalid {
+            let length = source[root.span.start..].chars().next().map_or(0, char::len_utf8);
+            let start = root.span.start;
+            checker.report(
+                start..start + length,
+                "this is not a scene",
+                Some(SAMPLE_SCENE.to_owned()),
+            );
+        }
+        let checked: Checked = checker.finish();
+        mistakes.extend(checked.mistakes);
+        retained = checked.retained;
+    }
+    mistakes.sort_by_key(|mistake| mistake.span.start);
+    ParsedScene { scene: scene.unwrap_or_default(), mistakes, retained }
+}
+
+/// Whether a value is in the brackets of a struct; what is in them is another question.
+fn is_scene(root: &Node<'_>) -> bool {
+    root.group().is_some_and(|group| group.open == '(')
 }

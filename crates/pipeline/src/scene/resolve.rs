@@ -1,30 +1,30 @@
-//! From what a person wrote to what drawing needs, or to an error that points.
+//! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
+//! the file. Models are loaded, angles are radians, and every default is decided.
 
-use super::backdrop;
-use super::file::{
-    BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ToneMappingFile,
-};
+use super::backdrop::{resolve_backdrop, resolve_background_color};
+use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
 use super::ground::resolve_ground;
 use super::insets::resolve_insets;
 use super::instances;
 use super::lights::resolve_lights;
 use super::material_overrides::override_materials;
-use super::messages::suggest_name;
 use super::number::Positive;
 use super::section::resolve_sections;
-use super::source_span::PathStep::{Field, Index};
 use super::style::resolve_style;
+use super::suggest::suggest_name;
 use super::surrounding_light::resolve_environment;
+use super::syntax::PathStep::{Field, Index};
+use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile, Style};
 use drawing::Overlay;
 use homog::Bounds;
 use model::Model;
 use model::ModelInstance;
-use model::import::{ImportError, ImportErrorKind, ImportOptions, load, load_bytes};
+use model::import::{ImportError, ImportOptions, load, load_bytes};
 use model::world_points;
 use raster::Samples;
-use shade::{ToneMapper, ToneMapping};
+use shade::ToneMapper;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -32,7 +32,8 @@ use std::sync::Arc;
 /// How a scene is resolved.
 #[derive(Clone, Debug, Default)]
 pub struct ResolveOptions {
-    /// How models are loaded. The paths of a scene file may lead out of its folder into those that `allow_outside` names.
+    /// How models are loaded. The paths of a scene file may lead out of its folder into those that
+    /// `allow_outside` names.
     pub import: ImportOptions,
 }
 
@@ -40,21 +41,26 @@ impl Scene {
     /// Loads the models of a scene and decides everything that the file leaves open.
     ///
     /// # Errors
-    /// If a model cannot be loaded or something makes no sense; the error points at its place in the file.
+    /// If a model cannot be loaded; and every mistake of the scene that can be found, in the order
+    /// of the file.
     pub fn resolve(
         origin: &Origin,
         file: &SceneFile,
         options: &ResolveOptions,
     ) -> Result<Self, ResolveError> {
-        resolve_image(origin, file)?;
-        let models = load_models(origin, file, options)?;
-        let frame =
-            || Self::resolve_with_models(origin, file, models, &options.import.allow_outside);
-        options.import.timings.measure("frame", frame)
+        let loaded = resolve_image(origin, file)
+            .map_err(ResolveError::from)
+            .and_then(|_| load_models(origin, file, options));
+        let models =
+            loaded.map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
+        let allowed = &options.import.allow_outside;
+        let frame = || Self::resolve_with_models(origin, file, models.clone(), allowed);
+        let scene = options.import.timings.measure("frame", frame);
+        scene.map_err(|error| error.or_all(|| errors_around_models(origin, file, models, allowed)))
     }
 
-    /// Decides everything that the file leaves open around models that are loaded, posed and placed; those of the file are not
-    /// looked at.
+    /// Decides everything that the file leaves open around models that are loaded, posed and
+    /// placed; those of the file are not looked at.
     ///
     /// # Errors
     /// If something makes no sense; the error points at its place in the file.
@@ -66,7 +72,8 @@ impl Scene {
         Self::resolve_with_models(origin, file, models, &[])
     }
 
-    /// The scene around its models; the environment's file may lie in one of the `allowed` folders too.
+    /// The scene around its models; the environment's file may lie in one of the `allowed` folders
+    /// too.
     pub(crate) fn resolve_with_models(
         origin: &Origin,
         file: &SceneFile,
@@ -78,7 +85,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The same without its views.
+    /// Resolves the scene without its viewports and stereo pair.
     pub(super) fn resolve_without_insets(
         origin: &Origin,
         file: &SceneFile,
@@ -95,13 +102,10 @@ impl Scene {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        let curve = match file.image.tone_mapping {
-            ToneMappingFile::None => ToneMapping::None,
-            ToneMappingFile::Neutral => ToneMapping::Neutral,
-            ToneMappingFile::Aces => ToneMapping::Aces,
-            ToneMappingFile::AgX => ToneMapping::AgX,
-        };
-        let develop = ToneMapper::new(file.image.exposure_ev.map_or(0.0, Finite::value), curve);
+        let develop = ToneMapper::new(
+            file.image.exposure_ev.map_or(0.0, Finite::value),
+            file.image.tone_mapping,
+        );
         let style = resolve_style(origin, &file.style)?;
         // Nothing is mirrored in line drawings.
         let is_lit = matches!(style, Style::Shaded | Style::Flat);
@@ -109,7 +113,7 @@ impl Scene {
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
-        let painting = backdrop::resolve_backdrop(origin, file, allowed)?;
+        let painting = resolve_backdrop(origin, file, allowed)?;
         Ok(Self {
             models,
             view_projection,
@@ -128,46 +132,70 @@ impl Scene {
     }
 }
 
+/// The image that a scene renders.
 pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
-    let (width, height) = file.image.size;
-    let fits = |side: u32| (1..=crate::MAX_IMAGE_SIDE).contains(&side);
-    if !fits(width) || !fits(height) {
-        let message = format!("a picture cannot have {width} x {height} pixels");
-        let help = format!("each side must be between 1 and {}", crate::MAX_IMAGE_SIDE);
-        return Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)));
-    }
-    let samples = Samples::from_count(file.image.samples).ok_or_else(|| {
-        let message = format!("a pixel cannot have {} samples", file.image.samples);
-        let help = Some("possible are 1, 4, 8 and 16".to_owned());
-        origin.error_at(&[Field("image"), Field("samples")], message, help)
-    })?;
-    let background = backdrop::resolve_background_color(origin, file)?;
-    let backdrop = match &file.image.background {
+    let (width, height) = resolve_image_size(origin, file)?;
+    let samples = resolve_samples(origin, file)?;
+    let background = resolve_background_color(origin, file)?;
+    let environment_blur = match &file.image.background {
         BackgroundFile::Environment { blur } => {
             Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))
         }
         _ => None,
     };
-    let anisotropy = file.image.anisotropy;
-    if !(1..=8).contains(&anisotropy) {
-        let message = format!("textures cannot be read at {anisotropy} places");
-        let help = Some("from 1 to 8 are possible".to_owned());
-        return Err(origin.error_at(&[Field("image"), Field("anisotropy")], message, help));
+    let max_anisotropy = resolve_max_anisotropy(origin, file)?;
+    Ok(ImageSpec { width, height, background, environment_blur, samples, max_anisotropy })
+}
+
+/// Width and height of the image.
+pub(super) fn resolve_image_size(
+    origin: &Origin,
+    file: &SceneFile,
+) -> Result<(u32, u32), SceneError> {
+    let (width, height) = file.image.size;
+    let fits = |side: u32| (1..=crate::MAX_IMAGE_SIDE).contains(&side);
+    if fits(width) && fits(height) {
+        return Ok((width, height));
     }
-    Ok(ImageSpec {
-        width,
-        height,
-        background,
-        environment_blur: backdrop,
-        samples,
-        max_anisotropy: anisotropy,
+    let message = format!("a picture cannot have {width} x {height} pixels");
+    let help = format!("each side must be between 1 and {}", crate::MAX_IMAGE_SIDE);
+    Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
+}
+
+/// The count of coverage samples.
+pub(super) fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
+    Samples::from_count(file.image.samples).ok_or_else(|| {
+        let message = format!("a pixel cannot have {} samples", file.image.samples);
+        let help = Some("possible are 1, 4, 8 and 16".to_owned());
+        origin.error_at(&[Field("image"), Field("samples")], message, help)
     })
 }
+
+/// The most samples of anisotropic texture filtering.
+pub(super) fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Result<u32, SceneError> {
+    let max_anisotropy = file.image.max_anisotropy;
+    if (1..=8).contains(&max_anisotropy) {
+        return Ok(max_anisotropy);
+    }
+    let message = format!("anisotropic filtering cannot take {max_anisotropy} samples");
+    let help = Some("from 1 to 8 are possible".to_owned());
+    Err(origin.error_at(&[Field("image"), Field("max_anisotropy")], message, help))
+}
+
+/// A model whose path leads out of the scene's folder.
+pub(super) fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> SceneError {
+    let help = "keep models below the scene's folder, or allow another with --allow-outside DIR";
+    let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
+    let path = [Field("models"), Index(index), Field("path")];
+    origin.error_at(&path, message, Some(help.to_owned()))
+}
+/// A scene without models.
 
 pub(super) fn missing_model_error(origin: &Origin) -> SceneError {
     let help = Some("add one: models: [(path: \"…\")]".to_owned());
     origin.error_at(&[Field("models")], "a scene needs a model", help)
 }
+/// Loads the models of a scene, and instantiates them.
 
 fn load_models(
     origin: &Origin,
@@ -179,7 +207,9 @@ fn load_models(
     }
     instances::check_instance_counts(origin, file)?;
     // Models in one pose are shared; a model in two poses, or with other materials, is two models.
+    /// The file of a model, its scene, variant and animation, and the bits of the time.
     type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
+    /// The models of one pose, one for each set of material overrides.
     type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
     let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
     let mut models = Vec::new();
@@ -204,7 +234,8 @@ fn load_models(
     Ok(models)
 }
 
-/// Why there is no model: the scene asks for something that makes no sense, or the model's file is at fault.
+/// Why there is no model: the scene asks for something that makes no sense, or the model's file is
+/// at fault.
 pub(super) enum ModelError {
     Scene(SceneError),
     File(ImportError),
@@ -217,14 +248,22 @@ impl From<SceneError> for ModelError {
 }
 
 impl ModelError {
-    /// The fault, told where the scene file asks for the model, if there is such a file.
-    fn into_resolve_error(self, origin: &Origin, number: usize, entry: &ModelFile) -> ResolveError {
+    /// The error as one of the scene file, pointing at the path of the model, if there is a scene
+    /// file.
+    pub(super) fn into_resolve_error(
+        self,
+        origin: &Origin,
+        number: usize,
+        entry: &ModelFile,
+    ) -> ResolveError {
         match self {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
                 let help = suggest_model_file(&origin.folder.join(&entry.path));
-                origin.error_at(&at, format!("{}: {}", entry.path, error.diagnostic), help).into()
+                origin
+                    .error_at(&at, format!("{}: {}", entry.path, error.diagnostic.sentence()), help)
+                    .into()
             }
             Self::Scene(error) => error.into(),
         }
@@ -254,10 +293,7 @@ pub(super) fn load_model(
 ) -> Result<Model, ModelError> {
     let at = |field| [Field("models"), Index(number), Field(field)];
     if !origin.allows_path(Path::new(&entry.path), &options.import.allow_outside) {
-        let help =
-            "keep models below the scene's folder, or allow another with --allow-outside DIR";
-        let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
-        return Err(origin.error_at(&at("path"), message, Some(help.to_owned())).into());
+        return Err(outside_folder_error(origin, number, entry).into());
     }
     let import = ImportOptions {
         scene: entry.scene.clone().map(Into::into).or(options.import.scene.clone()),
@@ -279,21 +315,22 @@ pub(super) fn load_model(
     Ok(model)
 }
 
-/// A scene or a variant that the model does not have is a mistake of the scene file, if there is one.
+/// A scene or a variant that the model does not have is a mistake of the scene file, if there is
+/// one.
 fn choice_error(
     origin: &Origin,
     number: usize,
     entry: &ModelFile,
     error: ImportError,
 ) -> ModelError {
-    if origin.text.is_empty() || error.diagnostic.kind != ImportErrorKind::NotFound {
+    if origin.text.is_empty() || error.diagnostic.code != model::codes::NO_SUCH_ITEM {
         return ModelError::File(error);
     }
     let scene = entry.scene.is_some() && error.diagnostic.location == "/scenes";
     let field = if scene { "scene" } else { "variant" };
     let message = format!("{}: {}", entry.path, error.diagnostic.message);
     let at = [Field("models"), Index(number), Field(field)];
-    origin.error_at(&at, message, Some(error.diagnostic.help)).into()
+    origin.error_at(&at, message, error.diagnostic.help).into()
 }
 
 /// The number of the animation that is wanted, or the first.
@@ -324,6 +361,7 @@ pub fn select_animation(
         (message, suggest_name(&wanted, &names))
     })
 }
+/// The overlays, with the view-projection of each camera whose view volume is drawn.
 
 pub(super) fn resolve_overlays(
     origin: &Origin,

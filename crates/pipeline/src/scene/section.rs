@@ -1,27 +1,37 @@
-//! What the sections of a scene file mean.
+//! Resolution of section planes.
 
 use super::file::SectionFile;
-use super::source_span::PathStep::{Field, Index};
+use super::syntax::PathStep::{Field, Index};
 use super::{Origin, SceneError};
 use homog::{Normal, Plane, Point, World};
 
 /// More cuts than this are a slip, and each costs another pass over the models.
 const MAX_SECTIONS: usize = 16;
 
-/// The planes of the sections. Their normals have length 1 and point to what is kept.
+/// The planes of the sections. Their normals have length 1 and point to the half that is retained.
 pub(super) fn resolve_sections(
     origin: &Origin,
     sections: &[SectionFile],
 ) -> Result<Vec<Plane<World>>, SceneError> {
-    if sections.len() > MAX_SECTIONS {
-        let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
-        return Err(origin.error_at(&[Field("sections")], message, None));
-    }
+    check_section_count(origin, sections)?;
     let numbered = sections.iter().enumerate();
     numbered.map(|(at, section)| resolve_section(origin, at, section)).collect()
 }
 
-fn resolve_section(
+/// Whether there are not too many sections.
+pub(super) fn check_section_count(
+    origin: &Origin,
+    sections: &[SectionFile],
+) -> Result<(), SceneError> {
+    if sections.len() <= MAX_SECTIONS {
+        return Ok(());
+    }
+    let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
+    Err(origin.error_at(&[Field("sections")], message, None))
+}
+
+/// The plane of a section. Its normal has length 1 and points to the half that is retained.
+pub(super) fn resolve_section(
     origin: &Origin,
     at: usize,
     section: &SectionFile,
@@ -32,7 +42,8 @@ fn resolve_section(
     let unit = Normal::<World>::new(-x / largest, -y / largest, -z / largest).normalized();
     let fault = || {
         let path = [Field("sections"), Index(at), Field("normal")];
-        let help = "say which way to take away, such as normal: (0, 0, 1)".to_owned();
+        let help =
+            "the normal points to the half that is removed, such as normal: (0, 0, 1)".to_owned();
         origin.error_at(&path, "a section needs a direction: its normal has no length", Some(help))
     };
     let unit = unit.filter(|_| largest > 0.0).ok_or_else(fault)?;

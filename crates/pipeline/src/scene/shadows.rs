@@ -1,11 +1,11 @@
-//! What the shadows of a scene file mean.
+//! Resolution of shadow settings: the size of the shadow map, and how soft its shadows are.
 
 use super::file::ShadowsFile;
-use super::source_span::PathStep::{self, Field};
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use shade::Shadow;
 
-/// The texels of a shadow map's longer side, unless told otherwise.
+/// The texels of a shadow map's longer side, by default.
 const DEFAULT_MAP_SIZE: u32 = 2048;
 /// How large the sun looks from the earth, in degrees.
 const DEFAULT_SOFTNESS_DEGREES: f64 = 0.53;

@@ -1,48 +1,40 @@
-//! What the sheet of a scene file means.
+//! Resolution of the drawing sheet: paper, arrangement, scale and title block.
 
-use super::file::{
-    AngleFile, AxonometricFile, OrientationFile, PaperFile, SheetFile, SideFile, UnitFile,
-};
-use super::source_span::PathStep::Field;
-use super::style::{resolve_hidden, resolve_iso_group};
+use super::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile, SideView};
+use super::style::resolve_iso_group;
+use super::syntax::PathStep::Field;
 use super::{Origin, SceneError};
 use camera::NamedView;
-use drawing::{LineWidths, Sheet, TitleBlockText};
+use drawing::{LineStyle, LineWidths, Sheet, TitleBlockText};
 use projection::SheetAngle;
 use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper};
 
-/// The sheet that a scene file describes.
+/// Resolves the drawing sheet of a scene file.
 ///
 /// # Errors
-/// If its scale or its width of lines is none; the error points at its place in the file.
+/// If the scale has a 0, or ISO 128 has no line group of the width; the error points into the file.
 pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneError> {
     let (paper, name) = resolve_paper(file);
-    let usual = Sheet::for_paper(paper, name);
-    let (angle, side) = match file.angle {
-        AngleFile::First => (SheetAngle::First, NamedView::Left),
-        AngleFile::Third => (SheetAngle::Third, NamedView::Right),
-    };
-    let side = match file.side {
-        None => side,
-        Some(SideFile::Left) => NamedView::Left,
-        Some(SideFile::Right) => NamedView::Right,
+    let default_sheet = Sheet::for_paper(paper, name);
+    let side_view = match (file.side_view, file.projection_angle) {
+        (Some(SideView::Left), _) | (None, SheetAngle::First) => NamedView::Left,
+        (Some(SideView::Right), _) | (None, SheetAngle::Third) => NamedView::Right,
     };
     let widths = match file.width {
         Some(width) => {
             let group = resolve_iso_group(origin, width, &[Field("sheet"), Field("width")])?;
             LineWidths::Iso(group)
         }
-        None => usual.style.line_widths,
+        None => default_sheet.style.line_widths,
     };
-    let mut look = usual.style;
-    (look.hidden_lines, look.line_widths) = (resolve_hidden(file.hidden), widths);
+    let style = LineStyle { hidden_lines: file.hidden, line_widths: widths, ..default_sheet.style };
     Ok(Sheet {
-        projection_angle: angle,
-        side_view: side,
-        style: look,
+        projection_angle: file.projection_angle,
+        side_view,
+        style,
         scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
         millimeters_per_unit: unit_in_millimeters(file.unit),
-        axonometric_view: axonometric_view(file.axonometric),
+        axonometric_view: axonometric_view(file.axonometric_view),
         dimensions: file.dimensions,
         title_block: TitleBlockText {
             title: file.title.clone(),
@@ -50,26 +42,28 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
             date: file.date.clone(),
             number: file.number.clone(),
         },
-        ..usual
+        ..default_sheet
     })
 }
+/// The paper in its orientation, and its name on the sheet.
 fn resolve_paper(file: &SheetFile) -> (Paper, &'static str) {
     let (paper, name) = match file.paper {
-        PaperFile::A0 => (Paper::A0, "A0"),
-        PaperFile::A1 => (Paper::A1, "A1"),
-        PaperFile::A2 => (Paper::A2, "A2"),
-        PaperFile::A3 => (Paper::A3, "A3"),
-        PaperFile::A4 => (Paper::A4, "A4"),
-        PaperFile::A5 => (Paper::A5, "A5"),
-        PaperFile::Letter => (Paper::LETTER, "Letter"),
-        PaperFile::Tabloid => (Paper::TABLOID, "Tabloid"),
+        PaperSize::A0 => (Paper::A0, "A0"),
+        PaperSize::A1 => (Paper::A1, "A1"),
+        PaperSize::A2 => (Paper::A2, "A2"),
+        PaperSize::A3 => (Paper::A3, "A3"),
+        PaperSize::A4 => (Paper::A4, "A4"),
+        PaperSize::A5 => (Paper::A5, "A5"),
+        PaperSize::Letter => (Paper::LETTER, "Letter"),
+        PaperSize::Tabloid => (Paper::TABLOID, "Tabloid"),
     };
     let upright = match file.orientation {
-        Some(orientation) => orientation == OrientationFile::Portrait,
-        None => matches!(file.paper, PaperFile::A4 | PaperFile::A5 | PaperFile::Letter),
+        Some(orientation) => orientation == PageOrientation::Portrait,
+        None => matches!(file.paper, PaperSize::A4 | PaperSize::A5 | PaperSize::Letter),
     };
     (if upright { paper } else { paper.rotated() }, name)
 }
+/// The scale as a ratio of lengths on paper to lengths of the object.
 
 fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingScale, SceneError> {
     DrawingScale::new(paper, thing).map_err(|error| {
@@ -77,23 +71,25 @@ fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingS
         origin.error_at(&[Field("sheet"), Field("scale")], error.to_string(), Some(help))
     })
 }
+/// The length of a unit of the models in millimeters.
 
-fn unit_in_millimeters(file: UnitFile) -> f64 {
+fn unit_in_millimeters(file: ModelUnit) -> f64 {
     match file {
-        UnitFile::Metre => 1000.0,
-        UnitFile::Centimetre => 10.0,
-        UnitFile::Millimetre => 1.0,
-        UnitFile::Inch => MILLIMETERS_PER_INCH,
-        UnitFile::Foot => 12.0 * MILLIMETERS_PER_INCH,
+        ModelUnit::Meter => 1000.0,
+        ModelUnit::Centimeter => 10.0,
+        ModelUnit::Millimeter => 1.0,
+        ModelUnit::Inch => MILLIMETERS_PER_INCH,
+        ModelUnit::Foot => 12.0 * MILLIMETERS_PER_INCH,
     }
 }
+/// The direction of the fourth view; `None` if there is none.
 
-fn axonometric_view(file: AxonometricFile) -> Option<NamedView> {
+fn axonometric_view(file: AxonometricView) -> Option<NamedView> {
     match file {
-        AxonometricFile::None => None,
-        AxonometricFile::Isometric => Some(NamedView::Isometric),
-        AxonometricFile::Dimetric => Some(NamedView::Dimetric),
-        AxonometricFile::Trimetric => Some(NamedView::Trimetric),
-        AxonometricFile::ThreeQuarter => Some(NamedView::ThreeQuarter),
+        AxonometricView::None => None,
+        AxonometricView::Isometric => Some(NamedView::Isometric),
+        AxonometricView::Dimetric => Some(NamedView::Dimetric),
+        AxonometricView::Trimetric => Some(NamedView::Trimetric),
+        AxonometricView::ThreeQuarter => Some(NamedView::ThreeQuarter),
     }
 }

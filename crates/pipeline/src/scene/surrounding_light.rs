@@ -1,8 +1,11 @@
-//! From the surroundings that a scene file asks for to what shading needs; made once for each content and kept.
+//! Resolution of the environment: radiance from all directions, prefiltered for shading.
+//!
+//! Prefiltering is the expensive part of a small scene, so the last few environments are cached by
+//! their content, across scenes and threads.
 
 use super::file::{EnvironmentFile, Finite, SceneFile};
 use super::hdr::Panorama;
-use super::source_span::PathStep::{self, Field};
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use model::ModelInstance;
 use shade::{Environment, PreethamSky, studio_radiance};
@@ -11,12 +14,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The longest file that is read, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// How many environments are kept.
+/// The most environments in the cache.
 const MAX_CACHED_ENVIRONMENTS: usize = 4;
 
 impl SceneFile {
-    /// The surroundings that a scene has. A bare model without lights of its own stands in the studio: metals show nothing but what
-    /// is around them.
+    /// The surroundings that a scene has. A bare model without lights of its own stands in the
+    /// studio: metals show nothing but what is around them.
     pub(super) fn effective_environment(
         &self,
         origin: &Origin,
@@ -30,8 +33,9 @@ impl SceneFile {
     }
 }
 
-/// What an environment is made of: its kind, all its numbers, and the sum of a file's bytes.
+/// The key of an environment: its kind, all its numbers, and a hash of a file's bytes.
 type EnvironmentKey = (u8, [u64; 4]);
+/// The environments that were made last. Prefiltering one takes far longer than finding it here.
 
 static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
 
@@ -49,7 +53,8 @@ fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -
     made
 }
 
-/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those that are allowed.
+/// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those
+/// that are allowed.
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
@@ -60,8 +65,8 @@ pub(super) fn resolve_environment(
     let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
     Ok(Some(match &environment {
         EnvironmentFile::Dark => return Ok(None),
-        EnvironmentFile::Studio { strength, rotate_degrees } => {
-            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotate_degrees));
+        EnvironmentFile::Studio { strength, rotation_degrees } => {
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
             cached_environment(turn.cache_key(0, 0), || {
                 Environment::from_radiance(|way| turn.rotated_radiance(way, studio_radiance))
             })
@@ -87,12 +92,12 @@ pub(super) fn resolve_environment(
                 Environment::from_radiance(|_| light)
             })
         }
-        EnvironmentFile::File { path, strength, rotate_degrees } => {
+        EnvironmentFile::File { path, strength, rotation_degrees } => {
             let at = [Field("environment"), Field("path")];
             let bytes = read_image_bytes(origin, &at, path, allowed)?;
             let panorama = Panorama::decode_hdr(&bytes)
                 .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
-            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotate_degrees));
+            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
             cached_environment(turn.cache_key(3, fnv1a_hash(&bytes)), || {
                 Environment::from_radiance(|way| {
                     turn.rotated_radiance(way, |way| panorama.sample_direction(way))
@@ -101,12 +106,14 @@ pub(super) fn resolve_environment(
         }
     }))
 }
+/// An error that points at the path of the environment's file.
 
 fn environment_error(origin: &Origin, message: String, help: Option<String>) -> SceneError {
     origin.error_at(&[Field("environment"), Field("path")], message, help)
 }
 
-/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and not too long.
+/// The bytes of a file that the scene names at `at`: below its folder or one that is allowed, and
+/// not too long.
 pub(super) fn read_image_bytes(
     origin: &Origin,
     at: &[PathStep<'_>],
@@ -141,22 +148,26 @@ struct EnvironmentRotation {
 }
 
 impl EnvironmentRotation {
+    /// A rotation about the y axis, in degrees, and a factor for all light.
     fn new(strength: f64, degrees: f64) -> Self {
         let angle = degrees.to_radians();
         let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
         Self { strength: strength as f32, degrees, cosine, sine }
     }
+    /// The key of an environment with this rotation; `content` identifies its radiance.
 
     fn cache_key(&self, kind: u8, content: u64) -> EnvironmentKey {
         (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
     }
 
-    /// The light from a direction after the surroundings were turned counter-clockwise, seen from above.
+    /// The light from a direction after the surroundings were turned counter-clockwise, seen from
+    /// above.
     fn rotated_radiance(&self, [x, y, z]: [f32; 3], of: impl Fn([f32; 3]) -> [f32; 3]) -> [f32; 3] {
         let before = [x * self.cosine - z * self.sine, y, x * self.sine + z * self.cosine];
         of(before).map(|c| c * self.strength)
     }
 }
+/// The direction with length 1; `None` if it is 0 or too long for its square.
 
 fn normalize_direction(v: [f64; 3]) -> Option<[f32; 3]> {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();

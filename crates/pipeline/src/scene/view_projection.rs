@@ -1,9 +1,18 @@
-//! Camera and projection of a scene: given, framed, or taken from the model.
+//! Resolution of the camera: world-to-view and projection matrices from what the file gives.
+//!
+//! ```text
+//!  LookAt, LookTo ─► camera frame ─┐
+//!  Frame ─► bounds, direction ─────┼─► near and far from the depths of the vertices ─► projection
+//!  FromModel ─► node of the model ─┘    unless the file gives them
+//! ```
+//! Framing finds the eye at which every vertex just fits into the window: in closed form for perspective,
+//! from the box of the images for parallel projections.
 
+use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
 use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
-use super::messages::suggest_name;
-use super::source_span::PathStep::{self, Field};
+use super::suggest::suggest_name;
+use super::syntax::PathStep::{self, Field};
 use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, NamedView, Slopes, frame_parallel, frame_perspective};
@@ -12,14 +21,15 @@ use model::ModelInstance;
 use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
 use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
+/// The path of the position and direction of the camera.
 
-const VIEW_FIELD: PathStep<'static> = Field("view");
-const CAMERA_FIELD: PathStep<'static> = Field("camera");
-const PROJECTION_PATH: [PathStep<'static>; 2] = [CAMERA_FIELD, Field("projection")];
+pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];
+/// The path of the projection.
+pub(super) const PROJECTION_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("projection")];
 
 /// Everything that camera and projection are resolved from.
 pub(super) struct CameraResolver<'a> {
-    origin: &'a Origin,
+    pub(super) origin: &'a Origin,
     models: &'a [ModelInstance],
     pub(super) points: Vec<Point<World>>,
     pub(super) aspect: f64,
@@ -55,6 +65,46 @@ pub(super) fn resolve_view_projection(
     }
 }
 
+/// The mistakes of a camera that can be found without the models: a direction that is none, planes
+/// in the wrong order.
+pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError> {
+    let camera = match &file.view {
+        ViewFile::LookAt { eye, target, up } => {
+            Camera::look_at(eye.0.into(), target.0.into(), up.0.into()).map(drop)
+        }
+        ViewFile::LookTo { eye, gaze, up } => {
+            Camera::look_to(eye.0.into(), gaze.0.into(), up.0.into()).map(drop)
+        }
+        ViewFile::Frame { .. } | ViewFile::FromModel(_) => Ok(()),
+    };
+    let view_error = camera.err().map(|error| origin.error_at(&VIEW_PATH, error.to_string(), None));
+    let is_framed = matches!(file.view, ViewFile::Frame { .. });
+    let projection_error = match file.projection.as_ref().and_then(check_planes) {
+        Some(error) => Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None)),
+        None => check_classical_projection(origin, file.projection.as_ref(), is_framed),
+    };
+    view_error.into_iter().chain(projection_error).collect()
+}
+
+/// The error of a projection whose clipping planes are all given.
+fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
+    match *projection {
+        ProjectionFile::Perspective { fov_y_degrees, near: Some(near), far: Some(far) } => {
+            let fov = Fov::Vertical(fov_y_degrees.value().to_radians());
+            Perspective::new(fov, 1.0, near.value(), far.value()).err()
+        }
+        ProjectionFile::Orthographic { near: Some(near), far: Some(far), .. } => {
+            Orthographic::new(-1.0, 1.0, -1.0, 1.0, near.value(), far.value()).err()
+        }
+        ProjectionFile::Frustum { left, right, bottom, top, near, far } => {
+            let far = far.map_or(2.0 * near.value(), super::number::Positive::value);
+            let [l, r, b, t] = [left, right, bottom, top].map(super::number::Finite::value);
+            Frustum::new(l, r, b, t, near.value(), far).err()
+        }
+        _ => None,
+    }
+}
+
 /// The lens of the camera that is chosen; `None` if there is no such camera.
 pub(super) fn select_lens<'a>(
     origin: &'a Origin,
@@ -66,17 +116,20 @@ pub(super) fn select_lens<'a>(
 }
 
 impl<'a> CameraResolver<'a> {
+    /// An error of the camera frame, such as a view-up vector along the line of sight.
     pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
         self.view_error(error.to_string(), None)
     }
+    /// An error that points at the view.
 
     pub(super) fn view_error(
         &self,
         message: impl Into<String>,
         help: Option<String>,
     ) -> SceneError {
-        self.origin.error_at(&[CAMERA_FIELD, VIEW_FIELD], message, help)
+        self.origin.error_at(&VIEW_PATH, message, help)
     }
+    /// An error of the projection, such as a far plane before the near plane.
 
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
@@ -90,6 +143,7 @@ impl<'a> CameraResolver<'a> {
     ) -> SceneError {
         self.origin.error_at(&PROJECTION_PATH, message, help)
     }
+    /// An error of framing: nothing to frame, or no room for it.
 
     pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
         if matches!(error, camera::FramingError::NoPoints) {
@@ -97,11 +151,12 @@ impl<'a> CameraResolver<'a> {
         }
         self.view_error(error.to_string(), None)
     }
+    /// Models without primitives: there is nothing to frame.
 
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
         // What the importer left out is the likely reason.
         let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
-        let help = warnings.map(|warning| format!("{}: {}", warning.pointer, warning.message));
+        let help = warnings.map(|warning| format!("{}: {}", warning.location, warning.message));
         let message = "there is nothing to draw: the models have no points, lines or triangles";
         self.view_error(message, help)
     }
@@ -111,7 +166,8 @@ impl<'a> CameraResolver<'a> {
         homog::Bounds::from_points(self.points.iter().copied()).map(homog::Bounds::center)
     }
 
-    /// A camera in its place with a projection; `height` is that of a parallel window whose file leaves it open.
+    /// A camera in its place with a projection; `height` is that of a parallel window whose file
+    /// leaves it open.
     fn project_from_camera(
         &self,
         camera: Camera,
@@ -204,6 +260,7 @@ impl<'a> CameraResolver<'a> {
         let framed = frame_perspective(points, basis, slopes, padding).map_err(fault)?;
         self.project_from_camera(framed.camera, projection, None)
     }
+    /// The axes of a camera that looks from a named direction or a vector towards the models.
 
     pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
@@ -244,6 +301,8 @@ impl<'a> CameraResolver<'a> {
             None => self.project_through_lens(camera, lens),
         }
     }
+    /// The projection of a camera in a model. The aspect is that of the image: the vertical field
+    /// of view of a perspective is kept, and the window of an orthographic camera is widened.
 
     fn project_through_lens(
         &self,
@@ -292,6 +351,7 @@ impl<'a> CameraResolver<'a> {
         }
         Err(self.unknown_camera_error(choice, &names))
     }
+    /// A camera that no model has, with the names of those that exist.
 
     fn unknown_camera_error(&self, choice: &CameraChoice, names: &[String]) -> SceneError {
         let wanted = match choice {
@@ -304,6 +364,6 @@ impl<'a> CameraResolver<'a> {
         } else {
             (format!("the models have no camera `{wanted}`"), suggest_name(&wanted, names))
         };
-        self.origin.error_at(&[CAMERA_FIELD, VIEW_FIELD], message, help)
+        self.origin.error_at(&VIEW_PATH, message, help)
     }
 }

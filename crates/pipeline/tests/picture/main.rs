@@ -1,4 +1,4 @@
-//! What pictures are besides their colours: passes, regions, depths of colour.
+//! Passes, regions, bit depths and styles of pictures.
 
 #![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
 

@@ -34,14 +34,14 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
             let at = |n: usize| buffers[n].float_values(x, y).expect("a pixel");
             let &[depth] = at(1) else { panic!("one number") };
-            // At borders of triangles the centre may lie outside by the 1/256 pixel that corners are moved; lines and points are
-            // wider than they are.
+            // At borders of triangles the centre may lie outside by the 1/256 pixel that corners
+            // are moved; lines and points are wider than they are.
             if depth.is_infinite() || at(3).iter().any(|weight| *weight <= 1e-6) {
                 continue;
             }
             seen += 1;
             let ray = unprojector.pick_ray([f64::from(x) + 0.5, f64::from(y) + 0.5], [1.0, -1.0]);
-            let ray = ray.expect("a ray");
+            let ray = ray.expect("a ray").ray;
             let ahead = |p: Point<World>| -world_to_view.transform_point(p).z();
             let per_step = ahead(ray.origin + ray.direction) - ahead(ray.origin);
             let place =

@@ -123,7 +123,8 @@ fn assert_pass_values(buffers: &[PassBuffer], region: PixelRect, size: [u32; 2])
             continue;
         };
         seen += 1;
-        // On the diagonal the snapped triangle may reach 1/256 pixel beyond the true one; the place is then on the diagonal.
+        // On the diagonal the snapped triangle may reach 1/256 pixel beyond the true one; the place
+        // is then on the diagonal.
         let weights = at(barycentric);
         let inner = weights.iter().all(|w| *w > 0.0);
         let tolerance = if inner { 2e-6 } else { 2e-4 };

@@ -1,21 +1,25 @@
-//! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8 bits and more.
+//! Regions, bands and sheets: parts of a picture are the whole, bit for bit, and 16 bits are the 8
+//! bits and more.
 
 use super::load_scene;
 use homog::PixelRect;
 use pipeline::render::rows_per_band;
 use pipeline::scene::file::OverlayFile;
 use pipeline::scene::{ResolveOptions, parse_scene};
-use pipeline::{BandedRenderer, Channel, Origin, Picture, Scene, Timings, render};
+use pipeline::{Channel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::Path;
 
-/// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line drawings.
+/// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line
+/// drawings.
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
 fn render_region<C: Channel>(scene: &Scene, region: PixelRect) -> Picture<C> {
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(scene, 2, &timings).expect("a scene");
-    paint.render_region(region).expect("a region")
+    let textures = Textures::for_scene(scene);
+    let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
+    let mut prepared = renderer.prepare(&RenderContext::new(scene, &textures, 2)).expect("a scene");
+    prepared.render_region(region, &mut picture).expect("a region");
+    picture
 }
 
 fn assert_same_as_part<C: Channel + std::fmt::Debug>(
@@ -44,12 +48,13 @@ fn regions_and_bands_are_parts_of_the_whole() {
         let whole: Picture = render_region(&scene, all);
         let crop = PixelRect { x: 101, y: 59, width: 150, height: 80 };
         assert_same_as_part(&whole, &render_region(&scene, crop), crop, name);
-        let timings = Timings::default();
-        let mut paint = BandedRenderer::new(&scene, 1, &timings).expect("a scene");
+        let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+        let context = RenderContext::new(&scene, &textures, 1);
+        let mut prepared = renderer.prepare(&context).expect("a scene");
         let mut pixels: Vec<[u8; 4]> = Vec::new();
         let mut file = Vec::new();
-        let witness = |band: &Picture| pixels.extend(&band.pixels);
-        paint.write_png(&mut file, all, 50, witness).expect("a file");
+        let inspect_band = |band: &Picture| pixels.extend(&band.pixels);
+        prepared.write_png(&mut file, all, 50, inspect_band).expect("a file");
         assert!(pixels == whole.pixels, "{name} in bands");
         assert!(file == whole.to_png(), "{name} as a file");
         let deep: Picture<u16> = render_region(&scene, all);
@@ -98,26 +103,28 @@ fn files_do_not_depend_on_the_bands_they_are_written_in() {
         } else {
             scene.image.pixel_rect()
         };
-        let timings = Timings::default();
-        let mut paint = BandedRenderer::new(&scene, 1, &timings).expect("a scene");
-        let whole: Picture = paint.render_region(all).expect("a picture");
+        let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+        let context = RenderContext::new(&scene, &textures, 1);
+        let mut prepared = renderer.prepare(&context).expect("a scene");
+        let mut whole = Picture::<u8>::default();
+        prepared.render_region(all, &mut whole).expect("a picture");
         assert_eq!(whole.is_opaque(), covered || background == 1.0);
         for rows in [1, 64, 100] {
             let mut bytes = Vec::new();
-            paint.write_png(&mut bytes, all, rows, |_: &Picture| ()).expect("a file");
+            prepared.write_png(&mut bytes, all, rows, |_: &Picture| ()).expect("a file");
             assert!(bytes == whole.to_png(), "{rows} rows at a time");
         }
     }
 }
 
 #[test]
-fn regions_of_a_giant_picture_unite_across_its_sheets() {
+fn regions_of_a_giant_picture_fit_together_across_its_tiles() {
     for name in ["floor", "finishes", "two_point"] {
         let scene = load_scene(name, |file| {
             file.image.size = (20_000, 20_000);
             file.image.samples = 4;
         });
-        // Where four sheets meet.
+        // Where four tiles meet.
         let whole = PixelRect { x: 16_200, y: 16_300, width: 400, height: 200 };
         let picture: Picture = render_region(&scene, whole);
         for (x, y, width, height) in
@@ -131,23 +138,24 @@ fn regions_of_a_giant_picture_unite_across_its_sheets() {
     }
 }
 
-/// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment, an overlay, and a view with a
-/// camera of its own: all that looks beyond a pixel, in a tall picture.
+/// Textures, glass, soft and sharp shadows, a ground that catches them, occlusion, an environment,
+/// an overlay, and a view with a camera of its own: all that looks beyond a pixel, in a tall
+/// picture.
 const EVERYTHING_SCENE: &str = r#"Scene(
     models: [
         (path: "models/table.glb"),
-        (path: "models/crate.glb", translate: (-1.2, 0.5, 0), scale: 0.6),
-        (path: "models/panes.glb", translate: (1, 1.2, 1), scale: 0.5),
-        (path: "models/finishes.glb", translate: (0, 2.6, 0), scale: 0.3),
+        (path: "models/crate.glb", translation: (-1.2, 0.5, 0), scale: 0.6),
+        (path: "models/panes.glb", translation: (1, 1.2, 1), scale: 0.5),
+        (path: "models/finishes.glb", translation: (0, 2.6, 0), scale: 0.3),
     ],
     camera: (
         view: LookAt(eye: (2, 7, 9), target: (0, 0.6, 0)),
         projection: Perspective(fov_y_degrees: 50),
     ),
     lights: [
-        Sun(direction: (-1, -1.4, -0.4), lux: 2),
-        Spot(position: (3, 5, 4), direction: (-3, -5, -4), candela: 90),
-        Ambient(lux: 0.4),
+        Directional(direction: (-1, -1.4, -0.4), intensity: 2),
+        Spot(position: (3, 5, 4), direction: (-3, -5, -4), intensity: 90),
+        Ambient(intensity: 0.4),
     ],
     shadows: On(size: 512, softness_degrees: 4),
     ground: Shadow(),
@@ -183,11 +191,12 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         assert!(rows > 600, "{plain} is seen in {rows} rows");
     }
     let all = scene.image.pixel_rect();
-    let timings = Timings::default();
-    let mut paint = BandedRenderer::new(&scene, 2, &timings).expect("a scene");
+    let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+    let context = RenderContext::new(&scene, &textures, 2);
+    let mut prepared = renderer.prepare(&context).expect("a scene");
     for rows in [rows_per_band(scene.image.width), 512, 700] {
         let mut file = Vec::new();
-        paint.write_png(&mut file, all, rows, |_: &Picture| ()).expect("a file");
+        prepared.write_png(&mut file, all, rows, |_: &Picture| ()).expect("a file");
         assert!(file == whole.to_png(), "in bands of {rows} rows");
     }
     for part in [
@@ -196,11 +205,8 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
         PixelRect { x: 0, y: 1101, width: 1, height: 1 },
     ] {
         assert_same_as_part(&whole, &render_region(&scene, part), part, "alone");
-        assert_same_as_part(
-            &whole,
-            &paint.render_region(part).expect("a region"),
-            part,
-            "after others",
-        );
+        let mut region = Picture::default();
+        prepared.render_region(part, &mut region).expect("a region");
+        assert_same_as_part(&whole, &region, part, "after others");
     }
 }

@@ -68,7 +68,8 @@ fn normals_are_the_codes_of_the_pass() {
         let pixel = picture.pixel(x, y).expect("a pixel");
         for k in 0..3 {
             let expected = 255.0 * (0.5 * normal[k] + 0.5);
-            // Shading weighs the corners as they were snapped to 1/256 pixel, which tells on small triangles.
+            // Shading weighs the corners as they were snapped to 1/256 pixel, which tells on small
+            // triangles.
             let off = (f64::from(pixel[k]) - expected).abs();
             assert!(off < 6.0, "({x}, {y}) {pixel:?} {normal:?}");
             far += usize::from(off > 1.0);
@@ -95,7 +96,7 @@ fn depth_is_linear_between_the_ends_of_the_models() {
     });
 }
 
-/// What a white matt surface sends to the viewer, of suns and ambient light.
+/// The light that a white Lambertian surface reflects, of suns and ambient light.
 fn expected_light(scene: &Scene, normal: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for light in &scene.lights {
@@ -134,7 +135,8 @@ fn clay_is_matt_in_the_light_of_the_scene() {
 
 #[test]
 fn gouraud_is_clay_at_the_vertices_and_even_on_flat_faces() {
-    // On a crate all normals of a face are one: its light is even, as that of every matt surface in the sun.
+    // On a crate all normals of a face are one: its light is even, as that of every matt surface in
+    // the sun.
     let (gouraud, clay) =
         (styled_scene("crates", Style::Gouraud), styled_scene("crates", Style::Clay));
     let told = render_wanted_passes(&gouraud, &[Pass::Id, Pass::Normal, Pass::Material]);

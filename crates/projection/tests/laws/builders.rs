@@ -4,7 +4,9 @@
 use crate::samples::{self, convention, conventions, distance, frustum, orthographic, perspective};
 use glam::DMat4;
 use homog::{Clip, Point, Projective, View};
-use projection::{Convention, Fov, Frustum, Orthographic, Perspective, SensorSize};
+use projection::{
+    Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError, SensorSize,
+};
 use proptest::prelude::*;
 
 /// The view-space point `distance` ahead of the eye at (x, y).
@@ -136,7 +138,7 @@ proptest! {
 #[test]
 fn bad_parameters_are_refused_by_name() {
     let nan = f64::NAN;
-    let message = |e: Result<Frustum, projection::ProjectionError>| e.expect_err("bad").to_string();
+    let message = |e: Result<Frustum, ProjectionError>| e.expect_err("bad").to_string();
     assert!(message(Frustum::new(nan, 1.0, 0.0, 1.0, 1.0, 2.0)).contains("`left` is NaN"));
     assert!(message(Frustum::new(1.0, 1.0, 0.0, 1.0, 1.0, 2.0)).contains("`left` and `right`"));
     assert!(message(Frustum::new(0.0, 1.0, 2.0, 2.0, 1.0, 2.0)).contains("`bottom` and `top`"));
@@ -144,17 +146,38 @@ fn bad_parameters_are_refused_by_name() {
     assert!(message(Frustum::new(0.0, 1.0, 0.0, 1.0, 2.0, 1.0)).contains("beyond"));
     assert!(message(Frustum::new(0.0, 1.0, 0.0, 1.0, 1.0, nan)).contains("`far` is NaN"));
     assert!(message(Frustum::new(0.0, 1e-300, 0.0, 1.0, 1e300, 2e300)).contains("too extreme"));
-    for fov in [0.0, -1.0, core::f64::consts::PI, 4.0, nan, f64::INFINITY] {
-        assert!(Perspective::new(Fov::Vertical(fov), 1.0, 1.0, 2.0).is_err(), "{fov}");
-        assert!(Perspective::new(Fov::Diagonal(fov), 1.0, 1.0, 2.0).is_err(), "{fov}");
+    let is_out_of_range = |fov: Fov, aspect: f64| {
+        matches!(
+            Perspective::new(fov, aspect, 1.0, 2.0),
+            Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
+        )
+    };
+    for angle in [0.0, -1.0, core::f64::consts::PI, 4.0, nan, f64::INFINITY] {
+        assert!(is_out_of_range(Fov::Vertical(angle), 1.0), "{angle}");
+        assert!(is_out_of_range(Fov::Diagonal(angle), 1.0), "{angle}");
     }
     for bad in [0.0, -1.0, nan, f64::INFINITY] {
-        assert!(Perspective::new(Fov::Vertical(1.0), bad, 1.0, 2.0).is_err(), "{bad}");
-        assert!(Perspective::new(Fov::equivalent_35mm(bad), 1.0, 1.0, 2.0).is_err(), "{bad}");
+        assert!(is_out_of_range(Fov::Vertical(1.0), bad), "{bad}");
+        assert!(is_out_of_range(Fov::equivalent_35mm(bad), 1.0), "{bad}");
     }
-    assert!(Orthographic::new(-1.0, 1.0, -1.0, 1.0, 0.0, f64::INFINITY).is_err());
-    assert!(Orthographic::new(-1.0, 1.0, -1.0, 1.0, 3.0, 3.0).is_err());
-    assert!(Convention::OPENGL.with_depths(0.5, 0.5).is_err());
-    assert!(Convention::OPENGL.with_depths(nan, 0.5).is_err());
-    assert!(Convention::OPENGL.with_depths(0.0, 2.0).is_err());
+    assert!(matches!(
+        Orthographic::new(-1.0, 1.0, -1.0, 1.0, 0.0, f64::INFINITY),
+        Err(ProjectionError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        Orthographic::new(-1.0, 1.0, -1.0, 1.0, 3.0, 3.0),
+        Err(ProjectionError::EmptyDepth { .. })
+    ));
+    assert!(matches!(
+        Convention::OPENGL.with_depths(0.5, 0.5),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        Convention::OPENGL.with_depths(nan, 0.5),
+        Err(ProjectionError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        Convention::OPENGL.with_depths(0.0, 2.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
 }

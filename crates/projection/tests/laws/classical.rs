@@ -9,8 +9,8 @@ use glam::DMat4;
 use homog::{HPoint, Normal, Plane, Point, Vector, View};
 use projection::{
     Axonometric, AxonometricKind, Classical, Convention, NPoint, Oblique, ObliqueKind,
-    Orthographic, Planometric, PrincipalPlane, PrincipalView, ProjectionClass, Projector,
-    SheetAngle,
+    Orthographic, Planometric, PrincipalPlane, PrincipalView, ProjectionClass, ProjectionError,
+    Projector, SheetAngle,
 };
 use proptest::prelude::*;
 
@@ -354,19 +354,46 @@ fn the_tree_has_one_root_and_every_leaf_is_built() {
 #[test]
 fn impossible_parameters_are_refused() {
     let nan = f64::NAN;
-    assert!(Axonometric::by_foreshortening(1.0, 0.1, 0.1).is_err());
-    assert!(Axonometric::by_foreshortening(0.0, 1.0, 1.0).is_err());
-    assert!(Axonometric::by_angles(nan, 0.0).is_err());
-    assert!(Axonometric::isometric().about(Point::new(nan, 0.0, 0.0)).is_err());
-    assert!(Oblique::new(-1.0, 0.0).is_err());
-    assert!(Planometric::new(0.0, nan).is_err());
-    assert!(NPoint::by_vanishing_points(Some(0.0), None, None).is_err());
-    assert!(NPoint::by_vanishing_points(None, None, None).is_err());
+    assert!(matches!(
+        Axonometric::by_foreshortening(1.0, 0.1, 0.1),
+        Err(ProjectionError::ImpossibleForeshortening { .. })
+    ));
+    assert!(matches!(
+        Axonometric::by_foreshortening(0.0, 1.0, 1.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(Axonometric::by_angles(nan, 0.0), Err(ProjectionError::NotFinite { .. })));
+    assert!(matches!(
+        Axonometric::isometric().about(Point::new(nan, 0.0, 0.0)),
+        Err(ProjectionError::NotFinite { .. })
+    ));
+    assert!(matches!(Oblique::new(-1.0, 0.0), Err(ProjectionError::OutOfRange { .. })));
+    assert!(matches!(Planometric::new(0.0, nan), Err(ProjectionError::NotFinite { .. })));
+    assert!(matches!(
+        NPoint::by_vanishing_points(Some(0.0), None, None),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        NPoint::by_vanishing_points(None, None, None),
+        Err(ProjectionError::NoVanishingPoint { .. })
+    ));
     let plane = Plane::<View>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
-    assert!(Projector::from_eye(Point::new(3.0, 0.0, 1.0), plane).is_err());
-    assert!(Projector::along(Vector::X, plane).is_err());
-    assert!(Projector::along(Vector::ZERO, plane).is_err());
+    assert!(matches!(
+        Projector::from_eye(Point::new(3.0, 0.0, 1.0), plane),
+        Err(ProjectionError::CenterOnPlane { .. })
+    ));
+    assert!(matches!(
+        Projector::along(Vector::X, plane),
+        Err(ProjectionError::ParallelToPlane { .. })
+    ));
+    assert!(matches!(
+        Projector::along(Vector::ZERO, plane),
+        Err(ProjectionError::ZeroVector { .. })
+    ));
     let behind = Orthographic::new(-1.0, 1.0, -1.0, 1.0, -6.0, 5.0).expect("valid");
     let eye_at_5 = Classical::from(NPoint::from_eye(5.0).expect("valid"));
-    assert!(eye_at_5.view_to_clip(behind, Convention::CHAPTER).is_err());
+    assert!(matches!(
+        eye_at_5.view_to_clip(behind, Convention::CHAPTER),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
 }

@@ -149,18 +149,18 @@ proptest! {
         c in convention(),
     ) {
         prop_assert_eq!(kind(n.depth_preserving().raw(), c), Decomposed::NPoint(n));
-        let Decomposed::Flat { centre, projection } = kind(n.onto_plane().raw(), c) else {
+        let Decomposed::Flat { center, projection } = kind(n.onto_plane().raw(), c) else {
             panic!("flat")
         };
         prop_assert_eq!(projection, Some(n.into()));
-        prop_assert!(n.onto_plane().transform_hpoint(centre).raw().length() < 1e-9 * centre.raw().length());
-        let Decomposed::Flat { centre, projection: Some(Classical::Oblique(back)) } =
+        prop_assert!(n.onto_plane().transform_hpoint(center).raw().length() < 1e-9 * center.raw().length());
+        let Decomposed::Flat { center, projection: Some(Classical::Oblique(back)) } =
             kind(o.onto_plane().raw(), c)
         else {
             panic!("flat")
         };
         prop_assert!((back.direction() - o.direction()).length() < 1e-9);
-        prop_assert_eq!(centre.w(), 0.0);
+        prop_assert_eq!(center.w(), 0.0);
         let Decomposed::Flat { projection: Some(Classical::Axonometric(back)), .. } =
             kind(a.onto_plane().raw(), c)
         else {
@@ -228,8 +228,8 @@ fn lost_dimensions_are_counted() {
     assert_eq!(rank(DMat4::from_diagonal(DVec4::X)), 1);
     assert_eq!(rank(DMat4::from_diagonal(DVec4::new(3.0, 0.0, 0.0, 1e-9))), 2);
     let flat = decompose(DMat4::from_diagonal(DVec4::new(0.0, 1.0, 1.0, 1.0)), Convention::OPENGL);
-    let Ok(projection::Decomposition { kind: Decomposed::Flat { centre, .. }, .. }) = flat else {
+    let Ok(projection::Decomposition { kind: Decomposed::Flat { center, .. }, .. }) = flat else {
         panic!("{flat:?}")
     };
-    assert_eq!(centre, HPoint::from(Vector::X));
+    assert_eq!(center, HPoint::from(Vector::X));
 }

@@ -2,7 +2,7 @@
 
 use crate::samples::{self, convention, frustum, orthographic, planes};
 use homog::Point;
-use projection::{Convention, DepthCurve, DepthFormat, Frustum, third_row};
+use projection::{Convention, DepthCurve, DepthFormat, Frustum, ProjectionError, third_row};
 use proptest::prelude::*;
 
 proptest! {
@@ -157,11 +157,23 @@ fn depth_that_does_not_exist_is_none() {
     assert_eq!(curve.distance(f64::NAN), None);
     assert_eq!(curve.slope(0.0), None);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(curve.resolution(bad, DepthFormat::Float32).is_err());
+        assert!(matches!(
+            curve.resolution(bad, DepthFormat::Float32),
+            Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
+        ));
     }
-    assert!(curve.resolution(2.0, DepthFormat::FixedPoint(0)).is_err());
-    assert!(curve.resolution(2.0, DepthFormat::FixedPoint(65)).is_err());
-    assert!(third_row((0.0, 1.0), (1.0, 2.0)).is_err());
-    assert!(third_row((1.0, 1.0), (1.0, 2.0)).is_err());
-    assert!(DepthCurve::parallel(1.0, 1.0, Convention::OPENGL).is_err());
+    assert!(matches!(
+        curve.resolution(2.0, DepthFormat::FixedPoint(0)),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        curve.resolution(2.0, DepthFormat::FixedPoint(65)),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(third_row((0.0, 1.0), (1.0, 2.0)), Err(ProjectionError::OutOfRange { .. })));
+    assert!(matches!(third_row((1.0, 1.0), (1.0, 2.0)), Err(ProjectionError::EmptyDepth { .. })));
+    assert!(matches!(
+        DepthCurve::parallel(1.0, 1.0, Convention::OPENGL),
+        Err(ProjectionError::EmptyDepth { .. })
+    ));
 }

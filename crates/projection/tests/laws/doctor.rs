@@ -6,8 +6,8 @@ use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, View, World};
 use projection::{
     ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, IntendedProjection,
-    Misprint, NPoint, Oblique, Orthographic, Perspective, api, chapter, misprint_of,
-    principal_vanishing_points, symptoms,
+    Misprint, NPoint, Oblique, Orthographic, Perspective, ProjectionError, api, chapter,
+    misprint_of, principal_vanishing_points, symptoms,
 };
 use proptest::prelude::*;
 
@@ -57,7 +57,7 @@ fn printed(misprint: Misprint, wanted: IntendedProjection) -> DMat4 {
 
 /// The doctor finds the slip in the numbers alone, and its remedy is the wanted matrix.
 fn cured(matrix: DMat4, misprint: Misprint, wanted: DMat4) {
-    let found = symptoms(matrix).find(|symptom| symptom.misprint == misprint).expect("recognised");
+    let found = symptoms(matrix).find(|symptom| symptom.misprint == misprint).expect("recognized");
     let remedied = found.remedied.expect("a remedy");
     assert!(distance(remedied, wanted) < 1e-9, "{remedied}");
 }
@@ -101,8 +101,11 @@ fn m9_and_exercise_8_p_allows_positive_n_and_f_but_m_per_does_not() {
     let rows =
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, 1.0, 0.0]];
     assert_eq!(p.transpose().to_cols_array_2d(), rows);
-    assert!(chapter::m_per(LEFT, RIGHT, BOTTOM, TOP, 1.0, 2.0).is_err());
-    assert!(chapter::p(1.0, -2.0).is_err());
+    assert!(matches!(
+        chapter::m_per(LEFT, RIGHT, BOTTOM, TOP, 1.0, 2.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(chapter::p(1.0, -2.0), Err(ProjectionError::OutOfRange { .. })));
 }
 
 #[test]
@@ -182,7 +185,13 @@ fn m17_half_of_the_tangent_is_not_the_tangent_of_the_half() {
 
 #[test]
 fn m19_forty_five_degrees_are_not_forty_five_radians() {
-    assert!(Perspective::new(Fov::Vertical(45.0), 2.0, NEAR, FAR).is_err(), "out of (0, π)");
+    assert!(
+        matches!(
+            Perspective::new(Fov::Vertical(45.0), 2.0, NEAR, FAR),
+            Err(ProjectionError::OutOfRange { .. })
+        ),
+        "out of (0, π)"
+    );
     let wanted = lens(45_f64.to_radians());
     let slip = printed(Misprint::Degrees, wanted);
     assert!(
@@ -213,10 +222,22 @@ fn m20_the_factor_u_exceeds_one_between_plane_and_eye() {
 #[test]
 fn m21_ortho_takes_six_numbers_and_printed_47_checks_them() {
     assert!(api::ortho_gl(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0).is_ok());
-    assert!(api::perspective_gl(0.0, 1.0, 1.0, 2.0).is_err());
-    assert!(api::perspective_gl(1.0, 0.0, 1.0, 2.0).is_err());
-    assert!(api::perspective_gl(1.0, 1.0, 2.0, 2.0).is_err());
-    assert!(api::perspective_gl(1.0, 1.0, 0.0, 2.0).is_err());
+    assert!(matches!(
+        api::perspective_gl(0.0, 1.0, 1.0, 2.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        api::perspective_gl(1.0, 0.0, 1.0, 2.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
+    assert!(matches!(
+        api::perspective_gl(1.0, 1.0, 2.0, 2.0),
+        Err(ProjectionError::EmptyDepth { .. })
+    ));
+    assert!(matches!(
+        api::perspective_gl(1.0, 1.0, 0.0, 2.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
 }
 
 #[test]
@@ -248,10 +269,13 @@ fn printed_29_half_of_the_range_ends_at_eighty_twenty_firsts() {
 /// M14c.
 #[test]
 fn printed_31_only_symmetric_frusta_are_perspectives() {
-    let centred = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 2.0).expect("valid");
-    assert!(Perspective::try_from(centred).is_ok());
+    let centered = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 2.0).expect("valid");
+    assert!(Perspective::try_from(centered).is_ok());
     let aside = Frustum::new(LEFT, RIGHT, BOTTOM, TOP, NEAR, FAR).expect("valid");
-    assert!(Perspective::try_from(aside).is_err(), "an error, not nothing");
+    assert!(
+        matches!(Perspective::try_from(aside), Err(ProjectionError::OffCenter { .. })),
+        "an error, not nothing"
+    );
 }
 
 #[test]
@@ -262,18 +286,24 @@ fn printed_39_and_40_q_and_r_belong_to_y_and_z() {
         .axes
         .map(|axis| axis.point().is_some());
     assert_eq!(found, [false, true, true]);
-    assert!(NPoint::new(0.0, 0.0, 0.0).is_err(), "not all may be 0");
+    assert!(
+        matches!(NPoint::new(0.0, 0.0, 0.0), Err(ProjectionError::NoVanishingPoint { .. })),
+        "not all may be 0"
+    );
 }
 
 #[test]
 fn printed_49_near_and_far_go_to_zero_and_one_they_are_not_set_to_them() {
-    assert!(Frustum::new(LEFT, RIGHT, BOTTOM, TOP, 0.0, 1.0).is_err());
+    assert!(matches!(
+        Frustum::new(LEFT, RIGHT, BOTTOM, TOP, 0.0, 1.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
     let curve = DepthCurve::perspective(NEAR, FAR, Convention::WEBGPU).expect("valid");
     assert_eq!((curve.depth(NEAR), curve.depth(FAR)), (Some(0.0), Some(1.0)));
 }
 
 #[test]
-fn row_vectors_are_recognised() {
+fn row_vectors_are_recognized() {
     for wanted in [wanted_frustum(), lens(1.0), wanted_box()] {
         cured(printed(Misprint::Transposed, wanted), Misprint::Transposed, wanted.correct_matrix());
     }
@@ -312,7 +342,7 @@ proptest! {
             prop_assert_eq!(misprint_of(wanted.correct_matrix() * factor, wanted), None);
             for misprint in Misprint::ALL {
                 let Some(slip) = misprint.misprinted_matrix(wanted) else { continue };
-                // Where the slip changes nothing or equals another one, as for centred windows, any
+                // Where the slip changes nothing or equals another one, as for centered windows, any
                 // name will do.
                 if let Some(found) = misprint_of(slip * factor, wanted) {
                     let same =

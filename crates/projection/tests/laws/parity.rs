@@ -1,6 +1,6 @@
-//! The same numbers as glam's builders, where glam has them (C93).
+//! Parity with glam's builders, where glam has them (C93).
 //!
-//! Two of glam 0.34's builders are compared for centred windows only: its left-handed `frustum`
+//! Two of glam 0.34's builders are compared for centered windows only: its left-handed `frustum`
 //! keeps the sign of the right-handed offset and its Vulkan `orthographic` does not turn the y
 //! offset, so that corners of off-centre windows miss the corners of the canonical volume. That
 //! ours meet them is checked in `builders`.
@@ -30,13 +30,13 @@ fn by_box(o: Orthographic, c: Convention, glam: Six) {
     agree(o.view_to_clip(c), glam(w.left(), w.right(), w.bottom(), w.top(), o.near(), o.far()));
 }
 
-fn centred(f: Frustum) -> Frustum {
+fn centered(f: Frustum) -> Frustum {
     let w = f.window();
     let window = Window::centered(w.width(), w.height()).expect("not empty");
     Frustum::from_window(window, f.near(), f.far()).expect("valid")
 }
 
-fn centred_box(o: Orthographic) -> Orthographic {
+fn centered_box(o: Orthographic) -> Orthographic {
     let w = o.window();
     let window = Window::centered(w.width(), w.height()).expect("not empty");
     Orthographic::from_window(window, o.near(), o.far()).expect("valid")
@@ -63,19 +63,19 @@ proptest! {
         by_window(f, Convention::OPENGL, rh::proj::opengl::frustum);
         by_window(f, Convention::VULKAN, rh::proj::vulkan::frustum);
         by_window(f, Convention::WEBGPU, rh::proj::directx::frustum);
-        by_window(centred(f), Convention::OPENGL.left_handed(), lh::proj::opengl::frustum);
-        by_window(centred(f), Convention::VULKAN.left_handed(), lh::proj::vulkan::frustum);
-        by_window(centred(f), Convention::DIRECT3D, lh::proj::directx::frustum);
+        by_window(centered(f), Convention::OPENGL.left_handed(), lh::proj::opengl::frustum);
+        by_window(centered(f), Convention::VULKAN.left_handed(), lh::proj::vulkan::frustum);
+        by_window(centered(f), Convention::DIRECT3D, lh::proj::directx::frustum);
     }
 
     /// C93.
     #[test]
     fn boxes_agree_with_glam(o in orthographic()) {
         by_box(o, Convention::OPENGL, rh::proj::opengl::orthographic);
-        by_box(centred_box(o), Convention::VULKAN, rh::proj::vulkan::orthographic);
+        by_box(centered_box(o), Convention::VULKAN, rh::proj::vulkan::orthographic);
         by_box(o, Convention::METAL, rh::proj::directx::orthographic);
         by_box(o, Convention::OPENGL.left_handed(), lh::proj::opengl::orthographic);
-        by_box(centred_box(o), Convention::VULKAN.left_handed(), lh::proj::vulkan::orthographic);
+        by_box(centered_box(o), Convention::VULKAN.left_handed(), lh::proj::vulkan::orthographic);
         by_box(o, Convention::DIRECT3D, lh::proj::directx::orthographic);
     }
 

@@ -5,7 +5,7 @@ use crate::samples::{self, convention, direction, frustum, npoint, oblique, poin
 use homog::{Affine, Point, Projective, Vector, View, World};
 use projection::{
     ConstructedPerspective, Convention, Fov, Frustum, NPoint, Perspective, PointPerspective,
-    VanishingPoint, Window, principal_vanishing_points, vanishing_point,
+    ProjectionError, VanishingPoint, Window, principal_vanishing_points, vanishing_point,
 };
 use proptest::prelude::*;
 
@@ -177,18 +177,48 @@ fn check(
 #[test]
 fn impossible_vanishing_points_are_refused() {
     let three = ConstructedPerspective::three_point;
-    assert!(three((0.0, 0.0), (1.0, 0.0), (2.0, 0.0)).is_err(), "on one line");
-    assert!(three((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)).is_err(), "a right angle");
-    assert!(three((-1.0, 0.0), (1.0, 0.0), (0.0, 0.5)).is_err(), "an obtuse angle");
-    assert!(three((-1.0, 0.0), (1.0, 0.0), (0.0, f64::NAN)).is_err());
+    assert!(
+        matches!(
+            three((0.0, 0.0), (1.0, 0.0), (2.0, 0.0)),
+            Err(ProjectionError::ImpossibleVanishingPoints { .. })
+        ),
+        "on one line"
+    );
+    assert!(
+        matches!(
+            three((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)),
+            Err(ProjectionError::ImpossibleVanishingPoints { .. })
+        ),
+        "a right angle"
+    );
+    assert!(
+        matches!(
+            three((-1.0, 0.0), (1.0, 0.0), (0.0, 0.5)),
+            Err(ProjectionError::ImpossibleVanishingPoints { .. })
+        ),
+        "an obtuse angle"
+    );
+    assert!(matches!(
+        three((-1.0, 0.0), (1.0, 0.0), (0.0, f64::NAN)),
+        Err(ProjectionError::NotFinite { .. })
+    ));
     assert!(three((-1.0, 0.0), (0.0, -2.0), (1.0, 0.0)).is_ok());
     let two = ConstructedPerspective::two_point;
-    assert!(two((1.0, 0.0), (1.0, 0.0), 0.5).is_err());
-    assert!(two((1.0, 0.0), (2.0, 0.0), 0.0).is_err());
-    assert!(ConstructedPerspective::one_point((0.0, 0.0), 0.0).is_err());
+    assert!(matches!(
+        two((1.0, 0.0), (1.0, 0.0), 0.5),
+        Err(ProjectionError::ImpossibleVanishingPoints { .. })
+    ));
+    assert!(matches!(two((1.0, 0.0), (2.0, 0.0), 0.0), Err(ProjectionError::OutOfRange { .. })));
+    assert!(matches!(
+        ConstructedPerspective::one_point((0.0, 0.0), 0.0),
+        Err(ProjectionError::OutOfRange { .. })
+    ));
     let map = Frustum::new(-1.0, 1.0, -1.0, 1.0, 1.0, 2.0)
         .expect("valid")
         .view_to_clip(Convention::OPENGL);
-    assert!(vanishing_point(map, Vector::ZERO).is_err());
-    assert!(vanishing_point(map, Vector::new(f64::NAN, 0.0, 1.0)).is_err());
+    assert!(matches!(vanishing_point(map, Vector::ZERO), Err(ProjectionError::ZeroVector { .. })));
+    assert!(matches!(
+        vanishing_point(map, Vector::new(f64::NAN, 0.0, 1.0)),
+        Err(ProjectionError::NotFinite { .. })
+    ));
 }

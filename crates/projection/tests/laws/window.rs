@@ -6,8 +6,8 @@ use crate::samples::{
 use glam::{DMat4, DVec3};
 use homog::{Clip, HPoint, Ndc, Normal, Plane, Point, Projective, View};
 use projection::{
-    Convention, FourAngles, Fov, Frustum, Jitter, Orthographic, Perspective, ViewOffset,
-    ViewVolume, Window, oblique_near_plane, opening_angle_of,
+    Convention, FourAngles, Fov, Frustum, Jitter, Orthographic, Perspective, ProjectionError,
+    ViewOffset, ViewVolume, Window, oblique_near_plane, opening_angle_of,
 };
 use proptest::prelude::*;
 
@@ -205,10 +205,28 @@ fn a_mirror_behind_the_eye_or_beyond_the_volume_is_refused() {
     let map = Perspective::new(Fov::Vertical(1.0), 1.0, 1.0, 10.0).expect("valid").view_to_clip(c);
     let at = |z: f64, n: f64| Plane::through(Point::new(0.0, 0.0, z), Normal::new(0.0, 0.0, n));
     assert!(oblique_near_plane(map, c, at(-3.0, -1.0)).is_ok());
-    assert!(oblique_near_plane(map, c, at(-3.0, 1.0)).is_err(), "the eye must be behind it");
-    assert!(oblique_near_plane(map, c, at(-11.0, -1.0)).is_err(), "nothing is left");
-    assert!(oblique_near_plane(map, c, at(f64::NAN, -1.0)).is_err());
-    assert!(oblique_near_plane(map, c, at(-3.0, 0.0)).is_err());
+    assert!(
+        matches!(
+            oblique_near_plane(map, c, at(-3.0, 1.0)),
+            Err(ProjectionError::OutOfRange { .. })
+        ),
+        "the eye must be behind it"
+    );
+    assert!(
+        matches!(
+            oblique_near_plane(map, c, at(-11.0, -1.0)),
+            Err(ProjectionError::OutOfRange { .. })
+        ),
+        "nothing is left"
+    );
+    assert!(matches!(
+        oblique_near_plane(map, c, at(f64::NAN, -1.0)),
+        Err(ProjectionError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        oblique_near_plane(map, c, at(-3.0, 0.0)),
+        Err(ProjectionError::ZeroVector { .. })
+    ));
 }
 
 #[test]
@@ -222,12 +240,18 @@ fn tiles_of_nothing_are_refused() {
             lens.view_offset(ViewOffset { full: size, corner: (0.0, 0.0), size: (1.0, 1.0) })
                 .is_err()
         );
-        assert!(lens.jittered(Jitter { image: size, offset: (0.0, 0.0) }).is_err());
+        assert!(matches!(
+            lens.jittered(Jitter { image: size, offset: (0.0, 0.0) }),
+            Err(ProjectionError::NotFinite { .. } | ProjectionError::OutOfRange { .. })
+        ));
     }
-    assert!(lens.shifted(f64::NAN, 0.0).is_err());
+    assert!(matches!(lens.shifted(f64::NAN, 0.0), Err(ProjectionError::NotFinite { .. })));
     let wide = FourAngles { left: -1.6, right: 0.1, down: -0.1, up: 0.1 };
-    assert!(wide.frustum(1.0, 2.0).is_err());
-    assert!(Frustum::from_slopes(Window::centered(1.0, 1.0).expect("valid"), 1.0, 1.0).is_err());
+    assert!(matches!(wide.frustum(1.0, 2.0), Err(ProjectionError::OutOfRange { .. })));
+    assert!(matches!(
+        Frustum::from_slopes(Window::centered(1.0, 1.0).expect("valid"), 1.0, 1.0),
+        Err(ProjectionError::EmptyDepth { .. })
+    ));
     assert!(
         Orthographic::from_window(Window::centered(1.0, 1.0).expect("valid"), 1.0, f64::NAN)
             .is_err()

@@ -128,6 +128,6 @@ impl<const LIT: bool, const TEXTURED: bool> Pipeline for Shader<'_, LIT, TEXTURE
             let light = light(carried.normal);
             color = color.map(|channel| channel * light);
         }
-        Quantized.pixel([color[0], color[1], color[2], 1.0])
+        Quantized.encode_pixel([color[0], color[1], color[2], 1.0])
     }
 }

@@ -1,4 +1,5 @@
-//! Mesa's llvmpipe: OpenGL on the processor, shaders compiled to machine code, one thread (`LP_NUM_THREADS=0`).
+//! Mesa's llvmpipe: OpenGL on the processor, shaders compiled to machine code, one thread
+//! (`LP_NUM_THREADS=0`).
 
 use super::Peer;
 use crate::gl::{Context, Framebuffer, Part as GlPart, Program};

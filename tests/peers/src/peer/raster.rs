@@ -1,4 +1,5 @@
-//! The crate `raster` with the stages before it and a shader of this comparison's own: what the other peers do, no more.
+//! The crate `raster` with the stages before it and a shader of this comparison's own: what the
+//! other peers do, no more.
 
 use super::look::Look;
 use super::{AREA, Peer, Quantized};
@@ -7,8 +8,8 @@ use clip::{Outcode, Volume, clip_triangle};
 use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, World};
 use projection::Convention;
 use raster::{
-    Clusters, Cover, Cull, Frame, GUARD_BAND, Instructions, Samples, ScreenVertex, Selection,
-    signed_area,
+    Clusters, CullMode, Frame, GUARD_BAND, MeshSelection, MeshTriangles, Opacity, Samples,
+    ScreenVertex, SimdLevel, VertexProjection, signed_area,
 };
 use viewport::Viewport;
 
@@ -28,7 +29,7 @@ pub struct Raster<'a> {
     /// Of each part, made once as vertex buffers are.
     clusters: Vec<Clusters>,
     /// What of each part is drawn now.
-    selections: Vec<Selection>,
+    selections: Vec<MeshSelection>,
     clip: Vec<HPoint<Clip>>,
     codes: Vec<Outcode>,
     screen: Vec<Option<ScreenVertex>>,
@@ -57,7 +58,7 @@ impl<'a> Raster<'a> {
                 .with_threads(threads),
             corners: corners(&positions),
             clusters: scene.parts.iter().map(|part| clusters(scene, part, &positions)).collect(),
-            selections: vec![Selection::default(); scene.parts.len()],
+            selections: vec![MeshSelection::default(); scene.parts.len()],
             positions,
             clip: Vec::new(),
             codes: Vec::new(),
@@ -69,47 +70,59 @@ impl<'a> Raster<'a> {
 
     /// The same without the vector instructions that not every processor has.
     pub fn baseline(self) -> Self {
-        let frame = self.frame.with_instructions(Instructions::baseline());
+        let frame = self.frame.with_simd_level(SimdLevel::baseline());
         Self { frame, baseline: true, ..self }
     }
 
     /// The vertices on the screen, and if some may have to be cut in clip space too.
     fn vertices(&mut self) {
-        let instructions = self.frame.instructions();
+        let simd_level = self.frame.simd_level();
         let mut corners = [HPoint::new(0.0, 0.0, 0.0, 1.0); 8];
         let mut codes = [Outcode::INSIDE; 8];
-        let extent =
-            self.volume.project(self.world_to_clip, &self.corners, &mut corners, &mut codes);
+        let extent = self.volume.project_positions(
+            self.world_to_clip,
+            &self.corners,
+            &mut corners,
+            &mut codes,
+        );
         self.whole = extent.is_inside();
         let viewer = HPoint::from(self.look.scene.camera.eye());
         let parts = self.look.scene.parts.iter().zip(&self.clusters).zip(&mut self.selections);
         for ((part, clusters), selection) in parts {
             selection.clear(self.positions.len());
-            for cluster in clusters.list() {
-                if part.two_sided || !cluster.is_turned_away(viewer) {
-                    selection.add(cluster);
+            for cluster in clusters.as_slice() {
+                if part.two_sided || !cluster.is_back_facing(viewer) {
+                    selection.add_cluster(cluster);
                 }
             }
         }
         if self.whole {
+            let projection = VertexProjection {
+                to_clip: self.world_to_clip,
+                ndc_to_screen: self.ndc_to_screen,
+                simd_level,
+                threads: self.threads,
+            };
             for selection in &self.selections {
-                ScreenVertex::project_selected(
-                    &self.positions,
-                    selection,
-                    self.world_to_clip,
-                    self.ndc_to_screen,
-                    instructions,
-                    self.threads,
-                    &mut self.screen,
-                );
+                projection.project_selected_positions(&self.positions, selection, &mut self.screen);
             }
             return;
         }
         self.clip.resize(self.positions.len(), corners[0]);
         self.codes.resize(self.positions.len(), Outcode::INSIDE);
-        self.volume.project(self.world_to_clip, &self.positions, &mut self.clip, &mut self.codes);
+        self.volume.project_positions(
+            self.world_to_clip,
+            &self.positions,
+            &mut self.clip,
+            &mut self.codes,
+        );
         self.screen.resize(self.positions.len(), None);
-        ScreenVertex::snap_all(&self.clip, self.ndc_to_screen, instructions, &mut self.screen);
+        ScreenVertex::divide_and_snap_points(
+            &self.clip,
+            self.ndc_to_screen,
+            simd_level,
+            &mut self.screen,
+        );
         for (vertex, code) in self.screen.iter_mut().zip(&self.codes) {
             *vertex = vertex.filter(|_| code.is_inside());
         }
@@ -123,9 +136,16 @@ impl<'a> Raster<'a> {
             let first = (part.indices.start / 3) as u32;
             let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
             // Counter-clockwise in the world is negative on a screen whose y runs down.
-            let cull = if part.two_sided { Cull::Nothing } else { Cull::Clockwise };
+            let cull = if part.two_sided { CullMode::Nothing } else { CullMode::Clockwise };
             let runs = selection.triangles();
-            self.frame.mesh_part(&self.screen, triangles, runs, first, Cover::Solid, cull);
+            let mesh = MeshTriangles {
+                vertices: &self.screen,
+                triangles,
+                first_id: first,
+                opacity: Opacity::Opaque,
+                cull,
+            };
+            self.frame.add_mesh_runs(mesh, runs);
             if self.whole {
                 continue;
             }
@@ -144,7 +164,8 @@ impl<'a> Raster<'a> {
     /// A triangle that reaches beyond the near or far plane or the guard band.
     fn cut(&mut self, corners: [u32; 3], id: u32, part: &Part) {
         let points = corners.map(|at| self.clip[at as usize]);
-        if !Outcode::rejects(&points.map(|point| self.volume.outcode(point))).is_inside() {
+        if !Outcode::trivially_rejects(&points.map(|point| self.volume.outcode(point))).is_inside()
+        {
             return;
         }
         for piece in clip_triangle(points, &self.volume).triangles() {
@@ -152,7 +173,7 @@ impl<'a> Raster<'a> {
             let [Some(p), Some(q), Some(r)] = corners else { continue };
             if part.two_sided || signed_area([p, q, r]) < 0 {
                 let weights = piece.map(|vertex| vertex.weights.map(|weight| weight as f32));
-                self.frame.triangle_piece([p, q, r], weights, id, Cover::Solid);
+                self.frame.add_clipped_triangle([p, q, r], weights, id, Opacity::Opaque);
             }
         }
     }
@@ -161,7 +182,7 @@ impl<'a> Raster<'a> {
 /// The clusters of a part's triangles.
 fn clusters(scene: &Scene, part: &Part, positions: &[[f32; 3]]) -> Clusters {
     let triangles = scene.indices[part.indices.clone()].as_chunks::<3>().0;
-    Clusters::of(positions, triangles, !part.two_sided)
+    Clusters::build(positions, triangles, !part.two_sided)
 }
 
 /// The corners of the box around positions.
@@ -179,7 +200,7 @@ fn corners(positions: &[[f32; 3]]) -> [[f32; 3]; 8] {
 }
 
 fn snap(ndc_to_screen: Affine<Ndc, Screen>, point: HPoint<Clip>) -> Option<ScreenVertex> {
-    ScreenVertex::snap(ndc_to_screen.point(point.divide()?), point.w())
+    ScreenVertex::snap(ndc_to_screen.transform_point(point.divide()?), point.w())
 }
 
 impl Peer for Raster<'_> {

@@ -1,22 +1,24 @@
-//! The whole of `pipeline::render`: our rasteriser with the shading of the finished program, colours in linear light.
+//! The whole of `pipeline::render`: our rasteriser with the shading of the finished program,
+//! colours in linear light.
 //!
-//! It does more than the peers do: materials are looked at, colours go through the sRGB curve both ways. What a frame of the
-//! program costs is what people wait for, so it stands beside the bare rasteriser.
+//! It does more than the peers do: materials are looked at, colours go through the sRGB curve both
+//! ways. What a frame of the program costs is what people wait for, so it stands beside the bare
+//! rasteriser.
 
 use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
+use camera::ViewProjection;
 use homog::Affine;
+use model::ModelInstance;
 use model::import::{ImportOptions, load};
 use model::{
-    Image, Material, Mesh, Mipmap, Model, Primitive, Sampler, Texture as Used, TextureUse,
+    Image, Material, Mesh, MipmapMode, Model, Primitive, Sampler, Texture as Used, TextureInfo,
 };
-use camera::ViewProjection;
 use pipeline::scene::{ImageSpec, Style};
-use model::ModelInstance;
-use shade::Light;
-use pipeline::{Picture, Renderer, Textures, Timings};
+use pipeline::{Picture, RenderContext, Renderer, Textures};
 use projection::Convention;
 use raster::Samples;
+use shade::Light;
 use std::f32::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
@@ -45,24 +47,24 @@ impl Render {
                 view_to_clip: scene.view_to_clip(Convention::CHAPTER),
             },
             lights: vec![
-                Light::Sun { towards: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
+                Light::Sun { to_light: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
                 Light::Ambient { lux: lux(AMBIENT) },
             ],
             ground: None,
             occlusion_radius: None,
             environment: None,
-            develop: shade::Develop::default(),
+            tone_mapper: shade::ToneMapper::default(),
             style: Style::Shaded,
             image: ImageSpec {
                 width,
                 height,
                 background: [0.0; 4],
-                backdrop: None,
+                environment_blur: None,
                 samples,
-                anisotropy: 1,
+                max_anisotropy: 1,
             },
-            views: Vec::new(),
-            painting: None,
+            insets: Vec::new(),
+            backdrop: None,
             overlays: Vec::new(),
             sections: Vec::new(),
         };
@@ -70,7 +72,7 @@ impl Render {
         let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {
             scene,
-            textures: Textures::of(models),
+            textures: Textures::for_models(models),
             renderer: Renderer::default(),
             threads,
             picture: Picture::default(),
@@ -90,9 +92,8 @@ impl Peer for Render {
 
     fn draw(&mut self) {
         let Self { scene, textures, renderer, threads, picture } = self;
-        let silent = Timings::default();
         // A scene that cannot be rendered has no pixels, and agrees with nobody.
-        if renderer.render(scene, textures, *threads, &silent, picture).is_err() {
+        if renderer.render(&RenderContext::new(scene, textures, *threads), picture).is_err() {
             picture.pixels.clear();
         }
     }
@@ -111,7 +112,7 @@ fn model(scene: &Scene) -> Result<Model, String> {
         ..Mesh::default()
     };
     // As the peers read textures: no mip maps.
-    let sampler = Sampler { mipmap: Mipmap::None, ..Sampler::default() };
+    let sampler = Sampler { mipmap_mode: MipmapMode::None, ..Sampler::default() };
     let count = scene.textures.len();
     Ok(Model {
         meshes: vec![mesh],
@@ -122,7 +123,8 @@ fn model(scene: &Scene) -> Result<Model, String> {
     })
 }
 
-/// A model with one node that shows mesh 0 where it is: what the importer makes of the plainest file there is.
+/// A model with one node that shows mesh 0 where it is: what the importer makes of the plainest
+/// file there is.
 fn one_node() -> Result<Model, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("node.gltf");
     load(&file, &ImportOptions::default()).map_err(|error| error.to_string())
@@ -153,7 +155,7 @@ fn primitive(scene: &Scene, part: &Part, number: usize) -> Primitive {
 
 fn material(part: &Part) -> Material {
     let [r, g, b] = part.tint;
-    let used = |texture| TextureUse { texture, uv_set: 0, uv_map: TextureUse::KEEP_UV };
+    let used = |texture| TextureInfo { texture, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
     Material {
         base_color: [r, g, b, 1.0],
         base_color_texture: part.texture.map(used),

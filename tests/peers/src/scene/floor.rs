@@ -1,4 +1,5 @@
-//! A tiled floor that passes under and behind the eye: what clipping costs, and textures at a slant.
+//! A tiled floor that passes under and behind the eye: what clipping costs, and textures at a
+//! slant.
 
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::Camera;

@@ -4,7 +4,7 @@ use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::{Normal, Point, World};
 use model::import::{ImportOptions, load};
-use model::{Image, Model, Posed, Primitive, Topology};
+use model::{Image, Model, Primitive, SkinnedPrimitive, Topology};
 use projection::{Fov, Perspective};
 use std::path::{Path, PathBuf};
 
@@ -20,9 +20,9 @@ pub fn helmet(name: &'static str, folder: &Path) -> Result<Scene, String> {
     let path = folder.join("models/flight-helmet/FlightHelmet.gltf");
     let model = load(&path, &ImportOptions::default()).map_err(|error| error.to_string())?;
     let mut scene = framed(name, &model)?;
-    for (instance, primitive) in model.shown_primitives() {
+    for (instance, primitive) in model.scene_primitives() {
         if primitive.topology == Topology::Triangles {
-            add(&mut scene, &model, primitive, &model.posed(instance, primitive));
+            add(&mut scene, &model, primitive, &model.skin_primitive(instance, primitive));
         }
     }
     scene.about = format!("{}, {} triangles, textured, lambert", model.name, scene.triangles());
@@ -35,7 +35,7 @@ fn framed(name: &'static str, model: &Model) -> Result<Scene, String> {
     let half = fov.half_slopes(aspect()).map_err(|error| error.to_string())?;
     let slopes = Slopes { left: -half.x, right: half.x, bottom: -half.y, top: half.y };
     let points: Vec<Point<World>> =
-        model.shown_points().iter().map(|p| Point::from_raw(p.raw())).collect();
+        model.scene_points().iter().map(|p| Point::from_raw(p.raw())).collect();
     let view = NamedView::Front.basis();
     let framing =
         frame_perspective(points, view, slopes, 0.03).map_err(|error| error.to_string())?;
@@ -65,15 +65,20 @@ fn texture(image: &Option<Image>) -> Texture {
     )
 }
 
-fn add(scene: &mut Scene, model: &Model, primitive: &Primitive, posed: &Posed<'_>) {
+fn add(scene: &mut Scene, model: &Model, primitive: &Primitive, posed: &SkinnedPrimitive<'_>) {
     let first = scene.vertices.len() as u32;
     let (begin, map) = (scene.indices.len(), posed.to_model);
     let uvs = primitive.uvs.first();
     for (at, &position) in posed.positions.iter().enumerate() {
         let normal = posed.normals.as_ref().map_or([0.0, 0.0, 1.0], |normals| normals[at]);
-        let normal = map.normal(Normal::from_raw(normal.map(f64::from).into())).normalized();
+        let normal =
+            map.transform_normal(Normal::from_raw(normal.map(f64::from).into())).normalized();
         scene.vertices.push(Vertex {
-            position: map.point(Point::from(position.map(f64::from))).raw().as_vec3().to_array(),
+            position: map
+                .transform_point(Point::from(position.map(f64::from)))
+                .raw()
+                .as_vec3()
+                .to_array(),
             normal: normal.map_or([0.0, 0.0, 1.0], |n| n.raw().as_vec3().to_array()),
             uv: uvs.map_or([0.0; 2], |uvs| uvs[at]),
         });

@@ -6,8 +6,8 @@ use homog::{Point, Vector};
 use projection::{Fov, Perspective};
 use std::f64::consts::{PI, TAU};
 
-/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away, and are left out unless it is drawn
-/// with both sides.
+/// A sphere of `rows` × 2 `rows` quads: 4 `rows`² triangles. Half of them face away, and are left
+/// out unless it is drawn with both sides.
 pub fn sphere(name: &'static str, rows: u32, two_sided: bool) -> Result<Scene, String> {
     let vertices: Vec<Vertex> = (0..=rows)
         .flat_map(|i| (0..=2 * rows).map(move |j| (i, j)))

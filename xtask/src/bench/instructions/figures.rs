@@ -6,7 +6,9 @@ use std::path::PathBuf;
 /// A stored count.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct InstructionCount {
+    /// The workload.
     pub name: String,
+    /// Instructions of the whole run.
     pub count: u64,
     /// Why it last changed.
     pub reason: String,
@@ -29,6 +31,7 @@ const TABLE_HEADING: &str = "\
 ";
 
 impl CountTable {
+    /// Reads the table from its file.
     pub fn read_table() -> Result<Self, String> {
         let path = table_path();
         if !path.exists() {
@@ -55,6 +58,7 @@ impl CountTable {
         Ok(found)
     }
 
+    /// Writes the table to its file.
     pub fn write_table(&self) -> Result<(), String> {
         let path = table_path();
         std::fs::write(&path, self.to_text())
@@ -69,10 +73,12 @@ impl CountTable {
         format!("{TABLE_HEADING}{COMPILER_KEY:12} {}\n{lines}", self.compiler)
     }
 
+    /// The row of a workload.
     pub fn count_for(&self, name: &str) -> Option<&InstructionCount> {
         self.figures.iter().find(|figure| figure.name == name)
     }
 
+    /// Replaces or adds a row.
     pub fn set_count(&mut self, name: &str, count: u64, reason: &str) {
         let new = InstructionCount { name: name.to_owned(), count, reason: reason.to_owned() };
         match self.figures.iter_mut().find(|figure| figure.name == name) {

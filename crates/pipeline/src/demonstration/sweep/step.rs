@@ -1,4 +1,8 @@
-//! A step of a sweep: the scene's camera and projection with one parameter changed.
+//! One step of a sweep: the scene's camera and projection with one parameter changed.
+//!
+//! The scene's projection is first decomposed into a frustum or an orthographic box, then one
+//! number of it is replaced. Parameters that a projection lacks (a height of a perspective, an
+//! angle of view of a parallel one) are refused with the one to vary instead.
 
 use super::super::DemonstrationError;
 use super::super::number_format::format_short;
@@ -11,17 +15,21 @@ use projection::{
     Convention, Decomposed, Frustum, Orthographic, ProjectionError, Window, decompose,
 };
 
-/// What a step begins with.
+/// The scene's view, decomposed into camera and parameters.
 pub(super) struct SweepBase {
+    /// The scene's camera.
     camera: Camera,
+    /// The scene's projection.
     projection: BaseProjection,
+    /// All vertices, to fit near and far plane.
     points: Vec<Point<World>>,
+    /// The center of the models' bounding box.
     center: Point<World>,
-    /// The distance of the middle along the line of sight.
+    /// Distance of the center along the line of sight.
     distance: f64,
 }
 
-/// The scene's projection.
+/// The scene's projection as parameters.
 #[derive(Clone, Copy)]
 enum BaseProjection {
     Perspective(Frustum),
@@ -29,7 +37,7 @@ enum BaseProjection {
 }
 
 impl BaseProjection {
-    /// Why there is no such parameter, if there is none.
+    /// The reason why the projection lacks a parameter; `None` if it has it.
     fn reason_unsupported(self, vary: SweepParameter) -> Option<&'static str> {
         let is_of_perspective = matches!(
             vary,
@@ -51,6 +59,8 @@ impl BaseProjection {
 }
 
 impl SweepBase {
+    /// Decomposes the scene's view.
+    ///
     /// # Errors
     /// If the scene's projection has no such parameter.
     pub(super) fn new(scene: &Scene, vary: SweepParameter) -> Result<Self, DemonstrationError> {
@@ -77,7 +87,7 @@ impl SweepBase {
         Ok(Self { camera, projection: lens, points, center, distance })
     }
 
-    /// Camera and projection with the parameter at this value, and what there is to say of them.
+    /// Camera and projection with the parameter at a value, and a note on them.
     pub(super) fn view_at(
         &self,
         vary: SweepParameter,
@@ -117,7 +127,7 @@ impl SweepBase {
         Ok((view_projection, self.describe_frustum(frustum, camera)))
     }
 
-    /// What a value must be, if it is not.
+    /// The requirement that a value violates, if it does.
     fn unmet_requirement(&self, vary: SweepParameter, value: f64) -> Option<&'static str> {
         let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
         let (is_allowed, allowed) = match vary {
@@ -133,7 +143,7 @@ impl SweepBase {
         (!is_allowed || !value.is_finite()).then_some(allowed)
     }
 
-    /// Where the eye is.
+    /// The camera at a value of a parameter that moves it.
     fn camera_for_value(&self, vary: SweepParameter, value: f64) -> Result<Camera, String> {
         match vary {
             SweepParameter::Distance | SweepParameter::Dolly => {
@@ -145,7 +155,7 @@ impl SweepBase {
         }
     }
 
-    /// The camera turned about the upright through the middle.
+    /// The camera rotated about the vertical axis through the center.
     fn orbit_camera(&self, degrees: f64) -> Result<Camera, String> {
         let center: Vector<World> = self.center - Point::ORIGIN;
         let rotation = Affine::<World, World>::translation(-center)
@@ -155,7 +165,7 @@ impl SweepBase {
         Camera::from_frame(frame).map_err(|error| error.to_string())
     }
 
-    /// A step of a parallel projection.
+    /// Camera and parallel projection with the parameter at a value, and a note.
     fn parallel_view_at(
         &self,
         vary: SweepParameter,
@@ -183,7 +193,7 @@ impl SweepBase {
             _ => (volume.near(), volume.far()),
         };
         if near >= far {
-            // The matrix would do: it looks backwards, through a volume turned inside out.
+            // The matrix would accept it, and look backwards through an inverted volume.
             let [near, far] = [near, far].map(|number| format_short(number, 6));
             return Err(format!("`far` ({far}) must lie beyond `near` ({near})"));
         }
@@ -196,7 +206,7 @@ impl SweepBase {
         Ok((view_projection, format!("{width} wide · {height} high · near {near} · far {far}")))
     }
 
-    /// The window one unit ahead of the eye.
+    /// The window one unit ahead of the eye at a value.
     fn slopes_for_value(
         &self,
         vary: SweepParameter,
@@ -221,7 +231,7 @@ impl SweepBase {
         }
     }
 
-    /// The numbers of a step.
+    /// The note of a perspective step: angle, distance, planes.
     fn describe_frustum(&self, frustum: Frustum, camera: Camera) -> String {
         let slopes = frustum.slopes();
         let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
@@ -238,7 +248,7 @@ fn shift_window(window: Window, halves: f64) -> Result<Window, ProjectionError> 
     Window::new(window.left() + by, window.right() + by, window.bottom(), window.top())
 }
 
-/// A window, its sides moved away from the line of sight by factors.
+/// A window with its sides scaled about the line of sight.
 fn scale_window(window: Window, x: f64, y: f64) -> Result<Window, ProjectionError> {
     Window::new(window.left() * x, window.right() * x, window.bottom() * y, window.top() * y)
 }

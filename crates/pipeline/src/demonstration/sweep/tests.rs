@@ -5,15 +5,13 @@ use crate::demonstration::test_scene::house_scene;
 use homog::{Bounds, Point, World};
 
 fn sweep_house(
-    vary: SweepParameter,
+    parameter: SweepParameter,
     from: f64,
     to: f64,
     steps: u32,
 ) -> Vec<(ViewProjection, String)> {
     let (_, _, scene) = house_scene();
-    Sweep { parameter: vary, from, to, steps, volumes: false }
-        .view_projections(&scene)
-        .expect("shots")
+    Sweep { parameter, from, to, steps, volumes: false }.view_projections(&scene).expect("shots")
 }
 
 fn house_view() -> (Scene, ViewProjection, Point<World>) {
@@ -25,9 +23,9 @@ fn house_view() -> (Scene, ViewProjection, Point<World>) {
 
 /// x and y in the picture.
 fn project_to_ndc(view_projection: &ViewProjection, point: Point<World>) -> [f64; 2] {
-    let place =
+    let point =
         view_projection.world_to_clip().transform_point(point).divide().expect("ahead of the eye");
-    [place.x(), place.y()]
+    [point.x(), point.y()]
 }
 
 #[track_caller]
@@ -60,14 +58,14 @@ fn values_are_evenly_spaced_and_end_where_they_are_told() {
 #[test]
 fn a_smaller_angle_enlarges() {
     let (_, _, middle) = house_view();
-    let shots = sweep_house(SweepParameter::Fov, 20.0, 60.0, 2);
+    let views = sweep_house(SweepParameter::Fov, 20.0, 60.0, 2);
     let [narrow, wide] =
-        [0, 1].map(|n| project_to_ndc(&shots[n].0, point_beside(&shots[n].0, middle)));
+        [0, 1].map(|n| project_to_ndc(&views[n].0, point_beside(&views[n].0, middle)));
     let tan = |degrees: f64| libm::tan((0.5 * degrees).to_radians());
     let ratio = tan(60.0) / tan(20.0);
     assert_near(narrow[0] / wide[0], ratio);
     assert_near(narrow[1] / wide[1], ratio);
-    assert!(shots[0].1.starts_with("20° high"), "{}", shots[0].1);
+    assert!(views[0].1.starts_with("20° high"), "{}", views[0].1);
 }
 
 /// C62.
@@ -86,21 +84,21 @@ fn a_wrong_aspect_distorts_across_only() {
 #[test]
 fn near_and_far_move_nothing_in_the_picture() {
     let (scene, base, _) = house_view();
-    for (vary, value) in [(SweepParameter::Near, 1.0), (SweepParameter::Far, 1e4)] {
-        let view_projection = sweep_house(vary, value, value, 1)[0].0;
+    for (parameter, value) in [(SweepParameter::Near, 1.0), (SweepParameter::Far, 1e4)] {
+        let view_projection = sweep_house(parameter, value, value, 1)[0].0;
         for point in scene.world_points() {
             let [a, b] = [project_to_ndc(&base, point), project_to_ndc(&view_projection, point)];
             assert_near(a[0], b[0]);
             assert_near(a[1], b[1]);
         }
         let depth = |view_projection: &ViewProjection, distance: f64| {
-            let place = view_projection.camera.eye() + view_projection.camera.gaze() * distance;
-            view_projection.world_to_clip().transform_point(place).divide().expect("ahead").z()
+            let point = view_projection.camera.eye() + view_projection.camera.gaze() * distance;
+            view_projection.world_to_clip().transform_point(point).divide().expect("ahead").z()
         };
         // The canonical volume has the near plane at 1, the far plane at −1.
         assert_near(
             depth(&view_projection, value),
-            if vary == SweepParameter::Near { 1.0 } else { -1.0 },
+            if parameter == SweepParameter::Near { 1.0 } else { -1.0 },
         );
     }
 }
@@ -141,9 +139,9 @@ fn a_shift_moves_the_picture_as_it_is() {
 #[test]
 fn a_dolly_zoom_keeps_the_middle() {
     let (_, base, middle) = house_view();
-    let shots = sweep_house(SweepParameter::Dolly, 20.0, 80.0, 3);
+    let views = sweep_house(SweepParameter::Dolly, 20.0, 80.0, 3);
     let distances = [20.0, 50.0, 80.0];
-    for ((view_projection, note), distance) in shots.iter().zip(distances) {
+    for ((view_projection, note), distance) in views.iter().zip(distances) {
         assert_near(
             (view_projection.camera.eye() - middle).dot(view_projection.camera.w()),
             distance,
@@ -157,7 +155,7 @@ fn a_dolly_zoom_keeps_the_middle() {
         assert!(note.contains(&format!("middle at {distance}")), "{note}");
     }
     let before = |n: usize| {
-        let view_projection: &ViewProjection = &shots[n].0;
+        let view_projection: &ViewProjection = &views[n].0;
         project_to_ndc(
             view_projection,
             point_beside(view_projection, middle) + view_projection.camera.w(),
@@ -182,20 +180,20 @@ fn the_camera_is_turned_about_the_middle() {
 #[test]
 fn what_makes_no_sense_is_told() {
     let (_, _, mut scene) = house_scene();
-    let told = |vary, value: f64, scene: &Scene| {
-        let sweep = Sweep { parameter: vary, from: value, to: value, steps: 1, volumes: false };
+    let message = |parameter, value: f64, scene: &Scene| {
+        let sweep = Sweep { parameter, from: value, to: value, steps: 1, volumes: false };
         sweep.view_projections(scene).map(|_| ()).expect_err("an error").to_string()
     };
     assert!(
-        told(SweepParameter::Fov, 180.0, &scene)
+        message(SweepParameter::Fov, 180.0, &scene)
             .contains("`fov` cannot be 180: it must lie between")
     );
-    assert!(told(SweepParameter::Near, -1.0, &scene).contains("greater than 0"));
-    assert!(told(SweepParameter::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));
-    assert!(told(SweepParameter::Height, 4.0, &scene).contains("a perspective"));
+    assert!(message(SweepParameter::Near, -1.0, &scene).contains("greater than 0"));
+    assert!(message(SweepParameter::Near, 1e6, &scene).starts_with("`near` cannot be 1e6: "));
+    assert!(message(SweepParameter::Height, 4.0, &scene).contains("a perspective"));
     let volume = Orthographic::new(-1.0, 1.0, -1.0, 1.0, 1.0, 9.0).expect("a volume");
     scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-    assert!(told(SweepParameter::Fov, 40.0, &scene).contains("take a perspective"));
+    assert!(message(SweepParameter::Fov, 40.0, &scene).contains("take a perspective"));
 }
 
 /// C94: borders and planes of a parallel view volume, each by itself.
@@ -204,26 +202,26 @@ fn a_parallel_window_is_varied_too() {
     let (_, _, mut scene) = house_scene();
     let volume = Orthographic::new(-6.0, 6.0, -4.5, 4.5, 1.0, 30.0).expect("a volume");
     scene.view_projection.view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-    let at = |vary, value| {
-        let sweep = Sweep { parameter: vary, from: value, to: value, steps: 1, volumes: false };
+    let at = |parameter, value| {
+        let sweep = Sweep { parameter, from: value, to: value, steps: 1, volumes: false };
         let (view_projection, note) = sweep.view_projections(&scene).expect("a shot").remove(0);
-        let place =
+        let point =
             view_projection.camera.view_to_world().transform_point(Point::new(1.5, 0.9, -10.0));
         let image =
-            view_projection.world_to_clip().transform_point(place).divide().expect("an image");
+            view_projection.world_to_clip().transform_point(point).divide().expect("an image");
         ([image.x(), image.y(), image.z()], note)
     };
     // The canonical volume has near at 1 and far at −1.
     let depth = |near: f64, far: f64| 1.0 - 2.0 * (10.0 - near) / (far - near);
-    for (vary, value, due) in [
+    for (parameter, value, expected) in [
         (SweepParameter::Height, 4.5, [0.5, 0.4, depth(1.0, 30.0)]),
         (SweepParameter::Aspect, 2.0 / 3.0, [0.5, 0.2, depth(1.0, 30.0)]),
         (SweepParameter::Shift, 0.25, [0.0, 0.2, depth(1.0, 30.0)]),
         (SweepParameter::Near, -5.0, [0.25, 0.2, depth(-5.0, 30.0)]),
         (SweepParameter::Far, 20.0, [0.25, 0.2, depth(1.0, 20.0)]),
     ] {
-        let (image, note) = at(vary, value);
-        image.iter().zip(due).for_each(|(found, due)| assert_near(*found, due));
+        let (image, note) = at(parameter, value);
+        image.iter().zip(expected).for_each(|(actual, expected)| assert_near(*actual, expected));
         assert!(note.contains(" high · near "), "{note}");
     }
 }

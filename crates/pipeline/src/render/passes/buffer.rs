@@ -1,34 +1,37 @@
-//! The numbers of a pass.
+//! Pass buffers: the values of one pass for every pixel of a region.
+//!
+//! Floating-point passes hold f32, integer passes u32. They are written as NumPy arrays without
+//! loss, or as 16-bit PNG files quantized to the range of the values.
 
 use super::geometry::{Hit, SceneGeometry};
 use super::pass::{Pass, PassEncoding};
 use crate::render::image_tiles::TileRegion;
 use homog::PixelRect;
 
-/// The numbers of a pass, rows from the top, those of a pixel side by side.
+/// The values of a pass: rows from the top, channels interleaved.
 #[derive(Clone, PartialEq, Debug)]
 pub enum PassValues {
-    /// Measures: [`Pass::channels`] for each pixel.
+    /// [`Pass::channels`] floating-point values per pixel.
     Floats(Vec<f32>),
-    /// Whole numbers, one for each pixel.
+    /// One integer per pixel.
     Integers(Vec<u32>),
 }
 
-/// A pass of a picture or of a region of it.
+/// A rendered pass of a picture or of a region of it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct PassBuffer {
-    /// What the numbers tell.
+    /// The meaning of the values.
     pub pass: Pass,
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// The numbers.
+    /// The values.
     pub values: PassValues,
 }
 
 impl PassBuffer {
-    /// A pass that shows nothing.
+    /// A pass in which nothing is visible.
     pub(super) fn new_empty(pass: Pass, region: PixelRect) -> Self {
         let count = region.area() * pass.channels();
         let values = if pass.is_integer() {
@@ -39,7 +42,7 @@ impl PassBuffer {
         Self { pass, width: region.width, height: region.height, values }
     }
 
-    /// The measures of a pixel; `None` outside and for passes of whole numbers.
+    /// The values of a pixel; `None` outside the region and for integer passes.
     #[must_use]
     pub fn float_values(&self, x: u32, y: u32) -> Option<&[f32]> {
         let (at, count) = (self.pixel_index(x, y)?, self.pass.channels());
@@ -49,7 +52,7 @@ impl PassBuffer {
         }
     }
 
-    /// The whole number of a pixel; `None` outside and for passes of measures.
+    /// The integer of a pixel; `None` outside the region and for floating-point passes.
     #[must_use]
     pub fn integer_value(&self, x: u32, y: u32) -> Option<u32> {
         match &self.values {
@@ -58,12 +61,13 @@ impl PassBuffer {
         }
     }
 
+    /// The index of a pixel in row order; `None` outside the region.
     fn pixel_index(&self, x: u32, y: u32) -> Option<usize> {
         let inside = x < self.width && y < self.height;
         inside.then(|| y as usize * self.width as usize + x as usize)
     }
 
-    /// The pass as a file.
+    /// The bytes of the pass as a file.
     #[must_use]
     pub fn encode_file(&self, encoding: PassEncoding) -> Vec<u8> {
         match encoding {
@@ -72,7 +76,7 @@ impl PassBuffer {
         }
     }
 
-    /// Asks the geometry for the numbers of each pixel.
+    /// Computes the values of each pixel from the nearest primitive there, rows in parallel.
     pub(super) fn fill_pixels(
         &mut self,
         geometry: &SceneGeometry<'_>,
@@ -82,7 +86,7 @@ impl PassBuffer {
     ) {
         let (pass, width) = (self.pass, self.width as usize);
         let [left, top] = part.offset_in_tile();
-        let place = |row: usize, column: usize| [left + column as u32, top + row as u32];
+        let pixel = |row: usize, column: usize| [left + column as u32, top + row as u32];
         match &mut self.values {
             PassValues::Floats(values) => {
                 let count = pass.channels();
@@ -90,7 +94,7 @@ impl PassBuffer {
                 raster::for_each_parallel(threads, rows, |(row, (values, hits))| {
                     let pixels = values.chunks_exact_mut(count).zip(hits).enumerate();
                     for (column, (values, hit)) in pixels {
-                        geometry.write_value(pass, hit, place(row, column), values);
+                        geometry.write_value(pass, hit, pixel(row, column), values);
                     }
                 });
             }
@@ -105,7 +109,7 @@ impl PassBuffer {
         }
     }
 
-    /// Copies a part to its place in the pass of a region.
+    /// Copies the pass of one image tile into that of a region.
     pub(super) fn copy_tile(&mut self, patch: &Self, part: TileRegion, region: PixelRect) {
         match (&mut self.values, &patch.values) {
             (PassValues::Integers(all), PassValues::Integers(patch)) => {
@@ -124,7 +128,7 @@ impl PassBuffer {
                 ),
                 _ => part.copy_into_region(patch, region, all),
             },
-            _ => debug_assert!(false, "the numbers of a pass are of one kind"),
+            _ => debug_assert!(false, "all tiles of a pass have values of one type"),
         }
     }
 }

@@ -1,4 +1,9 @@
-//! From a triangle and a pixel to numbers: the exact weights, and what they make of what the corners carry.
+//! Attribute interpolation for passes: exact barycentric weights of a pixel's center, and position,
+//! normal and texture coordinates by them, in f64.
+//!
+//! The rasterizer's own weights are f32 and belong to vertices snapped to 1/256 pixel: good for
+//! colors, not for positions that are to agree with the unprojection of a depth. Everything is
+//! therefore computed again for the one visible triangle of each pixel.
 
 use super::pass::Pass;
 use crate::render::RenderError;
@@ -11,63 +16,77 @@ use homog::{Affine, Clip, HPoint, Model, Normal, Point, Projective, Screen, View
 use model::{Primitive, SkinnedPrimitive, Topology};
 use std::borrow::Cow;
 
-/// What is nearest in a pixel, as the rasteriser tells it.
+/// The nearest primitive at a pixel's center, as the rasterizer found it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit {
+    /// Its primitive id; `u32::MAX` for none.
     pub(super) id: u32,
-    /// The shares of the corners, as they are used for shading.
+    /// Barycentric weights on the snapped triangle, as the shading uses them.
     pub(super) weights: [f32; 3],
 }
 
 impl Hit {
+    /// No primitive.
     pub(super) const MISS: Self = Self { id: u32::MAX, weights: [0.0; 3] };
 }
 
-/// All primitives of a scene, in the order of their numbers.
+/// All primitives of a scene, by ascending primitive id.
 pub(super) struct SceneGeometry<'a> {
+    /// The draw calls in scene order.
     draws: Vec<DrawGeometry<'a>>,
+    /// The view transform, for depths and view-space normals.
     world_to_view: Affine<World, View>,
+    /// The eye, or the direction to it.
     viewer: HPoint<World>,
+    /// The inverse viewport transform of the tile.
     screen_to_ndc: Affine<Screen, homog::Ndc>,
+    /// Whether the style shades triangles flat, so that vertex normals are ignored.
     is_flat: bool,
 }
 
-/// A primitive of a mesh at one of its places.
+/// One primitive of one mesh instance: the draw call that the frame has for it.
 struct DrawGeometry<'a> {
+    /// The id of its first point, line or triangle.
     first_id: u32,
-    /// The numbers of model, node, mesh and material; 0 for none, else the index and one.
+    /// Index plus one of model, node, mesh and material; 0 for none.
     owner_ids: [u32; 4],
+    /// Indices and topology.
     primitive: &'a Primitive,
-    posed: SkinnedPrimitive<'a>,
+    /// Posed positions and normals.
+    skinned: SkinnedPrimitive<'a>,
+    /// The texture coordinates `TEXCOORD_0`.
     uvs: Option<Cow<'a, [[f32; 2]]>>,
+    /// The model matrix.
     model_to_world: Affine<Model, World>,
+    /// The model-view-projection matrix of the tile.
     model_to_clip: Projective<Model, Clip>,
-    /// The way of normals to the world.
+    /// The normal matrix.
     normal_to_world: DMat3,
 }
 
 impl<'a> SceneGeometry<'a> {
-    pub(super) fn new(scene: &'a Scene, sheet: ImageTile) -> Result<Self, RenderError> {
-        let stage = ScreenTransform::for_tile(scene, sheet)?;
+    /// Collects the draw calls of a scene, posed, with the same ids as the frame of the tile.
+    pub(super) fn new(scene: &'a Scene, tile: ImageTile) -> Result<Self, RenderError> {
+        let transform = ScreenTransform::for_tile(scene, tile)?;
         let mut draws = Vec::new();
         let mut first_id = 0;
-        for (number, placed) in (1..).zip(&scene.models) {
-            let model = &placed.model;
+        for (model_id, model_instance) in (1..).zip(&scene.models) {
+            let model = &model_instance.model;
             for (instance, primitive) in model.scene_primitives() {
-                let posed = model.skin_primitive(instance, primitive);
-                let model_to_world = posed.to_model.then(placed.model_to_world);
-                let index = |at: Option<usize>| at.map_or(0, |at| at as u32 + 1);
-                let mesh = index(model.nodes[instance.node].mesh);
-                let owners = [number, index(Some(instance.node)), mesh, index(primitive.material)];
+                let skinned = model.skin_primitive(instance, primitive);
+                let model_to_world = skinned.to_model.then(model_instance.model_to_world);
+                let id = |index: Option<usize>| index.map_or(0, |index| index as u32 + 1);
+                let (node, mesh) = (Some(instance.node), model.nodes[instance.node].mesh);
+                let owner_ids = [model_id, id(node), id(mesh), id(primitive.material)];
                 draws.push(DrawGeometry {
                     first_id,
-                    owner_ids: owners,
+                    owner_ids,
                     primitive,
                     uvs: model.morph_uvs(instance, primitive, 0),
                     model_to_world,
-                    model_to_clip: stage.model_to_clip(model_to_world),
+                    model_to_clip: transform.model_to_clip(model_to_world),
                     normal_to_world: normal_matrix(model_to_world),
-                    posed,
+                    skinned,
                 });
                 let count = u32::try_from(primitive.item_count()).ok();
                 let next = count.and_then(|count| first_id.checked_add(count));
@@ -78,23 +97,24 @@ impl<'a> SceneGeometry<'a> {
             draws,
             world_to_view: scene.view_projection.camera.world_to_view(),
             viewer: scene.view_projection.viewer(),
-            screen_to_ndc: stage.screen_to_ndc(),
+            screen_to_ndc: transform.screen_to_ndc(),
             is_flat: scene.style == Style::Flat,
         })
     }
 
+    /// The draw call that a hit's primitive belongs to.
     fn draw_of_hit(&self, hit: &Hit) -> Option<&DrawGeometry<'a>> {
         if hit.id == u32::MAX {
             return None;
         }
-        let after = self.draws.partition_point(|part| part.first_id <= hit.id);
+        let after = self.draws.partition_point(|draw| draw.first_id <= hit.id);
         self.draws.get(after.checked_sub(1)?)
     }
 
-    /// The whole number that a pass has for a pixel.
+    /// The value of an integer pass in a pixel; 0 where nothing is visible.
     pub(super) fn id_value(&self, pass: Pass, hit: &Hit) -> u32 {
-        let Some(part) = self.draw_of_hit(hit) else { return 0 };
-        let [model, node, mesh, material] = part.owner_ids;
+        let Some(draw) = self.draw_of_hit(hit) else { return 0 };
+        let [model, node, mesh, material] = draw.owner_ids;
         match pass {
             Pass::Model => model,
             Pass::Node => node,
@@ -104,22 +124,23 @@ impl<'a> SceneGeometry<'a> {
         }
     }
 
-    /// The measures that a pass has for the pixel at `place` of the sheet.
-    pub(super) fn write_value(&self, pass: Pass, hit: &Hit, place: [u32; 2], values: &mut [f32]) {
-        let Some(part) = self.draw_of_hit(hit) else { return };
-        let Some(point) = self.surface_point(part, hit, place) else { return };
-        let to_view = |place: Point<World>| self.world_to_view.transform_point(place);
+    /// Writes the values of a floating-point pass for the pixel at `pixel` of the tile; leaves them
+    /// as they are where nothing is visible.
+    pub(super) fn write_value(&self, pass: Pass, hit: &Hit, pixel: [u32; 2], values: &mut [f32]) {
+        let Some(draw) = self.draw_of_hit(hit) else { return };
+        let Some(point) = self.surface_point(draw, hit, pixel) else { return };
+        let to_view = |point: Point<World>| self.world_to_view.transform_point(point);
         let measured = match pass {
             Pass::Depth => [-to_view(point.position).z(), 0.0, 0.0],
             Pass::Distance => [to_view(point.position).raw().length(), 0.0, 0.0],
             Pass::Position => point.position.into(),
-            Pass::Normal => self.visible_normal(part, &point).to_array(),
+            Pass::Normal => self.visible_normal(draw, &point).to_array(),
             Pass::ViewNormal => {
-                let normal = Normal::from_raw(self.visible_normal(part, &point));
-                let turned = self.world_to_view.transform_normal(normal).raw();
-                turned.normalize_or_zero().to_array()
+                let normal = Normal::from_raw(self.visible_normal(draw, &point));
+                let in_view = self.world_to_view.transform_normal(normal).raw();
+                in_view.normalize_or_zero().to_array()
             }
-            Pass::Uv => part.uv(&point),
+            Pass::Uv => draw.uv(&point),
             _ => point.weights,
         };
         for (value, measured) in values.iter_mut().zip(measured) {
@@ -127,102 +148,114 @@ impl<'a> SceneGeometry<'a> {
         }
     }
 
-    /// What is seen at the pixel's centre.
+    /// The surface point at a pixel's center. Points and lines keep the rasterizer's weights: their
+    /// fragments lie beside them.
     fn surface_point(
         &self,
-        part: &DrawGeometry<'_>,
+        draw: &DrawGeometry<'_>,
         hit: &Hit,
         [x, y]: [u32; 2],
     ) -> Option<SurfacePoint> {
-        let vertices = part.vertex_indices((hit.id - part.first_id) as usize)?;
-        let model_positions = &part.posed.positions;
+        let vertices = draw.vertex_indices((hit.id - draw.first_id) as usize)?;
+        let model_positions = &draw.skinned.positions;
         let mut positions = [Point::<Model>::ORIGIN; 3];
-        for (place, vertex) in positions.iter_mut().zip(vertices) {
-            *place = model_point(*model_positions.get(vertex)?);
+        for (position, vertex) in positions.iter_mut().zip(vertices) {
+            *position = model_point(*model_positions.get(vertex)?);
         }
-        let weights = if part.primitive.topology == Topology::Triangles {
+        let weights = if draw.primitive.topology == Topology::Triangles {
             let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
             let center = self.screen_to_ndc.transform_point(center).raw().with_z(1.0);
-            perspective_weights(
-                positions.map(|place| part.model_to_clip.transform_point(place)),
-                center,
-            )
+            let to_clip = |point| draw.model_to_clip.transform_point(point);
+            perspective_weights(positions.map(to_clip), center)
         } else {
             None
         };
         let weights = weights.unwrap_or(hit.weights.map(f64::from));
-        let corners = positions.map(|place| part.model_to_world.transform_point(place));
-        let place = Point::from_raw(interpolate(corners.map(Point::raw), weights));
-        Some(SurfacePoint { vertices, corners, weights, position: place })
+        let corners = positions.map(|point| draw.model_to_world.transform_point(point));
+        let position = Point::from_raw(interpolate(corners.map(Point::raw), weights));
+        Some(SurfacePoint { vertices, corners, weights, position })
     }
 
-    /// The unit normal on the side that is seen.
-    fn visible_normal(&self, part: &DrawGeometry<'_>, spot: &SurfacePoint) -> DVec3 {
-        if part.primitive.topology != Topology::Triangles {
+    /// The unit normal of the visible side: the interpolated one, or that of the triangle for flat
+    /// surfaces; zero for points and lines.
+    fn visible_normal(&self, draw: &DrawGeometry<'_>, point: &SurfacePoint) -> DVec3 {
+        if draw.primitive.topology != Topology::Triangles {
             return DVec3::ZERO;
         }
-        let [a, b, c] = spot.corners.map(Point::raw);
-        let is_mirrored = part.model_to_world.determinant() < 0.0;
+        let [a, b, c] = point.corners.map(Point::raw);
+        let is_mirrored = draw.model_to_world.determinant() < 0.0;
         let face = (b - a).cross(c - a).normalize_or_zero() * if is_mirrored { -1.0 } else { 1.0 };
-        let smooth_normal = part.smooth_normal(spot).filter(|_| !self.is_flat);
+        let smooth_normal = draw.smooth_normal(point).filter(|_| !self.is_flat);
         let viewer = self.viewer.raw();
-        let to_viewer = viewer.truncate() - spot.position.raw() * viewer.w;
+        let to_viewer = viewer.truncate() - point.position.raw() * viewer.w;
         let sign = if face.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
         smooth_normal.unwrap_or(face) * sign
     }
 }
 
 impl DrawGeometry<'_> {
-    /// The vertices of a point, line or triangle; corners that it lacks repeat the last.
+    /// The vertex indices of a point, line or triangle; missing ones repeat the last.
     fn vertex_indices(&self, item: usize) -> Option<[usize; 3]> {
         let count = self.primitive.topology.vertices_per_item();
         let indices = self.primitive.indices.get(item * count..(item + 1) * count)?;
         Some([0, 1, 2].map(|k: usize| indices[k.min(count - 1)] as usize))
     }
 
-    fn smooth_normal(&self, spot: &SurfacePoint) -> Option<DVec3> {
-        let normals = self.posed.normals.as_deref()?;
+    /// The interpolated vertex normal in the world; `None` without vertex normals.
+    fn smooth_normal(&self, point: &SurfacePoint) -> Option<DVec3> {
+        let normals = self.skinned.normals.as_deref()?;
         let mut vertex_normals = [DVec3::ZERO; 3];
-        for (carried, vertex) in vertex_normals.iter_mut().zip(spot.vertices) {
+        for (vertex_normal, vertex) in vertex_normals.iter_mut().zip(point.vertices) {
             let normal = transform_normal(self.normal_to_world, *normals.get(vertex)?);
-            *carried = DVec3::from_array(normal.map(f64::from));
+            *vertex_normal = DVec3::from_array(normal.map(f64::from));
         }
-        interpolate(vertex_normals, spot.weights).try_normalize()
+        interpolate(vertex_normals, point.weights).try_normalize()
     }
 
-    fn uv(&self, spot: &SurfacePoint) -> [f64; 3] {
+    /// The interpolated texture coordinates, with a third 0.
+    fn uv(&self, point: &SurfacePoint) -> [f64; 3] {
         let Some(uvs) = self.uvs.as_deref() else { return [0.0; 3] };
-        let uv = spot.vertices.map(|vertex| {
+        let uv = point.vertices.map(|vertex| {
             let [u, v] = uvs.get(vertex).copied().unwrap_or_default();
             DVec3::new(u.into(), v.into(), 0.0)
         });
-        interpolate(uv, spot.weights).to_array()
+        interpolate(uv, point.weights).to_array()
     }
 }
 
-/// A place on a primitive.
+/// A point on a primitive.
 struct SurfacePoint {
+    /// Vertex indices.
     vertices: [usize; 3],
+    /// Vertex positions in the world.
     corners: [Point<World>; 3],
+    /// Barycentric weights.
     weights: [f64; 3],
+    /// The point in the world.
     position: Point<World>,
 }
 
+/// The weighted sum of three vertex attributes.
 fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
-/// The shares of a triangle's corners at a place of the picture, given as (x, y, 1) after the divide: the place is the sum of
-/// (x, y, w) of the corners times their shares, but for a factor. No share is negative; `None` if the triangle is seen edge-on.
-fn perspective_weights(corners: [HPoint<Clip>; 3], place: DVec3) -> Option<[f64; 3]> {
+/// Perspective-correct barycentric weights of a triangle at a point (x, y, 1) of the picture;
+/// `None` if the triangle is seen edge-on.
+///
+/// The point is, up to a factor, the sum of the vertices' (x, y, w) times their weights, so the
+/// weights are its products with the edge normals: (q × r) · point for p, and so on. No divide is
+/// involved and vertices may lie behind the eye. Negative weights, of points just outside, become
+/// 0.
+fn perspective_weights(corners: [HPoint<Clip>; 3], point: DVec3) -> Option<[f64; 3]> {
     let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
-    let edge_values = [q.cross(r), r.cross(p), p.cross(q)].map(|normal| normal.dot(place));
+    let edge_values = [q.cross(r), r.cross(p), p.cross(q)].map(|normal| normal.dot(point));
     let total = edge_values[0] + edge_values[1] + edge_values[2];
-    // Whichever way the corners run, the sum has the sign of the shares.
-    let weights = edge_values.map(|part| (part / total).max(0.0));
+    // For either winding the sum has the sign of the weights.
+    let weights = edge_values.map(|value| (value / total).max(0.0));
     let sum = weights[0] + weights[1] + weights[2];
-    let weights = weights.map(|share| share / sum);
-    weights.iter().all(|share| share.is_finite()).then_some(weights)
+    let weights = weights.map(|weight| weight / sum);
+    weights.iter().all(|weight| weight.is_finite()).then_some(weights)
 }
 
 #[cfg(test)]
@@ -230,20 +263,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_are_those_of_the_place_before_the_divide() {
+    fn weights_are_those_of_the_point_before_the_divide() {
         let corners = [[-3.0, -1.0, 0.0, 2.0], [4.0, -2.0, 0.0, 5.0], [0.5, 6.0, 0.0, 9.0]];
         let corners = corners.map(|[x, y, z, w]| HPoint::new(x, y, z, w));
-        for due in [[0.2, 0.3, 0.5], [1.0, 0.0, 0.0], [0.05, 0.9, 0.05]] {
+        for expected in [[0.2, 0.3, 0.5], [1.0, 0.0, 0.0], [0.05, 0.9, 0.05]] {
             let at = |k: fn(HPoint<Clip>) -> f64| -> f64 {
-                corners.iter().zip(due).map(|(corner, share)| k(*corner) * share).sum()
+                corners.iter().zip(expected).map(|(corner, weight)| k(*corner) * weight).sum()
             };
             let w = at(HPoint::w);
-            let place = DVec3::new(at(HPoint::x) / w, at(HPoint::y) / w, 1.0);
-            for turned in [[0, 1, 2], [0, 2, 1]] {
+            let point = DVec3::new(at(HPoint::x) / w, at(HPoint::y) / w, 1.0);
+            for order in [[0, 1, 2], [0, 2, 1]] {
                 let actual =
-                    perspective_weights(turned.map(|k| corners[k]), place).expect("shares");
-                for (share, k) in actual.into_iter().zip(turned) {
-                    assert!((share - due[k]).abs() < 1e-14, "{actual:?} {due:?}");
+                    perspective_weights(order.map(|k| corners[k]), point).expect("weights");
+                for (weight, k) in actual.into_iter().zip(order) {
+                    assert!((weight - expected[k]).abs() < 1e-14, "{actual:?} {expected:?}");
                 }
             }
         }

@@ -1,50 +1,63 @@
-//! The passes there are.
+//! The list of render passes: meaning, unit and empty value of each.
+//!
+//! | passes | type | channels | empty |
+//! | --- | --- | --- | --- |
+//! | depth, distance | f32 | 1 | +∞ |
+//! | normal, view-normal, position, barycentric | f32 | 3 | 0 |
+//! | uv | f32 | 2 | 0 |
+//! | coverage | f32 | 1 | 0 |
+//! | id, model, node, mesh, material, overdraw | u32 | 1 | 0 |
 
-/// What a pass tells of each pixel.
+/// A render pass: one quantity for each pixel, of the nearest surface at its center.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Pass {
-    /// How far ahead of the eye the place is, along the view axis, in units of the scene; +∞ where nothing is.
+    /// Distance from the eye along the view axis (planar depth), in scene units; +∞ where nothing
+    /// is visible.
     Depth,
-    /// How far the place is from the eye, in units of the scene; +∞ where nothing is.
+    /// Distance from the eye, in scene units; +∞ where nothing is visible.
     Distance,
-    /// The unit normal in the world, on the side that is seen: the smooth one of the file, without normal maps. 0 where nothing is.
+    /// Unit normal in the world, of the visible side: the interpolated vertex normal, without
+    /// normal maps. 0 where nothing is visible.
     Normal,
-    /// The same in view space: x to the right, y up, z towards the viewer.
+    /// Unit normal in view space: x to the right, y up, z towards the viewer.
     ViewNormal,
-    /// Where the place is in the world; 0 where nothing is.
+    /// Position in the world; 0 where nothing is visible.
     Position,
-    /// Texture coordinates, of the set `TEXCOORD_0`: u to the right, v down in the texture. 0 where there are none.
+    /// Texture coordinates of the set `TEXCOORD_0`: u to the right, v down in the texture. 0 where
+    /// there are none.
     Uv,
-    /// The shares of the triangle's three corners; they add up to 1, and are 0 where nothing is.
+    /// Barycentric weights of the triangle's vertices; their sum is 1, or 0 where nothing is
+    /// visible.
     Barycentric,
-    /// The number of the point, line or triangle, from 1 in the order of the scene; 0 where nothing is.
+    /// Primitive id: the point, line or triangle, counted from 1 in scene order; 0 where nothing is
+    /// visible.
     Id,
-    /// The number of the model in the scene, from 1.
+    /// The model, counted from 1 in scene order; 0 where nothing is visible.
     Model,
-    /// The number of the node in its model, from 1: the index of glTF and one.
+    /// The node: its glTF index plus 1; 0 where nothing is visible.
     Node,
-    /// The number of the mesh, in the same way.
+    /// The mesh: its glTF index plus 1; 0 where nothing is visible.
     Mesh,
-    /// The number of the material, in the same way; 0 also where the default material is.
+    /// The material: its glTF index plus 1; 0 also for the default material.
     Material,
-    /// How many fragments cover the pixel's centre, hidden ones too.
+    /// Number of fragments at the pixel's center, hidden ones included.
     Overdraw,
-    /// The share of the pixel's samples that something covers, from 0 to 1.
+    /// Fraction of the pixel's samples that a surface covers, from 0 to 1.
     Coverage,
 }
 
-/// How passes are written.
+/// The file format of a pass.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum PassEncoding {
-    /// PNG of 16 bits, with what the codes mean in a text chunk.
+    /// PNG with 16 bits per channel; a text chunk explains the codes.
     #[default]
     Png,
-    /// The numbers themselves, f32 or u32, as NumPy reads them.
+    /// NumPy array of the exact values, f32 or u32.
     Npy,
 }
 
 impl PassEncoding {
-    /// The end of the names of its files.
+    /// The file name extension, without a dot.
     #[must_use]
     pub const fn file_extension(self) -> &'static str {
         match self {
@@ -55,7 +68,7 @@ impl PassEncoding {
 }
 
 impl Pass {
-    /// All of them.
+    /// All passes.
     pub const ALL: [Self; 14] = [
         Self::Depth,
         Self::Distance,
@@ -73,7 +86,7 @@ impl Pass {
         Self::Coverage,
     ];
 
-    /// Its name in flags and in the names of files.
+    /// The name in flags and in file names.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -94,7 +107,7 @@ impl Pass {
         }
     }
 
-    /// How many numbers a pixel has.
+    /// The number of values per pixel.
     #[must_use]
     pub const fn channels(self) -> usize {
         match self {
@@ -104,7 +117,7 @@ impl Pass {
         }
     }
 
-    /// Whether its numbers are whole ones.
+    /// Whether the values are integers.
     #[must_use]
     pub const fn is_integer(self) -> bool {
         matches!(
@@ -113,7 +126,7 @@ impl Pass {
         )
     }
 
-    /// What it has where nothing is seen.
+    /// The value where nothing is visible.
     #[must_use]
     pub const fn empty_value(self) -> f32 {
         if matches!(self, Self::Depth | Self::Distance) { f32::INFINITY } else { 0.0 }

@@ -1,25 +1,27 @@
-//! Passes as PNG files of 16 bits, for eyes and for tools that read nothing else.
+//! Passes as 16-bit PNG files, for image viewers and for tools that read nothing else.
 //!
-//! | pass | what a code c of 0 to 65,535 means |
+//! | pass | meaning of a code c from 0 to 65,535 |
 //! | --- | --- |
-//! | depth, distance | 0: nothing; else least + (c − 1) / 65,534 · (greatest − least), grey |
-//! | position, uv | the same for each of red, green and blue by itself; where nothing is, all are 0 |
-//! | normal, view-normal | c / 65,535 · 2 − 1; where nothing is, all are 0 |
+//! | depth, distance | 0: nothing visible; else min + (c − 1) / 65,534 · (max − min), gray |
+//! | position, uv | likewise for each of red, green and blue; all 0 where nothing is visible |
+//! | normal, view-normal | c / 65,535 · 2 − 1; all 0 where nothing is visible |
 //! | barycentric, coverage | c / 65,535 |
-//! | numbers | themselves in grey; where one is beyond 65,535, in red c · 65,536, in green what is left |
+//! | integers | themselves in gray; if one exceeds 65,535, c / 65,536 in red, the rest in green |
 //!
-//! Least and greatest are those of the file. They stand in its text chunk `Description`, with the pass and its unit.
+//! min and max are those of the file. They stand in its text chunk `Description`, with the pass and
+//! its unit.
 
 use super::buffer::{PassBuffer, PassValues};
 use super::pass::Pass;
 use png::{BitDepth, ColorType, Compression, Encoder};
 use std::fmt::Write;
 
-/// The greatest code.
+/// The largest code.
 const MAX_CODE: f64 = 65_535.0;
 
 impl PassBuffer {
-    /// The pass as a PNG file of 16 bits: grey for one number, else red, green and blue.
+    /// Encodes the pass as a PNG file with 16 bits per channel: gray for one value per pixel, else
+    /// red, green and blue.
     #[must_use]
     pub fn to_png(&self) -> Vec<u8> {
         match &self.values {
@@ -28,6 +30,7 @@ impl PassBuffer {
         }
     }
 
+    /// Encodes floating-point values, each channel in a range of its own.
     fn floats_to_png(&self, values: &[f32]) -> Vec<u8> {
         let count = self.pass.channels();
         let mut text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
@@ -49,7 +52,8 @@ impl PassBuffer {
         )
     }
 
-    /// What the codes of a channel mean, and adds it to the text.
+    /// The range of values that the codes of a channel span, which is also added to the
+    /// description.
     fn code_range(&self, values: &[f32], channel: usize, text: &mut String) -> CodeRange {
         match self.pass {
             Pass::Normal | Pass::ViewNormal => {
@@ -68,11 +72,12 @@ impl PassBuffer {
             .map(|pixel| pixel[channel])
             .fold(empty, |(least, most), value| (least.min(value), most.max(value)));
         let (from, to) = if from <= to { (from, to) } else { (0.0, 0.0) };
-        // Writing to a text does not fail.
+        // Writing to a String does not fail.
         let _ = write!(text, "; channel {}: 1 is {from}, 65535 is {to}", channel + 1);
         CodeRange { min: from.into(), max: to.into(), first_code: 1.0 }
     }
 
+    /// Encodes integers: one channel, or two for values beyond 16 bits.
     fn integers_to_png(&self, values: &[u32]) -> Vec<u8> {
         let text = format!("{}: {}", self.pass.name(), unit_description(self.pass));
         if values.iter().all(|value| *value <= 65_535) {
@@ -84,6 +89,7 @@ impl PassBuffer {
         self.write_png16(&codes.collect::<Vec<_>>(), ColorType::Rgb, &text)
     }
 
+    /// Writes codes as a PNG file with a description.
     fn write_png16(&self, codes: &[u16], color: ColorType, text: &str) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, self.width, self.height);
@@ -100,15 +106,18 @@ impl PassBuffer {
     }
 }
 
-/// The numbers that the first and the last code stand for.
+/// The values of the first and the last code.
 struct CodeRange {
+    /// The value of the first code.
     min: f64,
+    /// The value of the last code, 65,535.
     max: f64,
-    /// The first code that stands for a number: 0, or 1 if 0 is nothing.
+    /// The first code that stands for a value: 0, or 1 where 0 marks empty pixels.
     first_code: f64,
 }
 
 impl CodeRange {
+    /// The code of a value, clamped to the range and rounded to nearest.
     fn encode_value(&self, value: f64) -> u16 {
         let width = self.max - self.min;
         let fraction = if width > 0.0 { (value - self.min) / width } else { 0.0 };
@@ -116,7 +125,7 @@ impl CodeRange {
     }
 }
 
-/// What the numbers of a pass are, for people.
+/// The description of a pass's values in the file.
 const fn unit_description(pass: Pass) -> &'static str {
     match pass {
         Pass::Depth => "scene units ahead of the eye along the view axis; 0 is nothing",

@@ -1,19 +1,28 @@
-//! What casts shadows: the triangles of a scene that let no light through.
+//! Shadow casters: the depth-only pass over all triangles that are not translucent.
+//!
+//! | material | casts |
+//! | --- | --- |
+//! | opaque | always |
+//! | masked (alpha test) | where its alpha passes the cutoff |
+//! | blended or transmissive | never: no colored or partial shadows |
+//!
+//! Points and lines cast no shadows either. The pass has ids of its own, since it leaves primitives
+//! out.
 
 use crate::render::RenderError;
-use crate::render::Textures;
-use crate::render::primitive_assembly::{DEFAULT_MATERIAL, submit_clipped_triangle};
+use crate::render::context::RenderContext;
+use crate::render::draw_call::DrawCall;
+use crate::render::primitive_assembly::DEFAULT_MATERIAL;
 use crate::render::projected_mesh::ProjectedMesh;
 use crate::render::screen_transform::ScreenTransform;
-use crate::render::vertex_inputs::material_cover;
+use crate::render::vertex_inputs::material_opacity;
 use crate::render::vertex_processing::{VertexArrays, material_uv_set};
-use crate::scene::Scene;
 use homog::Affine;
-use model::{MeshInstance, Model, Primitive, TextureInfo, TextureSlot, Topology};
+use model::{MeshInstance, Model, ModelInstance, Primitive, TextureInfo, TextureSlot, Topology};
 use raster::{CullMode, Fragment, Fragments, Frame, LANES, Opacity, SimdLevel, Surface};
-use shade::{Draw, DrawKind, DrawList, MaterialTextures, Tangents};
+use shade::{Draw, DrawKind, DrawList, MaterialTextures, MipChain, Tangents};
 
-/// What of draws is there at all: their colours do not count.
+/// A surface for depth-only passes: it answers alpha tests and has no color.
 pub(in crate::render) struct DepthOnly<'a, 'b>(pub(in crate::render) &'b DrawList<'a>);
 
 impl Surface for DepthOnly<'_, '_> {
@@ -30,85 +39,99 @@ impl Surface for DepthOnly<'_, '_> {
     }
 }
 
-/// Adds a scene's casters to a light's frame, both sides of them, and what masks them to the draws.
-pub(super) fn draw_casters<'a>(
-    scene: &'a Scene,
-    textures: &'a Textures<'a>,
-    stage: &ScreenTransform,
-    threads: usize,
-    images: &mut ProjectedMesh,
-    frame: &mut Frame,
-    draws: &mut DrawList<'a>,
-) -> Result<(), RenderError> {
-    let mut first_id = 0_u32;
-    for (number, placed) in scene.models.iter().enumerate() {
-        let model = &placed.model;
-        for (instance, primitive) in model.scene_primitives() {
-            let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
-            let cover = material_cover(material);
-            if primitive.topology != Topology::Triangles || cover == Opacity::Translucent {
-                continue;
-            }
-            let posed = model.skin_primitive(instance, primitive);
-            let model_to_world = posed.to_model.then(placed.model_to_world);
-            let model_to_clip = stage.model_to_clip(model_to_world);
-            let triangles = primitive.indices.as_chunks::<3>().0;
-            images.cull_clusters(stage, model_to_clip, primitive, &posed, None);
-            images.project_vertices(stage, model_to_clip, &posed.positions, threads);
-            for (whole, cut) in images.triangle_runs() {
-                let screen = &images.screen_vertices;
-                frame.add_mesh_runs(screen, triangles, whole, first_id, cover, CullMode::Nothing);
-                let cut = cut.start.min(triangles.len())..cut.end.min(triangles.len());
-                for (number, corners) in (first_id..).zip(triangles).take(cut.end).skip(cut.start) {
-                    submit_clipped_triangle(
-                        stage,
-                        images,
-                        frame,
-                        *corners,
-                        number,
-                        cover,
-                        CullMode::Nothing,
-                    );
-                }
-            }
-            if cover == Opacity::Masked {
-                let texture = |slot: TextureSlot, used: TextureInfo| {
-                    textures.mip_chain(number, slot, used.texture)
-                };
-                let maps = MaterialTextures::new(material, 1, texture);
-                let mut draw = masked_draw(model, instance, primitive, maps, images);
-                draw.first_id = first_id;
-                draws.draws.push(draw);
-            }
-            let count = u32::try_from(triangles.len()).ok();
-            let next = count.and_then(|count| first_id.checked_add(count));
-            first_id = next.ok_or(RenderError::TooManyPrimitives)?;
-        }
-    }
-    Ok(())
+/// The depth-only pass of one light.
+pub(super) struct CasterPass<'a, 'b> {
+    /// The transform of the light's camera.
+    pub(super) transform: ScreenTransform,
+    /// Vertices of one draw call.
+    pub(super) mesh: &'b mut ProjectedMesh,
+    /// The frame that becomes the shadow map.
+    pub(super) frame: &'b mut Frame,
+    /// The draw calls of masked primitives, for the alpha test.
+    pub(super) draws: &'b mut DrawList<'a>,
 }
 
-/// What tells where a masked primitive is: its material, with the texture coordinates and the colours of its vertices.
+impl<'a> CasterPass<'a, '_> {
+    /// Draws the opaque and masked triangles of all models.
+    ///
+    /// # Errors
+    /// If the scene has more triangles than ids.
+    pub(super) fn draw_scene(&mut self, context: &RenderContext<'a>) -> Result<(), RenderError> {
+        let RenderContext { scene, textures, threads, .. } = *context;
+        let mut first_id = 0_u32;
+        for (index, model_instance) in scene.models.iter().enumerate() {
+            for (instance, primitive) in model_instance.model.scene_primitives() {
+                let texture =
+                    |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);
+                let count = self.draw_primitive(
+                    model_instance,
+                    (instance, primitive),
+                    first_id,
+                    texture,
+                    threads,
+                );
+                let next = u32::try_from(count).ok().and_then(|n| first_id.checked_add(n));
+                first_id = next.ok_or(RenderError::TooManyPrimitives)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws both faces of a primitive's triangles, and returns their number; 0 if it casts no
+    /// shadow. Back faces cast too: open surfaces have no other side to do it.
+    fn draw_primitive(
+        &mut self,
+        model_instance: &'a ModelInstance,
+        (instance, primitive): (MeshInstance, &'a Primitive),
+        first_id: u32,
+        texture: impl Fn(TextureSlot, TextureInfo) -> Option<&'a MipChain<'a>>,
+        threads: usize,
+    ) -> usize {
+        let model = &model_instance.model;
+        let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+        let opacity = material_opacity(material);
+        if primitive.topology != Topology::Triangles || opacity == Opacity::Translucent {
+            return 0;
+        }
+        let skinned = model.skin_primitive(instance, primitive);
+        let model_to_world = skinned.to_model.then(model_instance.model_to_world);
+        let Self { transform, mesh, frame, .. } = self;
+        let model_to_clip = transform.model_to_clip(model_to_world);
+        mesh.cull_clusters(transform, model_to_clip, primitive, &skinned, None);
+        mesh.project_vertices(transform, model_to_clip, &skinned.positions, threads);
+        let cull_mode = CullMode::Nothing;
+        DrawCall { transform, mesh, frame, opacity, cull_mode }.submit(primitive, first_id);
+        if opacity == Opacity::Masked {
+            let textures = MaterialTextures::new(material, 1, texture);
+            let draw = masked_draw(model, instance, primitive, textures, mesh);
+            self.draws.draws.push(Draw { first_id, ..draw });
+        }
+        primitive.indices.len() / 3
+    }
+}
+
+/// The draw call of a masked primitive: its material with the texture coordinates and vertex colors
+/// that the alpha test reads, and nothing else.
 fn masked_draw<'a>(
     model: &'a Model,
     instance: MeshInstance,
     primitive: &'a Primitive,
-    maps: MaterialTextures<'a>,
-    images: &ProjectedMesh,
+    textures: MaterialTextures<'a>,
+    mesh: &ProjectedMesh,
 ) -> Draw<'a> {
     let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
     let uv_set = material_uv_set(material, primitive);
     let uvs = uv_set.and_then(|set| model.morph_uvs(instance, primitive, set));
     let arrays = VertexArrays { positions: None, normals: None, uvs: uvs.as_deref() };
-    let (count, selected) = (primitive.positions.len(), [&images.unclipped, &images.to_clip]);
+    let (count, selections) = (primitive.positions.len(), [&mesh.unclipped, &mesh.to_clip]);
     let mut vertices = Vec::new();
-    arrays.write_vertices(count, selected, Affine::IDENTITY, 1, &mut vertices);
+    arrays.write_vertices(count, selections, Affine::IDENTITY, 1, &mut vertices);
     Draw {
         first_id: 0,
         part_id: 0,
         primitive,
         material,
-        textures: maps,
+        textures,
         vertices,
         tangents: Tangents::None,
         is_smooth: false,

@@ -1,37 +1,48 @@
-//! Where a light looks from and how much of the scene it sees: as little as counts, so that texels are small.
+//! Shadow map fitting: the camera of a light, with a view volume as small as possible, so that
+//! texels are small.
 //!
-//! A sun's map shows that part of the box around the scene, along the light, that is in the view; all that is before it towards the
-//! light stays between its planes. A spot's shows its cone, or the scene if that is less.
+//! ```text
+//!   sun ─►│ ┌──────────────┐ │     near and far plane enclose the whole scene, since casters
+//!         │ │    ┌───────┐ │ │     between the light and the view count;
+//!   light │ │    │ view  │ │ │     the window encloses only what is in the camera's view.
+//!   rays  │ │    └───────┘ │ │
+//!        near     scene     far
+//! ```
+//! A spot's volume is its cone, or the part of the cone that holds the scene if that is less.
 
 use crate::scene::Scene;
-use ::camera::{Basis, Camera};
-use camera::ViewProjection;
+use camera::{Basis, Camera, ViewProjection};
 use glam::DVec3;
 use homog::{Point, Vector, View, World};
 use model::ModelInstance;
 use projection::{Convention, Frustum, Orthographic, Window};
 use shade::{Light, Shadow};
 
-/// A light's camera.
+/// The camera of a light, fitted to the scene.
 #[derive(Debug)]
 pub(super) struct LightCamera {
+    /// Camera and projection of the light.
     pub(super) view_projection: ViewProjection,
-    /// Texels of a row, and rows.
+    /// Width and height of the shadow map in texels.
     pub(super) size: [u32; 2],
-    /// The middle of the scene.
+    /// The center of the scene in the world, as the origin of f32 coordinates.
     pub(super) center: DVec3,
-    /// The penumbra, as [`ShadowMap::soften`](shade::ShadowMap) wants it.
+    /// The width of the penumbra in texels per unit of depth between caster and receiver; see
+    /// [`ShadowMap::set_penumbra`](shade::ShadowMap::set_penumbra).
     pub(super) penumbra: f64,
+    /// For a perspective map, the limit of its depth at infinite distance; `None` if depth is
+    /// linear.
     pub(super) depth_at_infinity: Option<f64>,
 }
 
-/// The widest half angle of a spot's map, as a slope: beyond it there is light everywhere.
+/// The tangent of the widest half angle of a spot's map. Beyond it everything is lit.
 const MAX_SPOT_SLOPE: f64 = 8.0;
-/// Free texels around what casts shadows.
+/// Empty texels around the casters, for filtering across the border.
 const BORDER_TEXELS: f64 = 3.0;
 
 impl LightCamera {
-    /// The camera of a light that casts shadows; `None` if there is nothing that could.
+    /// Fits a camera to a light that casts shadows; `None` for lights without direction, and if no
+    /// triangle is in the light.
     pub(super) fn fit_to_light(scene: &Scene, light: &Light, shadow: Shadow) -> Option<Self> {
         match *light {
             Light::Sun { to_light: towards, .. } => {
@@ -45,45 +56,87 @@ impl LightCamera {
     }
 }
 
-/// A box along the axes of a light's view.
+/// An axis-aligned bounding box in a light's view space.
 #[derive(Clone, Copy, Debug)]
 struct ViewBounds {
+    /// The least coordinates.
     min: DVec3,
+    /// The greatest coordinates.
     max: DVec3,
 }
 
 impl ViewBounds {
+    /// The box of no points: any point extends it.
     const EMPTY: Self =
         Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
 
-    fn include(&mut self, place: DVec3) {
-        if place.is_finite() {
-            self.min = self.min.min(place);
-            self.max = self.max.max(place);
+    /// Extends the box to a point; points at infinity are ignored.
+    fn include(&mut self, point: DVec3) {
+        if point.is_finite() {
+            self.min = self.min.min(point);
+            self.max = self.max.max(point);
         }
+    }
+
+    /// The center of the box.
+    fn center(self) -> DVec3 {
+        0.5 * (self.min + self.max)
     }
 }
 
-/// Calls `each` with every vertex of the scene's triangles, in a light's view.
+/// A window on square texels: the raster of a shadow map.
+struct FittedWindow {
+    /// The window on the light's picture plane.
+    window: Window,
+    /// Width and height in texels, at least 16.
+    size: [u32; 2],
+    /// The side of a texel in units of the window.
+    texel: f64,
+}
+
+impl FittedWindow {
+    /// The window around x and y of the bounds, with a border; its longer side has `resolution`
+    /// texels, and is at least `min_side` long.
+    fn around(bounds: ViewBounds, min_side: f64, resolution: u32) -> Option<Self> {
+        let (width, height) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+        let longest = width.max(height).max(min_side);
+        let texel = longest / (f64::from(resolution) - 2.0 * BORDER_TEXELS);
+        let texels =
+            |side: f64| ((side / texel + 2.0 * BORDER_TEXELS).ceil() as u32).clamp(16, resolution);
+        let size = [texels(width), texels(height)];
+        let center = bounds.center();
+        let [half_x, half_y] = size.map(|side| 0.5 * f64::from(side) * texel);
+        let (left, right) = (center.x - half_x, center.x + half_x);
+        let (bottom, top) = (center.y - half_y, center.y + half_y);
+        let window = Window::new(left, right, bottom, top).ok()?;
+        Some(Self { window, size, texel })
+    }
+}
+
+/// Calls `each` with every vertex of the models in a light's view space.
 fn for_each_vertex(models: &[ModelInstance], camera: Camera, mut each: impl FnMut(DVec3)) {
     let world_to_view = camera.world_to_view();
     for ModelInstance { model, model_to_world } in models {
         for (instance, primitive) in model.scene_primitives() {
-            let posed = model.skin_primitive(instance, primitive);
-            let to_view = posed.to_model.then(*model_to_world).then(world_to_view).raw();
-            for position in posed.positions.iter() {
+            let skinned = model.skin_primitive(instance, primitive);
+            let to_view = skinned.to_model.then(*model_to_world).then(world_to_view).raw();
+            for position in skinned.positions.iter() {
                 each(to_view.transform_point3(DVec3::from_array(position.map(f64::from))));
             }
         }
     }
 }
 
+/// Fits an orthographic camera to a directional light that travels along `travel`.
+///
+/// The size in texels follows the shape of the window: texels are square, and the longer side has
+/// the resolution asked for.
 fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<LightCamera> {
     let gaze = Vector::<World>::from(travel);
     let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).ok()?;
     let camera = Camera::new(Point::ORIGIN, basis).ok()?;
     let mut scene_bounds = ViewBounds::EMPTY;
-    for_each_vertex(&scene.models, camera, |place| scene_bounds.include(place));
+    for_each_vertex(&scene.models, camera, |point| scene_bounds.include(point));
     if scene_bounds.min.x > scene_bounds.max.x {
         return None;
     }
@@ -92,62 +145,53 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
         .max(1e-30);
     let mut visible_bounds = scene_bounds;
     if let Some(view) = view_volume_bounds(scene, camera) {
-        // A little more than is seen, so that what is blurred into the view is there.
+        // A margin for soft shadows: their casters may lie just outside the view.
         let blur_margin = depth * (0.5 * f64::from(shadow.softness)).min(0.5);
         visible_bounds.min = scene_bounds.min.max(view.min - blur_margin).min(scene_bounds.max);
         visible_bounds.max = scene_bounds.max.min(view.max + blur_margin).max(scene_bounds.min);
     }
-    let (width, height) =
-        (visible_bounds.max.x - visible_bounds.min.x, visible_bounds.max.y - visible_bounds.min.y);
-    let longest = width.max(height).max(1e-6 * depth);
-    let texel = longest / (f64::from(shadow.resolution) - 2.0 * BORDER_TEXELS);
-    let texels = |side: f64| {
-        ((side / texel + 2.0 * BORDER_TEXELS).ceil() as u32).clamp(16, shadow.resolution)
-    };
-    let size = [texels(width), texels(height)];
-    let center = 0.5 * (visible_bounds.min + visible_bounds.max);
-    let [half_x, half_y] = size.map(|side| 0.5 * f64::from(side) * texel);
-    let window =
-        Window::new(center.x - half_x, center.x + half_x, center.y - half_y, center.y + half_y)
-            .ok()?;
+    let fitted = FittedWindow::around(visible_bounds, 1e-6 * depth, shadow.resolution)?;
+    let center = visible_bounds.center();
     let (near, far) = (-scene_bounds.max.z - 0.01 * depth, -scene_bounds.min.z + 0.01 * depth);
-    let light_volume = Orthographic::from_window(window, near, far).ok()?;
+    let light_volume = Orthographic::from_window(fitted.window, near, far).ok()?;
     let slope = libm::tan(0.5 * f64::from(shadow.softness));
     Some(LightCamera {
         view_projection: ViewProjection {
             camera,
             view_to_clip: light_volume.view_to_clip(Convention::CHAPTER),
         },
-        size,
+        size: fitted.size,
         center: view_to_world_point(camera, center),
-        penumbra: slope * (far - near) / texel,
+        penumbra: slope * (far - near) / fitted.texel,
         depth_at_infinity: None,
     })
 }
 
-/// The box around the camera's view volume in a light's view; `None` if it has no end.
+/// The bounding box of the scene camera's view volume in a light's view space; `None` if the volume
+/// is infinite.
 fn view_volume_bounds(scene: &Scene, camera: Camera) -> Option<ViewBounds> {
     let clip_to_world = scene.view_projection.world_to_clip().raw().inverse();
     let world_to_view = camera.world_to_view();
-    let mut extent = ViewBounds::EMPTY;
+    let mut bounds = ViewBounds::EMPTY;
     for corner in 0..8 {
-        let signed_unit = |axis: u32| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
-        let corner_position =
-            clip_to_world * glam::DVec4::new(signed_unit(0), signed_unit(1), signed_unit(2), 1.0);
-        let corner_position = corner_position.truncate() / corner_position.w;
-        if !corner_position.is_finite() {
+        let ndc = |axis: u32| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+        let position = clip_to_world * glam::DVec4::new(ndc(0), ndc(1), ndc(2), 1.0);
+        let position = position.truncate() / position.w;
+        if !position.is_finite() {
             return None;
         }
-        extent.include(world_to_view.transform_point(Point::from_raw(corner_position)).raw());
+        bounds.include(world_to_view.transform_point(Point::from_raw(position)).raw());
     }
-    Some(extent)
+    Some(bounds)
 }
 
-fn view_to_world_point(camera: Camera, place: DVec3) -> DVec3 {
-    let offset = camera.basis().to_world(Vector::<View>::from_raw(place));
+/// A point of a light's view space in the world.
+fn view_to_world_point(camera: Camera, point: DVec3) -> DVec3 {
+    let offset = camera.basis().to_world(Vector::<View>::from_raw(point));
     camera.eye().raw() + offset.raw()
 }
 
+/// Fits a perspective camera to a spot light; `cosine` is that of its outer half angle.
 fn fit_spot(
     scene: &Scene,
     position: [f64; 3],
@@ -161,46 +205,36 @@ fn fit_spot(
     let cosine = f64::from(cosine).clamp(0.0, 1.0);
     let max_slope = ((1.0 - cosine * cosine).sqrt() / cosine.max(1e-9)).clamp(1e-4, MAX_SPOT_SLOPE);
     let (mut slopes, mut nearest, mut farthest) = (ViewBounds::EMPTY, f64::INFINITY, 0.0_f64);
-    for_each_vertex(&scene.models, camera, |place| {
-        nearest = nearest.min(-place.z);
-        farthest = farthest.max(-place.z);
-        if place.z < 0.0 {
-            slopes.include(DVec3::new(place.x / -place.z, place.y / -place.z, 0.0));
+    for_each_vertex(&scene.models, camera, |point| {
+        nearest = nearest.min(-point.z);
+        farthest = farthest.max(-point.z);
+        if point.z < 0.0 {
+            slopes.include(DVec3::new(point.x / -point.z, point.y / -point.z, 0.0));
         }
     });
     if !(farthest > 0.0 && farthest.is_finite()) {
         return None;
     }
-    // What begins behind the light may be anywhere in its cone.
-    let (mut least, mut greatest) = (DVec3::splat(-max_slope), DVec3::splat(max_slope));
+    // Triangles that begin behind the light may be anywhere in its cone.
+    let (mut min, mut max) = (DVec3::splat(-max_slope), DVec3::splat(max_slope));
     if nearest > 0.0 {
-        least = slopes.min.max(least).min(greatest);
-        greatest = slopes.max.min(greatest).max(least);
+        min = slopes.min.max(min).min(max);
+        max = slopes.max.min(max).max(min);
     }
-    let longest = (greatest.x - least.x).max(greatest.y - least.y).max(1e-6);
-    let slope_of_texel = longest / (f64::from(shadow.resolution) - 2.0 * BORDER_TEXELS);
-    let texels = |side: f64| {
-        ((side / slope_of_texel + 2.0 * BORDER_TEXELS).ceil() as u32).clamp(16, shadow.resolution)
-    };
-    let size = [texels(greatest.x - least.x), texels(greatest.y - least.y)];
-    let center = 0.5 * (least + greatest);
-    let [half_x, half_y] = size.map(|side| 0.5 * f64::from(side) * slope_of_texel);
-    let window =
-        Window::new(center.x - half_x, center.x + half_x, center.y - half_y, center.y + half_y)
-            .ok()?;
+    let fitted = FittedWindow::around(ViewBounds { min, max }, 1e-6, shadow.resolution)?;
     let far = farthest * 1.01;
     let near = (nearest * 0.99).max(far * 1e-3);
-    let frustum = Frustum::from_slopes(window, near, far).ok()?;
+    let frustum = Frustum::from_slopes(fitted.window, near, far).ok()?;
     let slope = libm::tan(0.5 * f64::from(shadow.softness));
     Some(LightCamera {
         view_projection: ViewProjection {
             camera,
             view_to_clip: frustum.view_to_clip(Convention::CHAPTER),
         },
-        size,
+        size: fitted.size,
         center: camera.eye().raw() + gaze.raw() * (0.5 * (near + far)),
-        penumbra: slope / slope_of_texel,
-        // Depth is (near far / w − near) / (far − near).
+        penumbra: slope / fitted.texel,
+        // depth(w) = (near far / w − near) / (far − near), at w = ∞.
         depth_at_infinity: Some(-near / (far - near)),
     })
 }

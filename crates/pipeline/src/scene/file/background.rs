@@ -1,51 +1,40 @@
-//! What is behind the models in a scene file.
+//! The background of an image in a scene file.
 
+use crate::scene::color::Color;
 use crate::scene::number::{Finite, NonNegative};
-use serde::Deserialize;
+use crate::scene::schema::scene_enum;
+use shade::ImageFit;
 
-/// What is seen where no model is.
-#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
-#[serde(rename = "Background", deny_unknown_fields)]
-pub enum BackgroundFile {
-    /// Nothing: alpha is 0.
-    #[default]
-    Transparent,
-    /// A colour as on a web page: `#rgb` or `#rrggbb`.
-    Color(String),
-    /// Colours that run into each other across the whole picture, mixed as web pages mix them.
-    Gradient {
-        /// From 2 to 16 colours, `#rgb` or `#rrggbb`, at equal distances; the first and the last touch the picture's borders or corners.
-        colors: Vec<String>,
-        /// Where the colours run to, in degrees: 0 is down, 90 to the right, 180 up. Default: 0.
-        #[serde(default)]
-        angle_degrees: Finite,
-    },
-    /// A picture in a PNG, JPEG or WebP file, of 67,108,864 pixels at most. Its light is not changed by the exposure.
-    Picture {
-        /// The path, from the folder of the scene file.
-        path: String,
-        /// How it fills the picture. Default: `Cover`.
-        #[serde(default)]
-        fit: FitFile,
-        /// What is seen beside it and through it: `#rgb` or `#rrggbb`. Default: nothing, alpha is 0.
-        color: Option<String>,
-    },
-    /// The environment.
-    Environment {
-        /// How blurred, from 0 to 1. Default: 0.
-        blur: Option<NonNegative>,
-    },
-}
-
-/// How a picture fills another.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
-#[serde(rename = "Fit")]
-pub enum FitFile {
-    /// Stretched to its size.
-    Stretch,
-    /// As small as covers all of it; what is too much is cut off on both sides alike.
-    #[default]
-    Cover,
-    /// As large as fits into it, in the middle.
-    Contain,
+scene_enum! {
+    /// The background: what the image shows where no model is.
+    pub enum BackgroundFile as "Background" {
+        /// Nothing: alpha is 0.
+        Transparent,
+        /// One color.
+        Color(Color),
+        /// A gradient across the whole image, interpolated in sRGB as web pages do.
+        Gradient {
+            /// From 2 to 16 colors at equal distances; the first and the last touch the image's
+            /// borders or corners.
+            colors: Vec<Color>,
+            /// The direction the colors run to, in degrees: 0 is down, 90 to the right, 180 up.
+            /// Default: 0.
+            angle_degrees: Finite = Finite::ZERO,
+        },
+        /// An image in a PNG, JPEG or WebP file, of 67,108,864 pixels at most. The exposure does
+        /// not change its light.
+        Picture {
+            /// The path, from the folder of the scene file.
+            path: String,
+            /// How it fills the image. Default: `Cover`.
+            fit: ImageFit = ImageFit::Cover,
+            /// The color beside it and behind its transparent parts. Default: nothing, alpha is 0.
+            color: Option<Color>,
+        },
+        /// The environment.
+        Environment {
+            /// How blurred it is, from 0 to 1. Default: 0.
+            blur: Option<NonNegative>,
+        },
+    }
 }

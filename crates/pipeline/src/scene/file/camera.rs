@@ -1,96 +1,88 @@
-//! The camera of a scene file: where it is, and how it projects.
+//! The camera of a scene file: its position and direction, and its projection.
 
 use super::projection::ProjectionFile;
 use crate::scene::number::{NonNegative, Triple};
+use crate::scene::schema::{scene_enum, scene_struct};
 use camera::NamedView;
-use serde::Deserialize;
 
-/// The camera: where it is, and how it projects.
-#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
-#[serde(rename = "Camera", deny_unknown_fields, default)]
-pub struct CameraFile {
-    /// Where the eye is and where it looks. Default: framed from the side that suits the projection.
-    pub view: ViewFile,
-    /// The projection; a camera of the model's brings its own. Default: perspective.
-    pub projection: Option<ProjectionFile>,
-}
-
-/// Where the eye is and where it looks.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(rename = "View", deny_unknown_fields)]
-pub enum ViewFile {
-    /// From a place towards another.
-    LookAt {
-        /// The place of the eye.
-        eye: Triple,
-        /// The place looked at, which becomes the centre of the picture.
-        target: Triple,
-        /// The view-up vector: the direction that is to point up in the picture. Default: y.
-        #[serde(default = "Triple::y_axis")]
-        up: Triple,
-    },
-    /// From a place in a direction.
-    LookTo {
-        /// The place of the eye.
-        eye: Triple,
-        /// The direction of gaze.
-        gaze: Triple,
-        /// The view-up vector. Default: y.
-        #[serde(default = "Triple::y_axis")]
-        up: Triple,
-    },
-    /// From a direction, at the distance at which everything just fits.
-    Frame {
-        /// Where from. Default: `ThreeQuarter`, and `Front` for classical projections.
-        from: Option<FromFile>,
-        /// The margin on each side, in per cent of the picture's side. Default: 5.
-        #[serde(default = "default_padding")]
-        padding_percent: NonNegative,
-    },
-    /// A camera of the first model that has cameras.
-    FromModel(CameraChoice),
-}
-
-impl Default for ViewFile {
-    fn default() -> Self {
-        Self::Frame { from: None, padding_percent: DEFAULT_PADDING }
+scene_struct! {
+    /// The camera: its position and direction, and its projection.
+    pub struct CameraFile as "Camera" {
+        /// The position and direction. Default: framed from the direction that suits the
+        /// projection.
+        pub view: ViewFile = ViewFile::DEFAULT,
+        /// The projection. Default: that of the model's camera with `FromModel`, else perspective.
+        pub projection: Option<ProjectionFile> = None,
     }
 }
 
-/// The margin, in per cent, of framed pictures that name none.
-pub const DEFAULT_PADDING: NonNegative = NonNegative::FIVE;
-
-fn default_padding() -> NonNegative {
-    DEFAULT_PADDING
+scene_enum! {
+    /// The position and direction of the camera.
+    pub enum ViewFile as "View" {
+        /// From a point towards another.
+        LookAt {
+            /// The position of the eye.
+            eye: Triple,
+            /// The point the camera looks at, which becomes the center of the image.
+            target: Triple,
+            /// The view-up vector: the direction that points up in the image. Default: y.
+            up: Triple = Triple::Y_AXIS,
+        },
+        /// From a point in a direction.
+        LookTo {
+            /// The position of the eye.
+            eye: Triple,
+            /// The direction of gaze.
+            gaze: Triple,
+            /// The view-up vector. Default: y.
+            up: Triple = Triple::Y_AXIS,
+        },
+        /// From a direction, at the distance at which everything just fits into the image.
+        Frame {
+            /// The direction. Default: `ThreeQuarter`, and `Front` for classical projections.
+            from: Option<FromFile>,
+            /// The margin on each side, in percent of the image's side. Default: 5.
+            padding_percent: NonNegative = DEFAULT_PADDING,
+        },
+        /// A camera of the first model that has cameras.
+        FromModel(CameraChoice),
+    }
 }
 
-/// The direction a picture is framed from.
-#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
-#[serde(rename = "From")]
-pub enum FromFile {
-    /// The side that faces +z, which is the front in glTF.
-    Front,
-    /// The side that faces −z.
-    Back,
-    /// The side that faces −x.
-    Left,
-    /// The side that faces +x.
-    Right,
-    /// The side that faces +y.
-    Top,
-    /// The side that faces −y.
-    Bottom,
-    /// From the front, a little from the right and from above.
-    #[default]
-    ThreeQuarter,
-    /// From the front, the right and above alike, so that all three axes are shortened alike.
-    Isometric,
-    /// x and y shortened alike, z twice as much: 7° and 42° on the page.
-    Dimetric,
-    /// Each axis shortened by a factor of its own.
-    Trimetric,
-    /// From the direction of a vector: (1, 0, 0) is from the right.
-    Direction(Triple),
+impl ViewFile {
+    /// Everything framed from the direction that suits the projection.
+    pub const DEFAULT: Self = Self::Frame { from: None, padding_percent: DEFAULT_PADDING };
+}
+
+/// The margin of framed pictures, in percent.
+pub const DEFAULT_PADDING: NonNegative = NonNegative::FIVE;
+
+scene_enum! {
+    /// The direction from which a picture is framed.
+    pub enum FromFile as "From" {
+        /// From +z, which is the front in glTF.
+        Front,
+        /// From −z.
+        Back,
+        /// From −x.
+        Left,
+        /// From +x.
+        Right,
+        /// From +y.
+        Top,
+        /// From −y.
+        Bottom,
+        /// From the front, a little from the right and from above.
+        ThreeQuarter,
+        /// From (1, 1, 1): all three axes equally foreshortened.
+        Isometric,
+        /// x and y foreshortened alike, z half as much again: 7° and 42° on the page.
+        Dimetric,
+        /// Each axis foreshortened by a factor of its own.
+        Trimetric,
+        /// From the direction of a vector: (1, 0, 0) is from the right.
+        Direction(Triple),
+    }
 }
 
 impl From<NamedView> for FromFile {
@@ -110,11 +102,13 @@ impl From<NamedView> for FromFile {
     }
 }
 
-/// Which camera of a model.
-#[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
-pub enum CameraChoice {
-    /// By its place in the file, from 0.
-    Index(usize),
-    /// By its own name or that of its node.
-    Name(String),
+scene_enum! {
+    /// A choice among the cameras of a model.
+    #[derive(Eq)]
+    pub enum CameraChoice as "CameraChoice" {
+        /// By its index in the file, from 0.
+        Index(usize),
+        /// By its own name or that of its node.
+        Name(String),
+    }
 }

@@ -1,43 +1,40 @@
-//! The way of a camera in a scene file, for `alberti animate`.
+//! The camera path of a scene file, for `alberti animate`.
 
 use crate::scene::number::{FieldOfView, Finite, Triple};
-use serde::Deserialize;
+use crate::scene::schema::{named_enum, scene_struct};
 
-/// Where the camera is at which time, in films. Its projection is that of the scene's `camera`.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(rename = "CameraPath", deny_unknown_fields)]
-pub struct CameraPathFile {
-    /// From 2 to 10,000 places and times, each later than the one before.
-    pub keys: Vec<CameraKeyFile>,
-    /// How the camera moves between them. Default: `Smooth`.
-    #[serde(default)]
-    pub curve: CurveFile,
+scene_struct! {
+    /// The motion of the camera in frame sequences. Its projection is that of the scene's `camera`.
+    pub struct CameraPathFile as "CameraPath" {
+        /// From 2 to 10,000 keyframes, each later than the one before.
+        pub keys: Vec<CameraKeyFile>,
+        /// The interpolation between keyframes. Default: `Smooth`.
+        pub curve: CurveFile = CurveFile::Smooth,
+    }
 }
 
-/// A place of the camera at a time.
-#[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
-#[serde(rename = "CameraKey", deny_unknown_fields)]
-pub struct CameraKeyFile {
-    /// The time in seconds.
-    pub time: Finite,
-    /// The place of the eye.
-    pub eye: Triple,
-    /// The place looked at.
-    pub target: Triple,
-    /// The view-up vector. Default: y.
-    #[serde(default = "Triple::y_axis")]
-    pub up: Triple,
-    /// The vertical opening angle of a perspective in degrees. Default: that of the scene's projection.
-    pub fov_y_degrees: Option<FieldOfView>,
+scene_struct! {
+    /// A keyframe: the position and direction of the camera at a time.
+    #[derive(Copy)]
+    pub struct CameraKeyFile as "CameraKey" {
+        /// The time in seconds.
+        pub time: Finite,
+        /// The position of the eye.
+        pub eye: Triple,
+        /// The point the camera looks at.
+        pub target: Triple,
+        /// The view-up vector. Default: y.
+        pub up: Triple = Triple::Y_AXIS,
+        /// The vertical field of view of a perspective in degrees. Default: that of the scene's
+        /// projection.
+        pub fov_y_degrees: Option<FieldOfView>,
+    }
 }
 
-/// How something moves between its keys.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
-#[serde(rename = "Curve")]
-pub enum CurveFile {
-    /// On straight lines, with a jerk at each key.
-    Linear,
-    /// On a smooth curve through all keys (Catmull and Rom).
-    #[default]
-    Smooth,
+named_enum! {
+    /// The interpolation between keyframes.
+    pub enum CurveFile as "Curve" {
+        Linear = "Straight lines, with a jerk at each keyframe.",
+        Smooth = "A smooth curve through all keyframes (Catmull and Rom).",
+    }
 }

@@ -1,66 +1,59 @@
-//! The surroundings of a scene file.
+//! The environment of a scene file: light from all directions.
 
+use crate::scene::color::LightColor;
 use crate::scene::number::{Finite, NonNegative, Triple};
-use serde::Deserialize;
+use crate::scene::schema::scene_enum;
 
-/// Light from all around: it is scattered, and mirrored in what shines.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(rename = "Environment", deny_unknown_fields)]
-pub enum EnvironmentFile {
-    /// None at all, not even for a bare model.
-    Dark,
-    /// A studio with soft boxes.
-    Studio {
-        /// What all light is multiplied by. Default: 1.
-        #[serde(default = "one")]
-        strength: NonNegative,
-        /// A turn about the y axis. Default: 0.
-        rotate_degrees: Option<Finite>,
-    },
-    /// A clear sky over grey ground. The sun itself is not part of it; it is a light.
-    Sky {
-        /// The direction to the sun. Default: (1, 1, 1).
-        #[serde(default = "Triple::ones")]
-        sun: Triple,
-        /// What all light is multiplied by. Default: 1.
-        #[serde(default = "one")]
-        strength: NonNegative,
-    },
-    /// The same light from everywhere, mirrored too.
-    Uniform {
-        /// The luminance from every side. Default: 1.
-        #[serde(default = "one")]
-        strength: NonNegative,
-        /// Red, green and blue, linear. Default: white.
-        #[serde(default = "Triple::ones")]
-        color: Triple,
-    },
-    /// A picture of all directions in a `.hdr` file.
-    File {
-        /// The path, from the folder of the scene file.
-        path: String,
-        /// What all light is multiplied by. Default: 1.
-        #[serde(default = "one")]
-        strength: NonNegative,
-        /// A turn about the y axis. Default: 0.
-        rotate_degrees: Option<Finite>,
-    },
-}
-
-impl EnvironmentFile {
-    /// The studio that bare models stand in: matt white, which shows up to 1.4 in the full one, stays below 1.
-    pub const STUDIO: Self =
-        Self::Studio { strength: NonNegative::SIX_TENTHS, rotate_degrees: None };
-    /// The sky with every default.
-    pub const SKY: Self = Self::Sky { sun: Triple([1.0; 3]), strength: NonNegative::ONE };
-
-    /// The picture in a file, as it is.
-    #[must_use]
-    pub const fn from_path(path: String) -> Self {
-        Self::File { path, strength: NonNegative::ONE, rotate_degrees: None }
+scene_enum! {
+    /// Image-based light from all directions: it lights diffuse surfaces and is reflected in shiny
+    /// ones.
+    pub enum EnvironmentFile as "Environment" {
+        /// None at all, not even for a model without a scene file.
+        Dark,
+        /// A studio with soft boxes.
+        Studio {
+            /// A factor for all light. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+            /// The rotation about the y axis. Default: 0.
+            rotation_degrees: Option<Finite>,
+        },
+        /// A clear sky over gray ground. The sun itself is not part of it; it is a light.
+        Sky {
+            /// The direction to the sun. Default: (1, 1, 1).
+            sun: Triple = Triple::ONES,
+            /// A factor for all light. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+        },
+        /// Uniform light from all directions, in reflections too.
+        Uniform {
+            /// The luminance from every direction. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+            /// The color. Default: white.
+            color: LightColor = LightColor::WHITE,
+        },
+        /// An equirectangular image in a `.hdr` file.
+        File {
+            /// The path, from the folder of the scene file.
+            path: String,
+            /// A factor for all light. Default: 1.
+            strength: NonNegative = NonNegative::ONE,
+            /// The rotation about the y axis. Default: 0.
+            rotation_degrees: Option<Finite>,
+        },
     }
 }
 
-fn one() -> NonNegative {
-    NonNegative::ONE
+impl EnvironmentFile {
+    /// The studio around a model without a scene file: matte white, which reaches 1.4 in the full
+    /// one, stays below 1.
+    pub const STUDIO: Self =
+        Self::Studio { strength: NonNegative::SIX_TENTHS, rotation_degrees: None };
+    /// The sky with every default.
+    pub const SKY: Self = Self::Sky { sun: Triple::ONES, strength: NonNegative::ONE };
+
+    /// The image in a file with every default.
+    #[must_use]
+    pub const fn from_path(path: String) -> Self {
+        Self::File { path, strength: NonNegative::ONE, rotation_degrees: None }
+    }
 }

@@ -1,19 +1,21 @@
 //! The ground of a scene file.
 
 use crate::scene::number::Finite;
-use serde::Deserialize;
+use crate::scene::schema::scene_enum;
 
-/// What is below the models.
-#[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
-#[serde(rename = "Ground", deny_unknown_fields)]
-pub enum GroundFile {
-    /// A level plane that is not seen itself but for the shadows on it, as under products in a catalogue. In a transparent picture
-    /// its alpha is the share of light that the shadows take from it. It is not seen from below. If the scene says nothing of
-    /// `shadows`, they are `On()`.
-    Shadow {
-        /// Its height, y in the world. Default: that of the lowest vertex of the models.
-        height: Option<Finite>,
-    },
+scene_enum! {
+    /// The ground below the models.
+    #[derive(Copy)]
+    pub enum GroundFile as "Ground" {
+        /// A shadow catcher: a level plane that only shows the shadows on it, as under products in
+        /// a catalog. In a transparent picture its alpha is the fraction of light that the shadows
+        /// take from it. It is not visible from below. If the scene has no `shadows`, they are
+        /// `On()`.
+        Shadow {
+            /// Its height, y in the world. Default: that of the lowest vertex of the models.
+            height: Option<Finite>,
+        },
+    }
 }
 
 impl GroundFile {

@@ -1,36 +1,29 @@
-//! Other scene files that a scene begins with.
+//! The scene files that a scene file includes.
 
-use core::fmt;
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use crate::scene::schema::{Checker, Declared, SceneValue, Shape, TypeEntry, ValueType};
+use crate::scene::syntax::{Node, NodeKind};
 
-/// One path, `"studio.ron"`, or several, `["studio.ron", "paper.ron"]`, from the folder of the file that names them.
+/// Paths of included files. Written `"studio.ron"` or `["studio.ron", "paper.ron"]`.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Paths(pub Vec<String>);
 
-impl<'de> Deserialize<'de> for Paths {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(PathsVisitor).map(Self)
-    }
+impl Declared for Paths {
+    const ENTRY: &'static TypeEntry = &TypeEntry {
+        name: "Paths",
+        doc: "One path, `\"studio.ron\"`, or several, `[\"studio.ron\", \"paper.ron\"]`, from the folder of the file that names them.",
+        shape: Shape::Plain,
+    };
 }
 
-struct PathsVisitor;
-
-impl<'de> Visitor<'de> for PathsVisitor {
-    type Value = Vec<String>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the path of a scene file in quotation marks, or a list of them")
+impl SceneValue for Paths {
+    fn value_type() -> ValueType {
+        ValueType::Declared(Self::ENTRY)
     }
 
-    fn visit_str<E: Error>(self, path: &str) -> Result<Vec<String>, E> {
-        Ok(vec![path.to_owned()])
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<String>, A::Error> {
-        let mut paths = Vec::new();
-        while let Some(path) = seq.next_element()? {
-            paths.push(path);
+    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
+        match &node.kind {
+            NodeKind::Group(_) => Vec::from_node(node, checker).map(Self),
+            _ => String::from_node(node, checker).map(|path| Self(vec![path])),
         }
-        Ok(paths)
     }
 }

@@ -1,65 +1,65 @@
 //! The lights of a scene file.
 
 use super::shadow::ShadowsFile;
+use crate::scene::color::LightColor;
 use crate::scene::number::{Finite, NonNegative, Positive, Triple};
-use serde::Deserialize;
+use crate::scene::schema::scene_enum;
 
-/// A light.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(rename = "Light", deny_unknown_fields)]
-pub enum LightFile {
-    /// Light from very far away: parallel rays.
-    Sun {
-        /// The direction in which the light travels.
-        direction: Triple,
-        /// The illuminance of a surface that faces the light; a white one then shows `lux` / π.
-        lux: NonNegative,
-        /// Red, green and blue, linear. Default: white.
-        #[serde(default = "Triple::ones")]
-        color: Triple,
-        /// Its shadows. Default: the scene's `shadows`.
-        shadows: Option<ShadowsFile>,
-    },
-    /// Light from a point, weaker with the square of the distance. It casts no shadows; a spot does.
-    Point {
-        /// Where it is.
-        position: Triple,
-        /// The luminous intensity: the illuminance at distance 1.
-        candela: NonNegative,
-        /// The distance at which nothing arrives any more. Default: it goes on for ever.
-        range: Option<Positive>,
-        /// Red, green and blue, linear. Default: white.
-        #[serde(default = "Triple::ones")]
-        color: Triple,
-    },
-    /// Light from a point into a cone.
-    Spot {
-        /// Where it is.
-        position: Triple,
-        /// The direction of the cone's axis, in which the light travels.
-        direction: Triple,
-        /// The luminous intensity along the axis.
-        candela: NonNegative,
-        /// The angle from the axis up to which the light is full. Default: 0.
-        inner_degrees: Option<Finite>,
-        /// The angle from the axis at which it ends. Default: 45.
-        outer_degrees: Option<Finite>,
-        /// The distance at which nothing arrives any more. Default: it goes on for ever.
-        range: Option<Positive>,
-        /// Red, green and blue, linear. Default: white.
-        #[serde(default = "Triple::ones")]
-        color: Triple,
-        /// Its shadows. Default: the scene's `shadows`.
-        shadows: Option<ShadowsFile>,
-    },
-    /// The lights that the models' files have (KHR_lights_punctual).
-    FromModels,
-    /// The same light from everywhere. It scatters and makes no highlights; an environment does.
-    Ambient {
-        /// The illuminance of every surface.
-        lux: NonNegative,
-        /// Red, green and blue, linear. Default: white.
-        #[serde(default = "Triple::ones")]
-        color: Triple,
-    },
+scene_enum! {
+    /// A light, with the units of KHR_lights_punctual.
+    pub enum LightFile as "Light" {
+        /// A light at infinity, such as the sun: its rays are parallel.
+        Directional {
+            /// The direction in which the light travels.
+            direction: Triple,
+            /// The illuminance in lux of a surface that faces the light; a white one then shows
+            /// `intensity` / π.
+            intensity: NonNegative,
+            /// The color. Default: white.
+            color: LightColor = LightColor::WHITE,
+            /// Its shadows. Default: the scene's `shadows`.
+            shadows: Option<ShadowsFile>,
+        },
+        /// A point light, whose light falls off with the square of the distance. It casts no
+        /// shadows; a spot does.
+        Point {
+            /// The position.
+            position: Triple,
+            /// The luminous intensity in candela: the illuminance at distance 1.
+            intensity: NonNegative,
+            /// The distance at which no light arrives any more. Default: infinite.
+            range: Option<Positive>,
+            /// The color. Default: white.
+            color: LightColor = LightColor::WHITE,
+        },
+        /// A spot light: a point light that shines into a cone.
+        Spot {
+            /// The position.
+            position: Triple,
+            /// The direction of the cone's axis, in which the light travels.
+            direction: Triple,
+            /// The luminous intensity in candela along the axis.
+            intensity: NonNegative,
+            /// The angle from the axis where the falloff begins. Default: 0.
+            inner_cone_degrees: Option<Finite>,
+            /// The angle from the axis where the falloff ends. Default: 45.
+            outer_cone_degrees: Option<Finite>,
+            /// The distance at which no light arrives any more. Default: infinite.
+            range: Option<Positive>,
+            /// The color. Default: white.
+            color: LightColor = LightColor::WHITE,
+            /// Its shadows. Default: the scene's `shadows`.
+            shadows: Option<ShadowsFile>,
+        },
+        /// The lights of the models' files (KHR_lights_punctual).
+        FromModels,
+        /// Uniform diffuse light from all directions, without highlights; an environment has
+        /// highlights.
+        Ambient {
+            /// The illuminance in lux of every surface.
+            intensity: NonNegative,
+            /// The color. Default: white.
+            color: LightColor = LightColor::WHITE,
+        },
+    }
 }

@@ -1,13 +1,16 @@
 //! The ambient occlusion of a scene file.
 
 use crate::scene::number::Positive;
-use serde::Deserialize;
+use crate::scene::schema::scene_struct;
 
-/// Less light from all around in corners and below things, as far as the picture shows what is in the way. It changes what ambient
-/// light and the environment give, as the occlusion textures of models do, and not what lights with a place or a direction give.
-#[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
-#[serde(rename = "AmbientOcclusion", deny_unknown_fields)]
-pub struct AmbientOcclusionFile {
-    /// How far away things still count, in the units of the world. Default: a twelfth of the diagonal of the box around the models.
-    pub radius: Option<Positive>,
+scene_struct! {
+    /// Screen-space ambient occlusion: corners and crevices get less ambient light, as far as the
+    /// picture shows what occludes it. Like the occlusion textures of models it changes ambient
+    /// light and the environment, and no other lights.
+    #[derive(Copy)]
+    pub struct AmbientOcclusionFile as "AmbientOcclusion" {
+        /// The distance up to which surfaces occlude, in the units of the world. Default: a twelfth
+        /// of the diagonal of the box around the models.
+        pub radius: Option<Positive> = None,
+    }
 }

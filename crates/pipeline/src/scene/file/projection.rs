@@ -1,205 +1,174 @@
-//! The projections of a scene file, by the names they have in the textbooks.
+//! The projections of a scene file, by their names in graphics textbooks.
 
 use crate::scene::number::{FieldOfView, Finite, NonNegative, Positive};
-use serde::Deserialize;
+use crate::scene::schema::scene_enum;
+use projection::PrincipalView;
 
-/// A projection.
-///
-/// Those from `Multiview` on are the classical ones. Each of them finds its own window, so that everything is in the picture; and
-/// unless the view says otherwise it sees the front of the models.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(rename = "Projection", deny_unknown_fields)]
-pub enum ProjectionFile {
-    /// Perspective, the eye in front of the picture's centre.
-    Perspective {
-        /// The vertical opening angle in degrees. Default: 35.
-        #[serde(default)]
-        fov_y_degrees: FieldOfView,
-        /// The distance of the near plane. Default: as far out as the scene allows.
-        near: Option<Positive>,
-        /// The distance of the far plane. Default: just behind everything.
-        far: Option<Positive>,
-    },
-    /// Parallel, at right angles to the picture.
-    Orthographic {
-        /// The height of the view volume in the scene's units. Default: what the framing asks for.
-        height: Option<Positive>,
-        /// The distance of the near plane. Default: just before everything.
-        near: Option<Finite>,
-        /// The distance of the far plane. Default: just behind everything.
-        far: Option<Finite>,
-    },
-    /// Perspective through any window on the near plane, also one beside the line of sight.
-    Frustum {
-        /// The window's left border.
-        left: Finite,
-        /// The window's right border.
-        right: Finite,
-        /// The window's bottom border.
-        bottom: Finite,
-        /// The window's top border.
-        top: Finite,
-        /// The distance of the window, which is the near plane.
-        near: Positive,
-        /// The distance of the far plane. Default: just behind everything.
-        far: Option<Positive>,
-    },
-    /// One of the six principal views.
-    Multiview(PrincipalFile),
-    /// Orthographic, all three axes shortened alike.
-    Isometric,
-    /// Orthographic, x and y in full and z by half: the 42°/7° of engineering drawing.
-    Dimetric,
-    /// Orthographic, each axis shortened by a factor of its own.
-    Trimetric,
-    /// Orthographic, the axes shortened as x : y : z.
-    Axonometric {
-        /// The part of the x axis.
-        x: Positive,
-        /// The part of the y axis.
-        y: Positive,
-        /// The part of the z axis.
-        z: Positive,
-    },
-    /// Oblique: the front in true shape, depth in full.
-    Cavalier {
-        /// The direction in which depth recedes, from the right counterclockwise. Default: 45.
-        #[serde(default = "half_right_angle")]
-        angle_degrees: Finite,
-    },
-    /// Oblique: the front in true shape, depth by half.
-    Cabinet {
-        /// The direction in which depth recedes. Default: 45.
-        #[serde(default = "half_right_angle")]
-        angle_degrees: Finite,
-    },
-    /// Oblique: the front in true shape, depth by any factor.
-    Oblique {
-        /// The drawn length of a unit of depth.
-        length: NonNegative,
-        /// The direction in which depth recedes. Default: 45.
-        #[serde(default = "half_right_angle")]
-        angle_degrees: Finite,
-    },
-    /// Oblique: the ground plan in true shape, heights straight up.
-    Military {
-        /// How far the plan is turned, counterclockwise. Default: 45.
-        #[serde(default = "half_right_angle")]
-        turn_degrees: Finite,
-        /// The drawn length of a unit of height. Default: 1.
-        #[serde(default = "whole")]
-        height: NonNegative,
-    },
-    /// Perspective with the front parallel to the picture: lines in depth meet in one point. Places on the picture go from −1 at its
-    /// bottom to 1 at its top.
-    OnePoint {
-        /// Where lines in depth meet. Default: a little to the right and above the middle.
-        #[serde(default = "usual_one_point")]
-        at: (Finite, Finite),
-        /// The distance of the eye from the picture, in half heights of it. Default: 3.
-        #[serde(default = "usual_distance")]
-        distance: Positive,
-    },
-    /// Perspective with uprights parallel to the picture. Places as for `OnePoint`.
-    TwoPoint {
-        /// Where lines along x meet. Default: at the left, outside of the picture.
-        #[serde(default = "usual_two_point_x")]
-        x: (Finite, Finite),
-        /// Where lines along z meet. Default: at the right.
-        #[serde(default = "usual_two_point_z")]
-        z: (Finite, Finite),
-        /// Where between the two the eye is opposite, 0 at x and 1 at z. Default: 0.57, the middle of the picture.
-        #[serde(default = "usual_fraction")]
-        fraction: Finite,
-    },
-    /// Perspective with no axis parallel to the picture. Places as for `OnePoint`.
-    ThreePoint {
-        /// Where lines along x meet. Default: at the left, above the middle.
-        #[serde(default = "usual_three_point_x")]
-        x: (Finite, Finite),
-        /// Where uprights meet. Default: far below.
-        #[serde(default = "usual_three_point_y")]
-        y: (Finite, Finite),
-        /// Where lines along z meet. Default: at the right, above the middle.
-        #[serde(default = "usual_three_point_z")]
-        z: (Finite, Finite),
-    },
-    /// Perspective by the bottom row (p, q, r, 1) of the textbooks' matrix, with the models scaled so that they just fit into a sphere
-    /// of radius 1.
-    NPoint {
-        /// 1/p is where lines along x meet. Default: 0.
-        #[serde(default = "nothing")]
-        p: Finite,
-        /// 1/q is where uprights meet. Default: 0.
-        #[serde(default = "nothing")]
-        q: Finite,
-        /// 1/r is where lines along z meet. Default: 0.
-        #[serde(default = "nothing")]
-        r: Finite,
-    },
-}
-
-/// One of the six principal views.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[serde(rename = "Multiview")]
-pub enum PrincipalFile {
-    /// From +z.
-    Front,
-    /// From −z.
-    Back,
-    /// From −x.
-    Left,
-    /// From +x.
-    Right,
-    /// From +y.
-    Top,
-    /// From −y.
-    Bottom,
+scene_enum! {
+    /// A projection.
+    ///
+    /// Those from `Multiview` on are the classical ones. Each of them fits its own window around
+    /// the models, and unless the view says otherwise it shows their front.
+    pub enum ProjectionFile as "Projection" {
+        /// Perspective, the eye in front of the image's center.
+        Perspective {
+            /// The vertical field of view in degrees. Default: 35.
+            fov_y_degrees: FieldOfView = FieldOfView::DEFAULT,
+            /// The distance of the near plane. Default: as far as the models allow.
+            near: Option<Positive>,
+            /// The distance of the far plane. Default: just behind the models.
+            far: Option<Positive>,
+        },
+        /// Orthographic: parallel, perpendicular to the image.
+        Orthographic {
+            /// The height of the view volume in the scene's units. Default: from the framing.
+            height: Option<Positive>,
+            /// The distance of the near plane. Default: just before the models.
+            near: Option<Finite>,
+            /// The distance of the far plane. Default: just behind the models.
+            far: Option<Finite>,
+        },
+        /// Perspective through any window on the near plane, also an off-axis one.
+        Frustum {
+            /// The window's left border.
+            left: Finite,
+            /// The window's right border.
+            right: Finite,
+            /// The window's bottom border.
+            bottom: Finite,
+            /// The window's top border.
+            top: Finite,
+            /// The distance of the window, which is the near plane.
+            near: Positive,
+            /// The distance of the far plane. Default: just behind the models.
+            far: Option<Positive>,
+        },
+        /// One of the six principal views.
+        Multiview(PrincipalView),
+        /// Isometric: orthographic, all three axes foreshortened alike.
+        Isometric,
+        /// Dimetric: orthographic, x and y in full and z by half, the 42°/7° of engineering
+        /// drawing.
+        Dimetric,
+        /// Trimetric: orthographic, each axis foreshortened by a factor of its own.
+        Trimetric,
+        /// Orthographic, the axes foreshortened as x : y : z.
+        Axonometric {
+            /// The foreshortening of the x axis.
+            x: Positive,
+            /// The foreshortening of the y axis.
+            y: Positive,
+            /// The foreshortening of the z axis.
+            z: Positive,
+        },
+        /// Oblique: the front in true shape, depth in full.
+        Cavalier {
+            /// The direction in which depth recedes, from the right counterclockwise. Default: 45.
+            angle_degrees: Finite = HALF_RIGHT_ANGLE,
+        },
+        /// Oblique: the front in true shape, depth by half.
+        Cabinet {
+            /// The direction in which depth recedes. Default: 45.
+            angle_degrees: Finite = HALF_RIGHT_ANGLE,
+        },
+        /// Oblique: the front in true shape, depth by any factor.
+        Oblique {
+            /// The drawn length of a unit of depth.
+            length: NonNegative,
+            /// The direction in which depth recedes. Default: 45.
+            angle_degrees: Finite = HALF_RIGHT_ANGLE,
+        },
+        /// Planometric: the ground plan in true shape, heights straight up.
+        Military {
+            /// The rotation of the plan, counterclockwise. Default: 45.
+            rotation_degrees: Finite = HALF_RIGHT_ANGLE,
+            /// The drawn length of a unit of height. Default: 1.
+            height: NonNegative = NonNegative::ONE,
+        },
+        /// One-point perspective, the front parallel to the picture plane: lines in depth meet in
+        /// one vanishing point. Points of the picture go from −1 at its bottom to 1 at its top.
+        OnePoint {
+            /// The vanishing point of lines in depth. Default: a little to the right and above the
+            /// center.
+            at: (Finite, Finite) = point(0.35, 0.45),
+            /// The distance of the eye from the picture, in half heights of it. Default: 3.
+            distance: Positive = Positive::constant(3.0),
+        },
+        /// Two-point perspective, verticals parallel to the picture plane. Points as for
+        /// `OnePoint`.
+        TwoPoint {
+            /// The vanishing point of lines along x. Default: at the left, outside of the picture.
+            x: (Finite, Finite) = point(-3.2, 0.4),
+            /// The vanishing point of lines along z. Default: at the right.
+            z: (Finite, Finite) = point(2.4, 0.4),
+            /// The position of the eye between the two, 0 at x and 1 at z. Default: 0.57, the
+            /// center of the picture.
+            fraction: Finite = Finite::constant(0.57),
+        },
+        /// Three-point perspective, no axis parallel to the picture plane. Points as for
+        /// `OnePoint`.
+        ThreePoint {
+            /// The vanishing point of lines along x. Default: at the left, above the center.
+            x: (Finite, Finite) = point(-3.2, 1.2),
+            /// The vanishing point of verticals. Default: far below.
+            y: (Finite, Finite) = point(0.1, -5.0),
+            /// The vanishing point of lines along z. Default: at the right, above the center.
+            z: (Finite, Finite) = point(2.4, 1.2),
+        },
+        /// Perspective by the bottom row (p, q, r, 1) of the textbooks' matrix, with the models
+        /// scaled so that they just fit into a sphere of radius 1.
+        NPoint {
+            /// Lines along x meet at 1/p. Default: 0.
+            p: Finite = Finite::ZERO,
+            /// Verticals meet at 1/q. Default: 0.
+            q: Finite = Finite::ZERO,
+            /// Lines along z meet at 1/r. Default: 0.
+            r: Finite = Finite::ZERO,
+        },
+    }
 }
 
 impl ProjectionFile {
     /// Perspective with every default.
     pub const PERSPECTIVE: Self =
-        Self::Perspective { fov_y_degrees: FieldOfView::USUAL, near: None, far: None };
+        Self::Perspective { fov_y_degrees: FieldOfView::DEFAULT, near: None, far: None };
     /// Orthographic with every default.
     pub const ORTHOGRAPHIC: Self = Self::Orthographic { height: None, near: None, far: None };
 
     /// Cavalier with every default.
     #[must_use]
-    pub fn cavalier() -> Self {
-        Self::Cavalier { angle_degrees: half_right_angle() }
+    pub const fn cavalier() -> Self {
+        Self::Cavalier { angle_degrees: HALF_RIGHT_ANGLE }
     }
 
     /// Cabinet with every default.
     #[must_use]
-    pub fn cabinet() -> Self {
-        Self::Cabinet { angle_degrees: half_right_angle() }
+    pub const fn cabinet() -> Self {
+        Self::Cabinet { angle_degrees: HALF_RIGHT_ANGLE }
     }
 
     /// Military with every default.
     #[must_use]
-    pub fn military() -> Self {
-        Self::Military { turn_degrees: half_right_angle(), height: whole() }
+    pub const fn military() -> Self {
+        Self::Military { rotation_degrees: HALF_RIGHT_ANGLE, height: NonNegative::ONE }
     }
 
     /// One-point perspective with every default.
     #[must_use]
-    pub fn one_point() -> Self {
-        Self::OnePoint { at: usual_one_point(), distance: usual_distance() }
+    pub const fn one_point() -> Self {
+        Self::OnePoint { at: point(0.35, 0.45), distance: Positive::constant(3.0) }
     }
 
     /// Two-point perspective with every default.
     #[must_use]
-    pub fn two_point() -> Self {
-        let (x, z) = (usual_two_point_x(), usual_two_point_z());
-        Self::TwoPoint { x, z, fraction: usual_fraction() }
+    pub const fn two_point() -> Self {
+        Self::TwoPoint { x: point(-3.2, 0.4), z: point(2.4, 0.4), fraction: Finite::constant(0.57) }
     }
 
     /// Three-point perspective with every default.
     #[must_use]
-    pub fn three_point() -> Self {
-        let (x, y, z) = (usual_three_point_x(), usual_three_point_y(), usual_three_point_z());
-        Self::ThreePoint { x, y, z }
+    pub const fn three_point() -> Self {
+        Self::ThreePoint { x: point(-3.2, 1.2), y: point(0.1, -5.0), z: point(2.4, 1.2) }
     }
 
     /// Whether it is one of the classical projections, which find their own windows.
@@ -208,51 +177,11 @@ impl ProjectionFile {
         !matches!(self, Self::Perspective { .. } | Self::Orthographic { .. } | Self::Frustum { .. })
     }
 }
+/// 45 degrees, the direction of depth in most oblique drawings.
 
-fn place(x: f64, y: f64) -> (Finite, Finite) {
-    (Finite::known(x), Finite::known(y))
-}
+const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 
-fn nothing() -> Finite {
-    Finite::known(0.0)
-}
-
-fn half_right_angle() -> Finite {
-    Finite::known(45.0)
-}
-
-fn whole() -> NonNegative {
-    NonNegative::ONE
-}
-
-fn usual_one_point() -> (Finite, Finite) {
-    place(0.35, 0.45)
-}
-
-fn usual_distance() -> Positive {
-    Positive::known(3.0)
-}
-
-fn usual_two_point_x() -> (Finite, Finite) {
-    place(-3.2, 0.4)
-}
-
-fn usual_two_point_z() -> (Finite, Finite) {
-    place(2.4, 0.4)
-}
-
-fn usual_fraction() -> Finite {
-    Finite::known(0.57)
-}
-
-fn usual_three_point_x() -> (Finite, Finite) {
-    place(-3.2, 1.2)
-}
-
-fn usual_three_point_y() -> (Finite, Finite) {
-    place(0.1, -5.0)
-}
-
-fn usual_three_point_z() -> (Finite, Finite) {
-    place(2.4, 1.2)
+/// A point of the picture.
+const fn point(x: f64, y: f64) -> (Finite, Finite) {
+    (Finite::constant(x), Finite::constant(y))
 }

@@ -1,25 +1,29 @@
 //! The shadows of a scene file.
 
 use crate::scene::number::Softness;
-use serde::Deserialize;
+use crate::scene::schema::scene_enum;
 
-/// Whether a light casts shadows, and what they are like. Suns and spots can; points cast none.
-///
-/// Masked materials cast the shadow of what is left of them; those that are blended, or let light through, cast none.
-#[derive(Clone, Copy, PartialEq, Debug, Deserialize)]
-#[serde(rename = "Shadows", deny_unknown_fields)]
-pub enum ShadowsFile {
-    /// None.
-    Off,
-    /// By a shadow map: the picture that the light has of the scene.
-    On {
-        /// The texels of the map's longer side, from 64 to 8192. What is finer than a texel casts no shadow; each takes 12 bytes.
-        /// Default: 2048.
-        size: Option<u32>,
-        /// How large the light looks in the sky, in degrees across, from 0 to 30: what is farther from its shadow casts it with
-        /// softer borders, and 0 makes them all sharp. Default: 0.53, as the sun.
-        softness_degrees: Option<Softness>,
-    },
+scene_enum! {
+    /// Whether a light casts shadows, and how soft they are. Directional and spot lights can; point
+    /// lights cast none.
+    ///
+    /// Masked materials cast the shadow of their opaque parts; blended and transmissive ones cast
+    /// none.
+    #[derive(Copy)]
+    pub enum ShadowsFile as "Shadows" {
+        /// None.
+        Off,
+        /// By a shadow map: a depth image of the scene from the light.
+        On {
+            /// The texels of the map's longer side, from 64 to 8192. Details finer than a texel
+            /// cast no shadow; each takes 12 bytes. Default: 2048.
+            size: Option<u32>,
+            /// The angle that the light subtends, in degrees, from 0 to 30: shadows get softer with
+            /// the distance from what casts them, and 0 makes them all sharp. Default: 0.53, as the
+            /// sun.
+            softness_degrees: Option<Softness>,
+        },
+    }
 }
 
 impl ShadowsFile {

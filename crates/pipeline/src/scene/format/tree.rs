@@ -1,10 +1,10 @@
 //! Tokens put together: brackets with their items, each with its comment.
 
-use super::tokens::{Token, TokenKind};
+use crate::scene::syntax::{Token, TokenKind};
 
 /// An element, a comment, or an element with a comment behind it on its line.
 #[derive(Debug, Default)]
-pub(super) struct Item {
+pub(super) struct FormatItem {
     pub(super) element: Option<Element>,
     pub(super) comment: Option<String>,
     pub(super) blank_before: bool,
@@ -16,27 +16,29 @@ pub(super) struct Element {
     pub(super) parts: Vec<Part>,
 }
 
+/// A run of text or a bracketed group.
 #[derive(Debug)]
 pub(super) enum Part {
     /// Words with the blanks between them.
     Text(String),
-    Group(Group),
+    Group(FormatGroup),
 }
 
 /// A pair of brackets.
 #[derive(Debug)]
-pub(super) struct Group {
+pub(super) struct FormatGroup {
     pub(super) open: char,
     pub(super) close: char,
     /// Whether a line break follows the opening bracket.
     pub(super) multiline: bool,
-    pub(super) items: Vec<Item>,
+    pub(super) items: Vec<FormatItem>,
 }
 
 /// The items of the whole text.
-pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<Item> {
+pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
+/// Recursive-descent reader of items; comments are items too.
 
 struct ItemReader<'a> {
     tokens: &'a [Token<'a>],
@@ -44,42 +46,44 @@ struct ItemReader<'a> {
 }
 
 impl<'a> ItemReader<'a> {
+    /// Returns the next token and moves past it.
     fn next(&mut self) -> Option<Token<'a>> {
         let token = self.tokens.get(self.at).copied()?;
         self.at += 1;
         Some(token)
     }
+    /// The next token.
 
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
 
     /// The items up to the closing bracket, or to the end.
-    fn read_items(&mut self) -> Vec<Item> {
-        let mut items: Vec<Item> = Vec::new();
+    fn read_items(&mut self) -> Vec<FormatItem> {
+        let mut items: Vec<FormatItem> = Vec::new();
         while let Some(token) = self.peek() {
             match token.kind {
                 TokenKind::Close => return items,
                 TokenKind::Comma => self.at += 1,
-                TokenKind::Line => {
+                TokenKind::LineComment => {
                     self.at += 1;
                     self.attach_comment(&mut items, token);
                 }
-                TokenKind::Block if self.ends_its_line() => {
+                TokenKind::BlockComment if self.ends_its_line() => {
                     self.at += 1;
                     self.attach_comment(&mut items, token);
                 }
                 _ => {
                     let blank_before = token.line_breaks_before > 1;
                     let (element, comments) = self.read_element();
-                    let own = |(number, text): (usize, &str)| Item {
+                    let own = |(number, text): (usize, &str)| FormatItem {
                         comment: Some(text.to_owned()),
                         blank_before: blank_before && number == 0,
-                        ..Item::default()
+                        ..FormatItem::default()
                     };
                     let blank_before = blank_before && comments.is_empty();
                     items.extend(comments.into_iter().enumerate().map(own));
-                    items.push(Item { element: Some(element), comment: None, blank_before });
+                    items.push(FormatItem { element: Some(element), comment: None, blank_before });
                 }
             }
         }
@@ -87,7 +91,7 @@ impl<'a> ItemReader<'a> {
     }
 
     /// A comment on the line of the item before it belongs to that; any other is an item.
-    fn attach_comment(&self, items: &mut Vec<Item>, token: Token<'_>) {
+    fn attach_comment(&self, items: &mut Vec<FormatItem>, token: Token<'_>) {
         let text = token.text.to_owned();
         match items.last_mut() {
             Some(last) if token.line_breaks_before == 0 && last.comment.is_none() => {
@@ -95,7 +99,7 @@ impl<'a> ItemReader<'a> {
             }
             _ => {
                 let blank_before = token.line_breaks_before > 1;
-                items.push(Item { element: None, comment: Some(text), blank_before });
+                items.push(FormatItem { element: None, comment: Some(text), blank_before });
             }
         }
     }
@@ -114,10 +118,10 @@ impl<'a> ItemReader<'a> {
             match token.kind {
                 TokenKind::Comma | TokenKind::Close => break,
                 // Behind the element, before its comma or instead of it.
-                TokenKind::Line if self.is_element_end() => break,
-                TokenKind::Line => comments.push(token.text),
+                TokenKind::LineComment if self.is_element_end() => break,
+                TokenKind::LineComment => comments.push(token.text),
                 TokenKind::Colon => text.push_str(": "),
-                TokenKind::Word | TokenKind::Block => {
+                TokenKind::Word | TokenKind::BlockComment => {
                     let glued = text.is_empty() || text.ends_with(' ');
                     text.push_str(if glued { "" } else { " " });
                     text.push_str(token.text);
@@ -139,12 +143,12 @@ impl<'a> ItemReader<'a> {
 
     /// Whether the line comments from here on are followed by the end of the element.
     fn is_element_end(&self) -> bool {
-        let rest = self.tokens[self.at..].iter().find(|token| token.kind != TokenKind::Line);
+        let rest = self.tokens[self.at..].iter().find(|token| token.kind != TokenKind::LineComment);
         rest.is_none_or(|token| matches!(token.kind, TokenKind::Comma | TokenKind::Close))
     }
 
     /// The group behind an opening bracket.
-    fn read_group(&mut self, open: Token<'_>) -> Group {
+    fn read_group(&mut self, open: Token<'_>) -> FormatGroup {
         let broken = self.peek().is_some_and(|first| first.line_breaks_before > 0);
         let items = self.read_items();
         let close = self.next().and_then(|token| token.text.chars().next());
@@ -155,6 +159,6 @@ impl<'a> ItemReader<'a> {
             _ => ')',
         };
         let broken = broken && !items.is_empty();
-        Group { open, close: close.unwrap_or(usual), multiline: broken, items }
+        FormatGroup { open, close: close.unwrap_or(usual), multiline: broken, items }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Lint, Linter};
 use crate::scene::file::{ProjectionFile, ViewFile};
-use crate::scene::source_span::PathStep::{Field, Index};
+use crate::scene::syntax::PathStep::{Field, Index};
 
 /// A near plane is wasteful if what is nearest is so many times farther away.
 const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
@@ -33,8 +33,8 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     advice
 }
 
-/// A near plane of a perspective far before everything: depth is spent on empty space, for most of its steps are just behind
-/// the near plane (PE-6).
+/// A near plane of a perspective far before everything: depth is spent on empty space, for most of
+/// its steps are just behind the near plane (ZP-1).
 pub(super) fn lint_depth_range(adviser: &Linter<'_>) -> Option<Lint> {
     let near = near_distance(adviser)?;
     let spans = adviser.surveys.iter().filter_map(super::VisibilitySurvey::depth_range);
@@ -60,10 +60,7 @@ fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
 }
 
 /// Where the plane is written, or the camera that brings it.
-fn plane_path<'a>(
-    adviser: &Linter<'_>,
-    plane: &'a str,
-) -> Vec<crate::scene::source_span::PathStep<'a>> {
+fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<crate::scene::syntax::PathStep<'a>> {
     let given = matches!(
         adviser.file.camera.projection,
         Some(

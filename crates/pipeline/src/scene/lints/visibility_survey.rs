@@ -1,4 +1,4 @@
-//! What becomes of a model's points, lines and triangles on their way to the picture.
+//! Visibility survey of a model: how many of its primitives the view volume clips or rejects.
 
 use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
@@ -14,7 +14,7 @@ const PROBE_DIRECTIONS: [DVec3; 3] = [
     DVec3::new(0.2718, -0.8618, -0.4283),
 ];
 
-/// What becomes of a model.
+/// Counts of a model's primitives and vertices by their position in the view volume.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct VisibilitySurvey {
     /// Its points, lines and triangles.
@@ -34,6 +34,8 @@ pub(super) struct VisibilitySurvey {
 }
 
 impl VisibilitySurvey {
+    /// Surveys every visible primitive of a model, in O(vertices + primitives). `eye` is the center
+    /// of projection of a perspective; rays from it decide whether the model encloses it.
     pub(super) fn from_model(
         view_projection: &ViewProjection,
         placed: &ModelInstance,
@@ -59,21 +61,25 @@ impl VisibilitySurvey {
         }
         self
     }
+    /// The least and the greatest distance of a vertex along the line of sight; `None` without
+    /// vertices.
 
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
 
-    /// Whether the eye is inside: every ray leaves the model once more than it comes into it. An open surface, and a room that
-    /// shows its faces to the inside, surround nothing.
+    /// Whether the eye is inside: every ray leaves the model once more than it comes into it. An
+    /// open surface, and a room that shows its faces to the inside, surround nothing.
     pub(super) fn encloses_eye(&self) -> bool {
         self.crossings.iter().all(|count| *count >= 1)
     }
+    /// Extends the depth range to a distance.
 
     fn extend_depth_range(&mut self, distance: f64) {
         let (near, far) = self.depth_range.unwrap_or((distance, distance));
         self.depth_range = Some((near.min(distance), far.max(distance)));
     }
+    /// Adds the vertices and the points, lines or triangles of a mesh primitive.
 
     fn survey_primitive(
         &mut self,
@@ -142,8 +148,8 @@ impl VisibilitySurvey {
     }
 }
 
-/// 1 if a ray from the origin goes out through the triangle, -1 if it comes in, 0 if it does not meet it (Möller and Trumbore,
-/// 1997, with the triangle seen from the ray's begin).
+/// 1 if a ray from the origin goes out through the triangle, -1 if it comes in, 0 if it does not
+/// meet it (Möller and Trumbore, 1997, with the triangle seen from the ray's begin).
 fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let (along, across) = (b - a, c - a);
     let normal = ray.cross(across);
@@ -156,7 +162,8 @@ fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let v = ray.dot(rest) / determinant;
     let distance = across.dot(rest) / determinant;
     let hit = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0;
-    // Faces are counterclockwise from the front: one that turns its back to the ray's begin is left.
+    // Faces are counterclockwise from the front: one that turns its back to the ray's begin is
+    // left.
     match (hit, determinant < 0.0) {
         (false, _) => 0,
         (true, true) => 1,

@@ -1,0 +1,52 @@
+//! Values of flags, parsed from the lists of the library.
+//!
+//! The library declares every option once, as a [`NamedOption`] with its names and descriptions;
+//! scene files, flags, help and reference all read that declaration.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use pipeline::options::NamedOption;
+
+/// Names of values that are shorter in flags than in scene files.
+const SHORT_NAMES: [(&str, &str); 6] = [
+    ("ag-x", "agx"),
+    ("meter", "m"),
+    ("centimeter", "cm"),
+    ("millimeter", "mm"),
+    ("inch", "in"),
+    ("foot", "ft"),
+];
+
+/// The name of a value in flags.
+fn flag_name<T: NamedOption>(value: T) -> String {
+    let name = value.flag_name();
+    let short = SHORT_NAMES.iter().find(|(long, _)| *long == name);
+    short.map_or(name, |(_, short)| (*short).to_owned())
+}
+
+/// Parses a value of an option by its name in flags; help and completions list all values.
+pub(super) fn option_parser<T>() -> impl TypedValueParser<Value = T>
+where
+    T: NamedOption + Send + Sync,
+{
+    let value = |value: &T| {
+        PossibleValue::new(flag_name(*value)).help(value.summary().trim_end_matches('.'))
+    };
+    PossibleValuesParser::new(T::ALL.iter().map(value).collect::<Vec<_>>()).try_map(|name| {
+        let found = T::ALL.iter().copied().find(|value| flag_name(*value) == name);
+        found.ok_or_else(|| format!("unknown value `{name}`"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pipeline::scene::file::ModelUnit;
+    use pipeline::shade::ToneMapping;
+
+    #[test]
+    fn names_are_lower_case_and_short_where_that_is_usual() {
+        let names = |all: &[ModelUnit]| all.iter().map(|unit| flag_name(*unit)).collect::<Vec<_>>();
+        assert_eq!(names(ModelUnit::ALL), ["m", "cm", "mm", "in", "ft"]);
+        assert_eq!(flag_name(ToneMapping::AgX), "agx");
+    }
+}

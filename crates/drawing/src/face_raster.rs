@@ -1,0 +1,43 @@
+//! Face rasterization: the id of the nearest face in each pixel, by the z-buffer of the pictures.
+//!
+//! ```text
+//!  triangles ─► clip space ─► clip ─► divide, snap ─► Frame ─► visibility buffer of ids
+//! ```
+//! Flat fills color the ids, and the verification of drawings asks which face is in front. Each
+//! sample is at a pixel center; faces are opaque and seen from both sides.
+
+use super::projector::Projector;
+use crate::DrawError;
+use clip::{ClipVertex, Volume, clip_triangle};
+use glam::DVec3;
+use homog::Point;
+use raster::{Frame, Opacity, Samples, ScreenVertex};
+
+/// Rasterizes triangles of the world and returns for each pixel, row by row, the index of the
+/// nearest one; `None` where there is none.
+///
+/// `size` is that of the viewport of `projector`.
+///
+/// # Errors
+/// If the image is too large, or there are more triangles than ids.
+pub(super) fn rasterize_faces(
+    triangles: impl Iterator<Item = [DVec3; 3]>,
+    projector: &Projector,
+    [width, height]: [u32; 2],
+) -> Result<Vec<Option<u32>>, DrawError> {
+    let mut frame = Frame::new(width, height, Samples::One)?;
+    let snap = |vertex: ClipVertex| {
+        let position = Point::from_raw(projector.project_to_screen(vertex.point)?);
+        ScreenVertex::snap(position, vertex.point.w())
+    };
+    for (index, vertices) in triangles.enumerate() {
+        let id = u32::try_from(index).map_err(|_| DrawError::TooManyPrimitives)?;
+        let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
+        for clipped in clip_triangle(clip, &Volume::CHAPTER).triangles() {
+            if let [Some(a), Some(b), Some(c)] = clipped.map(snap) {
+                frame.add_triangle([a, b, c], id, Opacity::Opaque);
+            }
+        }
+    }
+    Ok(frame.visibility_buffer().ids)
+}

@@ -1,0 +1,39 @@
+//! Palette: the ink colors of drawings, overlays and charts, as sRGB bytes.
+//!
+//! Technical sheets are drawn in pure [`BLACK`]; pictures and teaching material use the softer
+//! [`INK`]. Axis colors follow the convention x red, y green, z blue.
+
+use super::page::Ink;
+
+/// Ink of technical sheets.
+pub const BLACK: Ink = [0, 0, 0];
+
+/// White paper.
+pub const WHITE: Ink = [255; 3];
+
+/// Ink of line drawings, charts and captions on light paper.
+pub const INK: Ink = [26, 31, 38];
+
+/// Ink of line drawings on dark paper.
+pub const LIGHT_INK: Ink = [240, 243, 246];
+
+/// Ink of outlines over shaded surfaces.
+pub const OUTLINE: Ink = [20, 24, 30];
+
+/// The x axis; errors and what goes wrong.
+pub const RED: Ink = [179, 38, 30];
+
+/// The y axis.
+pub const GREEN: Ink = [30, 122, 52];
+
+/// The z axis; view volumes, and what goes right.
+pub const BLUE: Ink = [26, 86, 176];
+
+/// The horizon.
+pub const BROWN: Ink = [140, 90, 20];
+
+/// Frames and ground grids.
+pub const GRAY: Ink = [150, 156, 163];
+
+/// Grid lines of charts.
+pub const LIGHT_GRAY: Ink = [222, 225, 229];

@@ -1,0 +1,12 @@
+//! Line drawings of scenes whose lines can be computed by hand.
+//!
+//! All are drawn on 800 × 800 pixels, 100 to a unit of the picture, with its origin in the middle
+//! and y up: X and Y below are in those units.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests fail by panics")]
+#![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
+
+mod edges;
+mod sections;
+mod solids;
+mod stage;

@@ -1,0 +1,144 @@
+//! Test scenes of boxes and strips, and the comparison of drawings with expected segments.
+
+use camera::Camera;
+use camera::ViewProjection;
+use drawing::{DrawOptions, EdgeClass, EdgeSegment, LineDrawing, Subject, draw};
+use homog::{Affine, Clip, Plane, Point, Projective, Vector, View, World};
+use model::ModelInstance;
+use model::{Mesh, Model, Node, Primitive, Topology};
+use projection::{Convention, Oblique, Orthographic};
+use std::sync::Arc;
+
+pub const IMAGE_SIDE: u32 = 800;
+
+/// A model with one object for each primitive.
+pub fn build_model(primitives: Vec<Primitive>) -> Model {
+    let node = |mesh| Node { mesh: Some(mesh), ..Node::default() };
+    Model {
+        nodes: (0..primitives.len()).map(node).collect(),
+        roots: (0..primitives.len()).collect(),
+        meshes: primitives
+            .into_iter()
+            .map(|primitive| Mesh { primitives: vec![primitive], ..Mesh::default() })
+            .collect(),
+        ..Model::default()
+    }
+}
+
+/// A scene that owns what a [`Subject`] borrows.
+pub struct TestScene {
+    pub models: Vec<ModelInstance>,
+    pub view_projection: ViewProjection,
+    pub sections: Vec<Plane<World>>,
+}
+
+impl TestScene {
+    pub fn drawing_subject(&self) -> Subject<'_> {
+        Subject {
+            models: &self.models,
+            view_projection: self.view_projection,
+            size: [IMAGE_SIDE; 2],
+            sections: &self.sections,
+        }
+    }
+}
+
+pub fn drawing_scene(model: Model, view_projection: ViewProjection) -> TestScene {
+    let instance =
+        ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
+    TestScene { models: vec![instance], view_projection, sections: Vec::new() }
+}
+
+/// Looks along −z from the origin.
+pub fn view_projection(view_to_clip: Projective<View, Clip>) -> ViewProjection {
+    let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).unwrap();
+    ViewProjection { camera, view_to_clip }
+}
+
+/// The window from −4 to 4 with depths from −8 to 8.
+pub fn window_projection() -> Projective<View, Clip> {
+    let window = Orthographic::new(-4.0, 4.0, -4.0, 4.0, -8.0, 8.0).unwrap();
+    window.view_to_clip(Convention::CHAPTER)
+}
+
+/// From the front, the right and above: X = x − z/2, Y = y − z/2.
+pub fn oblique_view() -> ViewProjection {
+    let oblique = Oblique::by_direction(Vector::new(-0.5, -0.5, -1.0), 0.0).unwrap();
+    view_projection(oblique.depth_preserving().then_project(window_projection()))
+}
+
+pub fn triangle_mesh(positions: &[[f32; 3]], indices: &[u32]) -> Primitive {
+    Primitive { positions: positions.to_vec(), indices: indices.to_vec(), ..Primitive::default() }
+}
+
+pub fn line_mesh(positions: &[[f32; 3]]) -> Primitive {
+    let indices = (0..positions.len() as u32).collect();
+    let topology = Topology::Lines;
+    Primitive { positions: positions.to_vec(), indices, topology, ..Primitive::default() }
+}
+
+/// A quadrilateral, cut along the diagonal from its first corner.
+pub fn quad_mesh(corners: [[f32; 3]; 4]) -> Primitive {
+    triangle_mesh(&corners, &[0, 1, 2, 0, 2, 3])
+}
+
+/// A box; each face has corners of its own, as files have them.
+pub fn cuboid_mesh(min: [f32; 3], max: [f32; 3]) -> Primitive {
+    let corner = |n: usize| [0, 1, 2].map(|axis| if n >> axis & 1 == 0 { min } else { max }[axis]);
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let positions: Vec<[f32; 3]> = faces.as_flattened().iter().map(|&n| corner(n)).collect();
+    let indices: Vec<u32> = (0..6).flat_map(|f| [0, 1, 2, 0, 2, 3].map(|k| 4 * f + k)).collect();
+    triangle_mesh(&positions, &indices)
+}
+
+/// A segment of the picture by its ends.
+pub type Segment = [[f64; 2]; 2];
+
+/// The drawing with the hidden segments retained; the same from two threads.
+pub fn draw_scene_lines(scene: &TestScene) -> LineDrawing {
+    let drawing = draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 1).unwrap();
+    assert_eq!(
+        drawing,
+        draw(&scene.drawing_subject(), &DrawOptions::hidden_edges_retained(), 2).unwrap()
+    );
+    drawing
+}
+
+/// The lines that a predicate chooses, as segments in units of the picture.
+pub fn segments_where(
+    drawing: &LineDrawing,
+    choose: impl Fn(&EdgeSegment) -> bool,
+) -> Vec<Segment> {
+    let unit = |at: glam::DVec2| [(at.x - 400.0) / 100.0, (400.0 - at.y) / 100.0];
+    drawing.segments.iter().filter(|line| choose(line)).map(|line| line.ends.map(unit)).collect()
+}
+
+pub fn is_visible_class(class: EdgeClass) -> impl Fn(&EdgeSegment) -> bool {
+    move |line| line.visible && line.class == class
+}
+
+/// The lines must lie on the expected segments, and fill them exactly once.
+#[track_caller]
+pub fn assert_segments_cover(lines: &[Segment], expected: &[Segment]) {
+    const NEAR: f64 = 1e-9;
+    let length = |[a, b]: Segment| glam::DVec2::from(a).distance(b.into());
+    let mut filled = vec![0.0; expected.len()];
+    for &line in lines {
+        let carries = |segment: &Segment| {
+            line.iter().all(|p| {
+                let gone = length([segment[0], *p]) + length([*p, segment[1]]);
+                gone - length(*segment) < NEAR
+            })
+        };
+        let at = expected.iter().position(carries);
+        filled[at.unwrap_or_else(|| panic!("{line:?} is not expected: {lines:?}"))] += length(line);
+    }
+    for (segment, filled) in expected.iter().zip(filled) {
+        let segment_total = length(*segment);
+        assert!(
+            (filled - segment_total).abs() < NEAR,
+            "{segment:?} is filled to {filled}, not {segment_total}"
+        );
+    }
+}

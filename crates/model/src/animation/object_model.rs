@@ -1,0 +1,361 @@
+//! Animatable properties of materials, lights and cameras, by their JSON pointers (glTF Object
+//! Model).
+//!
+//! KHR_animation_pointer names its targets by these pointers. The same tables tell the importer
+//! where the numbers of the KHR_materials extensions are, and the bounds they must be within, so
+//! that each property is declared once:
+//!
+//! ```text
+//!  row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| …)
+//!       JSON pointer into the material                    │  │           access to the numbers
+//!                                                 components  bounds
+//! ```
+//!
+//! A value set by an animation is clamped to the bounds, and fields that follow from it are
+//! updated. To add a property, add a row.
+
+use crate::{AlphaMode, CameraProjection, LightKind, Material, PunctualLight};
+use std::f32::consts::FRAC_PI_2;
+use std::f64::consts::PI;
+
+/// An animatable property of a material, light or camera: an index into the table of its numbers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ObjectProperty {
+    /// A property of a material.
+    Material(usize),
+    /// A property of a light.
+    Light(usize),
+    /// A property of a camera.
+    Camera(usize),
+}
+
+/// A row of a property table: pointer, number of components, bounds and access to the numbers.
+pub(crate) struct PropertyRow<T> {
+    /// JSON pointer into the object, without the leading slash.
+    pub(crate) path: &'static str,
+    /// Number of components.
+    pub(crate) component_count: usize,
+    /// The least and the greatest value.
+    pub(crate) bounds: [f32; 2],
+    /// Access to the numbers; `None` where the object lacks the extension or texture they belong
+    /// to.
+    pub(crate) numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
+}
+
+const fn property_row<T>(
+    path: &'static str,
+    width: usize,
+    bounds: [f32; 2],
+    numbers: fn(&mut T) -> Option<&mut [f32]>,
+) -> PropertyRow<T> {
+    PropertyRow { path, component_count: width, bounds, numbers_mut: numbers }
+}
+
+const UNIT_RANGE: [f32; 2] = [0.0, 1.0];
+const NON_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
+const UNBOUNDED: [f32; 2] = [f32::MIN, f32::MAX];
+/// A larger strength is a mistake, and products with it would overflow.
+const EMISSIVE_STRENGTH_RANGE: [f32; 2] = [0.0, 1e6];
+/// Zero itself is excluded: the smallest normal number stands for it.
+const STRICTLY_POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
+
+fn single_number(number: &mut f32) -> Option<&mut [f32]> {
+    Some(std::slice::from_mut(number))
+}
+
+/// Animatable properties of materials.
+#[rustfmt::skip]
+pub(crate) static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
+    property_row("pbrMetallicRoughness/baseColorFactor", 4, UNIT_RANGE, |m| Some(&mut m.base_color)),
+    property_row("pbrMetallicRoughness/metallicFactor", 1, UNIT_RANGE, |m| single_number(&mut m.metallic)),
+    property_row("pbrMetallicRoughness/roughnessFactor", 1, UNIT_RANGE, |m| single_number(&mut m.roughness)),
+    property_row("emissiveFactor", 3, UNIT_RANGE, |m| Some(&mut m.emission.color)),
+    property_row("alphaCutoff", 1, NON_NEGATIVE, |m| match &mut m.alpha_mode {
+        AlphaMode::Mask { cutoff } => single_number(cutoff),
+        _ => None,
+    }),
+    property_row("normalTexture/scale", 1, UNBOUNDED, |m| single_number(&mut m.normal_texture.as_mut()?.scale)),
+    property_row("occlusionTexture/strength", 1, UNIT_RANGE, |m| single_number(&mut m.occlusion_texture.as_mut()?.strength)),
+    property_row("extensions/KHR_materials_emissive_strength/emissiveStrength", 1, EMISSIVE_STRENGTH_RANGE, |m| single_number(&mut m.emission.strength)),
+    property_row("extensions/KHR_materials_ior/ior", 1, NON_NEGATIVE, |m| single_number(&mut m.extensions.ior)),
+    property_row("extensions/KHR_materials_dispersion/dispersion", 1, NON_NEGATIVE, |m| single_number(&mut m.extensions.dispersion)),
+    property_row("extensions/KHR_materials_specular/specularFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.specular.as_mut()?.factor)),
+    property_row("extensions/KHR_materials_specular/specularColorFactor", 3, NON_NEGATIVE, |m| Some(&mut m.extensions.specular.as_mut()?.color)),
+    property_row("extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", 4, UNIT_RANGE, |m| m.extensions.specular_glossiness.is_some().then_some(m.base_color.as_mut_slice())),
+    property_row("extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", 3, UNIT_RANGE, |m| Some(&mut m.extensions.specular_glossiness.as_mut()?.specular)),
+    property_row("extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.specular_glossiness.as_mut()?.glossiness)),
+    property_row("extensions/KHR_materials_clearcoat/clearcoatFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.clearcoat.as_mut()?.factor)),
+    property_row("extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.clearcoat.as_mut()?.roughness)),
+    property_row("extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", 1, UNBOUNDED, |m| single_number(&mut m.extensions.clearcoat.as_mut()?.normal_texture.as_mut()?.scale)),
+    property_row("extensions/KHR_materials_sheen/sheenColorFactor", 3, UNIT_RANGE, |m| Some(&mut m.extensions.sheen.as_mut()?.color)),
+    property_row("extensions/KHR_materials_sheen/sheenRoughnessFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.sheen.as_mut()?.roughness)),
+    property_row("extensions/KHR_materials_transmission/transmissionFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.transmission.as_mut()?.factor)),
+    property_row("extensions/KHR_materials_volume/thicknessFactor", 1, NON_NEGATIVE, |m| single_number(&mut m.extensions.volume.as_mut()?.thickness)),
+    property_row("extensions/KHR_materials_volume/attenuationDistance", 1, STRICTLY_POSITIVE, |m| single_number(&mut m.extensions.volume.as_mut()?.attenuation_distance)),
+    property_row("extensions/KHR_materials_volume/attenuationColor", 3, UNIT_RANGE, |m| Some(&mut m.extensions.volume.as_mut()?.attenuation_color)),
+    property_row("extensions/KHR_materials_iridescence/iridescenceFactor", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.iridescence.as_mut()?.factor)),
+    property_row("extensions/KHR_materials_iridescence/iridescenceIor", 1, [1.0, f32::MAX], |m| single_number(&mut m.extensions.iridescence.as_mut()?.ior)),
+    property_row("extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", 1, NON_NEGATIVE, |m| single_number(&mut m.extensions.iridescence.as_mut()?.thickness_minimum)),
+    property_row("extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", 1, NON_NEGATIVE, |m| single_number(&mut m.extensions.iridescence.as_mut()?.thickness_maximum)),
+    property_row("extensions/KHR_materials_anisotropy/anisotropyStrength", 1, UNIT_RANGE, |m| single_number(&mut m.extensions.anisotropy.as_mut()?.strength)),
+    property_row("extensions/KHR_materials_anisotropy/anisotropyRotation", 1, UNBOUNDED, |m| single_number(&mut m.extensions.anisotropy.as_mut()?.rotation)),
+];
+
+/// Animatable properties of lights.
+#[rustfmt::skip]
+pub(crate) static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
+    property_row("color", 3, UNIT_RANGE, |light| Some(&mut light.color)),
+    property_row("intensity", 1, NON_NEGATIVE, |light| single_number(&mut light.intensity)),
+    property_row("range", 1, STRICTLY_POSITIVE, |light| match &mut light.kind {
+        LightKind::Point { range } | LightKind::Spot { range, .. } => single_number(range),
+        LightKind::Directional => None,
+    }),
+    property_row("spot/innerConeAngle", 1, [0.0, FRAC_PI_2], |light| match &mut light.kind {
+        LightKind::Spot { inner_cone_angle: inner, .. } => single_number(inner),
+        _ => None,
+    }),
+    property_row("spot/outerConeAngle", 1, [0.0, FRAC_PI_2], |light| match &mut light.kind {
+        LightKind::Spot { outer_cone_angle: outer, .. } => single_number(outer),
+        _ => None,
+    }),
+];
+
+/// Animatable properties of cameras, one number each; the first four are for perspective cameras.
+const CAMERA_PROPERTIES: [&str; 8] = [
+    "perspective/yfov",
+    "perspective/aspectRatio",
+    "perspective/znear",
+    "perspective/zfar",
+    "orthographic/xmag",
+    "orthographic/ymag",
+    "orthographic/znear",
+    "orthographic/zfar",
+];
+
+impl ObjectProperty {
+    /// The property of a material at a JSON pointer (without the leading slash) into it.
+    #[must_use]
+    pub fn for_material(path: &str) -> Option<Self> {
+        MATERIAL_PROPERTIES.iter().position(|row| row.path == path).map(Self::Material)
+    }
+
+    /// The property of a light at a JSON pointer (without the leading slash) into it.
+    #[must_use]
+    pub fn for_light(path: &str) -> Option<Self> {
+        LIGHT_PROPERTIES.iter().position(|row| row.path == path).map(Self::Light)
+    }
+
+    /// The property of a camera at a JSON pointer (without the leading slash) into it.
+    #[must_use]
+    pub fn for_camera(path: &str) -> Option<Self> {
+        CAMERA_PROPERTIES.iter().position(|row| *row == path).map(Self::Camera)
+    }
+
+    /// JSON pointer to this property of the material, light or camera with an index.
+    #[must_use]
+    pub fn json_pointer(self, of: usize) -> String {
+        let (list, path) = match self {
+            Self::Material(row_index) => {
+                ("materials", MATERIAL_PROPERTIES.get(row_index).map(|row| row.path))
+            }
+            Self::Light(row_index) => (
+                "extensions/KHR_lights_punctual/lights",
+                LIGHT_PROPERTIES.get(row_index).map(|row| row.path),
+            ),
+            Self::Camera(row_index) => ("cameras", CAMERA_PROPERTIES.get(row_index).copied()),
+        };
+        format!("/{list}/{of}/{}", path.unwrap_or_default())
+    }
+
+    /// Number of components.
+    #[must_use]
+    pub fn component_count(self) -> usize {
+        match self {
+            Self::Material(row_index) => {
+                MATERIAL_PROPERTIES.get(row_index).map_or(0, |row| row.component_count)
+            }
+            Self::Light(row_index) => {
+                LIGHT_PROPERTIES.get(row_index).map_or(0, |row| row.component_count)
+            }
+            Self::Camera(_) => 1,
+        }
+    }
+}
+
+/// Sets the numbers of a property, each clamped to its bounds.
+///
+/// `None` where the object lacks the property; values that are not finite or of another length
+/// change nothing.
+fn set_clamped<T>(
+    table: &[PropertyRow<T>],
+    row_index: usize,
+    object: &mut T,
+    value: &[f64],
+) -> Option<()> {
+    let row = table.get(row_index)?;
+    let numbers = (row.numbers_mut)(object)?;
+    if numbers.len() == value.len() && value.iter().all(|x| x.is_finite()) {
+        for (number, &value) in numbers.iter_mut().zip(value) {
+            *number = (value as f32).clamp(row.bounds[0], row.bounds[1]);
+        }
+    }
+    Some(())
+}
+
+impl Material {
+    /// Sets a property, clamped to its bounds.
+    pub(crate) fn set_property(&mut self, row_index: usize, value: &[f64]) {
+        set_clamped(&MATERIAL_PROPERTIES, row_index, self, value);
+        self.update_derived();
+    }
+
+    /// Recomputes fields that follow from others: emitted radiance, valid indices of refraction,
+    /// and the metallic-roughness approximation of specular-glossiness.
+    pub(crate) fn update_derived(&mut self) {
+        self.emissive = self.emission.scaled_color();
+        if self.extensions.ior > 0.0 {
+            self.extensions.ior = self.extensions.ior.max(1.0);
+        }
+        if let Some(spec_gloss) = &self.extensions.specular_glossiness {
+            self.metallic = 0.0;
+            self.roughness = 1.0 - spec_gloss.glossiness;
+        }
+    }
+}
+
+impl PunctualLight {
+    /// Sets a property, clamped to its bounds.
+    pub(crate) fn set_property(&mut self, row_index: usize, value: &[f64]) {
+        set_clamped(&LIGHT_PROPERTIES, row_index, self, value);
+        self.order_cone_angles();
+    }
+
+    /// Restores the invariant inner < outer of a spot light's cone angles.
+    pub(crate) fn order_cone_angles(&mut self) {
+        if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
+            &mut self.kind
+        {
+            *outer = outer.max(1e-4);
+            *inner = inner.min(*outer * 0.9999);
+        }
+    }
+}
+
+impl CameraProjection {
+    /// Sets a number, unless the projection would become invalid.
+    pub(crate) fn set_property(&mut self, row_index: usize, value: f64) {
+        let mut changed = *self;
+        match (&mut changed, row_index) {
+            (Self::Perspective { fov_y, .. }, 0) => *fov_y = value,
+            (Self::Perspective { aspect, .. }, 1) => *aspect = Some(value),
+            (Self::Perspective { near, .. }, 2) | (Self::Orthographic { near, .. }, 6) => {
+                *near = value;
+            }
+            (Self::Perspective { far, .. }, 3) | (Self::Orthographic { far, .. }, 7) => {
+                *far = value;
+            }
+            (Self::Orthographic { half_width, .. }, 4) => *half_width = value.abs(),
+            (Self::Orthographic { half_height, .. }, 5) => *half_height = value.abs(),
+            _ => return,
+        }
+        if value.is_finite() && changed.is_valid() {
+            *self = changed;
+        }
+    }
+
+    /// Whether the property belongs to this type of projection.
+    pub(crate) fn has_property(&self, field: ObjectProperty) -> bool {
+        match (self, field) {
+            (Self::Perspective { .. }, ObjectProperty::Camera(row_index)) => row_index < 4,
+            (Self::Orthographic { .. }, ObjectProperty::Camera(row_index)) => row_index >= 4,
+            _ => false,
+        }
+    }
+
+    /// Whether the parameters define a view volume.
+    fn is_valid(&self) -> bool {
+        match *self {
+            Self::Perspective { fov_y, aspect, near, far } => {
+                fov_y > 0.0
+                    && fov_y < PI
+                    && aspect.is_none_or(|a| a > 0.0)
+                    && near > 0.0
+                    && far > near
+            }
+            Self::Orthographic { half_width, half_height, near, far } => {
+                half_width > 0.0 && half_height > 0.0 && near >= 0.0 && far > near
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Volume;
+
+    #[test]
+    fn every_row_has_as_many_numbers_as_it_says() {
+        let mut material = Material::default();
+        let extensions = &mut material.extensions;
+        extensions.specular = Some(Box::default());
+        extensions.volume = Some(Box::new(Volume::default()));
+        extensions.iridescence = Some(Box::default());
+        for PropertyRow {
+            path,
+            component_count: width,
+            bounds: [min, max],
+            numbers_mut: numbers,
+        } in &MATERIAL_PROPERTIES
+        {
+            if let Some(numbers) = numbers(&mut material) {
+                assert_eq!(numbers.len(), *width, "{path}");
+                let inside = numbers.iter().all(|x| x >= min && (x <= max || x.is_infinite()));
+                assert!(inside, "{path}: the default is out of bounds");
+            }
+        }
+        assert_eq!(
+            ObjectProperty::for_material("emissiveFactor").map(ObjectProperty::component_count),
+            Some(3)
+        );
+        assert_eq!(
+            ObjectProperty::for_light("intensity").map(ObjectProperty::component_count),
+            Some(1)
+        );
+        assert_eq!(ObjectProperty::for_camera("perspective/fov"), None);
+    }
+
+    #[test]
+    fn numbers_stay_within_their_bounds_and_in_step() {
+        let mut material = Material::default();
+        let field = |path| match ObjectProperty::for_material(path) {
+            Some(ObjectProperty::Material(row_index)) => row_index,
+            _ => panic!("{path}"),
+        };
+        material.set_property(field("emissiveFactor"), &[0.5, 2.0, -1.0]);
+        material.set_property(
+            field("extensions/KHR_materials_emissive_strength/emissiveStrength"),
+            &[4.0],
+        );
+        assert_eq!(material.emissive, [2.0, 4.0, 0.0]);
+        material.set_property(field("extensions/KHR_materials_ior/ior"), &[0.5]);
+        assert_eq!(material.extensions.ior, 1.0);
+        material.set_property(field("extensions/KHR_materials_ior/ior"), &[0.0]);
+        assert_eq!(material.extensions.ior, 0.0);
+        material.set_property(field("pbrMetallicRoughness/baseColorFactor"), &[0.5; 3]);
+        assert_eq!(material.base_color, [1.0; 4], "three numbers are no colour with alpha");
+    }
+
+    #[test]
+    fn a_camera_stays_one() {
+        let mut lens =
+            CameraProjection::Perspective { fov_y: 1.0, aspect: None, near: 1.0, far: 2.0 };
+        lens.set_property(0, 0.5);
+        lens.set_property(2, 3.0);
+        lens.set_property(3, f64::NAN);
+        lens.set_property(7, 9.0);
+        let expected =
+            CameraProjection::Perspective { fov_y: 0.5, aspect: None, near: 1.0, far: 2.0 };
+        assert_eq!(lens, expected);
+    }
+}

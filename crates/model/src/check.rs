@@ -1,0 +1,170 @@
+//! glTF validation: every violation of the specification in a file, not only the first fatal one.
+//!
+//! Loading stops at the first error that prevents drawing. Validation goes on: it compares the JSON
+//! with the schema, resolves every reference, reads every accessor element, and finally loads the
+//! file, so that its report includes the diagnostics of the loader.
+//!
+//! ```text
+//!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references
+//!        ─nodes, meshes, skins, animations─► rules for elements ─data─► diagnostics
+//!  loader ─load_outcome─► diagnostics
+//! ```
+//!
+//! It works on the raw JSON, in which members may be missing or of any type. The rules are those of
+//! glTF 2.0, under the codes and severities of the Khronos glTF validator. The
+//! [limits](crate::Limits) hold as for loading: time and memory are bounded by the size of the
+//! files, not by the sizes they declare.
+
+mod accessors;
+mod animations;
+mod codes;
+mod data;
+mod diagnostics;
+mod document;
+mod document_rules;
+mod elements;
+mod formats;
+mod glb;
+mod images;
+mod layout;
+mod load_outcome;
+mod materials;
+mod meshes;
+mod nodes;
+mod report;
+mod schema;
+mod schema_walk;
+mod skins;
+mod store;
+mod uris;
+mod usage;
+
+pub use report::CheckReport;
+
+use crate::diagnostic::Diagnostic;
+use crate::import::ImportOptions;
+use crate::import::gltf::document::check_json_limits;
+use crate::import::gltf::import_gltf;
+use crate::import::uri_resolver::{self, UriResolver};
+use data::ElementRules;
+use diagnostics::Diagnostics;
+use document::CheckedDocument;
+use serde_json::Value;
+use std::path::Path;
+use store::BufferStore;
+use usage::UsageMap;
+
+/// Validates a `.gltf` or `.glb` file with its buffers and images.
+///
+/// There is always a report: a file that cannot be read is an error in it.
+///
+/// ```no_run
+/// use model::{ImportOptions, check_file};
+/// let report = check_file("chair.glb".as_ref(), &ImportOptions::default());
+/// for diagnostic in &report.diagnostics {
+///     println!("{diagnostic}");
+/// }
+/// println!("{}", report.summary());
+/// ```
+#[must_use]
+pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
+    let findings = Diagnostics::default();
+    let resolver = |length| UriResolver::new(path, length, options);
+    let result = uri_resolver::read_file(path, &options.limits, "").and_then(|bytes| {
+        check_content(&bytes, &resolver(bytes.len())?, &findings);
+        // A resolver of its own: the bytes read by the validation do not count against the
+        // loader's limits.
+        import_gltf(path, &bytes, &resolver(bytes.len())?, options)
+    });
+    build_report(path, result, findings)
+}
+
+/// Validates a file in memory; `name` stands for its path in the report.
+///
+/// As for [`load_bytes`](crate::load_bytes), other files are read only with a
+/// [root](ImportOptions::root).
+#[must_use]
+pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckReport {
+    let path = Path::new(name);
+    let findings = Diagnostics::default();
+    let resolver = || UriResolver::in_memory(bytes.len(), options);
+    let result = resolver().and_then(|own| {
+        check_content(bytes, &own, &findings);
+        import_gltf(path, bytes, &resolver()?, options)
+    });
+    build_report(path, result, findings)
+}
+
+/// Adds the diagnostics of the loader, and counts.
+fn build_report(
+    path: &Path,
+    result: Result<crate::Model, Diagnostic>,
+    findings: Diagnostics,
+) -> CheckReport {
+    let refusal = load_outcome::add_load_outcome(result, &findings);
+    let (problems, [errors, warnings, notes]) = findings.into_parts();
+    CheckReport {
+        file: path.to_owned(),
+        diagnostics: problems,
+        errors,
+        warnings,
+        notes,
+        load_error: refusal,
+    }
+}
+
+/// Validates the container and its JSON, as far as it can be parsed.
+fn check_content(bytes: &[u8], resolver: &UriResolver<'_>, findings: &Diagnostics) {
+    let parts = glb::check_container(bytes, findings);
+    let Some(text) = parts.json.map(|range| &bytes[range]) else { return };
+    // JSON that is too deep or too large is rejected and reported by the loader.
+    if check_json_limits(text, resolver.limits).is_err() {
+        return;
+    }
+    match serde_json::from_slice::<Value>(text) {
+        Ok(root) => {
+            let document = CheckedDocument::new(&root, findings);
+            let chunk = parts.binary.map(|range| &bytes[range]);
+            check_document(&document, resolver, chunk, parts.is_binary);
+        }
+        Err(error) if parts.is_binary || text.starts_with(b"{") => {
+            let message = format_args!("invalid JSON: {error}");
+            findings.add(&codes::INVALID_JSON, "", message);
+        }
+        Err(_) => {}
+    }
+}
+
+/// Runs all checks on a parsed document.
+///
+/// The order matters: the schema walk first, because it reports missing and mistyped members that
+/// later checks skip; the element data after all rules for it are known; unused objects last.
+fn check_document(
+    document: &CheckedDocument<'_>,
+    resolver: &UriResolver<'_>,
+    chunk: Option<&[u8]>,
+    is_binary: bool,
+) {
+    schema_walk::check_schema(document);
+    document_rules::check_asset(document);
+    if document.diagnostics.has_code(&codes::UNKNOWN_ASSET_MAJOR_VERSION) {
+        return;
+    }
+    document_rules::check_extensions(document);
+    document_rules::check_cameras(document);
+    document_rules::check_variants(document);
+    materials::check_materials(document);
+    let tree = nodes::check_nodes(document);
+
+    let store = BufferStore::load_buffers(document, resolver, chunk, is_binary);
+    let (usage, mut demands) = (UsageMap::new(document), ElementRules::default());
+    store::check_buffer_views(document);
+    images::check_images(document, &store, &usage, resolver, is_binary);
+    accessors::check_accessors(document, &store, &usage);
+    meshes::check_meshes(document, &usage, &mut demands);
+    skins::check_skins(document, &tree, &usage, &mut demands);
+    animations::check_animations(document, &usage, &mut demands);
+    data::check_data(document, &store, &demands);
+    skins::check_skinned_meshes(document, &store);
+    document_rules::check_unused(document);
+}

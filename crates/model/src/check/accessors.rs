@@ -1,0 +1,216 @@
+//! Accessors: their layout must fit their buffer views (glTF 2.0 §3.6.2).
+
+use super::codes;
+use super::document::{CheckedDocument, array_items, index_member, integer_member};
+use super::layout::{AccessorLayout, ComponentType};
+use super::store::BufferStore;
+use super::usage::{UsageMap, ViewUse};
+use serde_json::Value;
+
+/// Validates the layout of all accessors.
+///
+/// Only the declarations are compared here; the elements are read by [`data`](super::data).
+pub(super) fn check_accessors(
+    document: &CheckedDocument<'_>,
+    store: &BufferStore<'_>,
+    usage: &UsageMap<'_>,
+) {
+    for (at, accessor) in document.root_array("accessors").iter().enumerate() {
+        let checker =
+            AccessorChecker { document, store, usage, pointer: format!("/accessors/{at}") };
+        checker.check_bounds(accessor);
+        if let Some(layout) = AccessorLayout::from_accessor(accessor) {
+            checker.check_layout(accessor, layout);
+        }
+    }
+}
+
+/// The validation of one accessor.
+struct AccessorChecker<'a> {
+    document: &'a CheckedDocument<'a>,
+    store: &'a BufferStore<'a>,
+    usage: &'a UsageMap<'a>,
+    /// The JSON pointer of the accessor.
+    pointer: String,
+}
+
+/// A range of bytes in a buffer view that holds components of `size` bytes.
+struct ByteRange {
+    /// Where the range starts, in bytes from the start of the buffer view.
+    offset: u64,
+    /// The length of the range in bytes.
+    length: u64,
+    /// The size of a component in bytes, to which the range is aligned.
+    size: usize,
+}
+
+impl AccessorChecker<'_> {
+    /// Normalization, alignment, stride and extent of the accessor, and its sparse part.
+    ///
+    /// Only 8-bit and 16-bit integers can be normalized; matrices are aligned to four bytes; a
+    /// stride is at least the size of an element.
+    fn check_layout(&self, accessor: &Value, layout: AccessorLayout) {
+        let diagnostics = self.document.diagnostics;
+        let pointer = &self.pointer;
+        if layout.normalized && layout.component_type >= ComponentType::U32 {
+            let message = "only 8-bit and 16-bit integers can be normalized";
+            diagnostics.add(
+                &codes::ACCESSOR_NORMALIZED_INVALID,
+                format_args!("{pointer}/normalized"),
+                message,
+            );
+        }
+        if layout.element_type.is_matrix() && !layout.byte_offset.is_multiple_of(4) {
+            let message = format_args!(
+                "the byteOffset of a matrix must be a multiple of 4, not {}",
+                layout.byte_offset
+            );
+            diagnostics.add(
+                &codes::ACCESSOR_MATRIX_ALIGNMENT,
+                format_args!("{pointer}/byteOffset"),
+                message,
+            );
+        }
+        if let Some(view) = layout.buffer_view {
+            let stride = self.store.view_stride(view);
+            if let Some(stride) = stride.filter(|&stride| stride < layout.element_size()) {
+                let size = layout.element_size();
+                let message =
+                    format_args!("byteStride is {stride}, but an element has {size} bytes");
+                diagnostics.add(&codes::ACCESSOR_SMALL_BYTESTRIDE, pointer, message);
+            }
+            let length = layout.byte_length(stride.unwrap_or(layout.packed_stride()));
+            let stretch = ByteRange {
+                offset: layout.byte_offset,
+                length,
+                size: layout.component_type.byte_size(),
+            };
+            self.check_byte_range(view, &stretch, pointer);
+        }
+        if let Some(sparse) = accessor.get("sparse") {
+            self.check_sparse(sparse, layout);
+        }
+    }
+
+    /// `min` and `max` have one number for each component.
+    fn check_bounds(&self, accessor: &Value) {
+        let shape = AccessorLayout::from_accessor(accessor)
+            .map(|layout| layout.element_type.component_count());
+        for key in ["min", "max"] {
+            let (actual, Some(expected)) = (array_items(accessor, key).len(), shape) else {
+                continue;
+            };
+            if actual != 0 && actual != expected {
+                let message = format_args!("expected {expected} numbers, found {actual}");
+                let pointer = format_args!("{}/{key}", self.pointer);
+                self.document.diagnostics.add(&codes::ARRAY_LENGTH_NOT_IN_LIST, pointer, message);
+            }
+        }
+    }
+
+    /// A sparse accessor: its count, and the layout of its indices and values.
+    ///
+    /// The values have the component type of the accessor and are tightly packed; so are the
+    /// indices, in a component type of their own (glTF 2.0 §3.6.2.3).
+    fn check_sparse(&self, sparse: &Value, layout: AccessorLayout) {
+        let Some(count) = integer_member(sparse, "count") else { return };
+        let diagnostics = self.document.diagnostics;
+        let pointer = format!("{}/sparse", self.pointer);
+        if count > layout.count {
+            let message = format_args!(
+                "{count} elements are replaced, but the accessor has {}",
+                layout.count
+            );
+            let code = &codes::ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE;
+            diagnostics.add(code, format_args!("{pointer}/count"), message);
+        }
+        if let Some(indices) = sparse.get("indices") {
+            let size = integer_member(indices, "componentType")
+                .and_then(ComponentType::from_gl_constant)
+                .map(ComponentType::byte_size);
+            let size = size.unwrap_or(1);
+            self.check_sparse_part(indices, &format!("{pointer}/indices"), count, size, size);
+        }
+        if let Some(values) = sparse.get("values") {
+            let size = layout.component_type.byte_size();
+            self.check_sparse_part(
+                values,
+                &format!("{pointer}/values"),
+                count,
+                layout.packed_stride(),
+                size,
+            );
+        }
+        self.check_sparse_indices(sparse, layout, &pointer);
+    }
+
+    /// The indices or values of a sparse accessor: `count` elements of `length` bytes with
+    /// components of `size` bytes.
+    ///
+    /// Both are tightly packed: their buffer view must not have a `byteStride`.
+    fn check_sparse_part(
+        &self,
+        part: &Value,
+        pointer: &str,
+        count: u64,
+        length: usize,
+        size: usize,
+    ) {
+        let Some(view) = index_member(part, "bufferView") else { return };
+        let offset = integer_member(part, "byteOffset").unwrap_or(0);
+        let named = format!("{pointer}/bufferView");
+        self.usage.note_view(view, ViewUse::Other, &named);
+        if self.store.view_stride(view).is_some() {
+            let message = "byteStride must not be set: elements are tightly packed";
+            self.document.diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &named, message);
+        }
+        let length = count.saturating_mul(length as u64);
+        self.check_byte_range(view, &ByteRange { offset, length, size }, pointer);
+    }
+
+    /// A range of bytes must be aligned to its component size and be inside its buffer view.
+    ///
+    /// Alignment is required of the offset in the view and of the offset in the buffer, and
+    /// reported by different codes (glTF 2.0 §3.6.2.4).
+    fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
+        let diagnostics = self.document.diagnostics;
+        let Some(json) = self.document.root_array("bufferViews").get(view) else { return };
+        let ByteRange { offset, length, size } = *stretch;
+        let start = integer_member(json, "byteOffset").unwrap_or(0);
+        if !offset.is_multiple_of(size as u64) {
+            let message = format_args!("{offset} is not a multiple of the component size {size}");
+            let at = format_args!("{pointer}/byteOffset");
+            diagnostics.add(&codes::ACCESSOR_OFFSET_ALIGNMENT, at, message);
+        } else if !start.saturating_add(offset).is_multiple_of(size as u64) {
+            let message =
+                format_args!("{start} + {offset} is not a multiple of the component size {size}");
+            diagnostics.add(&codes::ACCESSOR_TOTAL_OFFSET_ALIGNMENT, pointer, message);
+        }
+        if let Some(available) = integer_member(json, "byteLength")
+            && offset.saturating_add(length) > available
+        {
+            let message = format_args!(
+                "{length} bytes from offset {offset} exceed buffer view {view} of {available} bytes"
+            );
+            diagnostics.add(&codes::ACCESSOR_TOO_LONG, pointer, message);
+        }
+    }
+
+    /// The sparse indices are strictly increasing and less than the accessor's count.
+    ///
+    /// They are the only data that is read here, because the elements cannot be read without them.
+    fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {
+        let Some(indices) = self.store.sparse_indices(sparse) else { return };
+        let diagnostics = self.document.diagnostics;
+        let falls = indices.array_windows().filter(|[a, b]: &&[u32; 2]| a >= b).count();
+        if falls > 0 {
+            let message = format_args!("the indices are not strictly increasing ({falls} times)");
+            diagnostics.add(&codes::ACCESSOR_SPARSE_INDICES_NON_INCREASING, pointer, message);
+        }
+        let outside = indices.iter().filter(|&&index| u64::from(index) >= layout.count).count();
+        if outside > 0 {
+            let message = format_args!("{outside} of {} indices are out of range", indices.len());
+            diagnostics.add(&codes::ACCESSOR_SPARSE_INDEX_OOB, pointer, message);
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Animations: samplers, channels and their targets (glTF 2.0 §3.11).
+
+use super::codes::{self, DiagnosticCode};
+use super::data::{ElementRule, ElementRules};
+use super::document::{
+    CheckedDocument, array_items, extension_object, index_member, integer_member, string_member,
+};
+use super::formats;
+use super::layout::{AccessorLayout, ComponentType, SCALAR};
+use super::usage::{AccessorUse, UsageMap};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+/// Validates all animations, and records rules for the elements of their accessors.
+///
+/// Samplers come first, because channels refer to them; samplers that no channel uses get a note.
+pub(super) fn check_animations(
+    document: &CheckedDocument<'_>,
+    usage: &UsageMap<'_>,
+    demands: &mut ElementRules,
+) {
+    let targets = |mesh: &Value| {
+        array_items(mesh, "primitives").first().map_or(0, |p| array_items(p, "targets").len())
+    };
+    let targets: Vec<usize> = document.root_array("meshes").iter().map(targets).collect();
+    for (at, animation) in document.root_array("animations").iter().enumerate() {
+        let samplers = array_items(animation, "samplers");
+        let mut checker = AnimationChecker {
+            document,
+            usage,
+            demands: &mut *demands,
+            samplers,
+            targets: &targets,
+            pointer: format!("/animations/{at}"),
+        };
+        for (number, sampler) in samplers.iter().enumerate() {
+            checker.check_sampler(number, sampler);
+        }
+        let mut known = BTreeSet::new();
+        let mut used = vec![false; samplers.len()];
+        for (number, channel) in array_items(animation, "channels").iter().enumerate() {
+            if let Some(slot) = index_member(channel, "sampler").and_then(|at| used.get_mut(at)) {
+                *slot = true;
+            }
+            checker.check_channel(number, channel, &mut known);
+        }
+        for number in (0..used.len()).filter(|&number| !used[number]) {
+            checker.report(
+                &codes::UNUSED_OBJECT,
+                &format!("samplers/{number}"),
+                "unused: no channel refers to it",
+            );
+        }
+    }
+}
+
+/// The validation of one animation.
+struct AnimationChecker<'a, 'd> {
+    document: &'a CheckedDocument<'a>,
+    usage: &'a UsageMap<'a>,
+    /// The rules for the elements of accessors, collected for the pass over the data.
+    demands: &'d mut ElementRules,
+    /// The samplers of the animation, to which its channels refer by index.
+    samplers: &'a [Value],
+    /// The number of morph targets of each mesh.
+    targets: &'a [usize],
+    /// The JSON pointer of the animation.
+    pointer: String,
+}
+
+impl<'a> AnimationChecker<'a, '_> {
+    /// Reports a diagnostic at a member of the animation.
+    fn report(&self, code: &DiagnosticCode, member: &str, message: impl Display) {
+        self.document.diagnostics.add(code, format_args!("{}/{member}", self.pointer), message);
+    }
+
+    /// The JSON of an accessor, if it exists.
+    fn accessor_json(&self, at: Option<usize>) -> Option<&'a Value> {
+        self.document.root_array("accessors").get(at?)
+    }
+
+    /// The accessors of a sampler: their uses and strides, and its keyframe times.
+    fn check_sampler(&mut self, number: usize, sampler: &Value) {
+        for (key, role) in [("input", AccessorUse::Input), ("output", AccessorUse::Output)] {
+            let Some(at) = index_member(sampler, key) else { continue };
+            let member = format!("samplers/{number}/{key}");
+            let pointer = format!("{}/{member}", self.pointer);
+            if self.accessor_json(Some(at)).is_none() {
+                continue;
+            }
+            self.usage.note_accessor(at, role, &pointer);
+            if self.usage.has_stride(at) {
+                let message = "byteStride must not be set on this buffer view";
+                self.report(&codes::ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE, &member, message);
+            }
+            if role == AccessorUse::Input {
+                self.check_input(at, sampler, &member, &pointer);
+            }
+        }
+    }
+
+    /// Keyframe times: bounded, non-normalized float scalars, at least two for a cubic spline.
+    fn check_input(&mut self, at: usize, sampler: &Value, member: &str, pointer: &str) {
+        let Some(accessor) = self.accessor_json(Some(at)) else { return };
+        if accessor.get("min").is_none() || accessor.get("max").is_none() {
+            let message = "an accessor of times must have min and max";
+            self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS, member, message);
+        }
+        let Some(layout) = AccessorLayout::from_accessor(accessor) else { return };
+        if (layout.element_type, layout.component_type, layout.normalized)
+            == (SCALAR, ComponentType::F32, false)
+        {
+            self.demands.add(at, ElementRule::Times, pointer);
+        } else {
+            let message = format_args!("the format of times cannot be {}", layout.format_name());
+            self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT, member, message);
+        }
+        if string_member(sampler, "interpolation") == Some("CUBICSPLINE") && layout.count < 2 {
+            let message = "a cubic spline needs at least two keyframes";
+            self.report(&codes::ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS, member, message);
+        }
+    }
+
+    /// A channel: its target is animated once and can be animated, and its sampler exists.
+    ///
+    /// `known` has the targets of the channels before it, as pairs of node and path.
+    fn check_channel(
+        &mut self,
+        number: usize,
+        channel: &'a Value,
+        known: &mut BTreeSet<(usize, &'a str)>,
+    ) {
+        let Some(target) = channel.get("target").filter(|target| target.is_object()) else {
+            return;
+        };
+        let member = format!("channels/{number}");
+        let path = string_member(target, "path").unwrap_or("");
+        let has_pointer = extension_object(target, "KHR_animation_pointer").is_some();
+        if has_pointer {
+            self.check_pointer_target(target, path, &member);
+        }
+        let node = index_member(target, "node");
+        if let Some(node) = node.filter(|_| !has_pointer) {
+            if !known.insert((node, path)) {
+                let message = format_args!(
+                    "duplicate target: another channel animates the {path} of node {node}"
+                );
+                self.report(
+                    &codes::ANIMATION_DUPLICATE_TARGETS,
+                    &format!("{member}/target"),
+                    message,
+                );
+            }
+            self.check_node_target(node, path, &member);
+        }
+        let Some(at) = index_member(channel, "sampler") else { return };
+        let Some(sampler) = self.samplers.get(at) else {
+            let count = self.samplers.len();
+            let message = format_args!("sampler {at} does not exist: there are {count}");
+            return self.report(
+                &codes::UNRESOLVED_REFERENCE,
+                &format!("{member}/sampler"),
+                message,
+            );
+        };
+        let mesh = node
+            .and_then(|node| index_member(self.document.root_array("nodes").get(node)?, "mesh"));
+        let targets = mesh.and_then(|mesh| self.targets.get(mesh).copied()).unwrap_or(0);
+        self.check_output(sampler, path, targets as u64, &format!("{member}/sampler"));
+    }
+
+    /// A target by JSON pointer (KHR_animation_pointer): the path is `pointer`, and there is no
+    /// node.
+    fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
+        if path != "pointer" {
+            let message = format_args!(
+                "with KHR_animation_pointer the path must be \"pointer\", not {path:?}"
+            );
+            let code = &codes::KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH;
+            self.report(code, &format!("{member}/target/path"), message);
+        }
+        if target.get("node").is_some() {
+            let message = "with KHR_animation_pointer the target must not have a node";
+            let code = &codes::KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE;
+            self.report(code, &format!("{member}/target/node"), message);
+        }
+    }
+
+    /// A target node: morph weights need morph targets, and a node with a matrix cannot be
+    /// animated, because an animation replaces one of translation, rotation and scale.
+    fn check_node_target(&self, at: usize, path: &str, member: &str) {
+        let Some(node) = self.document.root_array("nodes").get(at) else { return };
+        let member = format!("{member}/target");
+        if path == "weights" {
+            let targets = index_member(node, "mesh").and_then(|mesh| self.targets.get(mesh));
+            if targets.is_none_or(|&targets| targets == 0) {
+                let message = format_args!("node {at} has no morph targets");
+                let code = &codes::ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS;
+                self.report(code, &member, message);
+            }
+        } else if node.get("matrix").is_some() {
+            let message = format_args!("node {at} has a matrix and cannot be animated");
+            self.report(&codes::ANIMATION_CHANNEL_TARGET_NODE_MATRIX, &member, message);
+        }
+    }
+
+    /// The values of a channel: their format, and as many as the keyframes need.
+    ///
+    /// There is one value per keyframe; for morph weights one per target; and three of each for a
+    /// cubic spline, with its in- and out-tangents (glTF 2.0 §3.11).
+    fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
+        let at = index_member(sampler, "output");
+        let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {
+            return;
+        };
+        let spline = string_member(sampler, "interpolation") == Some("CUBICSPLINE");
+        let Some(formats) = formats::animation_output_formats(path) else { return };
+        if !formats::is_allowed(layout, &formats) {
+            let message = format_args!("the format of {path} cannot be {}", layout.format_name());
+            self.report(&codes::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT, member, message);
+        } else if path == "rotation" {
+            let pointer = format!("{}/{member}", self.pointer);
+            self.demands.add(at.unwrap_or(0), ElementRule::Quaternions { spline }, &pointer);
+        }
+        let keys = self
+            .accessor_json(index_member(sampler, "input"))
+            .and_then(|a| integer_member(a, "count"));
+        let each = if path == "weights" { targets } else { 1 } * if spline { 3 } else { 1 };
+        let expected = keys.unwrap_or(0).saturating_mul(each);
+        if expected != 0 && expected != layout.count {
+            let message = format_args!("expected {expected} values, found {}", layout.count);
+            self.report(&codes::ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT, member, message);
+        }
+    }
+}

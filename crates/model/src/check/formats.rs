@@ -1,0 +1,162 @@
+//! Accessor formats allowed for each use (glTF 2.0 §3.7.2.1, §3.7.2.2 and §3.11).
+//!
+//! KHR_mesh_quantization adds integer formats for positions, normals, tangents and texture
+//! coordinates.
+
+use super::layout::ComponentType::{F32, I8, I16, U8, U16, U32};
+use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VEC3, VEC4};
+
+/// A format: element type, component type, and whether integers are normalized.
+type AttributeFormat = (ElementType, ComponentType, bool);
+
+/// The semantic of an attribute, parsed from its name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Semantic<'a> {
+    /// POSITION, NORMAL, TANGENT.
+    Single(&'a str),
+    /// TEXCOORD_0 and the like.
+    Numbered(&'a str, u32),
+    /// An application-specific name, which starts with an underscore.
+    Custom,
+}
+
+impl<'a> Semantic<'a> {
+    /// Parses the name of an attribute; `None` for a name that glTF does not define.
+    ///
+    /// A set index has no leading zeros: `TEXCOORD_01` is not an attribute.
+    pub(super) fn from_name(name: &'a str) -> Option<Self> {
+        if name.starts_with('_') {
+            return Some(Self::Custom);
+        }
+        if ["POSITION", "NORMAL", "TANGENT"].contains(&name) {
+            return Some(Self::Single(name));
+        }
+        let (kind, number) = name.split_once('_')?;
+        let is_plain = number.bytes().all(|b| b.is_ascii_digit())
+            && (number == "0" || !number.starts_with('0'));
+        let is_known = ["TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"].contains(&kind);
+        let number = number.parse().ok().filter(|_| is_known && is_plain)?;
+        Some(Self::Numbered(kind, number))
+    }
+
+    /// The name without its set index; empty for a custom name.
+    fn base_name(self) -> &'a str {
+        match self {
+            Self::Single(kind) | Self::Numbered(kind, _) => kind,
+            Self::Custom => "",
+        }
+    }
+
+    /// The formats that an attribute may have; `None` for a custom name, which may have any.
+    ///
+    /// `in_target` is for displacements of morph targets: tangents have three components there, and
+    /// signed integers are allowed for texture coordinates and colors.
+    pub(super) fn allowed_formats(
+        self,
+        in_target: bool,
+        quantized: bool,
+    ) -> Option<Vec<AttributeFormat>> {
+        let mut formats: Vec<AttributeFormat> = match (self.base_name(), in_target) {
+            ("", _) => return None,
+            ("TANGENT", false) => vec![(VEC4, F32, false)],
+            ("POSITION" | "NORMAL" | "TANGENT", _) => vec![(VEC3, F32, false)],
+            ("TEXCOORD", false) => float_or_normalized(&[VEC2], &[U8, U16]),
+            ("TEXCOORD", true) => float_or_normalized(&[VEC2], &[I8, U8, I16, U16]),
+            ("COLOR", false) => float_or_normalized(&[VEC3, VEC4], &[U8, U16]),
+            ("COLOR", true) => float_or_normalized(&[VEC3, VEC4], &[I8, U8, I16, U16]),
+            ("JOINTS", _) => vec![(VEC4, U8, false), (VEC4, U16, false)],
+            _ => float_or_normalized(&[VEC4], &[U8, U16]),
+        };
+        if quantized {
+            formats.extend(self.quantized_formats(in_target));
+        }
+        Some(formats)
+    }
+
+    /// The formats that KHR_mesh_quantization allows besides those of core glTF.
+    fn quantized_formats(self, in_target: bool) -> Vec<AttributeFormat> {
+        let all = |shape, components: &[ComponentType], normalized: &[bool]| {
+            let pairs = components.iter().flat_map(|&c| normalized.iter().map(move |&n| (c, n)));
+            pairs.map(|(component, normalized)| (shape, component, normalized)).collect()
+        };
+        match (self.base_name(), in_target) {
+            ("POSITION", false) => all(VEC3, &[I8, U8, I16, U16], &[false, true]),
+            ("POSITION", true) => all(VEC3, &[I8, I16], &[false, true]),
+            ("NORMAL", _) | ("TANGENT", true) => all(VEC3, &[I8, I16], &[true]),
+            ("TANGENT", false) => all(VEC4, &[I8, I16], &[true]),
+            ("TEXCOORD", false) => all(VEC2, &[I8, U8, I16, U16], &[false, true]),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Float formats, and formats of normalized integers of some types.
+fn float_or_normalized(
+    shapes: &[ElementType],
+    components: &[ComponentType],
+) -> Vec<AttributeFormat> {
+    let of = |&shape: &ElementType| {
+        let integers = components.iter().map(move |&component| (shape, component, true));
+        std::iter::once((shape, F32, false)).chain(integers)
+    };
+    shapes.iter().flat_map(of).collect()
+}
+
+/// Whether the format of a layout is one of those allowed.
+pub(super) fn is_allowed(layout: AccessorLayout, formats: &[AttributeFormat]) -> bool {
+    formats.contains(&(layout.element_type, layout.component_type, layout.normalized))
+}
+
+/// The formats of primitive indices.
+pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
+    [(SCALAR, U8, false), (SCALAR, U16, false), (SCALAR, U32, false)];
+
+/// The formats of an animation output by the path of its target; `None` for an unknown path.
+pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {
+    match path {
+        "translation" | "scale" => Some(vec![(VEC3, F32, false)]),
+        "rotation" => Some(float_or_normalized(&[VEC4], &[I8, U8, I16, U16])),
+        "weights" => Some(float_or_normalized(&[SCALAR], &[I8, U8, I16, U16])),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_attributes() {
+        assert_eq!(Semantic::from_name("TEXCOORD_10"), Some(Semantic::Numbered("TEXCOORD", 10)));
+        assert_eq!(Semantic::from_name("NORMAL"), Some(Semantic::Single("NORMAL")));
+        assert_eq!(Semantic::from_name("_HEAT"), Some(Semantic::Custom));
+        for wrong in [
+            "",
+            "TEXCOORD",
+            "TEXCOORD_",
+            "TEXCOORD_01",
+            "TEXCOORD_x",
+            "UV_0",
+            "NORMAL_0",
+            "COLOR_0_1",
+        ] {
+            assert_eq!(Semantic::from_name(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn quantization_widens_the_formats() {
+        let position = Semantic::Single("POSITION");
+        assert_eq!(position.allowed_formats(false, false), Some(vec![(VEC3, F32, false)]));
+        assert_eq!(position.allowed_formats(false, true).unwrap().len(), 9);
+        assert_eq!(position.allowed_formats(true, true).unwrap().len(), 5);
+        assert_eq!(Semantic::Custom.allowed_formats(false, true), None);
+        assert!(
+            Semantic::Numbered("JOINTS", 0)
+                .allowed_formats(false, true)
+                .unwrap()
+                .iter()
+                .all(|f| !f.2)
+        );
+    }
+}

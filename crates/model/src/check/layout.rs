@@ -1,0 +1,242 @@
+//! The memory layout of accessor elements (glTF 2.0 §3.6.2).
+
+use super::document::{index_member, integer_member, string_member};
+use serde_json::Value;
+
+/// The layout that an accessor declares.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct AccessorLayout {
+    /// The type of each component (`componentType`).
+    pub(super) component_type: ComponentType,
+    /// The type of an element (`type`).
+    pub(super) element_type: ElementType,
+    /// Whether integers stand for fractions (`normalized`).
+    pub(super) normalized: bool,
+    /// The number of elements (`count`).
+    pub(super) count: u64,
+    /// The offset of the first element in the buffer view (`byteOffset`).
+    pub(super) byte_offset: u64,
+    /// The index of the buffer view; without one all elements are zero.
+    pub(super) buffer_view: Option<usize>,
+}
+
+/// The type of a component (glTF 2.0 §3.6.2.2).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum ComponentType {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+/// The type of an element, as its number of rows and columns; vectors have one column.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct ElementType {
+    /// The number of components of a vector, or of a column of a matrix.
+    pub(super) rows: usize,
+    /// The number of columns; 1 for scalars and vectors.
+    pub(super) columns: usize,
+}
+
+/// One component.
+pub(super) const SCALAR: ElementType = ElementType { rows: 1, columns: 1 };
+/// Two components.
+pub(super) const VEC2: ElementType = ElementType { rows: 2, columns: 1 };
+/// Three components.
+pub(super) const VEC3: ElementType = ElementType { rows: 3, columns: 1 };
+/// Four components.
+pub(super) const VEC4: ElementType = ElementType { rows: 4, columns: 1 };
+/// A 4×4 matrix, column by column.
+pub(super) const MAT4: ElementType = ElementType { rows: 4, columns: 4 };
+
+impl ComponentType {
+    /// The type of an OpenGL constant, such as 5126 for `FLOAT`.
+    pub(super) fn from_gl_constant(number: u64) -> Option<Self> {
+        Some(match number {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            _ => return None,
+        })
+    }
+
+    /// The size of a component in bytes.
+    pub(super) fn byte_size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+
+    /// The maximum of the type. As an index it is the primitive restart value.
+    pub(super) fn max_value(self) -> f64 {
+        match self {
+            Self::I8 => f64::from(i8::MAX),
+            Self::U8 => f64::from(u8::MAX),
+            Self::I16 => f64::from(i16::MAX),
+            Self::U16 => f64::from(u16::MAX),
+            Self::U32 => f64::from(u32::MAX),
+            Self::F32 => f64::from(f32::MAX),
+        }
+    }
+
+    /// Reads the component at the start of some bytes; 0 if they are too few, which callers
+    /// exclude.
+    pub(super) fn read_number(self, bytes: &[u8]) -> f64 {
+        let one = || bytes.first().copied().unwrap_or(0);
+        let two = || bytes.first_chunk().copied().unwrap_or_default();
+        let four = || bytes.first_chunk().copied().unwrap_or_default();
+        match self {
+            Self::I8 => f64::from(one().cast_signed()),
+            Self::U8 => f64::from(one()),
+            Self::I16 => f64::from(i16::from_le_bytes(two())),
+            Self::U16 => f64::from(u16::from_le_bytes(two())),
+            Self::U32 => f64::from(u32::from_le_bytes(four())),
+            Self::F32 => f64::from(f32::from_le_bytes(four())),
+        }
+    }
+
+    /// The name of the OpenGL constant, for messages.
+    fn name(self) -> &'static str {
+        match self {
+            Self::I8 => "BYTE",
+            Self::U8 => "UNSIGNED_BYTE",
+            Self::I16 => "SHORT",
+            Self::U16 => "UNSIGNED_SHORT",
+            Self::U32 => "UNSIGNED_INT",
+            Self::F32 => "FLOAT",
+        }
+    }
+}
+
+impl ElementType {
+    /// The element type of a `type` member.
+    fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "SCALAR" => SCALAR,
+            "VEC2" => VEC2,
+            "VEC3" => VEC3,
+            "VEC4" => VEC4,
+            "MAT2" => Self { rows: 2, columns: 2 },
+            "MAT3" => Self { rows: 3, columns: 3 },
+            "MAT4" => MAT4,
+            _ => return None,
+        })
+    }
+
+    /// The number of components of an element.
+    pub(super) fn component_count(self) -> usize {
+        self.rows * self.columns
+    }
+
+    /// Whether an element is a matrix, whose columns are aligned.
+    pub(super) fn is_matrix(self) -> bool {
+        self.columns > 1
+    }
+
+    /// The name in glTF, for messages.
+    fn name(self) -> &'static str {
+        match (self.rows, self.columns) {
+            (1, _) => "SCALAR",
+            (2, 1) => "VEC2",
+            (3, 1) => "VEC3",
+            (_, 1) => "VEC4",
+            (2, _) => "MAT2",
+            (3, _) => "MAT3",
+            _ => "MAT4",
+        }
+    }
+}
+
+impl AccessorLayout {
+    /// The layout of an accessor, if its type, component type and count are valid.
+    pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
+        Some(Self {
+            component_type: ComponentType::from_gl_constant(integer_member(
+                accessor,
+                "componentType",
+            )?)?,
+            element_type: ElementType::from_name(string_member(accessor, "type")?)?,
+            normalized: accessor.get("normalized").and_then(Value::as_bool).unwrap_or(false),
+            count: integer_member(accessor, "count")?,
+            byte_offset: match accessor.get("byteOffset") {
+                Some(_) => integer_member(accessor, "byteOffset")?,
+                None => 0,
+            },
+            buffer_view: index_member(accessor, "bufferView"),
+        })
+    }
+
+    /// The bytes from one column to the next: columns of matrices are aligned to four (§3.6.2.4).
+    pub(super) fn column_stride(&self) -> usize {
+        let column = self.element_type.rows * self.component_type.byte_size();
+        if self.element_type.is_matrix() { column.next_multiple_of(4) } else { column }
+    }
+
+    /// The bytes of an element, up to the end of its last component.
+    pub(super) fn element_size(&self) -> usize {
+        (self.element_type.columns - 1) * self.column_stride()
+            + self.element_type.rows * self.component_type.byte_size()
+    }
+
+    /// The bytes from one element to the next if the buffer view has no `byteStride`.
+    pub(super) fn packed_stride(&self) -> usize {
+        self.element_type.columns * self.column_stride()
+    }
+
+    /// The bytes of all elements at this stride, up to the end of the last component.
+    pub(super) fn byte_length(&self, stride: usize) -> u64 {
+        if self.count == 0 {
+            return 0;
+        }
+        let gaps = self.count.saturating_sub(1).saturating_mul(stride as u64);
+        gaps.saturating_add(self.element_size() as u64)
+    }
+
+    /// The format as messages name it, such as `VEC3 of FLOAT`.
+    pub(super) fn format_name(&self) -> String {
+        let normalized = if self.normalized { "normalized " } else { "" };
+        format!("{} of {normalized}{}", self.element_type.name(), self.component_type.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn sizes_of_elements() {
+        // Small matrices of small integers have gaps between their columns (§3.6.2.4).
+        for (shape, component, size, tight) in [
+            ("SCALAR", 5121, 1, 1),
+            ("VEC3", 5122, 6, 6),
+            ("VEC4", 5126, 16, 16),
+            ("MAT2", 5121, 6, 8),
+            ("MAT3", 5120, 11, 12),
+            ("MAT3", 5123, 22, 24),
+            ("MAT4", 5126, 64, 64),
+        ] {
+            let accessor = json!({"componentType": component, "type": shape, "count": 3});
+            let layout = AccessorLayout::from_accessor(&accessor).unwrap();
+            assert_eq!(
+                (layout.element_size(), layout.packed_stride()),
+                (size, tight),
+                "{shape} of {component}"
+            );
+            assert_eq!(layout.byte_length(tight), (2 * tight + size) as u64);
+        }
+        assert_eq!(
+            AccessorLayout::from_accessor(
+                &json!({"componentType": 5124, "type": "VEC2", "count": 3})
+            ),
+            None
+        );
+    }
+}

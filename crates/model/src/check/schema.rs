@@ -1,0 +1,172 @@
+//! The JSON schema of glTF as constant tables: the members of every object, and their values.
+//!
+//! The tables are the property tables of the specification (glTF 2.0 §5) and of the extensions, row
+//! by row. The schema walk ([`super::schema_walk`]) interprets them: it finds values of the wrong
+//! type or out of range, missing members and unresolved references without code for any single
+//! member.
+
+pub(super) mod core;
+pub(super) mod extensions;
+
+/// The schema of an object: its name, to which extensions refer, and its members.
+///
+/// Every object may have `extensions` and `extras` besides.
+#[derive(Debug)]
+pub(super) struct ObjectSchema {
+    /// The name in the specification, such as `accessor` or `textureInfo`.
+    pub(super) name: &'static str,
+    /// The members, in the order of the specification.
+    pub(super) members: &'static [MemberSchema],
+}
+
+/// The schema of a member.
+#[derive(Debug)]
+pub(super) struct MemberSchema {
+    /// The name of the member.
+    pub(super) name: &'static str,
+    /// The type and range of its value.
+    pub(super) kind: ValueKind,
+    /// When it must be present.
+    pub(super) rule: PresenceRule,
+}
+
+/// When a member must be present.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum PresenceRule {
+    /// Never.
+    Optional,
+    /// Always.
+    Required,
+    /// Only together with another member.
+    Requires(&'static str),
+    /// Exactly one of this member and another one.
+    ExactlyOne(&'static str),
+    /// Only without another member.
+    Excludes(&'static str),
+}
+
+/// The type and range of a value.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ValueKind {
+    /// Any value.
+    Any,
+    /// true or false.
+    Boolean,
+    /// A string.
+    Text,
+    /// A string of the form `2.0`.
+    Version,
+    /// One of these strings; another one is only a warning.
+    EnumString(&'static [&'static str]),
+    /// An integer from the first to the second.
+    Integer(u64, u64),
+    /// One of these integers; another one is only a warning.
+    EnumInteger(&'static [u64]),
+    /// A number in a range.
+    Number(NumberRange),
+    /// An array of this many numbers in a range; 0 for any length above 0.
+    Numbers(usize, NumberRange),
+    /// An index into a collection.
+    Index(Collection),
+    /// Distinct indices into a collection.
+    Indices(Collection),
+    /// Distinct strings.
+    Texts,
+    /// An object.
+    Object(&'static ObjectSchema),
+    /// A non-empty array of objects.
+    Objects(&'static ObjectSchema),
+    /// Accessor indices by attribute name.
+    Attributes,
+    /// Morph targets: a non-empty array of attributes.
+    Targets,
+}
+
+/// A range of numbers, with or without its minimum.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NumberRange {
+    /// The minimum.
+    pub(super) min: f64,
+    /// The maximum, which is part of the range.
+    pub(super) max: f64,
+    /// Whether the minimum itself is excluded.
+    pub(super) exclusive_min: bool,
+}
+
+/// A member that excludes another one.
+const fn excludes(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Excludes(other) }
+}
+
+/// Any number.
+const ANY: NumberRange =
+    NumberRange { min: f64::NEG_INFINITY, max: f64::INFINITY, exclusive_min: false };
+/// Factors: [0, 1].
+const UNIT: NumberRange = NumberRange { min: 0.0, max: 1.0, exclusive_min: false };
+/// Components of unit vectors and quaternions: [−1, 1].
+const SIGNED_UNIT: NumberRange = NumberRange { min: -1.0, max: 1.0, exclusive_min: false };
+/// Numbers from 0.
+const NOT_NEGATIVE: NumberRange = NumberRange { min: 0.0, ..ANY };
+/// Numbers greater than 0.
+const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY };
+
+/// A collection of objects that indices refer to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Collection {
+    Accessors,
+    Buffers,
+    BufferViews,
+    Cameras,
+    Images,
+    Materials,
+    Meshes,
+    Nodes,
+    Samplers,
+    Scenes,
+    Skins,
+    Textures,
+    Lights,
+    Variants,
+    /// The samplers of the same animation, which are validated with it.
+    AnimationSamplers,
+}
+
+impl Collection {
+    /// The collections of a document with their pointers, and whether unused objects get a note.
+    pub(super) const ALL: [(Self, &'static str, bool); 14] = [
+        (Self::Accessors, "/accessors", true),
+        (Self::Buffers, "/buffers", true),
+        (Self::BufferViews, "/bufferViews", true),
+        (Self::Cameras, "/cameras", true),
+        (Self::Images, "/images", true),
+        (Self::Materials, "/materials", true),
+        (Self::Meshes, "/meshes", true),
+        (Self::Nodes, "/nodes", false),
+        (Self::Samplers, "/samplers", true),
+        (Self::Scenes, "/scenes", false),
+        (Self::Skins, "/skins", true),
+        (Self::Textures, "/textures", true),
+        (Self::Lights, "/extensions/KHR_lights_punctual/lights", true),
+        (Self::Variants, "/extensions/KHR_materials_variants/variants", true),
+    ];
+}
+
+/// A member that may be absent.
+const fn optional(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Optional }
+}
+
+/// A member that must be present.
+const fn required(name: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Required }
+}
+
+/// A member that is valid only together with another one.
+const fn requires(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::Requires(other) }
+}
+
+/// A member of which, with another one, exactly one must be present.
+const fn one_of(name: &'static str, other: &'static str, kind: ValueKind) -> MemberSchema {
+    MemberSchema { name, kind, rule: PresenceRule::ExactlyOne(other) }
+}

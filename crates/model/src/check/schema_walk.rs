@@ -1,0 +1,420 @@
+//! Schema validation: the walk over a document along the tables of [`schema`](super::schema).
+//!
+//! Every value is compared with the kind that its member has in the tables, and every index that
+//! resolves marks its target as used, for the notes about unused objects. The codes are those of
+//! the Khronos validator, including its distinction between members and items of arrays.
+
+use super::codes::{self, DiagnosticCode};
+use super::document::{CheckedDocument, as_whole_number, escape_pointer_token};
+use super::schema::core::ROOT;
+use super::schema::extensions::EXTENSION_OBJECTS;
+use super::schema::{Collection, MemberSchema, NumberRange, ObjectSchema, PresenceRule, ValueKind};
+use serde_json::{Map, Value};
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+/// Validates a whole document against the schema, and records all references.
+pub(super) fn check_schema(document: &CheckedDocument<'_>) {
+    let mut walker = SchemaWalker { document, pointer: String::new() };
+    match document.root {
+        Value::Object(members) => walker.check_object(members, &ROOT),
+        other => walker.report_type_mismatch(other, "an object"),
+    }
+}
+
+/// The state of the walk: the document and the JSON pointer of the current value.
+struct SchemaWalker<'a> {
+    /// The document, which records references and diagnostics.
+    document: &'a CheckedDocument<'a>,
+    /// The JSON pointer of the current value.
+    pointer: String,
+}
+
+impl SchemaWalker<'_> {
+    /// Reports a diagnostic at the current value.
+    fn report(&self, code: &DiagnosticCode, message: impl Display) {
+        self.document.diagnostics.add(code, &self.pointer, message);
+    }
+
+    /// Reports a member of the wrong type.
+    fn report_type_mismatch(&self, value: &Value, expected: &str) {
+        self.report(&codes::TYPE_MISMATCH, format_args!("{} is not {expected}", ShortValue(value)));
+    }
+
+    /// Calls `work` for a member or an item: its pointer token is appended meanwhile.
+    fn descend(&mut self, name: &str, work: impl FnOnce(&mut Self)) {
+        let length = self.pointer.len();
+        self.pointer.push('/');
+        match name.contains(['~', '/']) {
+            true => self.pointer.push_str(&escape_pointer_token(name)),
+            false => self.pointer.push_str(name),
+        }
+        work(self);
+        self.pointer.truncate(length);
+    }
+
+    /// An object: known members by their kinds, required members, unknown members, extensions.
+    fn check_object(&mut self, members: &Map<String, Value>, object: &ObjectSchema) {
+        for member in object.members {
+            match members.get(member.name) {
+                Some(value) => {
+                    self.descend(member.name, |walker| walker.check_value(value, member.kind));
+                }
+                None if member.rule == PresenceRule::Required => {
+                    let name = member.name;
+                    let message = format_args!("missing property `{name}`");
+                    // The pointer names the missing member, so that each is reported by itself.
+                    let diagnostics = &self.document.diagnostics;
+                    diagnostics.add(
+                        &codes::UNDEFINED_PROPERTY,
+                        format_args!("{}/{name}", self.pointer),
+                        message,
+                    );
+                }
+                None => {}
+            }
+            self.check_presence(members, member);
+        }
+        for (name, value) in members {
+            match name.as_str() {
+                "extensions" => self.descend(name, |walker| walker.check_extensions(value, object)),
+                "extras" => {}
+                _ if object.members.iter().any(|member| member.name == name) => {}
+                _ => self.descend(name, |walker| {
+                    walker.report(&codes::UNEXPECTED_PROPERTY, "unexpected property");
+                }),
+            }
+        }
+    }
+
+    /// The rule of a member about the presence of other members.
+    fn check_presence(&mut self, members: &Map<String, Value>, member: &MemberSchema) {
+        let is_there = members.contains_key(member.name);
+        match member.rule {
+            PresenceRule::Requires(other) if is_there && !members.contains_key(other) => {
+                self.descend(member.name, |walker| {
+                    let message = format_args!("it requires the property `{other}`");
+                    walker.report(&codes::UNSATISFIED_DEPENDENCY, message);
+                });
+            }
+            PresenceRule::ExactlyOne(other) if is_there == members.contains_key(other) => {
+                let message =
+                    format_args!("exactly one of `{}` and `{other}` is required", member.name);
+                self.report(&codes::ONE_OF_MISMATCH, message);
+            }
+            PresenceRule::Excludes(other) if is_there && members.contains_key(other) => {
+                let message =
+                    format_args!("`{}` and `{other}` are mutually exclusive", member.name);
+                self.report(&codes::ONE_OF_MISMATCH, message);
+            }
+            _ => {}
+        }
+    }
+
+    /// The extension objects of an object.
+    fn check_extensions(&mut self, value: &Value, parent: &ObjectSchema) {
+        let Value::Object(extensions) = value else {
+            return self.report_type_mismatch(value, "an object");
+        };
+        for (name, value) in extensions {
+            self.descend(name, |walker| walker.check_extension(name, value, parent));
+        }
+    }
+
+    /// An extension object: it must be declared, and allowed in this parent.
+    fn check_extension(&mut self, name: &str, value: &Value, parent: &ObjectSchema) {
+        if !self.document.uses_extension(name) {
+            let message = format_args!("the extension is not listed in {}", "/extensionsUsed");
+            self.report(&codes::UNDECLARED_EXTENSION, message);
+        }
+        let Value::Object(members) = value else {
+            return self.report_type_mismatch(value, "an object");
+        };
+        let mut places = EXTENSION_OBJECTS.iter().filter(|place| place.name == name).peekable();
+        if places.peek().is_none() {
+            return;
+        }
+        match places.find(|place| place.parent == parent.name) {
+            Some(place) => self.check_object(members, &place.object),
+            None => {
+                let message = format_args!("unexpected extension object in a {}", parent.name);
+                self.report(&codes::UNEXPECTED_EXTENSION_OBJECT, message);
+            }
+        }
+    }
+
+    /// Any value, by its kind.
+    fn check_value(&mut self, value: &Value, kind: ValueKind) {
+        match kind {
+            ValueKind::Any => {}
+            ValueKind::Boolean if value.is_boolean() => {}
+            ValueKind::Boolean => self.report_type_mismatch(value, "true or false"),
+            ValueKind::Text if value.is_string() => {}
+            ValueKind::Text => self.report_type_mismatch(value, "a string"),
+            ValueKind::Version => self.check_version(value),
+            ValueKind::EnumString(words) => self.check_enum_string(value, words),
+            ValueKind::Integer(min, max) => self.check_integer(value, min, max),
+            ValueKind::EnumInteger(numbers) => self.check_enum_integer(value, numbers),
+            ValueKind::Number(range) => match value.as_f64() {
+                Some(number) => self.check_number(number, range),
+                None => self.report_type_mismatch(value, "a number"),
+            },
+            ValueKind::Numbers(length, range) => self.check_numbers(value, length, range),
+            ValueKind::Index(collection) => self.check_index(value, collection),
+            ValueKind::Indices(collection) => self.check_indices(value, collection),
+            ValueKind::Texts => self.check_strings(value),
+            ValueKind::Object(object) => match value {
+                Value::Object(members) => self.check_object(members, object),
+                other => self.report_type_mismatch(other, "an object"),
+            },
+            ValueKind::Objects(object) => self.check_objects(value, object),
+            ValueKind::Attributes => self.check_attributes(value),
+            ValueKind::Targets => self.check_morph_targets(value),
+        }
+    }
+
+    /// A string of the form `2.0`.
+    fn check_version(&self, value: &Value) {
+        let Some(text) = value.as_str() else {
+            return self.report_type_mismatch(value, "a string");
+        };
+        let is_number = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+        if !text.split_once('.').is_some_and(|(major, minor)| is_number(major) && is_number(minor))
+        {
+            let message = format_args!("{} is not of the form 2.0", ShortValue(value));
+            self.report(&codes::PATTERN_MISMATCH, message);
+        }
+    }
+
+    /// One of a list of strings; another one is a warning, as an extension may define it.
+    fn check_enum_string(&self, value: &Value, words: &[&str]) {
+        match value.as_str() {
+            None => self.report_type_mismatch(value, "a string"),
+            Some(word) if words.contains(&word) => {}
+            Some(_) => {
+                let message =
+                    format_args!("{} is not one of {}", ShortValue(value), words.join(", "));
+                self.report(&codes::VALUE_NOT_IN_LIST, message);
+            }
+        }
+    }
+
+    /// An integer in a range; `1.0` is one, but another number with a fraction is of the wrong
+    /// type.
+    fn check_integer(&self, value: &Value, min: u64, max: u64) {
+        match (as_whole_number(value), value.as_f64()) {
+            (Some(number), _) if (min..=max).contains(&number) => {}
+            (Some(_), _) => self.report_out_of_range(value, min, max),
+            (None, Some(number)) if number % 1.0 == 0.0 => {
+                self.report_out_of_range(value, min, max);
+            }
+            (None, _) => self.report_type_mismatch(value, "an integer"),
+        }
+    }
+
+    /// Reports an integer out of range.
+    fn report_out_of_range(&self, value: &Value, min: u64, max: u64) {
+        let code = &codes::VALUE_NOT_IN_RANGE;
+        if max == u64::MAX {
+            self.report(code, format_args!("{} is less than {min}", ShortValue(value)));
+        } else {
+            let value = ShortValue(value);
+            self.report(code, format_args!("{value} is not in the range {min} to {max}"));
+        }
+    }
+
+    /// One of a list of integers.
+    fn check_enum_integer(&self, value: &Value, numbers: &[u64]) {
+        match as_whole_number(value) {
+            Some(number) if numbers.contains(&number) => {}
+            None if value.as_f64().is_none() => self.report_type_mismatch(value, "an integer"),
+            _ => {
+                let message = format_args!("{} is not one of {numbers:?}", ShortValue(value));
+                self.report(&codes::VALUE_NOT_IN_LIST, message);
+            }
+        }
+    }
+
+    /// A number in a range.
+    fn check_number(&self, number: f64, range: NumberRange) {
+        let NumberRange { min, max, exclusive_min } = range;
+        let is_inside = if exclusive_min { number > min } else { number >= min } && number <= max;
+        if !is_inside {
+            let code = &codes::VALUE_NOT_IN_RANGE;
+            let open = if exclusive_min { '(' } else { '[' };
+            match (max == f64::INFINITY, exclusive_min) {
+                (true, true) => {
+                    self.report(code, format_args!("{number} is not greater than {min}"));
+                }
+                (true, false) => self.report(code, format_args!("{number} is less than {min}")),
+                _ => self.report(code, format_args!("{number} is not in {open}{min}, {max}]")),
+            }
+        }
+    }
+
+    /// An array of `length` numbers in a range; 0 for any length above 0.
+    fn check_numbers(&mut self, value: &Value, length: usize, range: NumberRange) {
+        let Value::Array(items) = value else {
+            return self.report_type_mismatch(value, "an array of numbers");
+        };
+        if length != 0 && items.len() != length {
+            let message = format_args!("expected {length} numbers, found {}", items.len());
+            return self.report(&codes::ARRAY_LENGTH_NOT_IN_LIST, message);
+        }
+        if items.is_empty() {
+            return self.report(&codes::EMPTY_ENTITY, "the array is empty");
+        }
+        for (at, item) in items.iter().enumerate() {
+            match item.as_f64() {
+                Some(number) if number >= range.min && number <= range.max => {}
+                Some(number) => {
+                    self.descend(&at.to_string(), |walker| walker.check_number(number, range));
+                }
+                None => self.descend(&at.to_string(), |walker| {
+                    walker.report_item_mismatch(item, "a number");
+                }),
+            }
+        }
+    }
+
+    /// Reports an item of an array that is of the wrong type.
+    fn report_item_mismatch(&self, value: &Value, expected: &str) {
+        self.report(
+            &codes::ARRAY_TYPE_MISMATCH,
+            format_args!("{} is not {expected}", ShortValue(value)),
+        );
+    }
+
+    /// An index that must resolve. Samplers of animations are checked with their animation.
+    fn check_index(&self, value: &Value, collection: Collection) {
+        match as_whole_number(value) {
+            None if !value.is_number() => self.report_type_mismatch(value, "an index"),
+            None => self.report_invalid_index(value),
+            Some(_) if collection == Collection::AnimationSamplers => {}
+            Some(index) if self.document.mark_used(collection, index) => {}
+            Some(index) => self.report_unresolved(index, collection),
+        }
+    }
+
+    /// Reports an index that is no non-negative integer.
+    fn report_invalid_index(&self, value: &Value) {
+        let message = format_args!("{} is not a valid index", ShortValue(value));
+        self.report(&codes::INVALID_INDEX, message);
+    }
+
+    /// Reports an index beyond the end of its collection.
+    fn report_unresolved(&self, index: u64, collection: Collection) {
+        let (_, pointer, _) = Collection::ALL[collection as usize];
+        let count =
+            self.document.root.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len);
+        let message = format_args!("{pointer}/{index} does not exist: there are {count}");
+        self.report(&codes::UNRESOLVED_REFERENCE, message);
+    }
+
+    /// A non-empty array of distinct indices.
+    fn check_indices(&mut self, value: &Value, collection: Collection) {
+        let Value::Array(items) = value else {
+            return self.report_type_mismatch(value, "an array of indices");
+        };
+        if items.is_empty() {
+            return self.report(&codes::EMPTY_ENTITY, "the array is empty");
+        }
+        let mut known = BTreeSet::new();
+        for (at, item) in items.iter().enumerate() {
+            self.descend(&at.to_string(), |walker| {
+                if as_whole_number(item).is_some_and(|index| !known.insert(index)) {
+                    walker
+                        .report(&codes::DUPLICATE_ELEMENTS, format_args!("{item} is a duplicate"));
+                }
+                walker.check_index(item, collection);
+            });
+        }
+    }
+
+    /// A non-empty array of distinct strings.
+    fn check_strings(&mut self, value: &Value) {
+        let Value::Array(items) = value else {
+            return self.report_type_mismatch(value, "an array of strings");
+        };
+        if items.is_empty() {
+            return self.report(&codes::EMPTY_ENTITY, "the array is empty");
+        }
+        let mut known = BTreeSet::new();
+        for (at, item) in items.iter().enumerate() {
+            self.descend(&at.to_string(), |walker| match item.as_str() {
+                None => walker.report_item_mismatch(item, "a string"),
+                Some(text) if known.insert(text) => {}
+                Some(_) => {
+                    let message = format_args!("{} is a duplicate", ShortValue(item));
+                    walker.report(&codes::DUPLICATE_ELEMENTS, message);
+                }
+            });
+        }
+    }
+
+    /// A non-empty array of objects.
+    fn check_objects(&mut self, value: &Value, object: &ObjectSchema) {
+        let Value::Array(items) = value else {
+            return self.report_type_mismatch(value, "an array of objects");
+        };
+        if items.is_empty() {
+            return self.report(&codes::EMPTY_ENTITY, "the array is empty");
+        }
+        // The validator reports items of top-level arrays like members, and items of inner arrays
+        // by another code.
+        let at_top = self.pointer.rfind('/') == Some(0);
+        for (at, item) in items.iter().enumerate() {
+            self.descend(&at.to_string(), |walker| match item {
+                Value::Object(members) => walker.check_object(members, object),
+                other if at_top => walker.report_type_mismatch(other, "an object"),
+                other => walker.report_item_mismatch(other, "an object"),
+            });
+        }
+    }
+
+    /// Attributes: accessor indices by attribute name.
+    fn check_attributes(&mut self, value: &Value) {
+        let Value::Object(members) = value else {
+            return self.report_type_mismatch(value, "an object");
+        };
+        if members.is_empty() {
+            self.report(&codes::EMPTY_ENTITY, "the object has no attributes");
+        }
+        for (name, accessor) in members {
+            self.descend(name, |walker| match as_whole_number(accessor) {
+                None => walker.report_invalid_index(accessor),
+                Some(_) => walker.check_index(accessor, Collection::Accessors),
+            });
+        }
+    }
+
+    /// Morph targets: a non-empty array of attributes.
+    fn check_morph_targets(&mut self, value: &Value) {
+        let Value::Array(items) = value else {
+            return self.report_type_mismatch(value, "an array of objects");
+        };
+        if items.is_empty() {
+            return self.report(&codes::EMPTY_ENTITY, "the array is empty");
+        }
+        for (at, item) in items.iter().enumerate() {
+            self.descend(&at.to_string(), |walker| match item {
+                Value::Object(_) => walker.check_attributes(item),
+                other => walker.report_item_mismatch(other, "an object"),
+            });
+        }
+    }
+}
+
+/// A value as quoted in a message: arrays, objects and long strings only by their type.
+struct ShortValue<'a>(&'a Value);
+
+impl Display for ShortValue<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Value::Array(_) => f.write_str("an array"),
+            Value::Object(_) => f.write_str("an object"),
+            Value::String(text) if text.len() > 60 => f.write_str("a long string"),
+            other => write!(f, "{other}"),
+        }
+    }
+}

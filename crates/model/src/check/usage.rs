@@ -1,0 +1,148 @@
+//! Uses of accessors and buffer views: each may have one purpose only (glTF 2.0 §3.6.2.1, §5.11.5).
+
+use super::codes;
+use super::document::{CheckedDocument, index_member, integer_member};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The purpose of an accessor.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum AccessorUse {
+    Attribute,
+    Indices,
+    InverseBind,
+    Input,
+    Output,
+}
+
+/// The purpose of a buffer view.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum ViewUse {
+    Vertices,
+    Indices,
+    InverseBind,
+    Image,
+    Other,
+}
+
+impl AccessorUse {
+    /// The purpose as messages name it.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Attribute => "a vertex attribute",
+            Self::Indices => "primitive indices",
+            Self::InverseBind => "inverse bind matrices",
+            Self::Input => "an animation input",
+            Self::Output => "an animation output",
+        }
+    }
+}
+
+impl ViewUse {
+    /// The purpose as messages name it.
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Vertices => "vertex attributes",
+            Self::Indices => "primitive indices",
+            Self::InverseBind => "inverse bind matrices",
+            Self::Image => "an image",
+            Self::Other => "other data",
+        }
+    }
+}
+
+/// The uses of all accessors and buffer views found so far.
+pub(super) struct UsageMap<'a> {
+    document: &'a CheckedDocument<'a>,
+    /// The first use of each accessor.
+    accessors: RefCell<BTreeMap<usize, AccessorUse>>,
+    /// The first use of each buffer view, or the one its `target` declares.
+    views: RefCell<BTreeMap<usize, ViewUse>>,
+    /// The accessors of vertex attributes in each buffer view that has no `byteStride`.
+    unstrided: RefCell<BTreeMap<usize, BTreeSet<usize>>>,
+}
+
+impl<'a> UsageMap<'a> {
+    /// The uses that the `target` members of buffer views declare.
+    pub(super) fn new(document: &'a CheckedDocument<'a>) -> Self {
+        let target = |(at, view): (usize, &serde_json::Value)| match integer_member(view, "target")
+        {
+            Some(34_962) => Some((at, ViewUse::Vertices)),
+            Some(34_963) => Some((at, ViewUse::Indices)),
+            _ => None,
+        };
+        let views =
+            document.root_array("bufferViews").iter().enumerate().filter_map(target).collect();
+        Self {
+            document,
+            accessors: RefCell::default(),
+            views: RefCell::new(views),
+            unstrided: RefCell::default(),
+        }
+    }
+
+    /// Records the use of an accessor and of its buffer view; `pointer` is the member that refers
+    /// to it.
+    pub(super) fn note_accessor(&self, accessor: usize, new: AccessorUse, pointer: &str) {
+        let old = *self.accessors.borrow_mut().entry(accessor).or_insert(new);
+        if old != new {
+            let (old, new) = (old.name(), new.name());
+            let message =
+                format_args!("accessor {accessor} is already used as {old}, and as {new} here");
+            self.document.diagnostics.add(&codes::ACCESSOR_USAGE_OVERRIDE, pointer, message);
+        }
+        if let Some(view) = self.accessor_view(accessor) {
+            let new = match new {
+                AccessorUse::Attribute => ViewUse::Vertices,
+                AccessorUse::Indices => ViewUse::Indices,
+                AccessorUse::InverseBind => ViewUse::InverseBind,
+                AccessorUse::Input | AccessorUse::Output => ViewUse::Other,
+            };
+            self.note_view(view, new, pointer);
+        }
+    }
+
+    /// Records the use of a buffer view.
+    pub(super) fn note_view(&self, view: usize, new: ViewUse, pointer: &str) {
+        if view >= self.document.root_array("bufferViews").len() {
+            return;
+        }
+        let old = *self.views.borrow_mut().entry(view).or_insert(new);
+        if old != new {
+            let (old, new) = (old.name(), new.name());
+            let message =
+                format_args!("buffer view {view} is already used for {old}, and for {new} here");
+            self.document.diagnostics.add(&codes::BUFFER_VIEW_TARGET_OVERRIDE, pointer, message);
+        }
+    }
+
+    /// Records an accessor of vertex attributes: several in one buffer view need a `byteStride`.
+    pub(super) fn note_vertex_accessor(&self, accessor: usize, pointer: &str) {
+        let Some(view) = self.accessor_view(accessor) else { return };
+        let json = self.document.root_array("bufferViews").get(view);
+        if json.is_none_or(|json| json.get("byteStride").is_some()) {
+            return;
+        }
+        let mut tight = self.unstrided.borrow_mut();
+        let known = tight.entry(view).or_default();
+        if known.insert(accessor) && known.len() > 1 {
+            let message =
+                format_args!("buffer view {view} has several attributes but no byteStride");
+            let code = &codes::MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE;
+            self.document.diagnostics.add(code, pointer, message);
+        }
+    }
+
+    /// The buffer view of an accessor.
+    fn accessor_view(&self, accessor: usize) -> Option<usize> {
+        index_member(self.document.root_array("accessors").get(accessor)?, "bufferView")
+    }
+
+    /// Whether the buffer view of an accessor has a `byteStride`, which only vertex attributes may
+    /// have.
+    pub(super) fn has_stride(&self, accessor: usize) -> bool {
+        let view = self.accessor_view(accessor);
+        let json = view.and_then(|view| self.document.root_array("bufferViews").get(view));
+        json.is_some_and(|json| json.get("byteStride").is_some())
+    }
+}

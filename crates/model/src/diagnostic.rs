@@ -1,0 +1,132 @@
+//! Diagnostics: one record for everything that the importer or the checker reports about a file.
+//!
+//! ```text
+//!  severity code        location                        message                   help
+//!  error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices lack a vertex; export again
+//! ```
+//!
+//! The importer's warnings ([`Model::warnings`](crate::Model::warnings)), the reason that a file
+//! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are made of
+//! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
+//!
+//! Locations are JSON pointers (RFC 6901): the path of keys and indices from the root of the
+//! document, with `~1` for `/` and `~0` for `~` inside of a key.
+
+use std::fmt;
+
+/// Codes of what the importer reports; a check has those of the Khronos validator besides.
+pub mod codes {
+    /// A file could not be read: it is missing, is a folder, or may not be opened.
+    pub const IO_ERROR: &str = "IO_ERROR";
+    /// A file may not be read: it lies outside of the folders that assets must stay in.
+    pub const FORBIDDEN_PATH: &str = "FORBIDDEN_PATH";
+    /// The file is not glTF, or is truncated.
+    pub const NOT_GLTF: &str = "NOT_GLTF";
+    /// The file is of an unsupported version of glTF.
+    pub const UNSUPPORTED_VERSION: &str = "UNSUPPORTED_VERSION";
+    /// The file requires an extension that is not supported.
+    pub const UNSUPPORTED_REQUIRED_EXTENSION: &str = "UNSUPPORTED_REQUIRED_EXTENSION";
+    /// The file breaks a rule of the specification.
+    pub const INVALID_DATA: &str = "INVALID_DATA";
+    /// Data that the file refers to is absent, or in an encoding that is not supported.
+    pub const MISSING_DATA: &str = "MISSING_DATA";
+    /// The file declares more of something than the [limits](crate::Limits) allow.
+    pub const LIMIT_EXCEEDED: &str = "LIMIT_EXCEEDED";
+    /// The options ask for a scene or a variant that the file does not have.
+    pub const NO_SUCH_ITEM: &str = "NO_SUCH_ITEM";
+    /// Something of the file is left out, replaced or corrected.
+    pub const LEFT_OUT: &str = "LEFT_OUT";
+}
+
+/// A statement about one location of a file: how bad, which rule, where, what, and what to do.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// Identifier of the rule, for programs: a constant of [`codes`], or the name that the Khronos
+    /// validator gives the issue.
+    pub code: &'static str,
+    /// A JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`; empty if the
+    /// file as a whole is meant.
+    pub location: String,
+    /// The fault and, for a warning, its consequence: a clause without a full stop.
+    pub message: String,
+    /// The remedy, if there is one: a clause in the imperative.
+    pub help: Option<String>,
+}
+
+/// Severity of a diagnostic, in the order and with the meaning of the Khronos glTF validator.
+///
+/// The worst is the least, so that sorting by severity puts errors first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Severity {
+    /// The file breaks a rule of its specification, or data is missing.
+    Error,
+    /// The file may look different elsewhere, or something of it is left out here.
+    Warning,
+    /// Nothing is wrong, but something could be better (the validator's "information").
+    Info,
+    /// A suggestion about style or efficiency.
+    Hint,
+}
+
+impl Severity {
+    /// All severities, the worst first.
+    pub const ALL: [Self; 4] = [Self::Error, Self::Warning, Self::Info, Self::Hint];
+
+    /// The word that is printed: `error`, `warning`, `note` (rustc's word for information) or
+    /// `hint`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Info => "note",
+            Self::Hint => "hint",
+        }
+    }
+}
+
+impl Diagnostic {
+    /// An error at a location, with the remedy that `help` names.
+    pub(crate) fn error(
+        code: &'static str,
+        location: &str,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Self {
+        Self {
+            severity: Severity::Error,
+            code,
+            location: location.to_owned(),
+            message: message.into(),
+            help: Some(help.to_owned()),
+        }
+    }
+
+    /// Location, message and help in one line, without severity and code: for messages that begin
+    /// with the name of the file.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let mut text = String::new();
+        if !self.location.is_empty() {
+            text.push_str(&self.location);
+            text.push_str(": ");
+        }
+        text.push_str(&self.message);
+        if let Some(help) = &self.help {
+            text.push_str("; ");
+            text.push_str(help);
+        }
+        text
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    /// `error[ACCESSOR_INDEX_OOB] /meshes/0/primitives/0/indices: 3 indices have no vertex; export
+    /// again`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}[{}] {}", self.severity.name(), self.code, self.sentence())
+    }
+}

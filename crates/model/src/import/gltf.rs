@@ -1,0 +1,76 @@
+//! The glTF 2.0 importer: a `.gltf` or `.glb` file becomes a [`Model`].
+//!
+//! ```text
+//!  bytes ──container──► JSON ──document──► Root ──model_builder──► Model
+//!                       binary chunk ─┐             │
+//!  other files ──uri_resolver──► buffers ─┴─► accessor, elements, images
+//! ```
+//!
+//! Of the `gltf` crate only the JSON types are used: its own importer panics on malformed files and
+//! reads any file that a URI names.
+
+mod accessor;
+mod animation;
+mod animation_pointer;
+mod attribute;
+mod buffers;
+mod camera;
+mod container;
+pub(crate) mod document;
+mod draco;
+mod edge_visibility;
+mod elements;
+mod extensions;
+mod gpu_instancing;
+mod images;
+mod json_repair;
+mod lights;
+mod material;
+pub(crate) mod meshopt;
+mod model_builder;
+mod morph_target;
+mod node_transform;
+mod primitive;
+mod scene_graph;
+mod selection;
+mod skin;
+mod texture;
+mod topology;
+mod untyped_members;
+
+pub use extensions::{ExtensionUse, extension_use};
+
+use super::ImportOptions;
+use super::uri_resolver::UriResolver;
+use super::warnings::ImportWarnings;
+use crate::Model;
+use crate::diagnostic::Diagnostic;
+use accessor::AccessorReader;
+use buffers::Buffers;
+use container::Container;
+use document::GltfDocument;
+use std::path::Path;
+
+/// Imports a glTF file whose bytes have been read; the file name in `path` becomes the model's
+/// name.
+pub(crate) fn import_gltf(
+    path: &Path,
+    bytes: &[u8],
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let limits = resolver.limits;
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let container = Container::from_bytes(bytes, &mut warnings)?;
+    let json = &bytes[container.json];
+    let parse = || GltfDocument::parse_json(json, limits, &mut warnings);
+    let document = options.timings.measure("parse", parse)?;
+    let chunk = container.binary.map(|range| &bytes[range]);
+    extensions::check_extensions(&document.root, &mut warnings)?;
+    let buffers = Buffers::new(&document.root, resolver, chunk, limits);
+    let source = AccessorReader::new(&document.root, &buffers, limits);
+    let mut model = model_builder::build_model(&document, &source, options, &mut warnings)?;
+    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    model.warnings = warnings.into_list();
+    Ok(model)
+}

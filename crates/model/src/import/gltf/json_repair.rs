@@ -1,0 +1,154 @@
+//! Lenient JSON deserialization: removes members of the wrong type so that the rest can be loaded.
+//!
+//! The typed structs are all or nothing: one mesh without primitives makes the whole document fail.
+//! So the offending member is removed, or, where it is mandatory, the item that contains it is
+//! replaced by an empty one, so that all others keep their indices; then deserialization is tried
+//! again.
+
+use super::document::type_error;
+use crate::diagnostic::Diagnostic;
+use crate::import::warnings::ImportWarnings;
+use gltf::json::Root;
+use serde_json::{Value, json};
+
+/// Bytes of JSON that are deserialized again in all: ten repairs of a file of six megabytes,
+/// hundreds of a small one.
+const REPAIR_BYTE_BUDGET: usize = 64 << 20;
+
+/// Repairs in one file, however small it is.
+const MAX_REPAIRS: usize = 500;
+
+/// Deserializes a document, leaving out what does not fit; `length` is that of its text.
+pub(super) fn deserialize_leniently(
+    value: &mut Value,
+    length: usize,
+    warnings: &mut ImportWarnings,
+) -> Result<Root, Diagnostic> {
+    let mut repairs_left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
+    loop {
+        let diagnostic = match serde_path_to_error::deserialize(&*value) {
+            Ok(root) => return Ok(root),
+            Err(error) => type_error(&error),
+        };
+        let repaired = if repairs_left > 0 { repair_at(value, &diagnostic.location) } else { None };
+        let Some(consequence) = repaired else { return Err(diagnostic) };
+        warnings.downgrade_if_lenient(diagnostic, consequence)?;
+        repairs_left -= 1;
+    }
+}
+
+/// Removes the member at a pointer, or empties the item that contains it; returns what was done,
+/// `None` if nothing can be.
+fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
+    let steps: Vec<&str> = pointer.split('/').skip(1).collect();
+    match *steps.as_slice() {
+        [] => None,
+        [collection] => {
+            document.as_object_mut()?.remove(collection).map(|_| "all of it is left out")
+        }
+        [collection, at] => replace_with_empty(document, collection, at),
+        [collection, at, ..] => {
+            let removed = remove_member(document, pointer);
+            removed.or_else(|| replace_with_empty(document, collection, at))
+        }
+    }
+}
+
+/// Lists whose items nothing refers to by index, so that one of them can be removed.
+const UNREFERENCED_LISTS: [&str; 4] = ["primitives", "channels", "children", "nodes"];
+
+/// Removes a member of an object or an item of a list; other arrays are removed as a whole.
+fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
+    let (parent, last) = pointer.rsplit_once('/')?;
+    let name = parent.rsplit('/').next()?;
+    match document.pointer_mut(parent)? {
+        Value::Object(members) => {
+            let key = last.replace("~1", "/").replace("~0", "~");
+            members.remove(&key).map(|_| "it is left out")
+        }
+        Value::Array(items) if UNREFERENCED_LISTS.contains(&name) => {
+            let at = last.parse().ok().filter(|&at: &usize| at < items.len())?;
+            items.remove(at);
+            Some("it is left out")
+        }
+        Value::Array(_) => remove_member(document, parent),
+        _ => None,
+    }
+}
+
+/// Replaces an item of a top-level collection by an empty one.
+fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Option<&'static str> {
+    let nothing = match collection {
+        "accessors" => json!({"componentType": 5126, "count": 0, "type": "SCALAR"}),
+        "animations" => json!({"channels": [], "samplers": []}),
+        "buffers" => json!({"byteLength": 0}),
+        "bufferViews" => json!({"buffer": 0, "byteLength": 0}),
+        "cameras" => json!({"type": "none"}),
+        "images" | "materials" | "nodes" | "samplers" | "textures" => json!({}),
+        "meshes" => json!({"primitives": []}),
+        "scenes" => json!({"nodes": []}),
+        "skins" => json!({"joints": []}),
+        // No collection of things with numbers: the whole member goes.
+        _ => {
+            let members = document.as_object_mut()?;
+            return members.remove(collection).map(|_| "all of it is left out");
+        }
+    };
+    let slot = document.get_mut(collection)?.as_array_mut()?.get_mut(at.parse::<usize>().ok()?)?;
+    let changes = *slot != nothing;
+    *slot = nothing;
+    changes.then_some("an empty one takes its place")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::codes;
+
+    fn deserialize_with_warnings(mut document: Value) -> (Result<Root, Diagnostic>, Vec<String>) {
+        let mut warnings = ImportWarnings::new(true);
+        let root = deserialize_leniently(&mut document, 1000, &mut warnings);
+        let messages =
+            warnings.into_list().into_iter().map(|w| format!("{} {}", w.location, w.message));
+        (root, messages.collect())
+    }
+
+    #[test]
+    fn what_does_not_fit_is_left_out_and_the_rest_keeps_its_numbers() {
+        let (root, messages) = deserialize_with_warnings(json!({
+            "asset": {"version": "2.0"},
+            "extensionsUsed": ["a", 7],
+            "meshes": [
+                {},
+                {"primitives": [{"attributes": 5}, {"attributes": {"POSITION": 0}}]},
+                {"primitives": "none"}
+            ],
+            "nodes": [{"mesh": "x", "children": [1, null]}, 3],
+            "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 2, "red", 1], "metallicFactor": 0}}],
+            "textures": 1,
+        }));
+        let root = root.expect("a document");
+        let primitives: Vec<usize> = root.meshes.iter().map(|mesh| mesh.primitives.len()).collect();
+        assert_eq!(primitives, [0, 1, 0], "{messages:#?}");
+        assert_eq!((root.nodes.len(), root.textures.len()), (2, 0));
+        assert_eq!(root.nodes[0].children.as_ref().map(Vec::len), Some(1));
+        assert_eq!(root.materials[0].pbr_metallic_roughness.metallic_factor.0, 0.0);
+        assert!(
+            messages.iter().any(|line| line.starts_with("/meshes/0 missing field `primitives`"))
+        );
+        assert!(messages.iter().any(|line| line.starts_with("/nodes/1 ")), "{messages:#?}");
+    }
+
+    #[test]
+    fn what_cannot_be_repaired_is_an_error_after_finitely_many_steps() {
+        let many: Vec<Value> = (0..2000).map(|_| json!({"primitives": 1})).collect();
+        for (document, location) in [
+            (json!([]), ""),
+            (json!({"asset": 3}), ""),
+            (json!({"asset": {"version": "2.0"}, "meshes": many}), "/meshes/250/primitives"),
+        ] {
+            let diagnostic = deserialize_with_warnings(document).0.unwrap_err();
+            assert_eq!((diagnostic.code, &*diagnostic.location), (codes::INVALID_DATA, location));
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Tangent generation by MikkTSpace, as glTF 2.0 §3.7.2.1 demands for primitives without tangents.
+//!
+//! Tangents belong to the vertices of triangles and not to shared vertices: two triangles that
+//! share a vertex may need two tangents there, at a seam of the texture or where it is mirrored. So
+//! there is one for each index.
+//!
+//! Source: M. S. Mikkelsen, *Simulation of Wrinkled Surfaces Revisited*, 2008, by the crate
+//! `bevy_mikktspace`, which works in single precision; its one arccosine is `libm`'s here, so that
+//! all machines compute equal bits.
+
+use crate::{Primitive, Topology};
+use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
+use glam::DVec3;
+use std::borrow::Cow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+impl Primitive {
+    /// Unit tangents for the tangent frame of a normal map, one for each of the
+    /// [`indices`](Self::indices), with the handedness of the bitangent (1 or −1) in w.
+    ///
+    /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
+    /// missing ones. `None` for points and lines, without such a set, and for shapes that the
+    /// algorithm gives up on. The result for the first set that is asked for is cached with the
+    /// primitive, so that the frames of an animation share it.
+    #[must_use]
+    pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
+        let (cached_set, cached) =
+            self.derived.tangents.get_or_init(|| (uv_set, self.run_mikktspace(uv_set)));
+        if *cached_set == uv_set {
+            return cached.as_deref().map(Cow::Borrowed);
+        }
+        self.run_mikktspace(uv_set).map(Cow::Owned)
+    }
+
+    /// Runs the algorithm; a panic inside it counts as failure.
+    fn run_mikktspace(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
+        let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
+        // What has no direction in the texture keeps this one.
+        let tangents = vec![[1.0, 0.0, 0.0, 1.0]; self.indices.len()];
+        let mut input = MikktspaceInput { primitive: self, uvs, tangents };
+        // The crate trusts shapes more than a stranger's file deserves.
+        let done = catch_unwind(AssertUnwindSafe(|| generate_tangents(&mut input).is_ok()));
+        done.unwrap_or(false).then_some(input.tangents)
+    }
+}
+
+/// Adapter that presents a primitive to `bevy_mikktspace` and collects its tangents.
+struct MikktspaceInput<'a> {
+    primitive: &'a Primitive,
+    uvs: &'a [[f32; 2]],
+    tangents: Vec<[f32; 4]>,
+}
+
+impl MikktspaceInput<'_> {
+    /// The vertex of a triangle's corner 0, 1 or 2.
+    fn vertex_index(&self, face: usize, corner: usize) -> usize {
+        self.primitive.indices[3 * face + corner] as usize
+    }
+
+    /// Geometric normal of a triangle; +z for a degenerate one.
+    fn face_normal(&self, face: usize) -> [f32; 3] {
+        let corner = |k| self.primitive.positions[self.vertex_index(face, k)].map(f64::from);
+        let [a, b, c] = [0, 1, 2].map(|k| DVec3::from(corner(k)));
+        (b - a).cross(c - a).normalize_or(DVec3::Z).as_vec3().to_array()
+    }
+}
+
+impl Geometry<PortableMath> for MikktspaceInput<'_> {
+    fn num_faces(&self) -> usize {
+        self.primitive.item_count()
+    }
+
+    fn num_vertices_of_face(&self, _face: usize) -> usize {
+        3
+    }
+
+    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.primitive.positions[self.vertex_index(face, corner)]
+    }
+
+    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+        let vertex = self.vertex_index(face, corner);
+        self.primitive.normals.as_ref().map_or_else(|| self.face_normal(face), |all| all[vertex])
+    }
+
+    /// MikkTSpace has v upwards, glTF downwards: with v negated, bitangents point up in the image,
+    /// as normal maps mean them.
+    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+        let [u, v] = self.uvs[self.vertex_index(face, corner)];
+        [u, -v]
+    }
+
+    fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
+        if let Some(space) = space {
+            self.tangents[3 * face + corner] = space.tangent_encoded();
+        }
+    }
+}
+
+/// Square root and arccosine with equal bits on all machines.
+struct PortableMath;
+
+impl Ops for PortableMath {
+    fn sqrt(x: f32) -> f32 {
+        x.sqrt()
+    }
+
+    fn acos(x: f32) -> f32 {
+        libm::acos(f64::from(x)) as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::DerivedData;
+
+    /// A unit square in the plane z = 0 that faces +z, with texture coordinates at (0, 0), (1, 0),
+    /// (1, 1) and (0, 1).
+    fn textured_square(uvs: [[f32; 2]; 4]) -> Primitive {
+        Primitive {
+            indices: vec![0, 1, 2, 0, 2, 3],
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+            normals: Some(vec![[0.0, 0.0, 1.0]; 4]),
+            uvs: vec![uvs.to_vec()],
+            ..Primitive::default()
+        }
+    }
+
+    #[test]
+    fn tangents_follow_u_and_bitangents_go_up_in_the_image() {
+        // cross(normal, tangent) · w must point to where v falls (glTF 2.0 §3.7.2.1, §3.9.3).
+        for (uvs, tangent) in [
+            // The image as it is: u along x, v falls along y.
+            ([[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]], [1.0, 0.0, 0.0, 1.0]),
+            // Mirrored: u falls along x.
+            ([[1.0, 1.0], [0.0, 1.0], [0.0, 0.0], [1.0, 0.0]], [-1.0, 0.0, 0.0, -1.0]),
+            // Upside down.
+            ([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], [1.0, 0.0, 0.0, -1.0]),
+            // A quarter turn: u along y, v falls along −x.
+            ([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]], [0.0, 1.0, 0.0, 1.0]),
+        ] {
+            let square = textured_square(uvs);
+            let tangents = square.mikktspace_tangents(0).unwrap();
+            for actual in tangents.iter() {
+                let near = actual.iter().zip(tangent).all(|(a, b): (_, f32)| (a - b).abs() < 1e-6);
+                assert!(near, "{uvs:?}: {actual:?}");
+            }
+            assert_eq!(tangents.len(), 6);
+            let derived = DerivedData::default();
+            let flat = Primitive { normals: None, derived, ..square.clone() };
+            assert_eq!(
+                flat.mikktspace_tangents(0).unwrap(),
+                tangents,
+                "flat normals are the same here"
+            );
+        }
+    }
+
+    #[test]
+    fn tangents_are_kept_and_each_set_of_coordinates_has_its_own() {
+        let [along_x, along_y] = [
+            [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+            [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]],
+        ];
+        let both =
+            Primitive { uvs: vec![along_x.to_vec(), along_y.to_vec()], ..textured_square(along_x) };
+        let first = both.mikktspace_tangents(0).unwrap();
+        assert!(
+            matches!(both.mikktspace_tangents(0), Some(Cow::Borrowed(cached)) if cached == &*first)
+        );
+        assert_eq!(both.mikktspace_tangents(1), textured_square(along_y).mikktspace_tangents(0));
+        assert_ne!(both.mikktspace_tangents(1).unwrap(), first);
+    }
+
+    #[test]
+    fn shapes_without_directions_do_no_harm() {
+        let one_point = textured_square([[0.5; 2]; 4]);
+        assert_eq!(one_point.mikktspace_tangents(0).map(|tangents| tangents.len()), Some(6));
+        assert_eq!(one_point.mikktspace_tangents(1), None);
+        let flat = Primitive {
+            positions: vec![[f32::MAX; 3]; 4],
+            derived: DerivedData::default(),
+            ..one_point
+        };
+        assert_eq!(flat.mikktspace_tangents(0).map(|tangents| tangents.len()), Some(6));
+        let line = Primitive { topology: Topology::Lines, derived: DerivedData::default(), ..flat };
+        assert_eq!(line.mikktspace_tangents(0), None);
+    }
+}

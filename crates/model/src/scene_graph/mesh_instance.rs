@@ -1,0 +1,69 @@
+//! Mesh instances: traversal of the active scene's nodes with their global transforms.
+
+use crate::Model;
+use homog::{Affine, Model as ModelSpace};
+
+/// A node of the active scene with its global transform: one occurrence of the mesh, camera or
+/// light that the node carries.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshInstance {
+    /// Index of the node in [`Model::nodes`].
+    pub node: usize,
+    /// From the node's coordinates to the model's; for an instanced mesh, from the instance's.
+    pub node_to_model: Affine<ModelSpace, ModelSpace>,
+}
+
+impl Model {
+    /// All nodes of the active scene, parents before their children, otherwise in the order of the
+    /// file.
+    ///
+    /// The traversal keeps its own stack, so that a deep hierarchy cannot exhaust the thread's.
+    #[must_use]
+    pub fn node_instances(&self) -> Vec<MeshInstance> {
+        self.instances_below(&self.roots)
+    }
+
+    /// The given nodes and all their descendants.
+    pub(super) fn instances_below(&self, roots: &[usize]) -> Vec<MeshInstance> {
+        let mut instances = Vec::new();
+        let mut stack: Vec<MeshInstance> =
+            roots.iter().rev().map(|&node| self.child_instance(node, Affine::IDENTITY)).collect();
+        while let Some(instance) = stack.pop() {
+            let children = &self.nodes[instance.node].children;
+            stack.extend(
+                children.iter().rev().map(|&n| self.child_instance(n, instance.node_to_model)),
+            );
+            instances.push(instance);
+        }
+        instances
+    }
+
+    /// Nodes of the active scene that have a mesh, once for each instance of the mesh
+    /// (EXT_mesh_gpu_instancing).
+    pub fn mesh_instances(&self) -> impl Iterator<Item = MeshInstance> {
+        self.mesh_instances_below(&self.roots)
+    }
+
+    /// Mesh instances among the given nodes and their descendants.
+    pub(super) fn mesh_instances_below(
+        &self,
+        roots: &[usize],
+    ) -> impl Iterator<Item = MeshInstance> {
+        let instances = self.instances_below(roots).into_iter();
+        let meshes = instances.filter(|at| self.nodes[at.node].mesh.is_some());
+        meshes.flat_map(|node_instance| {
+            let transforms = self.nodes[node_instance.node].instance_transforms.as_deref();
+            let single = transforms.is_none().then_some(node_instance);
+            let instanced = transforms.unwrap_or(&[]).iter();
+            single.into_iter().chain(instanced.map(move |transform| MeshInstance {
+                node_to_model: transform.then(node_instance.node_to_model),
+                ..node_instance
+            }))
+        })
+    }
+
+    /// The node with its local transform concatenated to that of its parent.
+    fn child_instance(&self, node: usize, parent: Affine<ModelSpace, ModelSpace>) -> MeshInstance {
+        MeshInstance { node, node_to_model: self.nodes[node].to_parent.then(parent) }
+    }
+}

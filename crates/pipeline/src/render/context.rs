@@ -1,0 +1,86 @@
+//! The inputs of a rendering: scene, textures, threads, stopwatch and cancellation in one value.
+
+use super::mip_chains::Textures;
+use crate::scene::Scene;
+use crate::{CancelToken, Timings};
+
+/// All that a rendering depends on besides the pixels it fills.
+///
+/// It only borrows and is cheap to copy: one per picture, or one per frame of a sequence.
+///
+/// ```no_run
+/// # use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
+/// # let origin = Origin::from_model_path("model.glb".as_ref());
+/// # let scene = Scene::resolve(&origin.0, &origin.1, &Default::default())?;
+/// let textures = Textures::for_scene(&scene);
+/// let context = RenderContext::new(&scene, &textures, 2);
+/// let mut picture = Picture::<u8>::default();
+/// let warnings = Renderer::default().render(&context, &mut picture)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct RenderContext<'a> {
+    /// Models, camera, lights and style.
+    pub scene: &'a Scene,
+    /// The mip chains of the scene's models. A scene whose models are clones of others, posed
+    /// differently, takes the chains of those.
+    pub textures: &'a Textures<'a>,
+    /// The most threads to render with, at least 1. Their number changes no bit of the result.
+    pub threads: usize,
+    /// The stopwatch of the stages.
+    timings: Option<&'a Timings>,
+    /// The flag that ends the rendering.
+    cancel: Option<&'a CancelToken>,
+}
+
+impl<'a> RenderContext<'a> {
+    /// A context that measures nothing and cannot be cancelled.
+    #[must_use]
+    pub const fn new(scene: &'a Scene, textures: &'a Textures<'a>, threads: usize) -> Self {
+        Self { scene, textures, threads, timings: None, cancel: None }
+    }
+
+    /// Adds the time of each stage to `timings`.
+    #[must_use]
+    pub const fn with_timings(self, timings: &'a Timings) -> Self {
+        Self { timings: Some(timings), ..self }
+    }
+
+    /// Ends the rendering with [`RenderError::Cancelled`](crate::RenderError::Cancelled) once
+    /// `cancel` says so. The picture is incomplete then.
+    #[must_use]
+    pub const fn with_cancel(self, cancel: &'a CancelToken) -> Self {
+        Self { cancel: Some(cancel), ..self }
+    }
+
+    /// The context of another scene of the same models, such as an inset.
+    pub(super) fn with_scene<'b>(&self, scene: &'b Scene) -> RenderContext<'b>
+    where
+        'a: 'b,
+    {
+        RenderContext { scene, ..*self }
+    }
+
+    /// Width and height of the whole picture in pixels.
+    pub(super) const fn image_size(&self) -> [u32; 2] {
+        [self.scene.image.width, self.scene.image.height]
+    }
+
+    /// Runs a stage, and adds its time to the stopwatch, if there is one.
+    pub(super) fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
+        match self.timings {
+            Some(timings) => timings.measure(stage, work),
+            None => work(),
+        }
+    }
+
+    /// The stopwatch; one that measures nothing if there is none.
+    pub(super) fn timings(&self) -> Timings {
+        self.timings.cloned().unwrap_or_default()
+    }
+
+    /// The flag that ends the rendering; one that is never set without a [`CancelToken`].
+    pub(super) fn cancel_token(&self) -> CancelToken {
+        self.cancel.cloned().unwrap_or_default()
+    }
+}

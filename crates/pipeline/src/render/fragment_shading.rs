@@ -1,0 +1,67 @@
+//! Fragment shading: the scene's lights, environment and style as a [`Surface`](raster::Surface)
+//! that the rasterizer calls for each visible fragment.
+//!
+//! The rasterizer calls the surface for each visible triangle of a pixel, not for each that covers
+//! it: shading is deferred until the visibility buffer of a tile is complete. Styles wrap the
+//! physically based shading and use only its alpha test and geometry.
+
+use super::renderer::FrameMemory;
+use crate::scene::{Scene, Style};
+use shade::{AmbientOcclusion, Shading, ShadingStyle, ShadowMap, StyledShading};
+
+/// Physically based shading of the fragments of an assembled frame.
+pub(super) fn fragment_shading<'a>(
+    scene: &'a Scene,
+    memory: &'a FrameMemory<'a>,
+    shadows: &'a [Option<ShadowMap>],
+    occlusion: Option<&'a AmbientOcclusion>,
+) -> Shading<'a> {
+    Shading {
+        draws: &memory.draws,
+        backdrop: scene.backdrop.as_deref(),
+        lights: &scene.lights,
+        shadows,
+        occlusion,
+        environment: scene.environment.as_deref(),
+        tone_mapper: scene.tone_mapper,
+        viewer: scene.view_projection.viewer(),
+        simd_level: memory.frame.simd_level(),
+    }
+}
+
+/// The shading of a style that overrides the materials: clay, matcap, normals, depth, toon, X-ray
+/// …; `None` for styles that show the materials, and for line drawings.
+pub(super) fn style_shading<'a>(
+    scene: &Scene,
+    shading: &'a Shading<'a>,
+) -> Option<StyledShading<'a>> {
+    let camera = scene.view_projection.camera;
+    let style = match scene.style {
+        Style::Gouraud => ShadingStyle::Gouraud,
+        Style::Clay => ShadingStyle::Clay,
+        Style::Matcap => ShadingStyle::Matcap,
+        Style::Normals => ShadingStyle::Normals,
+        Style::Depth => depth_style(scene),
+        Style::UvChecker => ShadingStyle::UvChecker,
+        Style::Ids => ShadingStyle::Ids,
+        Style::Toon => ShadingStyle::Toon,
+        Style::XRay => ShadingStyle::XRay,
+        Style::Shaded | Style::Flat | Style::Wireframe | Style::Lines(_) => return None,
+    };
+    let axes = [camera.u(), camera.v(), camera.w()];
+    let world_to_view = axes.map(|axis| axis.raw().as_vec3().to_array());
+    let eye_position = camera.eye().raw().as_vec3().to_array();
+    Some(StyledShading { shading, style, world_to_view, eye_position })
+}
+
+/// The depth style, with its gray ramp from the nearest to the farthest vertex of the scene.
+fn depth_style(scene: &Scene) -> ShadingStyle {
+    let world_to_view = scene.view_projection.camera.world_to_view();
+    let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
+    for point in scene.world_points() {
+        let depth = -world_to_view.transform_point(point).z();
+        (near, far) = (near.min(depth), far.max(depth));
+    }
+    // Nothing behind the eye is visible: the ramp starts at the eye at the earliest.
+    ShadingStyle::Depth { near: near.max(0.0) as f32, far: far as f32 }
+}

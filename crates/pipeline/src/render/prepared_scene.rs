@@ -1,0 +1,215 @@
+//! A scene prepared for rendering region by region: pictures larger than memory, crops, bands.
+//!
+//! Shared by all regions and computed once: mip chains, shadow maps, the depth buffer of ambient
+//! occlusion, the page of a line drawing, the layers of overlays. Each region then runs from the
+//! models on, so that memory is bounded by the region and not by the picture.
+//!
+//! ```text
+//!  scene ─► prepare ─► region: surfaces of its image tiles, or lines ─► overlays ─► insets
+//! ```
+
+use super::RenderError;
+use super::ambient_occlusion::{build_full_ssao_buffer, build_ssao_buffer};
+use super::context::RenderContext;
+use super::fragment_shading::{fragment_shading, style_shading};
+use super::image_tiles::{TileRegion, tile_regions, validate_region};
+use super::line_drawing;
+use super::primitive_assembly::assemble_scene;
+use super::renderer::{RenderBuffers, Renderer};
+use crate::Picture;
+use crate::scene::Inset;
+use drawing::{Layer, Page, Warning, draw_layers_over};
+use homog::PixelRect;
+use shade::{AmbientOcclusion, Channel};
+
+/// A scene of which any region can be rendered; made by [`Renderer::prepare`].
+///
+/// Regions are parts of the picture bit for bit, whatever their size and order.
+#[derive(Debug)]
+pub struct PreparedScene<'a> {
+    /// Scene, textures and threads.
+    pub(super) context: RenderContext<'a>,
+    /// The renderer's memory, borrowed until the picture is finished.
+    buffers: &'a mut RenderBuffers,
+    /// The drawing of a style that shows lines only.
+    page: Option<Page>,
+    /// Outlines and overlays, drawn over surfaces.
+    overlay_layers: Vec<Layer>,
+    /// Whether the buffers hold this scene's shadow maps.
+    has_shadow_maps: bool,
+    /// The occlusion buffer of the whole picture, for regions that are a part of it.
+    full_ssao: Option<AmbientOcclusion>,
+    /// Warnings about this scene, without those of its insets.
+    warnings: Vec<Warning>,
+    /// The insets of the scene, in their order.
+    insets: Vec<Self>,
+}
+
+impl<'a> PreparedScene<'a> {
+    /// Draws the lines of a scene and of its insets, each inset with a renderer of its own.
+    pub(super) fn new(
+        renderer: &'a mut Renderer,
+        context: RenderContext<'a>,
+    ) -> Result<Self, RenderError> {
+        let scene = context.scene;
+        let draws_surfaces = scene.style.draws_surfaces();
+        let draw_lines = || line_drawing::draw_lines(scene, context.threads, &context.timings());
+        let mut page = (!draws_surfaces).then(draw_lines).transpose()?;
+        let mut warnings =
+            page.as_mut().map_or(Vec::new(), |page| std::mem::take(&mut page.warnings));
+        // A vector page lacks insets, a picture has them.
+        warnings.retain(|warning| *warning != Warning::ViewportsIgnored);
+        let ignores_sections = draws_surfaces && !scene.sections.is_empty();
+        warnings.extend(ignores_sections.then_some(Warning::SectionsIgnored));
+        let mut overlay_layers = line_drawing::surface_line_layers(scene, context.threads)?;
+        if draws_surfaces {
+            overlay_layers.extend(line_drawing::overlay_layers(scene));
+        }
+        let Renderer { buffers, insets } = renderer;
+        insets.resize_with(scene.insets.len(), Renderer::default);
+        let prepare = |(inset, renderer): (&'a Inset, _)| {
+            Self::new(renderer, context.with_scene(&inset.scene))
+        };
+        let insets = scene.insets.iter().zip(insets).map(prepare).collect::<Result<_, _>>()?;
+        Ok(Self {
+            context,
+            buffers,
+            page,
+            overlay_layers,
+            has_shadow_maps: false,
+            full_ssao: None,
+            warnings,
+            insets,
+        })
+    }
+
+    /// The warnings about what the picture lacks, those of the insets included; each once.
+    #[must_use]
+    pub fn into_warnings(self) -> Vec<Warning> {
+        let mut all = self.warnings;
+        for warning in self.insets.into_iter().flat_map(Self::into_warnings) {
+            if !all.contains(&warning) {
+                all.push(warning);
+            }
+        }
+        all
+    }
+
+    /// Renders a region of the picture, which takes the region's size.
+    ///
+    /// # Errors
+    /// If the region is empty, too large or outside the picture, if the scene has too many
+    /// primitives, or the context was cancelled.
+    pub fn render_region<C: Channel>(
+        &mut self,
+        region: PixelRect,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
+        let scene = self.context.scene;
+        validate_region(scene.image, region)?;
+        if Inset::covers_region(&scene.insets, region) {
+            picture.resize(region.width, region.height);
+        } else {
+            self.render_below_insets(region, picture)?;
+        }
+        for (inset, prepared) in scene.insets.iter().zip(&mut self.insets) {
+            if let Some([in_picture, in_inset]) = inset.visible_rects(region) {
+                let mut pixels = Picture::default();
+                prepared.render_region(in_inset, &mut pixels)?;
+                inset.composite_into(&pixels, in_picture, region, picture);
+            }
+        }
+        Ok(())
+    }
+
+    /// Renders a region without the insets: lines, or surfaces with the layers over them.
+    fn render_below_insets<C: Channel>(
+        &mut self,
+        region: PixelRect,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
+        let size = self.context.image_size();
+        if let Some(page) = &self.page {
+            *picture = self.context.measure("pixels", || page.to_picture_region(size, region));
+            return Ok(());
+        }
+        self.render_surfaces(region, picture)?;
+        draw_layers_over(picture, size, region, &self.overlay_layers);
+        Ok(())
+    }
+
+    /// Renders the surfaces of a region, one image tile after the other.
+    fn render_surfaces<C: Channel>(
+        &mut self,
+        region: PixelRect,
+        picture: &mut Picture<C>,
+    ) -> Result<(), RenderError> {
+        let image = self.context.scene.image;
+        // Occlusion at a region's border depends on surfaces beyond it.
+        if region != image.pixel_rect() && self.full_ssao.is_none() {
+            self.full_ssao = build_full_ssao_buffer(&self.context)?;
+        }
+        self.render_shadow_maps()?;
+        picture.resize(region.width, region.height);
+        let tiles = tile_regions(image, region);
+        if let [tile] = tiles[..] {
+            self.render_tile(tile, &mut picture.pixels)?;
+        } else {
+            for tile in tiles {
+                let mut pixels = vec![[C::default(); 4]; tile.pixel_count()];
+                self.render_tile(tile, &mut pixels)?;
+                tile.copy_into_region(&pixels, region, &mut picture.pixels);
+            }
+        }
+        if self.context.cancel_token().is_cancelled() {
+            return Err(RenderError::Cancelled);
+        }
+        Ok(())
+    }
+
+    /// Renders the shadow maps once. They depend on the scene and on the size of the whole picture,
+    /// never on the region.
+    fn render_shadow_maps(&mut self) -> Result<(), RenderError> {
+        if self.has_shadow_maps {
+            return Ok(());
+        }
+        let Self { context, buffers, .. } = self;
+        if context.scene.lights.iter().any(|light| light.shadow().is_some()) {
+            context.measure("shadows", || buffers.shadow_maps.render_maps(context))?;
+        } else {
+            buffers.shadow_maps.recycle_maps();
+        }
+        self.has_shadow_maps = true;
+        Ok(())
+    }
+
+    /// Renders the part of an image tile that a region needs: vertex processing and primitive
+    /// assembly into a visibility buffer, then shading of its visible fragments.
+    fn render_tile<C: Channel>(
+        &mut self,
+        region: TileRegion,
+        pixels: &mut [[C; 4]],
+    ) -> Result<(), RenderError> {
+        let Self { context, buffers, full_ssao, .. } = self;
+        let RenderContext { scene, threads, .. } = *context;
+        let memory = buffers.take_frame(context, region)?;
+        let memory = context.measure("vertices", || assemble_scene(context, memory))?;
+        let own_ssao = match full_ssao {
+            Some(_) => None,
+            None => {
+                let nearest = std::mem::take(&mut buffers.nearest_surfaces);
+                build_ssao_buffer(context, &memory, nearest)?
+            }
+        };
+        let ssao = full_ssao.as_ref().or(own_ssao.as_ref());
+        let shading = fragment_shading(scene, &memory, &buffers.shadow_maps.maps, ssao);
+        let (frame, background) = (&memory.frame, scene.image.background);
+        context.measure("pixels", || match &style_shading(scene, &shading) {
+            Some(styled) => frame.draw(styled, background, threads, pixels, C::encoder()),
+            None => frame.draw(&shading, background, threads, pixels, C::encoder()),
+        });
+        buffers.nearest_surfaces = own_ssao.map(|ssao| ssao.nearest).unwrap_or_default();
+        buffers.recycle_frame(memory);
+        Ok(())
+    }
+}

@@ -1,0 +1,88 @@
+//! PNG files rendered in bands of rows: the picture is never in memory as a whole.
+//!
+//! ```text
+//!  region ─► band of rows ─► render_region ─► rows to the PNG encoder ─► next band, same memory
+//! ```
+//! A band is a region like any other: the file has the bytes of one that is encoded from memory.
+
+use super::RenderError;
+use super::prepared_scene::PreparedScene;
+use crate::Picture;
+use homog::PixelRect;
+use shade::{Channel, encode_png};
+use std::io::{self, Write};
+
+/// The bytes of pixels that a band holds at most, for pictures of reasonable width.
+const BAND_BYTES: u64 = 64 << 20;
+
+/// The rows of a band for a picture of this width: some 64 MiB of 8-bit pixels, in whole rows of
+/// the rasterizer's 64-pixel tiles, between 64 and 2048.
+#[must_use]
+pub fn rows_per_band(width: u32) -> u32 {
+    let rows = BAND_BYTES / (4 * u64::from(width.max(1)));
+    (rows as u32 / 64 * 64).clamp(64, 2048)
+}
+
+impl PreparedScene<'_> {
+    /// Writes a region as a PNG file, rendered in bands of `rows` rows. The bytes do not depend on
+    /// their number. `inspect_band` sees each band before it is encoded.
+    ///
+    /// PNG declares in its header whether there is an alpha channel. A picture over a translucent
+    /// background is therefore rendered up to its first translucent band before anything is
+    /// written, and then again.
+    ///
+    /// # Errors
+    /// If a band cannot be rendered (see [`render_region`](Self::render_region)), or the file
+    /// cannot be written.
+    pub fn write_png<C: Channel>(
+        &mut self,
+        out: impl Write,
+        region: PixelRect,
+        rows: u32,
+        mut inspect_band: impl FnMut(&Picture<C>),
+    ) -> Result<(), WritePngError> {
+        let mut bands = region.bands(rows);
+        let mut picture = Picture::<C>::default();
+        self.render_region(bands.next().unwrap_or(region), &mut picture)?;
+        let is_opaque =
+            picture.is_opaque() && self.bands_are_opaque::<C>(region.bands(rows).skip(1))?;
+        encode_png(out, [region.width, region.height], is_opaque, C::BITS, |png| {
+            loop {
+                inspect_band(&picture);
+                self.context.measure("encode", || png.write_pixels(&picture.pixels))?;
+                let Some(band) = bands.next() else { return Ok(()) };
+                self.render_region(band, &mut picture)?;
+            }
+        })
+    }
+
+    /// Whether all bands are opaque. Over an opaque background all are; else they are rendered up
+    /// to the first translucent pixel.
+    fn bands_are_opaque<C: Channel>(
+        &mut self,
+        bands: impl Iterator<Item = PixelRect>,
+    ) -> Result<bool, RenderError> {
+        if self.context.scene.has_opaque_background() {
+            return Ok(true);
+        }
+        let mut picture = Picture::<C>::default();
+        for band in bands {
+            self.render_region(band, &mut picture)?;
+            if !picture.is_opaque() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// A PNG file that could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WritePngError {
+    /// A band cannot be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The writer failed.
+    #[error(transparent)]
+    Output(#[from] io::Error),
+}

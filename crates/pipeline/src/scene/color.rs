@@ -1,0 +1,149 @@
+//! Colors of scene files: `#rgb`, `#rrggbb` and the names of CSS, in sRGB; or three linear numbers
+//! for light.
+
+mod names;
+
+use super::number::{read_three_numbers, unnamed_group};
+use super::schema::{Checker, Declared, SceneValue, Shape, TypeEntry, ValueType};
+use super::suggest::closest_name;
+use super::syntax::{Node, NodeKind};
+use names::CSS_COLORS;
+use shade::color::{parse_hex_srgb, srgb_to_linear_table};
+
+/// A color in sRGB, eight bits a channel.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Color(pub [u8; 3]);
+
+impl Color {
+    /// Black.
+    pub const BLACK: Self = Self([0; 3]);
+
+    /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is
+    /// none of them.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
+    }
+
+    /// Red, green and blue as linear light from 0 to 1.
+    #[must_use]
+    pub fn to_linear(self) -> [f32; 3] {
+        self.0.map(|code| srgb_to_linear_table()[usize::from(code)])
+    }
+}
+
+/// The color of a CSS name (CSS Color 4, § 6.1).
+fn parse_color_name(text: &str) -> Option<[u8; 3]> {
+    let name = text.to_ascii_lowercase();
+    let index = CSS_COLORS.binary_search_by_key(&name.as_str(), |(name, _)| name).ok()?;
+    let [_, r, g, b] = CSS_COLORS[index].1.to_be_bytes();
+    Some([r, g, b])
+}
+
+impl Declared for Color {
+    const ENTRY: &'static TypeEntry = &TypeEntry {
+        name: "Color",
+        doc: "A color in sRGB in quotation marks: \"#rgb\", \"#rrggbb\", or the name of a color of CSS such as \"white\".",
+        shape: Shape::Plain,
+    };
+}
+
+impl SceneValue for Color {
+    fn value_type() -> ValueType {
+        ValueType::Declared(Self::ENTRY)
+    }
+
+    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
+        match &node.kind {
+            NodeKind::String(_) => read_color_string(node, checker),
+            NodeKind::Word(word) if Self::parse(word).is_some() => {
+                let help = format!("colors are written in quotation marks: \"{word}\"");
+                checker.report_type(node, "a color", Some(help));
+                None
+            }
+            NodeKind::Group(_) => {
+                let help = color_of_numbers(node).map_or_else(hex_help, |[r, g, b]| {
+                    format!("write \"#{r:02x}{g:02x}{b:02x}\", if the numbers are sRGB from 0 to 1")
+                });
+                checker.report_type(node, "a color", Some(help));
+                None
+            }
+            _ => {
+                checker.report_type(node, "a color", Some(hex_help()));
+                None
+            }
+        }
+    }
+}
+
+/// A string that is a color.
+fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color> {
+    let text = String::from_node(node, checker)?;
+    let color = Color::parse(&text);
+    if color.is_none() {
+        let names: Vec<&str> = CSS_COLORS.iter().map(|(name, _)| *name).collect();
+        let help = match closest_name(&text, &names).filter(|_| !text.starts_with('#')) {
+            Some(name) => format!("did you mean `{name}`? {}", hex_help()),
+            None => hex_help(),
+        };
+        let message = format!("`{text}` is not a color");
+        checker.report(node.span.clone(), message, Some(help));
+    }
+    color
+}
+/// How colors are written.
+
+fn hex_help() -> String {
+    "write #rgb, #rrggbb, such as #1a1f26, or a CSS color name".to_owned()
+}
+
+/// Eight-bit channels of three or four numbers from 0 to 1.
+fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
+    let items = &unnamed_group(node)?.items;
+    let number = |index: usize| match items.get(index)?.value.kind {
+        NodeKind::Number(word) => {
+            super::syntax::parse_number(word).filter(|x| (0.0..=1.0).contains(x))
+        }
+        _ => None,
+    };
+    let code = |index: usize| Some(libm::round(number(index)? * 255.0) as u8);
+    Some([code(0)?, code(1)?, code(2)?]).filter(|_| items.len() <= 4)
+}
+
+/// The color of light: linear red, green and blue.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct LightColor(pub [f64; 3]);
+
+impl LightColor {
+    /// (1, 1, 1).
+    pub const WHITE: Self = Self([1.0; 3]);
+}
+
+impl Declared for LightColor {
+    const ENTRY: &'static TypeEntry = &TypeEntry {
+        name: "LightColor",
+        doc: "The color of light: linear red, green and blue such as (1, 0.9, 0.8), or a color in sRGB such as \"#ffe0c0\" or \"white\".",
+        shape: Shape::Plain,
+    };
+}
+
+impl SceneValue for LightColor {
+    fn value_type() -> ValueType {
+        ValueType::Declared(Self::ENTRY)
+    }
+
+    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
+        match (&node.kind, unnamed_group(node)) {
+            (NodeKind::String(_), _) => {
+                let color = read_color_string(node, checker)?;
+                Some(Self(color.to_linear().map(f64::from)))
+            }
+            (_, Some(group)) => read_three_numbers(node, group, checker).map(Self),
+            _ => {
+                let help = "linear red, green and blue such as (1, 0.9, 0.8), or \"#ffe0c0\"";
+                checker.report_type(node, "a color", Some(help.to_owned()));
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Options with named values: one declaration, read by scene files, flags, help and reference.
+//!
+//! The types are those that the renderer and the line drawings work with. Their names in scene
+//! files are those of their variants (`ThreeQuarter`); flags have them with hyphens
+//! (`three-quarter`).
+
+use super::schema::named_values;
+use crate::render::passes::{Pass, PassEncoding};
+use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join};
+use projection::{PrincipalView, SheetAngle};
+use shade::{ImageFit, ToneMapping};
+
+/// A type whose values have names.
+///
+/// ```
+/// use pipeline::options::NamedOption as _;
+///
+/// assert_eq!(shade::ToneMapping::AgX.name(), "AgX");
+/// assert_eq!(shade::ToneMapping::AgX.flag_name(), "ag-x");
+/// assert_eq!(drawing::HiddenLines::from_name("Dashed"), Some(drawing::HiddenLines::Dashed));
+/// ```
+pub trait NamedOption: Copy + PartialEq + 'static {
+    /// The name of the type in scene files and in the reference.
+    const TYPE_NAME: &'static str;
+
+    /// All values, in the order in which they are listed.
+    const ALL: &'static [Self];
+
+    /// The name in scene files.
+    fn name(self) -> &'static str;
+
+    /// A sentence on what the value means.
+    fn summary(self) -> &'static str;
+
+    /// The name in flags: lower case, words separated by hyphens.
+    fn flag_name(self) -> String {
+        let mut text = String::new();
+        for c in self.name().chars() {
+            if c.is_uppercase() && !text.is_empty() {
+                text.push('-');
+            }
+            text.extend(c.to_lowercase());
+        }
+        text
+    }
+
+    /// The value of a name in scene files.
+    fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|value| value.name() == name)
+    }
+
+    /// The value of a name in flags.
+    fn from_flag_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|value| value.flag_name() == name)
+    }
+}
+
+named_values! {
+    /// Which edges a line drawing draws.
+    EdgeSelection as "EdgeSelection" {
+        Facets = "The sides of all triangles.",
+        Features = "Silhouettes, boundaries, creases, and intersections of surfaces.",
+        Tangents = "Features, and edges where one smooth surface goes over into another.",
+        Silhouette = "Silhouettes and boundaries.",
+    }
+}
+
+named_values! {
+    /// How hidden lines are drawn.
+    HiddenLines as "HiddenLines" {
+        Removed = "Hidden lines are left out.",
+        Dashed = "Hidden lines are dashed.",
+        Drawn = "Hidden lines are drawn like visible ones.",
+    }
+}
+
+named_values! {
+    /// The fill of the faces under the lines.
+    FaceFill as "FaceFill" {
+        None = "Nothing: the paper shows.",
+        Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",
+        Hatching = "Hatch lines, closer where that light leaves the face darker. They are as exact as the edges.",
+    }
+}
+
+named_values! {
+    /// How lines end.
+    Cap as "Cap" {
+        Butt = "At the end point.",
+        Round = "With a half disc around the end point.",
+        Square = "Half a line width beyond the end point.",
+    }
+}
+
+named_values! {
+    /// How lines join at corners.
+    Join as "Join" {
+        Miter = "The outer sides meet in a point.",
+        Round = "With a disc around the corner.",
+        Bevel = "The corner is cut off.",
+    }
+}
+
+named_values! {
+    /// The tone mapping curve, which brings light beyond 1 into the range of the picture.
+    ToneMapping as "ToneMapping" {
+        None = "No curve: light beyond 1 is clipped.",
+        Neutral = "Khronos PBR Neutral: colors are unchanged except for highlights.",
+        Aces = "ACES filmic, in the fit by Hill.",
+        AgX = "AgX by Sobotka.",
+    }
+}
+
+named_values! {
+    /// How a picture fills the image.
+    ImageFit as "Fit" {
+        Stretch = "Stretched to the size of the image.",
+        Cover = "As small as covers the whole image; what is too much is cut off on both sides alike.",
+        Contain = "As large as fits into the image, in the middle.",
+    }
+}
+
+named_values! {
+    /// A pass: what is written of the surface that is nearest at the center of each pixel.
+    Pass as "Pass" {
+        Depth = "The distance from the eye along the view axis, in units of the scene.",
+        Distance = "The distance from the eye, in units of the scene.",
+        Normal = "The unit normal in the world, on the visible side, without normal maps.",
+        ViewNormal = "The unit normal in view space: x to the right, y up, z towards the viewer.",
+        Position = "The position in the world, in units of the scene.",
+        Uv = "The texture coordinates of `TEXCOORD_0`.",
+        Barycentric = "The barycentric coordinates in the triangle, from 0 to 1; they add up to 1.",
+        Id = "The index of the point, line or triangle in the scene, from 1; 0 where nothing is.",
+        Model = "The index of the model in the scene, from 1.",
+        Node = "The index of the node in its model, from 1.",
+        Mesh = "The index of the mesh in its model, from 1.",
+        Material = "The index of the material in its model, from 1; 0 also for the default one.",
+        Overdraw = "The count of fragments that cover the pixel's center, hidden ones too.",
+        Coverage = "The fraction of the pixel's samples that something covers, from 0 to 1.",
+    }
+}
+
+named_values! {
+    /// The file format of passes.
+    PassEncoding as "PassEncoding" {
+        Png = "PNG of 16 bits; the text chunk `Description` says what the codes mean.",
+        Npy = "NumPy arrays: f32, or u32 for whole numbers.",
+    }
+}
+
+named_values! {
+    /// One of the six principal views.
+    PrincipalView as "Multiview" {
+        Front = "From +z.",
+        Back = "From −z.",
+        Left = "From −x.",
+        Right = "From +x.",
+        Top = "From +y.",
+        Bottom = "From −y.",
+    }
+}
+
+named_values! {
+    /// The arrangement of views on a sheet (ISO 5456-2).
+    SheetAngle as "ProjectionAngle" {
+        First = "First angle: the view from above lies below the front view.",
+        Third = "Third angle: the view from above lies above the front view.",
+    }
+}

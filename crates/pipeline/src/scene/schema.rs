@@ -1,0 +1,161 @@
+//! Declarations of the scene language: one macro call declares a Rust type, how it is read, and its
+//! entry in the reference.
+//!
+//! ```text
+//!  scene_struct! { pub struct ModelFile as "Model" { pub path: String, pub scale: Scale = … } }
+//!        ├─► struct ModelFile            what resolution works with
+//!        ├─► impl SceneValue             reads it from a syntax tree; reports every mistake in it
+//!        └─► ModelFile::ENTRY            name, fields, types, defaults and doc comments: `alberti scene doc`
+//! ```
+//! A field with `= value`, or of type `Option`, may be left out.
+
+mod checker;
+mod declare;
+mod search;
+mod values;
+
+pub(super) use checker::{Checked, Checker};
+use declare::join_doc_lines;
+pub(crate) use declare::{
+    default_value, field_entry, inner_type, named_enum, named_values, scene_enum, scene_struct,
+    scene_variant,
+};
+pub(super) use search::{example_of, fields_where};
+pub(crate) use values::checked_number;
+
+use super::syntax::Node;
+
+/// A type of values in scene files.
+pub(super) trait SceneValue: Sized {
+    /// Whether a field of this type may be left out even if its declaration gives no default.
+    const IS_OPTIONAL: bool = false;
+
+    /// The type as the reference names it.
+    fn value_type() -> ValueType;
+
+    /// Reads a value. Reports every mistake in it, and returns `None` if there is no value without
+    /// what is wrong.
+    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self>;
+
+    /// The value of a field that is left out, for optional types.
+    fn when_absent() -> Option<Self> {
+        None
+    }
+}
+
+/// A type with named parts, which the reference describes under a heading of its own.
+pub(super) trait Declared {
+    const ENTRY: &'static TypeEntry;
+}
+
+/// The type of a field or of the value of a variant.
+#[derive(Clone, Debug)]
+pub enum ValueType {
+    /// A type without parts, such as a number, in words.
+    Plain(&'static str),
+    /// A type that the reference describes.
+    Declared(&'static TypeEntry),
+    /// A list in square brackets.
+    List(Box<Self>),
+    /// A fixed count of values in round brackets.
+    Tuple(Vec<Self>),
+}
+
+impl ValueType {
+    /// The type in words; declared types by their names.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Plain(words) => (*words).to_owned(),
+            Self::Declared(entry) => entry.name.to_owned(),
+            Self::List(element) => format!("list of {}", element.words()),
+            Self::Tuple(parts) => {
+                let parts: Vec<String> = parts.iter().map(Self::words).collect();
+                format!("({})", parts.join(", "))
+            }
+        }
+    }
+
+    /// The declared types that a value of this type is made of.
+    #[must_use]
+    pub fn declared(&self) -> Vec<&'static TypeEntry> {
+        match self {
+            Self::Plain(_) => Vec::new(),
+            Self::Declared(entry) => vec![entry],
+            Self::List(element) => element.declared(),
+            Self::Tuple(parts) => parts.iter().flat_map(Self::declared).collect(),
+        }
+    }
+}
+
+/// The declaration of a type of scene files.
+#[derive(Clone, Copy, Debug)]
+pub struct TypeEntry {
+    /// The name in scene files and messages, which may be written before the bracket.
+    pub name: &'static str,
+    /// The lines of the doc comment; [`about`](Self::about) joins them to paragraphs.
+    pub doc: &'static str,
+    /// The form of its values.
+    pub shape: Shape,
+}
+
+/// The form of a type's values.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape {
+    /// Named fields in brackets.
+    Fields(&'static [FieldEntry]),
+    /// One of several words, some with fields or a value in brackets.
+    Variants(&'static [VariantEntry]),
+    /// A number, a color, or another value without named parts.
+    Plain,
+}
+
+/// The declaration of a field.
+#[derive(Clone, Copy, Debug)]
+pub struct FieldEntry {
+    /// The name.
+    pub name: &'static str,
+    /// The lines of the doc comment: meaning, unit, range and default.
+    pub doc: &'static str,
+    /// Returns the type of its value.
+    pub value_type: fn() -> ValueType,
+    /// Whether it may be left out.
+    pub is_optional: bool,
+}
+
+/// The declaration of a variant.
+#[derive(Clone, Copy, Debug)]
+pub struct VariantEntry {
+    /// The name.
+    pub name: &'static str,
+    /// The lines of the doc comment.
+    pub doc: &'static str,
+    /// The fields in its brackets.
+    pub fields: &'static [FieldEntry],
+    /// Returns the type of the value in its brackets, if that has no fields.
+    pub value_type: Option<fn() -> ValueType>,
+}
+
+impl TypeEntry {
+    /// The documentation of the type.
+    #[must_use]
+    pub fn about(&self) -> String {
+        join_doc_lines(self.doc)
+    }
+}
+
+impl FieldEntry {
+    /// The documentation of the field.
+    #[must_use]
+    pub fn about(&self) -> String {
+        join_doc_lines(self.doc)
+    }
+}
+
+impl VariantEntry {
+    /// The documentation of the variant.
+    #[must_use]
+    pub fn about(&self) -> String {
+        join_doc_lines(self.doc)
+    }
+}

@@ -1,0 +1,460 @@
+//! Checks a syntax tree against the declarations, and reads values from it.
+//!
+//! Every mistake is reported once, where it is. What follows from it is not: a value that could not
+//! be read has no other mistakes, and a field that was meant by a misspelt one is not missing.
+
+use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
+use crate::scene::mistake::Mistake;
+use crate::scene::syntax::{Group, Item, Key, Node, NodeKind};
+use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
+use core::fmt::Write as _;
+use core::ops::Range;
+use std::collections::BTreeMap;
+
+/// A part of the path to the value that is being read.
+#[derive(Clone, Copy, Debug)]
+enum Segment {
+    Field(&'static str),
+    Variant(&'static str),
+    Index(usize),
+}
+
+/// Reads values and collects the mistakes in them.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct Checker<'a> {
+    source: &'a str,
+    mistakes: Vec<Mistake>,
+    path: Vec<Segment>,
+    /// The fields and elements around the value that is being read.
+    scopes: Vec<Range<usize>>,
+    /// For each list of the whole scene the indices of the elements that could be read.
+    retained: BTreeMap<&'static str, Vec<usize>>,
+}
+
+/// The results of a check besides the value.
+pub(in crate::scene) struct Checked {
+    pub(in crate::scene) mistakes: Vec<Mistake>,
+    /// For each list of the whole scene the indices of the elements that could be read.
+    pub(in crate::scene) retained: BTreeMap<&'static str, Vec<usize>>,
+}
+
+impl<'a> Checker<'a> {
+    /// A checker of a text; spans of nodes index into `source`.
+    pub(in crate::scene) fn new(source: &'a str) -> Self {
+        Self { source, ..Self::default() }
+    }
+    /// The mistakes, in the order in which they were found.
+
+    pub(in crate::scene) fn finish(self) -> Checked {
+        Checked { mistakes: self.mistakes, retained: self.retained }
+    }
+
+    /// Reports a mistake at `span`.
+    pub(in crate::scene) fn report(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) {
+        let scope = self.scopes.last().cloned().unwrap_or_else(|| span.clone());
+        self.mistakes.push(Mistake { scope, ..Mistake::new(span, message, help) });
+    }
+
+    /// Reports that a value is not of the type that its field has; what `expected` says follows the
+    /// path of the field.
+    pub(in crate::scene) fn report_type(
+        &mut self,
+        node: &Node<'_>,
+        expected: &str,
+        help: Option<String>,
+    ) {
+        if node.kind != NodeKind::Invalid {
+            let message =
+                format!("{}expected {expected}, found {}", self.path_prefix(), self.describe(node));
+            self.report(node.span.clone(), message, help);
+        }
+    }
+
+    /// Reports that a value is of the right type and out of its range.
+    pub(in crate::scene) fn report_value(
+        &mut self,
+        node: &Node<'_>,
+        problem: &str,
+        help: Option<String>,
+    ) {
+        let message = format!("{}{problem}", self.path_prefix());
+        self.report(node.span.clone(), message, help);
+    }
+
+    /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the
+    /// whole scene.
+    fn path_text(&self) -> String {
+        let mut text = String::new();
+        for segment in &self.path {
+            let point = if text.is_empty() { "" } else { "." };
+            let _ = match segment {
+                Segment::Field(name) | Segment::Variant(name) => write!(text, "{point}{name}"),
+                Segment::Index(index) => write!(text, "[{index}]"),
+            };
+        }
+        text
+    }
+    /// The path of the value, quoted, as a message begins; empty for the whole scene.
+
+    fn path_prefix(&self) -> String {
+        let path = self.path_text();
+        if path.is_empty() { path } else { format!("`{path}`: ") }
+    }
+
+    /// The name of the field of the scene that the value belongs to.
+    pub(in crate::scene) fn top_level_field(&self) -> Option<&'static str> {
+        match self.path.first() {
+            Some(Segment::Field(name)) => Some(name),
+            _ => None,
+        }
+    }
+
+    /// A value as a message names it.
+    fn describe(&self, node: &Node<'_>) -> String {
+        let text = &self.source[node.span.clone()];
+        match &node.kind {
+            NodeKind::Number(_) | NodeKind::Word(_) | NodeKind::String(_) if text.len() <= 40 => {
+                format!("`{text}`")
+            }
+            NodeKind::String(_) => "a string".to_owned(),
+            NodeKind::Group(Group { name: Some(name), .. }) => format!("`{}(…)`", name.name),
+            NodeKind::Group(Group { open: '[', .. }) => "a list in square brackets".to_owned(),
+            NodeKind::Group(_) => "values in brackets".to_owned(),
+            _ => "something else".to_owned(),
+        }
+    }
+
+    /// The fields of a struct; `None` if the node is none.
+    pub(in crate::scene) fn open_struct<'n>(
+        &mut self,
+        node: &'n Node<'n>,
+        entry: &'static TypeEntry,
+    ) -> Option<Fields<'n>> {
+        let Shape::Fields(fields) = entry.shape else { return None };
+        let owner = Owner { key: entry.name.to_owned(), shown: entry.name };
+        match &node.kind {
+            NodeKind::Group(group) if group.open == '(' => {
+                if let Some(name) = group.name.as_ref().filter(|name| name.name != entry.name) {
+                    self.report_struct_name(name, entry)?;
+                }
+                self.read_fields(group, node.span.clone(), owner, fields)
+            }
+            NodeKind::Invalid => None,
+            NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
+                let suggestion = suggest_variant(entry, word, self.top_level_field());
+                let message =
+                    format!("{}expected `{}`, found `{word}`", self.path_prefix(), entry.name);
+                self.report(node.span.clone(), message, Some(suggestion.help));
+                None
+            }
+            _ => {
+                let help = format!("write {0}(…), or just (…), with its fields inside", entry.name);
+                self.report_type(node, &format!("`{}`", entry.name), Some(help));
+                None
+            }
+        }
+    }
+
+    /// Reports that a struct has another name than its type. Returns whether it is likely to be
+    /// that type all the same.
+    fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
+        let message = format!("expected `{}`, found `{}`", entry.name, name.name);
+        let suggestion = suggest_variant(entry, name.name, self.top_level_field());
+        let is_known = suggestion.is_known();
+        let help = if is_known {
+            suggestion.help
+        } else {
+            format!("write {}(…), or just (…)", entry.name)
+        };
+        self.report(name.span.clone(), message, Some(help));
+        (!is_known).then_some(())
+    }
+
+    /// Finds the declared fields among the items of a group, and reports those that are unknown,
+    /// doubled or missing.
+    fn read_fields<'n>(
+        &mut self,
+        group: &'n Group<'n>,
+        span: Range<usize>,
+        owner: Owner,
+        declared: &'static [FieldEntry],
+    ) -> Option<Fields<'n>> {
+        let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
+        let mut meant: Vec<&'static str> = Vec::new();
+        let mut unknown = 0;
+        for item in &group.items {
+            self.scopes.push(item.span());
+            match &item.key {
+                None => {
+                    self.report_keyless_item(item);
+                    if group.items.iter().all(|item| item.key.is_none()) {
+                        self.scopes.pop();
+                        return None;
+                    }
+                }
+                Some(key) => match declared.iter().find(|field| field.name == key.name) {
+                    None => {
+                        unknown += 1;
+                        meant.extend(self.report_unknown_field(key, &owner, declared));
+                    }
+                    Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
+                        let message = format!("the field `{}` is there twice", field.name);
+                        self.report(
+                            key.span.clone(),
+                            message,
+                            Some("remove one of them".to_owned()),
+                        );
+                    }
+                    Some(field) => found.push((field.name, item)),
+                },
+            }
+            self.scopes.pop();
+        }
+        // A field that nobody knows may stand for one that is missing.
+        let has_unexplained = unknown > meant.len();
+        for field in declared.iter().filter(|_| !has_unexplained) {
+            let is_there = field.is_optional || meant.contains(&field.name);
+            if !is_there && !found.iter().any(|(name, _)| *name == field.name) {
+                let message = format!("the field `{}` of `{}` is missing", field.name, owner.shown);
+                let help = format!("add `{}: …`", field.name);
+                self.report(span.clone(), message, Some(help));
+            }
+        }
+        Some(Fields { items: found })
+    }
+    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
+
+    fn report_keyless_item(&mut self, item: &Item<'_>) {
+        if item.value.kind == NodeKind::Invalid {
+            return;
+        }
+        let found = self.describe(&item.value);
+        let help = "a field is written `name: value`; numbers have a decimal point and no comma";
+        let message = format!("expected the name of a field, found {found}");
+        self.report(item.value.span.clone(), message, Some(help.to_owned()));
+    }
+
+    /// Reports a field that is not declared. Returns the field of the same struct that is probably
+    /// meant.
+    fn report_unknown_field(
+        &mut self,
+        key: &Key<'_>,
+        owner: &Owner,
+        declared: &'static [FieldEntry],
+    ) -> Option<&'static str> {
+        let names: Vec<&'static str> = declared.iter().map(|field| field.name).collect();
+        let Suggestion { help, sibling, .. } =
+            suggest_field(&owner.key, &names, key.name, self.top_level_field());
+        let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
+        self.report(key.span.clone(), message, Some(help));
+        sibling
+    }
+
+    /// The variant that a node names; `None` if there is no such variant.
+    pub(in crate::scene) fn open_variant<'n>(
+        &mut self,
+        node: &'n Node<'n>,
+        entry: &'static TypeEntry,
+    ) -> Option<Variant<'n>> {
+        let Shape::Variants(variants) = entry.shape else { return None };
+        let (name, span, group) = match &node.kind {
+            NodeKind::Word(word) => (*word, node.span.clone(), None),
+            NodeKind::Group(group) if group.open == '(' && group.name.is_some() => {
+                let name = group.name.as_ref()?;
+                (name.name, name.span.clone(), Some(group))
+            }
+            _ => {
+                self.report_no_variant(node, entry, variants);
+                return None;
+            }
+        };
+        let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
+            let message = format!("unexpected `{name}` for `{}`", entry.name);
+            let suggestion = suggest_variant(entry, name, self.top_level_field());
+            self.report(span, message, Some(suggestion.help));
+            return None;
+        };
+        self.path.push(Segment::Variant(variant.name));
+        Some(Variant { entry, variant, group, span: node.span.clone() })
+    }
+    /// Ends the variant that [`open_variant`](Self::open_variant) began.
+
+    pub(in crate::scene) fn close_variant(&mut self) {
+        self.path.pop();
+    }
+
+    /// Reports a value that names no variant, with the variant that holds such values, if there is
+    /// one.
+    fn report_no_variant(
+        &mut self,
+        node: &Node<'_>,
+        entry: &'static TypeEntry,
+        variants: &'static [VariantEntry],
+    ) {
+        let text = &self.source[node.span.clone()];
+        let inner =
+            |variant: &VariantEntry| variant.value_type.map(|value_type| value_type().words());
+        let kinds: &[&str] = match node.kind {
+            NodeKind::String(_) => &["string", "Color"],
+            NodeKind::Number(_) => &["whole number", "Positive"],
+            _ => &[],
+        };
+        let fitting = variants
+            .iter()
+            .find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
+        let help = match fitting {
+            Some(variant) => format!("did you mean `{}({text})`?", variant.name),
+            None => format!("`alberti scene doc {}` lists the words that are possible", entry.name),
+        };
+        let quotes =
+            if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
+        let expected = format!("one of the words of `{}`{quotes}", entry.name);
+        self.report_type(node, &expected, Some(help));
+    }
+
+    /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are
+    /// left out; any other list is read whole or not at all.
+    pub(in crate::scene) fn read_list<T: SceneValue>(
+        &mut self,
+        items: &[Item<'_>],
+    ) -> Option<Vec<T>> {
+        let mut values = Vec::new();
+        let mut indices = Vec::new();
+        for (index, item) in items.iter().enumerate() {
+            if let Some(value) = self.read_element(index, item) {
+                values.push(value);
+                indices.push(index);
+            }
+        }
+        if let [Segment::Field(name)] = *self.path.as_slice() {
+            self.retained.insert(name, indices);
+            return Some(values);
+        }
+        (values.len() == items.len()).then_some(values)
+    }
+
+    /// Reads an element of a list or a tuple.
+    pub(in crate::scene) fn read_element<T: SceneValue>(
+        &mut self,
+        index: usize,
+        item: &Item<'_>,
+    ) -> Option<T> {
+        self.path.push(Segment::Index(index));
+        self.scopes.push(item.span());
+        let value = if let Some(key) = &item.key {
+            let message = format!("elements of lists have no names, found `{}: …`", key.name);
+            self.report(
+                key.span.clone(),
+                message,
+                Some("remove the name, or put it in round brackets".to_owned()),
+            );
+            None
+        } else {
+            T::from_node(&item.value, self)
+        };
+        self.scopes.pop();
+        self.path.pop();
+        value
+    }
+}
+
+/// The owner of fields: a struct, or a variant of an enum.
+struct Owner {
+    /// `Model`, or `View::LookAt`.
+    key: String,
+    /// The name in messages: `Model`, or `LookAt`.
+    shown: &'static str,
+}
+
+/// The fields of a struct or a variant that are in the text.
+pub(in crate::scene) struct Fields<'n> {
+    items: Vec<(&'static str, &'n Item<'n>)>,
+}
+
+impl Fields<'_> {
+    /// The value of a field. A field that is left out, or that cannot be read, has the value of
+    /// `default`, if it has one.
+    pub(in crate::scene) fn read<T: SceneValue>(
+        &self,
+        checker: &mut Checker<'_>,
+        name: &'static str,
+        default: fn() -> Option<T>,
+    ) -> Option<T> {
+        let Some((_, item)) = self.items.iter().find(|(found, _)| *found == name) else {
+            return default();
+        };
+        checker.path.push(Segment::Field(name));
+        checker.scopes.push(item.span());
+        let value = T::from_node(&item.value, checker);
+        checker.scopes.pop();
+        checker.path.pop();
+        value.or_else(default)
+    }
+}
+
+/// A variant that is named in the text.
+pub(in crate::scene) struct Variant<'n> {
+    entry: &'static TypeEntry,
+    variant: &'static VariantEntry,
+    /// Its brackets, if it has any.
+    group: Option<&'n Group<'n>>,
+    span: Range<usize>,
+}
+
+impl<'n> Variant<'n> {
+    /// The name of the variant, one of those that are declared.
+    pub(in crate::scene) fn name(&self) -> &'static str {
+        self.variant.name
+    }
+
+    /// Whether nothing stands in the brackets of a variant that has no fields; reports what does.
+    pub(in crate::scene) fn expect_empty(&self, checker: &mut Checker<'_>) -> bool {
+        let Some(group) = self.group.filter(|group| !group.items.is_empty()) else { return true };
+        let span = group.items[0].span().start..group.items[group.items.len() - 1].span().end;
+        let message = format!("`{}` has no fields", self.variant.name);
+        checker.report(span, message, Some(format!("write {}", self.variant.name)));
+        false
+    }
+
+    /// The fields in the brackets; a variant without brackets has none.
+    pub(in crate::scene) fn open_fields(&self, checker: &mut Checker<'_>) -> Option<Fields<'n>> {
+        /// The brackets of a variant that is written without any.
+        static EMPTY: Group<'static> = Group { name: None, open: '(', items: Vec::new() };
+        let owner = Owner {
+            key: format!("{}::{}", self.entry.name, self.variant.name),
+            shown: self.variant.name,
+        };
+        let group: &'n Group<'n> = self.group.unwrap_or(&EMPTY);
+        checker.read_fields(group, self.span.clone(), owner, self.variant.fields)
+    }
+
+    /// The value in the brackets. The brackets of the variant are also those of a struct, list or
+    /// vector inside.
+    pub(in crate::scene) fn read_inner<T: SceneValue>(
+        &self,
+        checker: &mut Checker<'_>,
+    ) -> Option<T> {
+        let Some(group) = self.group else {
+            let message = format!("`{}` needs a value in brackets", self.variant.name);
+            let words = self
+                .variant
+                .value_type
+                .map_or(String::new(), |value_type: fn() -> ValueType| value_type().words());
+            let help = format!("write {}(…) with a {words}", self.variant.name);
+            checker.report(self.span.clone(), message, Some(help));
+            return None;
+        };
+        if let [Item { key: None, value }] = group.items.as_slice() {
+            return T::from_node(value, checker);
+        }
+        let unnamed = Group { name: None, ..group.clone() };
+        let name_length = group.name.as_ref().map_or(0, |name| name.span.len());
+        let span = self.span.start + name_length..self.span.end;
+        T::from_node(&Node { span, kind: NodeKind::Group(unnamed) }, checker)
+    }
+}

@@ -1,0 +1,136 @@
+//! Where in a scene a field or a variant belongs, found in the declarations.
+
+use super::{Shape, TypeEntry, ValueType};
+use std::collections::BTreeSet;
+
+/// A struct or a variant, and how a scene is written down to its brackets.
+struct Site {
+    /// `Model`, or `View::LookAt`.
+    owner: String,
+    /// The text before and behind what stands in its brackets, from the scene's own brackets on.
+    before: String,
+    after: String,
+    fields: Vec<&'static str>,
+    /// The words that are possible here, for an enum.
+    variants: Vec<&'static str>,
+}
+
+/// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those
+/// nearest to the scene's own brackets first.
+pub(in crate::scene) fn fields_where(
+    root: &'static TypeEntry,
+    is_meant: impl Fn(&str) -> bool,
+) -> Vec<(String, &'static str)> {
+    let mut found = Vec::new();
+    for Site { owner, fields, .. } in sites(root) {
+        let fields = fields.into_iter().filter(|field| is_meant(field));
+        found.extend(fields.map(|field| (owner.clone(), field)));
+    }
+    found
+}
+
+/// How a field or a variant is written in a scene, from the scene's own brackets on: `camera:
+/// (view: LookAt(eye: …))`. `None` if the owner has none of this name.
+pub(in crate::scene) fn example_of(
+    root: &'static TypeEntry,
+    owner: &str,
+    name: &str,
+) -> Option<String> {
+    let sites = sites(root);
+    let site = sites.iter().find(|site| site.owner == owner)?;
+    let Site { before, after, .. } = site;
+    if site.fields.contains(&name) {
+        return Some(format!("{before}{name}: …{after}"));
+    }
+    if !site.variants.contains(&name) {
+        return None;
+    }
+    let variant = format!("{owner}::{name}");
+    let has_brackets = sites.iter().any(|site| site.owner == variant);
+    Some(format!("{before}{name}{}{after}", if has_brackets { "(…)" } else { "" }))
+}
+
+/// Every struct and variant with brackets, each at its shortest path from the root.
+fn sites(root: &'static TypeEntry) -> Vec<Site> {
+    let mut sites: Vec<Site> = Vec::new();
+    let mut seen = BTreeSet::new();
+    let mut queue = vec![(root, String::new(), String::new())];
+    while !queue.is_empty() {
+        let mut next = Vec::new();
+        for (entry, before, after) in queue {
+            if !seen.insert(entry.name) {
+                continue;
+            }
+            add_sites(entry, &before, &after, &mut sites, &mut next);
+        }
+        queue = next;
+    }
+    sites
+}
+/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
+
+fn add_sites(
+    entry: &'static TypeEntry,
+    before: &str,
+    after: &str,
+    sites: &mut Vec<Site>,
+    next: &mut Vec<(&'static TypeEntry, String, String)>,
+) {
+    let site = |owner: String, before: &str, after: &str| Site {
+        owner,
+        before: before.to_owned(),
+        after: after.to_owned(),
+        fields: Vec::new(),
+        variants: Vec::new(),
+    };
+    let mut own = site(entry.name.to_owned(), before, after);
+    match entry.shape {
+        Shape::Plain => return,
+        Shape::Fields(fields) => {
+            own.fields = fields.iter().map(|field| field.name).collect();
+            for field in fields {
+                let before = format!("{before}{}: ", field.name);
+                next.extend(opened(&(field.value_type)(), &before, after));
+            }
+        }
+        Shape::Variants(variants) => {
+            own.variants = variants.iter().map(|variant| variant.name).collect();
+            for variant in variants {
+                let (before, after) = (format!("{before}{}(", variant.name), format!("){after}"));
+                let mut inner = site(format!("{}::{}", entry.name, variant.name), &before, &after);
+                inner.fields = variant.fields.iter().map(|field| field.name).collect();
+                for field in variant.fields {
+                    let before = format!("{before}{}: ", field.name);
+                    next.extend(opened(&(field.value_type)(), &before, &after));
+                }
+                if let Some(value_type) = variant.value_type {
+                    // The brackets of the variant are those of the struct inside.
+                    let declared = value_type().declared();
+                    next.extend(
+                        declared.into_iter().map(|entry| (entry, before.clone(), after.clone())),
+                    );
+                }
+                if !inner.fields.is_empty() || variant.value_type.is_some() {
+                    sites.push(inner);
+                }
+            }
+        }
+    }
+    sites.push(own);
+}
+
+/// The declared types of a field's value, each with the text around what stands in its brackets.
+fn opened(
+    value_type: &ValueType,
+    before: &str,
+    after: &str,
+) -> Vec<(&'static TypeEntry, String, String)> {
+    match value_type {
+        ValueType::Plain(_) | ValueType::Tuple(_) => Vec::new(),
+        ValueType::List(element) => opened(element, &format!("{before}["), &format!("]{after}")),
+        ValueType::Declared(entry) => match entry.shape {
+            Shape::Fields(_) => vec![(*entry, format!("{before}("), format!("){after}"))],
+            _ => vec![(*entry, before.to_owned(), after.to_owned())],
+        },
+    }
+}

@@ -1,0 +1,173 @@
+//! Words that people bring from other programs, and words of older scene files, with the words of
+//! scene files in their place.
+//!
+//! A word is looked up with the struct or enum that it stands in. If that has the field or variant
+//! that is meant, the answer is its name; if another part of the scene has it, the answer shows
+//! where.
+
+mod foreign;
+mod legacy;
+
+pub(super) use legacy::{LEGACY_WORDS, LegacyWord};
+
+use super::SceneFile;
+use super::schema::{Declared, Shape, TypeEntry, example_of, fields_where};
+use super::suggest::{closest_name, list_names};
+use foreign::FOREIGN_WORDS;
+
+/// An answer to a name that is not declared.
+pub(super) struct Suggestion {
+    /// The help: a name, an example, or the names that are possible.
+    pub(super) help: String,
+    /// The field of the same struct that is meant, if there is one.
+    pub(super) sibling: Option<&'static str>,
+    kind: SuggestionKind,
+}
+
+/// How a suggestion was found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum SuggestionKind {
+    /// The word is in a table, or means a field or variant elsewhere.
+    Known,
+    /// It looks like one of the names that are possible.
+    Similar,
+    /// The names that are possible.
+    List,
+}
+
+impl Suggestion {
+    /// Whether the word is one of those in the tables.
+    pub(super) fn is_known(&self) -> bool {
+        self.kind == SuggestionKind::Known
+    }
+}
+
+/// A field or variant: the struct, variant (`View::LookAt`) or enum that has it, and its name.
+type Target = (&'static str, &'static str);
+
+/// Suggests the name of a field for one that is not declared. `owner` is the struct or variant it
+/// stands in, `siblings` are its fields, and `top_level` is the field of the scene around it.
+pub(super) fn suggest_field(
+    owner: &str,
+    siblings: &[&'static str],
+    word: &str,
+    top_level: Option<&str>,
+) -> Suggestion {
+    let targets = targets_of(word);
+    let own = targets.iter().find(|(target, _)| *target == owner);
+    if let Some(&(_, name)) = own.filter(|(_, name)| siblings.contains(name)) {
+        let help = format!("did you mean `{name}`?{}", legacy_note(owner, word));
+        return Suggestion { help, sibling: Some(name), kind: SuggestionKind::Known };
+    }
+    let same_spelling = siblings.iter().copied().find(|name| normalize(name) == normalize(word));
+    let similar = same_spelling.or_else(|| closest_name(word, siblings));
+    let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
+    if !is_very_similar && same_spelling.is_none() {
+        // A field of this very name goes before what the word means in other programs, unless that
+        // is nearer or in the tables.
+        let same_name = targets.iter().filter(|(_, name)| normalize(name) == normalize(word));
+        let same_name: Vec<Target> = same_name.copied().collect();
+        let meant = example_elsewhere(&same_name, top_level)
+            .or_else(|| example_elsewhere(&targets, top_level));
+        let is_near = !same_name.is_empty()
+            || meant.as_ref().is_some_and(|example| is_in_field(example, top_level));
+        let declared = || nearest_example(&declared_elsewhere(word), top_level);
+        let elsewhere = if is_near { meant } else { declared().or(meant) };
+        if let Some(example) = elsewhere {
+            let help = format!("write it as {example}");
+            return Suggestion { help, sibling: None, kind: SuggestionKind::Known };
+        }
+    }
+    match similar {
+        Some(name) => {
+            let help = format!("did you mean `{name}`?");
+            Suggestion { help, sibling: Some(name), kind: SuggestionKind::Similar }
+        }
+        None => {
+            Suggestion { help: list_names(siblings), sibling: None, kind: SuggestionKind::List }
+        }
+    }
+}
+
+/// Suggests the name of a variant for one that is not declared, or for a struct of another type.
+pub(super) fn suggest_variant(
+    entry: &'static TypeEntry,
+    word: &str,
+    top_level: Option<&str>,
+) -> Suggestion {
+    let names: Vec<&'static str> = match entry.shape {
+        Shape::Variants(variants) => variants.iter().map(|variant| variant.name).collect(),
+        _ => Vec::new(),
+    };
+    let known = |help: String| Suggestion { help, sibling: None, kind: SuggestionKind::Known };
+    let targets = targets_of(word);
+    let own = targets.iter().find(|(target, name)| *target == entry.name && names.contains(name));
+    if let Some((_, name)) = own {
+        return known(format!("did you mean `{name}`?{}", legacy_note(entry.name, word)));
+    }
+    if super::color::Color::parse(word).is_some() && names.contains(&"Color") {
+        return known(format!("did you mean `Color(\"{}\")`?", word.to_lowercase()));
+    }
+    let same_spelling = names.iter().copied().find(|name| normalize(name) == normalize(word));
+    let similar = same_spelling.or_else(|| closest_name(word, &names));
+    let is_very_similar = similar.is_some_and(|name| strsim::jaro_winkler(word, name) > 0.9);
+    let elsewhere = example_elsewhere(&targets, top_level)
+        .filter(|_| !is_very_similar && same_spelling.is_none());
+    match (elsewhere, similar) {
+        (Some(example), _) => known(format!("write it as {example}")),
+        (None, Some(name)) => {
+            let help = format!("did you mean `{name}`?");
+            Suggestion { help, sibling: None, kind: SuggestionKind::Similar }
+        }
+        _ => Suggestion { help: list_names(&names), sibling: None, kind: SuggestionKind::List },
+    }
+}
+
+/// The meanings of a word in the tables, in their order: older words first.
+fn targets_of(word: &str) -> Vec<Target> {
+    let word = normalize(word);
+    let legacy = LEGACY_WORDS.iter().filter(|legacy| normalize(legacy.old) == word);
+    let legacy = legacy.map(|legacy| (legacy.owner, legacy.new));
+    let foreign =
+        FOREIGN_WORDS.iter().filter(|(words, ..)| words.split(' ').any(|known| known == word));
+    legacy.chain(foreign.map(|&(_, owner, name)| (owner, name))).collect()
+}
+
+/// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and
+/// `directional-light` are one.
+fn normalize(word: &str) -> String {
+    word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+/// For a legacy word, that the formatter replaces it.
+
+fn legacy_note(owner: &str, word: &str) -> &'static str {
+    let is_legacy = LEGACY_WORDS.iter().any(|legacy| legacy.owner == owner && legacy.old == word);
+    if is_legacy { " `alberti scene fmt` rewrites older scene files" } else { "" }
+}
+
+/// How the first of the targets is written, those in the same field of the scene before others.
+fn example_elsewhere(targets: &[Target], top_level: Option<&str>) -> Option<String> {
+    let examples =
+        targets.iter().filter_map(|(owner, name)| example_of(SceneFile::ENTRY, owner, name));
+    nearest_example(&examples.collect::<Vec<_>>(), top_level)
+}
+
+/// How a field is written that other structs have by this name.
+fn declared_elsewhere(word: &str) -> Vec<String> {
+    let word = normalize(word);
+    let fields = fields_where(SceneFile::ENTRY, |field| normalize(field) == word);
+    let example =
+        |(owner, field): &(String, &'static str)| example_of(SceneFile::ENTRY, owner, field);
+    fields.iter().filter_map(example).collect()
+}
+
+/// The first example in the same field of the scene, else the first of all.
+fn nearest_example(examples: &[String], top_level: Option<&str>) -> Option<String> {
+    let is_near = |example: &&String| is_in_field(example, top_level);
+    examples.iter().find(is_near).or(examples.first()).cloned()
+}
+/// Whether an example begins with a field of the scene.
+
+fn is_in_field(example: &str, top_level: Option<&str>) -> bool {
+    top_level.is_some_and(|field| example.starts_with(&format!("{field}: ")))
+}

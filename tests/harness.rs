@@ -1,0 +1,218 @@
+//! Harness of the table-driven test programs: arguments, folders, a tally, the exit code.
+//!
+//! A table-driven program has a `main` of its own (`harness = false`), because its cases are files
+//! that are found at run time. All of them behave alike: arguments that are not flags select cases
+//! by a part of their name, as in `cargo test`; a failed case prints a line that begins with
+//! `FAILED`; what cannot be tested prints a line that begins with `SKIPPED`, which `cargo xtask
+//! test` repeats at its end; the last line counts.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The command line of a test program: filters and flags.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Arguments {
+    filters: Vec<String>,
+    flags: Vec<String>,
+}
+
+impl Arguments {
+    /// The arguments of this process.
+    #[must_use]
+    pub fn from_env() -> Self {
+        Self::from_words(std::env::args().skip(1))
+    }
+
+    /// Words that begin with a dash are flags, all others are filters.
+    pub fn from_words(words: impl Iterator<Item = String>) -> Self {
+        let (flags, filters) = words.partition(|word| word.starts_with('-'));
+        Self { filters, flags }
+    }
+
+    /// Whether a case is selected: no filter is given, or one of them is a part of its name.
+    #[must_use]
+    pub fn select(&self, name: &str) -> bool {
+        self.filters.is_empty() || self.filters.iter().any(|filter| name.contains(filter.as_str()))
+    }
+
+    /// Whether a flag such as `--all` is given.
+    #[must_use]
+    pub fn has_flag(&self, flag: &str) -> bool {
+        self.flags.iter().any(|given| given == flag)
+    }
+
+    /// The filters as they are written.
+    #[must_use]
+    pub fn filters(&self) -> &[String] {
+        &self.filters
+    }
+}
+
+/// Counts of a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Tally {
+    passed: usize,
+    failed: usize,
+    skipped: usize,
+}
+
+impl Tally {
+    /// Counts cases that passed.
+    pub fn pass(&mut self, count: usize) {
+        self.passed += count;
+    }
+
+    /// Counts a failed case and prints why.
+    pub fn fail(&mut self, name: &str, reason: &str) {
+        self.failed += 1;
+        println!("FAILED {name}: {reason}");
+    }
+
+    /// Counts a part of the test that cannot run here and prints why.
+    pub fn skip(&mut self, name: &str, reason: &str) {
+        self.skipped += 1;
+        println!("SKIPPED {name}: {reason}");
+    }
+
+    /// Counts a case by its outcome.
+    pub fn record(&mut self, name: &str, outcome: Result<(), String>) {
+        match outcome {
+            Ok(()) => self.pass(1),
+            Err(reason) => self.fail(name, &reason),
+        }
+    }
+}
+
+impl std::ops::AddAssign for Tally {
+    fn add_assign(&mut self, other: Self) {
+        self.passed += other.passed;
+        self.failed += other.failed;
+        self.skipped += other.skipped;
+    }
+}
+
+/// Runs a test program, prints its counts, and turns them into the exit code.
+///
+/// Filters that select nothing are no failure: `cargo test NAME` passes its filter to every test
+/// program.
+pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, String>) -> ExitCode {
+    let tally = run(&Arguments::from_env()).unwrap_or_else(|reason| {
+        let mut tally = Tally::default();
+        tally.fail(name, &reason);
+        tally
+    });
+    let Tally { passed, failed, skipped } = tally;
+    println!("{passed} passed, {failed} failed, {skipped} skipped");
+    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// A folder of test data beside this repository: the one that the environment variable names, else
+/// `../shared/NAME`. `None` if neither exists.
+///
+/// # Errors
+/// If the variable names a folder that does not exist.
+pub fn data_folder(variable: &str, name: &str) -> Result<Option<PathBuf>, String> {
+    let beside = crate::project_root().join("../shared").join(name);
+    choose_folder(variable, std::env::var_os(variable), &beside)
+}
+
+fn choose_folder(
+    variable: &str,
+    named: Option<OsString>,
+    beside: &Path,
+) -> Result<Option<PathBuf>, String> {
+    let Some(folder) = named.map(PathBuf::from) else {
+        return Ok(beside.is_dir().then(|| beside.to_owned()));
+    };
+    let missing = || format!("{variable} names {}, which is not a folder", folder.display());
+    if folder.is_dir() { Ok(Some(folder)) } else { Err(missing()) }
+}
+
+/// A folder of this process in the system's folder of temporary files, removed when it is dropped.
+#[derive(Debug)]
+pub struct TemporaryFolder {
+    path: PathBuf,
+}
+
+impl TemporaryFolder {
+    /// Creates the folder.
+    ///
+    /// # Errors
+    /// If it cannot be created; the text names it.
+    pub fn create(name: &str) -> Result<Self, String> {
+        let path = std::env::temp_dir().join(format!("alberti-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(Self { path })
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for TemporaryFolder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.path);
+    }
+}
+
+/// Applies `work` to the index and the value of every item on two threads; results are in the order
+/// of the items.
+///
+/// A panic in `work` ends the program: work that may panic catches it itself.
+pub fn map_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(usize, &T) -> R + Sync) -> Vec<R> {
+    let results: Vec<Mutex<Option<R>>> = items.iter().map(|_| Mutex::new(None)).collect();
+    let next = AtomicUsize::new(0);
+    let take_items = || {
+        loop {
+            // The counter hands every index to exactly one thread.
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(index) else { break };
+            let result = work(index, item);
+            if let Ok(mut slot) = results[index].lock() {
+                *slot = Some(result);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(take_items);
+        take_items();
+    });
+    results.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_that_are_no_flags_select_by_a_part_of_the_name() {
+        let words = ["clip", "--all"].map(str::to_owned);
+        let arguments = Arguments::from_words(words.into_iter());
+        assert!(arguments.select("clip_polygon") && !arguments.select("viewport"));
+        assert!(arguments.has_flag("--all") && !arguments.has_flag("--none"));
+        assert!(Arguments::default().select("anything"));
+    }
+
+    #[test]
+    fn a_folder_that_is_named_must_exist_and_one_beside_need_not() {
+        let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let nowhere = here.join("nowhere");
+        assert_eq!(choose_folder("X", None, &nowhere), Ok(None));
+        assert_eq!(choose_folder("X", None, here), Ok(Some(here.to_owned())));
+        assert!(choose_folder("X", Some(nowhere.into()), here).is_err());
+    }
+
+    #[test]
+    fn results_of_two_threads_are_in_the_order_of_the_items() {
+        let items: Vec<usize> = (0..100).collect();
+        assert_eq!(map_parallel(&items, |index, item| index + item), {
+            items.iter().map(|item| 2 * item).collect::<Vec<_>>()
+        });
+    }
+}
