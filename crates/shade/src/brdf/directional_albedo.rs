@@ -23,7 +23,7 @@
 
 mod table;
 
-use crate::lanes::{Lanes, map_to_lanes};
+use crate::lanes::Lanes;
 use table::TABLE;
 
 /// `A` and `B` of the split sum at some fragments.
@@ -59,11 +59,13 @@ impl<const N: usize> DirectionalAlbedo<N> {
             }
         }
         let [a, b, c, d] = entries;
-        let [f0_scale, f90_scale] = map_to_lanes(&[0, 1], |k: usize| {
+        let mut scales = [Lanes::ZERO; 2];
+        for (k, scale) in scales.iter_mut().enumerate() {
             let left = a[k].lerp(c[k], s);
             let right = b[k].lerp(d[k], s);
-            left.lerp(right, t)
-        });
+            *scale = left.lerp(right, t);
+        }
+        let [f0_scale, f90_scale] = scales;
         Self { f0_scale, f90_scale }
     }
 }

@@ -66,21 +66,32 @@ impl MipChain<'_> {
         needs_alpha: bool,
     ) -> TexelLanes<N> {
         let texels = self.fetch_texels(quads);
-        let [r, g, b] = map_to_lanes(&[0, 1, 2], |channel| match self.srgb_table {
-            Some(table) => {
-                // sRGB decoding before filtering.
-                let linear = map_to_lanes(&texels, |texels| {
-                    Lanes::from_fn(|lane| table[channel_code(texels[lane], channel) as usize])
-                });
-                bilinear(linear, quads)
-            }
-            None => filter_linear_channel(&texels, channel, quads),
-        });
+        let r = self.filter_color_channel(&texels, 0, quads);
+        let g = self.filter_color_channel(&texels, 1, quads);
+        let b = self.filter_color_channel(&texels, 2, quads);
         let mut alpha = Lanes::ONE;
         if needs_alpha {
             alpha = filter_linear_channel(&texels, 3, quads);
         }
         TexelLanes { color: Rgb { r, g, b }, alpha }
+    }
+
+    /// Red, green or blue, decoded from sRGB if the texture holds colors.
+    #[inline(always)]
+    fn filter_color_channel<const N: usize>(
+        &self,
+        texels: &[[u32; N]; 4],
+        channel: usize,
+        quads: &TexelQuads<N>,
+    ) -> Lanes<N> {
+        let Some(table) = self.srgb_table else {
+            return filter_linear_channel(texels, channel, quads);
+        };
+        // sRGB decoding before filtering.
+        let linear = map_to_lanes(texels, |texels| {
+            Lanes::from_fn(|lane| table[channel_code(texels[lane], channel) as usize])
+        });
+        bilinear(linear, quads)
     }
 
     /// The four texels of each quad, packed with red in the lowest byte.
