@@ -37,7 +37,8 @@ pub(super) fn stderr_has_color() -> bool {
 
 /// Whether reports on the standard output are colored.
 ///
-/// Only `check` prints a colored result; all other output is data, which never contains escapes.
+/// Only `check` prints a report with colors. All other results are data and never get any; the
+/// escapes of `--show` are the picture itself.
 pub(super) fn stdout_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stdout().is_terminal())
 }
