@@ -170,8 +170,8 @@ pub(super) fn is_scene_file(input: &Path) -> bool {
 ///
 /// `-` reads either from the standard input. Models are not loaded yet.
 ///
-/// The scene of a bare model frames it from a three-quarter view in studio light; it is an ordinary
-/// scene file in memory, so all flags work on both.
+/// The scene of a bare model frames it from a three-quarter view, in studio light if the model has
+/// no lights. It is an ordinary scene file in memory, so all flags work on both.
 ///
 /// # Errors
 /// If the scene or an include cannot be read or parsed, or lies outside the allowed folders.

@@ -113,12 +113,15 @@ const SCHEDULERS: &[(&str, FirstIndex, TaskCount)] = &[
 enum FirstIndex {
     /// The scheduler always counts from this index.
     Constant(usize),
+    /// The variable holds the first index; 0 if it is not set.
     Variable(&'static str),
 }
 
 /// The number of tasks, or the index of the last one.
 enum TaskCount {
+    /// The variable holds the number of tasks.
     Variable(&'static str),
+    /// The variable holds the index of the last task; the count follows from the first index.
     Last(&'static str),
 }
 
