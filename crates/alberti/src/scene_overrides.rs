@@ -227,7 +227,7 @@ fn parse_samples(text: &str) -> Result<u32, String> {
     samples.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
 }
 
-/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_SIDE`].
+/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_IMAGE_SIDE`].
 pub(super) fn parse_image_size(text: &str) -> Result<(u32, u32), String> {
     let fault = || {
         format!(
