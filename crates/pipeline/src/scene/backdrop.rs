@@ -34,8 +34,8 @@ impl SceneFile {
         around.into_iter().chain(behind)
     }
 }
-/// An error that points into the background, at the value at the end of `rest`.
 
+/// An error that points into the background, at the value at the end of `rest`.
 fn background_error(
     origin: &Origin,
     rest: &[PathStep<'_>],

@@ -103,10 +103,10 @@ impl CameraPath {
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
+
     /// The values at a time: those of the first and the last keyframe outside of their range, else
     /// an interpolation of the keyframes around it, linear or by a cubic Hermite curve with
     /// Catmull–Rom slopes.
-
     fn interpolate_keys(&self, time: f64) -> KeyValues {
         let after = self.keys.partition_point(|key| key.0 <= time);
         let (Some(before), Some(&(end, to))) = (after.checked_sub(1), self.keys.get(after)) else {
@@ -133,8 +133,8 @@ impl CameraPath {
         (to[number] - from[number]) / (end - start)
     }
 }
-/// The values of a keyframe; `usual` is the field of view of keyframes without one.
 
+/// The values of a keyframe; `usual` is the field of view of keyframes without one.
 fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];
     [a, b, c, d, e, f, g, h, i, key.fov_y_degrees.unwrap_or(usual).value()]

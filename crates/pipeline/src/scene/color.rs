@@ -91,8 +91,8 @@ fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color
     }
     color
 }
-/// How colors are written.
 
+/// How colors are written.
 fn hex_help() -> String {
     "write #rgb, #rrggbb, such as #1a1f26, or a CSS color name".to_owned()
 }

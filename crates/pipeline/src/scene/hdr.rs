@@ -81,8 +81,8 @@ impl Panorama {
         Self { width, height, texels: (0..width * height).map(texel).collect() }
     }
 }
-/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
 
+/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
 fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())
 }

@@ -70,13 +70,13 @@ impl IncludeMap {
         let source = file.and_then(|file| self.files.get(file));
         (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
     }
-    /// The names of the included files, in the order in which they were read.
 
+    /// The names of the included files, in the order in which they were read.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(name, _)| name.as_str())
     }
-    /// The texts of the included files, in the order in which they were read.
 
+    /// The texts of the included files, in the order in which they were read.
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }
@@ -138,8 +138,8 @@ struct MergedScene {
     fields: BTreeMap<&'static str, Option<usize>>,
     lists: ElementSources,
 }
-/// Reads included files depth first, and collects the mistakes in all of them.
 
+/// Reads included files depth first, and collects the mistakes in all of them.
 struct IncludeResolver<'a> {
     origin: &'a Origin,
     allowed: &'a [PathBuf],
@@ -304,8 +304,8 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     }
     MergedScene { file, fields, lists }
 }
-/// Both lists in one, the included one first.
 
+/// Both lists in one, the included one first.
 fn concat_lists<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
     below.into_iter().chain(above).collect()
 }

@@ -18,8 +18,8 @@ pub(super) const MAX_INSTANCES: usize = 100_000;
 /// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes
 /// each.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
-/// A transform of an instance within the space of its model.
 
+/// A transform of an instance within the space of its model.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
 /// That the scene has not too many copies, each of its models counted.
@@ -53,16 +53,16 @@ impl ModelFile {
         }
     }
 }
-/// The path of a model's `instances`, and of a value in them.
 
+/// The path of a model's `instances`, and of a value in them.
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
+
 /// The count of a model's instances.
 ///
 /// # Errors
 /// If there are none.
-
 fn checked_instance_count(
     origin: &Origin,
     number: usize,
@@ -121,8 +121,8 @@ fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransfor
         .then(InstanceTransform::rotation_y(ry))
         .then(InstanceTransform::rotation_z(rz))
 }
-/// A translation.
 
+/// A translation.
 fn translate_by(by: [f64; 3]) -> InstanceTransform {
     InstanceTransform::translation(Vector::from(by))
 }
@@ -186,8 +186,8 @@ fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item
     let steps = f64::from(if is_whole { count } else { count.saturating_sub(1).max(1) });
     (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
 }
-/// Instances on a circle around an axis through the origin.
 
+/// Instances on a circle around an axis through the origin.
 struct CircleLayout {
     axis: [f64; 3],
     radius: f64,
@@ -215,8 +215,8 @@ impl CircleLayout {
         normalize_vector([from[0] - along * x, from[1] - along * y, from[2] - along * z])
     }
 }
-/// The vector with length 1; `None` if it is 0.
 
+/// The vector with length 1; `None` if it is 0.
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled first, so that no square leaves the range of numbers.
     let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));

@@ -10,9 +10,9 @@ use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
 use shade::{Light, Shadow};
+
 /// The lights of a scene: those of the file, or of the models, or a default key light with ambient
 /// light where nothing else would light the models.
-
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -76,9 +76,9 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
     vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
+
 /// A directional light from the upper left of the camera, so that all visible sides differ in
 /// brightness.
-
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
@@ -198,8 +198,8 @@ fn resolve_light_shadow(
     let path = [Field("lights"), Index(index), Field("shadows")];
     own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
 }
-/// The light of a color at an intensity, in the unit of the intensity.
 
+/// The light of a color at an intensity, in the unit of the intensity.
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)
 }

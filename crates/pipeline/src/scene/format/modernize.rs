@@ -41,8 +41,8 @@ fn modern_name<'a>(key: &Key<'a>, owner: &str, edits: &mut Vec<Edit>) -> &'a str
         None => key.name,
     }
 }
-/// Collects the edits in a value of this type. Values of another form are left to the parser.
 
+/// Collects the edits in a value of this type. Values of another form are left to the parser.
 fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>) {
     let items = node.group().map_or(&[][..], |group| &group.items);
     match value_type {
@@ -59,9 +59,9 @@ fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>)
         ValueType::Declared(entry) => collect_declared(node, entry, edits),
     }
 }
+
 /// Collects the edits in a value of a declared type: its fields, or the name and content of its
 /// variant.
-
 fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<Edit>) {
     match (entry.shape, &node.kind) {
         // An optional value may be written `Some(value)`.
@@ -106,8 +106,8 @@ fn collect_inner(
     let node = Node { span: node.span.clone(), kind: NodeKind::Group(unnamed) };
     collect_edits(&node, value_type, edits);
 }
-/// Collects the edits in the fields of `owner`, a struct or a variant.
 
+/// Collects the edits in the fields of `owner`, a struct or a variant.
 fn collect_fields(
     group: &Group<'_>,
     owner: &str,

@@ -38,8 +38,8 @@ pub(super) struct FormatGroup {
 pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
-/// Recursive-descent reader of items; comments are items too.
 
+/// Recursive-descent reader of items; comments are items too.
 struct ItemReader<'a> {
     tokens: &'a [Token<'a>],
     at: usize,
@@ -52,8 +52,8 @@ impl<'a> ItemReader<'a> {
         self.at += 1;
         Some(token)
     }
-    /// The next token.
 
+    /// The next token.
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }

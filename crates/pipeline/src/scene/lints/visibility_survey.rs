@@ -61,9 +61,9 @@ impl VisibilitySurvey {
         }
         self
     }
+
     /// The least and the greatest distance of a vertex along the line of sight; `None` without
     /// vertices.
-
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
@@ -73,14 +73,14 @@ impl VisibilitySurvey {
     pub(super) fn encloses_eye(&self) -> bool {
         self.crossings.iter().all(|count| *count >= 1)
     }
-    /// Extends the depth range to a distance.
 
+    /// Extends the depth range to a distance.
     fn extend_depth_range(&mut self, distance: f64) {
         let (near, far) = self.depth_range.unwrap_or((distance, distance));
         self.depth_range = Some((near.min(distance), far.max(distance)));
     }
-    /// Adds the vertices and the points, lines or triangles of a mesh primitive.
 
+    /// Adds the vertices and the points, lines or triangles of a mesh primitive.
     fn survey_primitive(
         &mut self,
         view_projection: &ViewProjection,

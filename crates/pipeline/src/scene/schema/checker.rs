@@ -43,8 +43,8 @@ impl<'a> Checker<'a> {
     pub(in crate::scene) fn new(source: &'a str) -> Self {
         Self { source, ..Self::default() }
     }
-    /// The mistakes, in the order in which they were found.
 
+    /// The mistakes, in the order in which they were found.
     pub(in crate::scene) fn finish(self) -> Checked {
         Checked { mistakes: self.mistakes, retained: self.retained }
     }
@@ -99,8 +99,8 @@ impl<'a> Checker<'a> {
         }
         text
     }
-    /// The path of the value, quoted, as a message begins; empty for the whole scene.
 
+    /// The path of the value, quoted, as a message begins; empty for the whole scene.
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
@@ -227,8 +227,8 @@ impl<'a> Checker<'a> {
         }
         Some(Fields { items: found })
     }
-    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
 
+    /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
     fn report_keyless_item(&mut self, item: &Item<'_>) {
         if item.value.kind == NodeKind::Invalid {
             return;
@@ -282,8 +282,8 @@ impl<'a> Checker<'a> {
         self.path.push(Segment::Variant(variant.name));
         Some(Variant { entry, variant, group, span: node.span.clone() })
     }
-    /// Ends the variant that [`open_variant`](Self::open_variant) began.
 
+    /// Ends the variant that [`open_variant`](Self::open_variant) began.
     pub(in crate::scene) fn close_variant(&mut self) {
         self.path.pop();
     }

@@ -9,8 +9,8 @@ pub(super) fn join_doc_lines(doc: &str) -> String {
     let paragraphs: Vec<String> = paragraphs.filter(|paragraph| !paragraph.is_empty()).collect();
     remove_links(&paragraphs.join("\n\n"))
 }
-/// Replaces links to Rust items by the text they show.
 
+/// Replaces links to Rust items by the text they show.
 fn remove_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;

@@ -67,8 +67,8 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
     }
     sites
 }
-/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 
+/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 fn add_sites(
     entry: &'static TypeEntry,
     before: &str,
