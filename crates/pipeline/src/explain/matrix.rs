@@ -177,9 +177,8 @@ pub(super) fn describe_projection(kind: &Decomposed) -> String {
 
 /// A known misprint that the matrix resembles, with the correction.
 ///
-/// The corrected matrix is shown only where the correction is determined by the sixteen entries;
-/// some misprints lose information, such as a forgotten aspect ratio. The first one is `misprint`,
-/// further ones are `other_misprint`.
+/// The corrected matrix is shown only where the sixteen entries determine it. The first misprint
+/// has the id `misprint`, further ones `other_misprint`.
 fn misprint_step(at: usize, slip: &Symptom) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
     let title = format!("It looks like a known misprint ({known})");

@@ -59,8 +59,8 @@ pub fn explain_pixel(
 
 /// A fragment: the primitive it comes from, weights, color, world position.
 ///
-/// A fragment without a source comes from the background or the environment and has no position.
-/// Its color is linear RGB, premultiplied by alpha, before tone mapping.
+/// A fragment without a source comes from environment, backdrop or ground and has no position. Its
+/// color is linear RGB, premultiplied by alpha.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
         Some(owner) => format!("Seen: {}", source_name(scene, owner)),
@@ -95,9 +95,7 @@ fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     )
 }
 
-/// The glTF primitive that a fragment comes from.
-///
-/// `None` if an index is out of range, as for generated geometry such as the ground plane.
+/// The glTF primitive that a fragment comes from; `None` if an index is out of range.
 fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
