@@ -20,6 +20,7 @@ use core::ops::Range;
 
 /// Groups are nested this deep at most, so that no text overflows the stack.
 const MAX_DEPTH: usize = 128;
+
 /// The help for files that are no scenes at all.
 pub(in crate::scene) const SAMPLE_SCENE: &str =
     "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
@@ -53,6 +54,7 @@ pub(in crate::scene) fn parse_tree(source: &str) -> SyntaxTree<'_> {
     let Parser { errors, is_unreliable, .. } = parser;
     SyntaxTree { root, errors, is_unreliable }
 }
+
 /// The state of the parser: a position among the tokens, and the brackets that are open.
 struct Parser<'a> {
     source: &'a str,
@@ -73,6 +75,7 @@ impl<'a> Parser<'a> {
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
+
     /// The kind of the next token.
     fn peek_kind(&self) -> Option<TokenKind> {
         self.peek().map(|token| token.kind)
@@ -84,6 +87,7 @@ impl<'a> Parser<'a> {
         self.at += usize::from(found);
         found
     }
+
     /// Reports an error of grammar.
     fn report(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(Mistake::new(span, message, Some(help.into())));
@@ -331,6 +335,7 @@ impl<'a> Parser<'a> {
         }
     }
 }
+
 /// Whether a word is a string literal, plain or raw.
 fn is_string(word: &str) -> bool {
     word.starts_with('"')
@@ -358,6 +363,7 @@ fn is_identifier(word: &str) -> bool {
         && word.chars().all(|c| c.is_alphanumeric() || "_-".contains(c))
         && !matches!(word, "inf" | "NaN")
 }
+
 /// The bracket that closes `open`.
 fn closing(open: &str) -> &'static str {
     match open {

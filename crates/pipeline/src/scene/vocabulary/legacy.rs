@@ -9,6 +9,7 @@ pub(in crate::scene) struct LegacyWord {
     pub(in crate::scene) old: &'static str,
     pub(in crate::scene) new: &'static str,
 }
+
 /// A row of the table.
 const fn word(owner: &'static str, old: &'static str, new: &'static str) -> LegacyWord {
     LegacyWord { owner, old, new }
