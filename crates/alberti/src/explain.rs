@@ -123,7 +123,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
 
 /// Renders the scene, scaled down to at most [`MAX_PAGE_SIDE`].
 ///
-/// A picture that is smaller already keeps its size. The aspect ratio is kept to a pixel.
+/// A picture that is smaller already keeps its size. The aspect ratio is preserved to a pixel.
 fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
     let image = &mut scene.image;
     let most = f64::from(image.width.max(image.height));

@@ -70,7 +70,7 @@ pub(super) fn create_pass_files(
 
 /// The path of a file that belongs to a picture: `picture.depth.png` for `picture.png`.
 ///
-/// The extension of the output is dropped, not kept: `fox.svg` and a pass give `fox.depth.png`.
+/// The extension of the output is dropped: `fox.svg` and a pass give `fox.depth.png`.
 pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     let mut name = output.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{what}.{ending}"));
