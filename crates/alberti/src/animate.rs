@@ -66,8 +66,8 @@ pub(crate) struct AnimateArgs {
 
 /// Renders the frames and writes each as soon as it is there.
 ///
-/// The warnings of the models are printed first: they are those of every frame, and nobody wants to
-/// wait for hundreds of frames to learn that a texture is missing.
+/// The warnings of the models are printed first: they apply to every frame, and a missing texture
+/// should be known before hundreds of frames are rendered without it.
 ///
 /// # Errors
 /// If the input is invalid, a frame cannot be rendered, or the output cannot be written. A file of
@@ -150,7 +150,7 @@ impl AnimateArgs {
 
 /// The animation of each model instance: the one that the scene chooses, or the model's first.
 ///
-/// Instances are in the order of the scene file; a model that is placed several times has one
+/// Instances are in the order of the scene file; a model with several instances has one
 /// entry, with the choice of its file, for each. `None` stands for a model that does not move.
 ///
 /// # Errors

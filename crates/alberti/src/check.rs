@@ -95,7 +95,8 @@ fn exit_code(errors: usize) -> ExitCode {
 /// are looked for only where there is no error.
 ///
 /// The order is: parse, validate fields and references, resolve as `render` would, look for lints,
-/// check the models. The models are checked even if the scene has errors, unless it cannot be parsed.
+/// check the models. The models are checked even if the scene has errors, unless it cannot be
+/// parsed.
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, CliError> {
     let found = |scene, advice, models| CheckResult {
         file: input.to_owned(),

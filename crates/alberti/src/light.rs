@@ -98,7 +98,7 @@ impl LightArgs {
 
     /// The environment map, if a file was given: it may be read wherever it is.
     ///
-    /// A path in a scene file may be written by a stranger and is confined to the scene's folder; a
+    /// A path in a scene file may come from elsewhere and is confined to the scene's folder; a
     /// path on the command line comes from the user, who may read any file.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {

@@ -7,7 +7,7 @@
 //! | `NAME.gif` | animated GIF | 256 per frame | on or off |
 //! | `-` | raw RGBA, for `ffmpeg -f rawvideo` | 8 bits | full |
 //!
-//! Frames arrive in order and are not kept: each is encoded and written before the next arrives.
+//! Frames arrive in order and are not stored: each is encoded and written before the next arrives.
 
 use crate::CliError;
 use crate::template::NameTemplate;

@@ -97,7 +97,7 @@ fn json_chunk(bytes: &[u8]) -> &[u8] {
 
 /// Decodes the `%XX` escapes of a URI (RFC 3986 §2.1).
 ///
-/// A `%` without two hexadecimal digits is kept as it is. Bytes that are not UTF-8 become
+/// A `%` without two hexadecimal digits is left as it is. Bytes that are not UTF-8 become
 /// replacement characters; such a file is not found and counts as empty.
 fn percent_decode(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());

@@ -80,8 +80,8 @@ fn chosen_animation_index(args: &InfoArgs, model: &Model) -> Option<usize> {
 
 /// An f32 as the shortest decimal number that rounds to it: 0.8, not 0.800000011920929.
 ///
-/// glTF stores factors as 32-bit floats; widened to 64 bits they show digits that nobody has
-/// written. NaN and infinities become `null`, as JSON has no such numbers.
+/// glTF stores factors as 32-bit floats; widened to 64 bits they show digits that the
+/// file does not have. NaN and infinities become `null`, as JSON has no such numbers.
 pub(super) fn shortest_number(x: f32) -> Value {
     x.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }

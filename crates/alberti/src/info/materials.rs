@@ -42,7 +42,7 @@ fn material_json(material: &Material) -> Value {
 
 /// A texture slot of a material.
 ///
-/// `slot` is the path of the texture in the material's JSON. `transformed` tells whether
+/// `slot` is the path of the texture in the material's JSON. `transformed` says whether
 /// KHR_texture_transform changes the texture coordinates.
 fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
     json!({
