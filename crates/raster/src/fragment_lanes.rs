@@ -127,7 +127,7 @@ impl<'a> Fragments<'a> {
 
 /// The weights of the vertices in eight fragments, and their derivatives across the picture.
 ///
-/// Derivatives are computed only when they are asked for, by mip level selection above all.
+/// Derivatives are computed by methods, only where a surface calls them.
 #[derive(Clone, Copy, Debug)]
 pub struct WeightLanes<'a> {
     /// For each vertex its weights at the fragments: see [`Fragment::weights`].

@@ -338,8 +338,8 @@ impl MeshTriangles<'_> {
     /// Primitive assembly: appends those triangles of a run that are not culled and may cover a
     /// sample.
     ///
-    /// In order: missing vertices, winding, bounds, degeneracy. Most triangles of a fine mesh end at
-    /// the bounds.
+    /// In order: missing vertices, winding, bounds, degeneracy. Most triangles of a fine mesh end
+    /// at the bounds.
     fn assemble_triangles(
         &self,
         bounds: SampleBounds,

@@ -243,8 +243,7 @@ fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
 
 /// The nearest grid steps, halves up, and whether the coordinates are within the guard band.
 ///
-/// Lanes outside are computed as 0: a conversion of a number beyond `i32` would saturate, at the
-/// price of more instructions.
+/// Lanes outside the guard band give 0, a number that the conversion to `i32` holds.
 #[inline(always)]
 fn snap_to_grid(pixels: &F64x8) -> ([i32; SNAP_LANES], [bool; SNAP_LANES]) {
     let (mut steps, mut within) = ([0; SNAP_LANES], [false; SNAP_LANES]);
