@@ -71,6 +71,8 @@ impl Environment {
 
     /// The radiance around directions of any length but 0, prefiltered for a perceptual roughness:
     /// trilinear between the two nearest levels.
+    ///
+    /// The level 0 is a mirror's, level 5 that of roughness 1; between two the lookup is linear.
     #[inline(always)]
     pub(super) fn prefiltered_radiance<const N: usize>(
         &self,

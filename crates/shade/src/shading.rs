@@ -282,6 +282,9 @@ impl Shading<'_> {
 
     /// Reflects lights and environment by the layered BRDF of a draw; ambient occlusion darkens
     /// `inputs`.
+    ///
+    /// Geometry is computed with smooth normals; the BRDF applies normal maps to a copy, layer by
+    /// layer.
     #[inline(always)]
     fn reflect_light<'i, const N: usize>(
         &self,
