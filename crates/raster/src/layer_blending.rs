@@ -137,8 +137,8 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Blending the means instead would be cheaper, but lets the background shine through where an
     /// opaque edge and a layer's edge meet.
     ///
-    /// Opaque contributions come first and set their samples; each layer then applies `color +
-    /// transmittance · behind`, with color premultiplied, channel by channel.
+    /// Opaque contributions come first and set their samples; each layer then applies
+    /// `color + transmittance · behind`, with color premultiplied, channel by channel.
     fn blend_layers(
         &self,
         contributions: &[Contribution],

@@ -17,7 +17,7 @@
 //! triangles of a few blocks that does not pay, and they are drawn block by block.
 //!
 //! ```text
-//!   E(x, y) = A x + B y + C              edge function, ≥ 0 inside (Pineda 1988), 32 bits
+//!   E(x, y) = A x + B y + C                 edge function, ≥ 0 inside (Pineda 1988), 32 bits
 //!   z(x, y) = z₀ + dz/dx · x + dz/dy · y    depth plane, larger is nearer
 //! ```
 //!

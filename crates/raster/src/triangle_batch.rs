@@ -9,9 +9,10 @@
 //!
 //! # Why eight at a time
 //!
-//! A triangle of a few pixels takes less time to fill than to set up: nine differences for the edge
-//! functions, one division and six products for the depth plane. One vector instruction does a step
-//! of that for eight triangles. Triangles that leave the 32-bit range are set up alone, in 64 bits.
+//! A triangle of a few pixels takes less time to fill than to set up: six differences for the edge
+//! functions, one division and eight products for the depth plane. One vector instruction does a
+//! step of that for several triangles. Those that leave the 32-bit range are set up alone, in 64
+//! bits.
 
 use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};

@@ -31,6 +31,7 @@ const SIDE: usize = 257;
 /// Light from all directions: linear radiance, ready for diffuse and for specular lookups.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Environment {
+    /// Diffuse light, as nine spherical harmonics a channel.
     irradiance: IrradianceHarmonics,
     /// From mirrors to the roughest surfaces.
     prefiltered: PrefilteredLevels,

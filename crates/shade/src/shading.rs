@@ -94,6 +94,7 @@ impl Kernel for AlphaTestEight<'_> {
 
 /// The fragments of a packet that belong to one draw.
 pub(super) struct DrawSelection<'a> {
+    /// The draw of the selected lanes.
     pub(super) draw: &'a Draw<'a>,
     /// The ids of the fragments' primitives; in lanes of other draws that of the first fragment,
     /// which is shaded there and ignored.

@@ -61,7 +61,7 @@ impl<const N: usize> DirectionalAlbedo<N> {
             }
         }
         let [a, b, c, d] = entries;
-        // Bilinear interpolation, first across rows, then across columns.
+        // Bilinear interpolation, first between rows, then between columns.
         let [f0_scale, f90_scale] = map_to_lanes(&[0, 1], |k: usize| {
             let left = a[k].lerp(c[k], s);
             let right = b[k].lerp(d[k], s);

@@ -8,8 +8,8 @@
 //!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
 //! ```
 //!
-//! Each layer is attenuated by those above it with a scalar per fragment (albedo scaling), so a
-//! white surface in a white environment stays at or below white whatever its layers are.
+//! Each layer is attenuated by those above it with a scalar per fragment (albedo scaling), so that
+//! layers take light from each other and add none.
 
 use super::anisotropy::Anisotropy;
 use super::base::BaseBrdf;
@@ -147,6 +147,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         self.add_diffuse(environment.irradiance_over_pi(normals));
         // Specular image-based lighting: the first sum from the environment, the second in the
         // albedo.
+        // Split-sum approximation, Karis 2013.
         let light = environment.specular_radiance(normals, views, self.base.roughness);
         // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
         // angles the mirror direction is less occluded than the hemisphere.

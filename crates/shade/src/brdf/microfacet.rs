@@ -14,8 +14,8 @@
 //! `V` is Smith's masking-shadowing `G₂` over the `4 n·l n·v` of the Cook-Torrance denominator.
 //!
 //! All directions are in the world, on the visible side of the surface; cosines below 0 are clamped
-//! to 0. The lobes leave out Fresnel, which differs between base, metal and clearcoat, and take in
-//! the cosine of the light, which cancels against the visibility term.
+//! to 0. Lobes are `D · V · n·l`: without Fresnel, which differs between base and clearcoat, and
+//! with the cosine of Lambert's law for the light.
 
 use crate::lanes::{Lanes, Vec3Lanes};
 use std::f32::consts::FRAC_1_PI;
@@ -47,8 +47,7 @@ pub(super) struct ShadingAngles<const N: usize> {
 impl<const N: usize> ShadingAngles<N> {
     /// The angles between unit vectors: the normal, to the viewer, to the light.
     ///
-    /// The half vector is that of Torrance and Sparrow: a microfacet with this normal mirrors l to
-    /// v.
+    /// The half vector is the normal of the microfacets that mirror l to v.
     #[inline(always)]
     pub(super) fn new(n: Vec3Lanes<N>, v: Vec3Lanes<N>, l: Vec3Lanes<N>) -> Self {
         // The half vector; zero instead of NaN where light and view are opposite.

@@ -111,7 +111,7 @@ fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) 
 
 /// Smith's Λ of the Charlie distribution: the fit of Estevez and Kulla 2017, table 1.
 ///
-/// The fit has two branches about the cosine 0.5, symmetric in the exponent.
+/// The fit has two branches, whose exponents are point-symmetric about the cosine 0.5.
 fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
     // Coefficients of smooth and rough fibers, interpolated by (1 − α)².
     let weight = (1.0 - alpha) * (1.0 - alpha);

@@ -13,7 +13,7 @@
 //! mapping*, 1999).
 //!
 //! Taps on a line approximate the elliptical weighted average (EWA: Greene and Heckbert 1986),
-//! which weights every texel within the ellipse by a Gaussian and costs several times as much.
+//! which weights every texel within the ellipse by a Gaussian.
 
 use super::UvLanes;
 use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
