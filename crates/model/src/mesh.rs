@@ -25,7 +25,7 @@ pub struct Mesh {
 /// Strips, loops and fans have been expanded to plain lists, with the winding that the
 /// specification gives them. Every attribute that is present has one entry for each vertex, every
 /// index is less than the number of vertices, and every position is finite: the importer has
-/// dropped what is not.
+/// dropped invalid items.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Whether the indices form points, lines or triangles.

@@ -1,9 +1,9 @@
-//! Memory budget for the arrays that a file asks for: the defense against decompression bombs.
+//! Memory budget for the arrays that a file declares: the defense against decompression bombs.
 //!
 //! Two bounds apply: an absolute one, and one relative to the bytes that have been read. The second
-//! catches small files that ask for much: an honest model's arrays are at most a few times as large
-//! as its files, even when compressed. Charges are made before an array is allocated and never
-//! refunded, as the arrays live as long as the model.
+//! catches small files that declare much: an ordinary model's arrays are at most a few times as
+//! large as its files, even when compressed. Charges are made before an array is allocated and
+//! never refunded, as the arrays live as long as the model.
 
 use super::limits::Limits;
 use crate::diagnostic::{Diagnostic, codes};

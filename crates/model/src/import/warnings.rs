@@ -1,6 +1,6 @@
 //! The importer's list of warnings, bounded even if a file has millions of faults.
 //!
-//! Errors become warnings in two ways: some always do, because only the look suffers
+//! Errors become warnings in two ways: some always do, because only the appearance suffers
 //! ([`ImportWarnings::downgrade`]); others only when reading leniently
 //! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: what is
 //! left out, or what replaces it.

@@ -117,7 +117,7 @@ impl Material {
     /// The texture in a slot, to be changed.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {
         let extensions = &mut self.extensions;
-        // The diffuse texture of the older model stands in the place of the base colour's.
+        // The specular-glossiness workflow stores its diffuse texture as the base color texture.
         let is_spec_gloss = extensions.specular_glossiness.is_some();
         match slot {
             TextureSlot::BaseColor => self.base_color_texture.as_mut().filter(|_| !is_spec_gloss),

@@ -17,7 +17,7 @@ impl Model {
     /// All nodes of the active scene, parents before their children, otherwise in the order of the
     /// file.
     ///
-    /// The traversal keeps its own stack, so that a deep hierarchy cannot exhaust the thread's.
+    /// The traversal has its own stack, so that a deep hierarchy cannot exhaust the thread's.
     #[must_use]
     pub fn node_instances(&self) -> Vec<MeshInstance> {
         self.instances_below(&self.roots)

@@ -1,6 +1,6 @@
 //! Extension support: the extensions that are drawn, ignored or refused.
 //!
-//! To support another one, read it where it belongs (materials in `material`, nodes in
+//! To support another one, read it in the module of its object (materials in `material`, nodes in
 //! `scene_graph`) and change its row in the table. The table is what the program prints about a
 //! file's extensions.
 

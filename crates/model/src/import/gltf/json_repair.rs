@@ -88,7 +88,7 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
         "meshes" => json!({"primitives": []}),
         "scenes" => json!({"nodes": []}),
         "skins" => json!({"joints": []}),
-        // No collection of things with numbers: the whole member goes.
+        // Not a collection whose items are referred to by index: the whole member is removed.
         _ => {
             let members = document.as_object_mut()?;
             return members.remove(collection).map(|_| "all of it is left out");
