@@ -163,7 +163,7 @@ struct RuleScan<'a> {
 /// Bounds are compared before dequantization: `min` and `max` of normalized integers are the stored
 /// integers (glTF 2.0 §3.6.2.5).
 struct BoundsScan {
-    /// `min` and `max` as declared, `None` for values that are no numbers.
+    /// `min` and `max` as declared, `None` for values other than numbers.
     declared: [Vec<Option<f64>>; 2],
     /// The minimum and maximum of each component; an element has at most 16.
     actual: [[f64; 16]; 2],

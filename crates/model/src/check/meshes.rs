@@ -228,6 +228,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
     /// Records rules for the elements of an attribute in a valid format.
     ///
     /// Normals and tangents are unit vectors; float colors are in [0, 1].
+    ///
+    /// Only float colors can leave [0, 1]: normalized integers are inside by construction. Values
+    /// in an invalid format are not read.
     fn add_element_rules(&mut self, name: &str, at: usize, layout: AccessorLayout, pointer: &str) {
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
         let formats = Semantic::from_name(name)

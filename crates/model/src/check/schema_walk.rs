@@ -87,7 +87,8 @@ impl SchemaWalker<'_> {
                 None if member.rule == PresenceRule::Required => {
                     let name = member.name;
                     let message = format_args!("missing property `{name}`");
-                    // The pointer names the missing member, so that each is reported by itself.
+                    // The pointer names the missing member, so that each is a diagnostic of its
+                    // own.
                     let diagnostics = &self.document.diagnostics;
                     diagnostics.add(
                         &codes::UNDEFINED_PROPERTY,

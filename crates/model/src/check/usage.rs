@@ -137,9 +137,9 @@ impl<'a> UsageMap<'a> {
 
     /// Records an accessor of vertex attributes: several in one buffer view need a `byteStride`.
     ///
-    /// Interleaved attributes cannot be told from consecutive ones without it, so the specification
-    /// requires it for two or more accessors (glTF 2.0 §5.11.4). One accessor may be used any
-    /// number of times.
+    /// Interleaved attributes cannot be distinguished from consecutive ones without it, so the
+    /// specification requires it for two or more accessors (glTF 2.0 §5.11.4). One accessor may be
+    /// used any number of times.
     pub(super) fn note_vertex_accessor(&self, accessor: usize, pointer: &str) {
         let Some(view) = self.accessor_view(accessor) else { return };
         let json = self.document.root_array("bufferViews").get(view);

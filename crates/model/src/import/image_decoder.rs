@@ -146,7 +146,7 @@ impl ImageFormat {
     ///
     /// - PNG: deflate makes at most 1,032 bytes of one, and a byte has eight 1-bit texels.
     /// - JPEG: each block of 64 texels takes at least one bit.
-    /// - WebP: a flat image takes next to nothing, so that its size itself is bounded: what
+    /// - WebP: a flat image takes almost no bytes, so that its size itself is bounded: what
     ///   [`BOMB_ALLOWANCE_TEXELS`] allows takes 70 MB while it is decoded.
     fn max_plausible_texels(&self, bytes: usize) -> u64 {
         let bytes = bytes as u64;

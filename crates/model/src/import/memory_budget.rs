@@ -15,11 +15,14 @@ const FREE_ARRAY_BYTES: u64 = 16 << 20;
 /// Running total of array bytes; see [`Limits::array_bytes`] and [`Limits::array_growth`].
 #[derive(Debug)]
 pub(crate) struct MemoryBudget<'a> {
+    /// The absolute and the relative limit.
     limits: &'a Limits,
+    /// Bytes charged so far, of all arrays; saturating.
     allocated: Cell<u64>,
 }
 
 impl<'a> MemoryBudget<'a> {
+    /// A budget of which nothing has been spent.
     pub(crate) fn new(limits: &'a Limits) -> Self {
         Self { limits, allocated: Cell::new(0) }
     }

@@ -20,8 +20,8 @@ impl Primitive {
     ///
     /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
     /// missing ones. `None` for points and lines, without such a set, and for shapes that the
-    /// algorithm gives up on. The result for the first set that is asked for is cached with the
-    /// primitive, so that the frames of an animation share it.
+    /// algorithm rejects. The result for the first requested set is cached with the primitive, so
+    /// that the frames of an animation share it.
     #[must_use]
     pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
         let (cached_set, cached) =

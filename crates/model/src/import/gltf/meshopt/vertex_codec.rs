@@ -179,7 +179,7 @@ enum DeltaChannel {
     Bytes8,
     /// Two zigzag-coded differences of 16-bit words.
     Words16,
-    /// The exclusive or of two 32-bit words, rotated left by so many bits.
+    /// The exclusive or of two 32-bit words, rotated left by this number of bits.
     Xor32(u32),
 }
 
