@@ -1,9 +1,9 @@
 //! The memory layout of accessor elements (glTF 2.0 §3.6.2).
 //!
 //! ```text
-//!         byte_offset      stride              packed stride: element with column padding
-//!  view  ├────────────┼───────────────────┼─────────────┼ …
-//!                     │ element │ padding  │ element      the last element needs no padding
+//!  buffer view
+//!  ├─ byte_offset ─┼────── stride ──────┼────── stride ──────┼──────────┤
+//!                  │ element   padding  │ element   padding  │ element    no padding at the end
 //! ```
 //!
 //! Sizes are in bytes, and sums saturate: a declared size may exceed any buffer, and is compared

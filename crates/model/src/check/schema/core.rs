@@ -194,8 +194,7 @@ static CAMERA: ObjectSchema = object_schema(
 
 /// `camera.orthographic` (§5.13): half width and height of the view, near and far plane.
 ///
-/// `xmag` and `ymag` must not be 0; negative values mirror the image, and are discouraged by the
-/// specification.
+/// `xmag` and `ymag` must not be 0, and should not be negative.
 static ORTHOGRAPHIC: ObjectSchema = object_schema(
     "orthographic",
     &[

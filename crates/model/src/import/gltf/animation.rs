@@ -26,7 +26,7 @@ use gltf::json::validation::Checked;
 pub(super) struct AnimatedObjects<'a> {
     /// Nodes, for transforms and morph weights.
     pub(super) nodes: &'a [Node],
-    /// Materials; a texture reference may be changed to use an animated transform.
+    /// Materials; mutable only because the property table gives mutable access.
     pub(super) materials: &'a mut [Material],
     /// Punctual lights.
     pub(super) lights: &'a [PunctualLight],
