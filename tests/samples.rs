@@ -125,7 +125,7 @@ fn quad() -> Document {
 }
 
 /// A quad with a base color texture of 2 × 2 pixels and this material.
-fn textured_quad(material: Value) -> Document {
+fn textured_quad(material: &Value) -> Document {
     let mut document = quad();
     let view = document.add_buffer_view(&crate::gltf::encode_png(2, 2));
     document.json["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
@@ -134,8 +134,7 @@ fn textured_quad(material: Value) -> Document {
 }
 
 /// The document with a material on its first primitive, and the material's extensions listed.
-#[expect(clippy::needless_pass_by_value, reason = "callers write the value in place")]
-fn quad_material(mut document: Document, material: Value) -> Document {
+fn quad_material(mut document: Document, material: &Value) -> Document {
     if let Some(extensions) = material["extensions"].as_object() {
         let names: Vec<&String> = extensions.keys().collect();
         document.json["extensionsUsed"] = json!(names);

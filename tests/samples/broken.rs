@@ -110,7 +110,7 @@ const QUAD_CHANGES: &[Change] = &[
 fn changed_members() -> Vec<Sample> {
     let material =
         json!({"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
-    let (triangle, quad) = (triangle(), textured_quad(material));
+    let (triangle, quad) = (triangle(), textured_quad(&material));
     let change = |base: &Document, (name, pointer, text, error): Change| {
         let value = serde_json::from_str(text).expect("the table holds JSON");
         sample(name, &base.clone().with_value(pointer, value), &[error])
@@ -134,7 +134,7 @@ fn wrong_values() -> Vec<Sample> {
     let normals = add_floats(&mut few_normals, "VEC3", &[0.0, 0.0, 1.0].repeat(3));
     let few_normals =
         few_normals.with_value("/meshes/0/primitives/0/attributes/NORMAL", json!(normals));
-    let mut cut_picture = textured_quad(json!({}));
+    let mut cut_picture = textured_quad(&json!({}));
     let view = cut_picture.add_buffer_view(&crate::gltf::encode_png(4, 4)[..20]);
     let cut_picture = cut_picture.with_value("/images/0/bufferView", json!(view));
     let two_parents = triangle()

@@ -32,9 +32,9 @@ fn json_files() -> Vec<Sample> {
     let plain = triangle();
     let embedded = data_uri("application/octet-stream", &plain.bytes);
     let material = json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
-    let mut picture_beside = textured_quad(material.clone());
+    let mut picture_beside = textured_quad(&material);
     picture_beside.json["images"] = json!([{"uri": "textures/gray.png"}]);
-    let mut picture_embedded = textured_quad(material);
+    let mut picture_embedded = textured_quad(&material);
     picture_embedded.json["images"] = json!([{"uri": data_uri("image/png", &encode_png(2, 2))}]);
     let gltf = |name: &str, document: &Document, uri: &str, triangles| {
         Sample::valid(name, "model.gltf", json_with_buffer(document, uri), triangles)

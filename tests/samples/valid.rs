@@ -123,7 +123,7 @@ fn quantized() -> Document {
 /// Alpha modes, textures, core factors.
 fn materials() -> Vec<Sample> {
     let textured = |mode: &str| {
-        textured_quad(json!({"alphaMode": mode, "doubleSided": true,
+        textured_quad(&json!({"alphaMode": mode, "doubleSided": true,
             "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}))
     };
     let metal = json!({"emissiveFactor": [0, 0, 0.5], "pbrMetallicRoughness": {
@@ -144,8 +144,8 @@ fn materials() -> Vec<Sample> {
         sample("textured", &textured("OPAQUE"), 2),
         sample("alpha-mask", &textured("MASK"), 2),
         sample("alpha-blend", &textured("BLEND"), 2),
-        sample("metal", &quad_material(quad(), metal), 2),
-        sample("all-core-textures", &textured_quad(maps), 2),
+        sample("metal", &quad_material(quad(), &metal), 2),
+        sample("all-core-textures", &textured_quad(&maps), 2),
         sample("sampler-modes", &samplers, 2),
         sample("texture-transform", &transformed, 2),
     ]
@@ -254,7 +254,7 @@ fn extensions() -> Vec<Sample> {
             // Tangents are derived from the texture coordinates of the normal texture.
             material["normalTexture"] = json!({"index": 0});
         }
-        samples.push(sample(&full_name, &quad_material(textured_quad(json!({})), material), 2));
+        samples.push(sample(&full_name, &quad_material(textured_quad(&json!({})), &material), 2));
     }
     let mut lit = quad();
     lit.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
@@ -270,7 +270,7 @@ fn extensions() -> Vec<Sample> {
         &lit.with_value("/scenes/0/nodes", json!([0, 1, 2, 3])),
         2,
     ));
-    let mut variants = quad_material(quad(), json!({}));
+    let mut variants = quad_material(quad(), &json!({}));
     variants.json["extensionsUsed"] = json!(["KHR_materials_variants"]);
     variants.json["extensions"] =
         json!({"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}});
