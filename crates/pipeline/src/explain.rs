@@ -70,12 +70,12 @@ pub struct Step {
     /// The ids of its formulas in the chapter, such as `PE-1, VV-2`.
     pub formula: Option<&'static str>,
     /// Its inputs and results.
-    pub items: Vec<Item>,
+    pub items: Vec<ExplanationEntry>,
 }
 
 /// A named value of a step.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Item {
+pub struct ExplanationEntry {
     /// A stable identifier for programs, unique within its step. For one of several points it ends
     /// in the point's label: `clip_a`, `ndc_start`.
     pub id: String,
@@ -125,7 +125,7 @@ impl Step {
         name: impl Into<String>,
         value: impl Into<ItemValue>,
     ) {
-        self.items.push(Item { id: id.into(), name: name.into(), value: value.into() });
+        self.items.push(ExplanationEntry { id: id.into(), name: name.into(), value: value.into() });
     }
 }
 

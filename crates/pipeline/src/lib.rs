@@ -18,7 +18,7 @@
 //! | for | begin with | an example |
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
-//! | a line drawing as SVG, PDF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
+//! | lines as SVG, PDF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
 //! | a frame sequence of one scene | [`sequence::Sequence`] | `examples/turntable.rs` |
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |

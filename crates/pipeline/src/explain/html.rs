@@ -6,7 +6,7 @@
 use super::diagrams::draw_diagrams;
 use super::plain_text::format_number;
 use super::transform_chain::TransformChain;
-use super::{Explanation, Item, ItemValue, Step};
+use super::{Explanation, ExplanationEntry, ItemValue, Step};
 use shade::Picture;
 
 impl Explanation {
@@ -56,7 +56,7 @@ fn step_html(step: &Step) -> String {
 ///
 /// Matrices are tables whose left and right borders act as brackets; coordinates are a list in
 /// parentheses. Numbers have at most seven significant digits, as in plain text.
-fn item_html(item: &Item) -> String {
+fn item_html(item: &ExplanationEntry) -> String {
     let value = match &item.value {
         ItemValue::Matrix(rows) => {
             let cells = |row: &[f64; 4]| -> String {

@@ -6,7 +6,7 @@
 //!             "items": [{"id": "eye", "name": "eye", "value": [4, 3, 6]}]}]}
 //! ```
 
-use super::{Explanation, Item, ItemValue, Step};
+use super::{Explanation, ExplanationEntry, ItemValue, Step};
 use serde_json::{Value as Json, json};
 
 /// The name of the schema.
@@ -50,7 +50,7 @@ fn step_json(step: &Step) -> Json {
 /// One item; a matrix as an object with its rows.
 ///
 /// The object tells a matrix from a list of coordinates without counting numbers.
-fn item_json(item: &Item) -> Json {
+fn item_json(item: &ExplanationEntry) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),
         ItemValue::Numbers(numbers) => json!(numbers),

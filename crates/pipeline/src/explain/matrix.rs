@@ -1,7 +1,7 @@
 //! Explanation of a 4 × 4 matrix: its kind, the projections it may be in known conventions, and
 //! known misprints it resembles.
 //!
-//! The same sixteen numbers can be several projections, each in another convention: OpenGL's and
+//! Sixteen numbers can be several projections, each in another convention: OpenGL's and
 //! the textbook's differ by the sign of z. All readings are listed, the simplest first. Misprints
 //! are those of the chapter and of widespread tutorials, such as a transposed matrix or a sign lost
 //! in the third row.

@@ -7,7 +7,7 @@
 //!                             [ …                        ]
 //! ```
 
-use super::{Explanation, Item, ItemValue, Step};
+use super::{Explanation, ExplanationEntry, ItemValue, Step};
 use homog::MatrixDisplay;
 use std::fmt::{self, Display, Formatter};
 
@@ -40,7 +40,7 @@ impl Display for FormulaSuffix<'_> {
 ///
 /// The label stands before the first line only; the other rows of a matrix are indented below it.
 /// `width` counts characters, not bytes, for labels such as `x, y = ±distance`.
-fn write_item_text(f: &mut Formatter<'_>, item: &Item, width: usize) -> fmt::Result {
+fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize) -> fmt::Result {
     let lines = match &item.value {
         ItemValue::Matrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
         ItemValue::Numbers(numbers) => {

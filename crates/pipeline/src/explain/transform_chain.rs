@@ -11,7 +11,7 @@
 use super::conventions::ApiConventions;
 use super::plain_text::format_number;
 use super::projection_factors;
-use super::{Item, ItemValue, Step};
+use super::{ExplanationEntry, ItemValue, Step};
 use camera::{Camera, ViewProjection, ViewTransform};
 use clip::{Outcode, Volume};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, View, World};
@@ -309,9 +309,9 @@ impl TransformChain {
 ///
 /// It takes the id of the NDC coordinates, with text in their stead; a direction or a point in the
 /// plane of the eye has no image.
-fn infinity_item(name: &str) -> Item {
+fn infinity_item(name: &str) -> ExplanationEntry {
     let words = "w is 0: it is at infinity and has no place on the screen";
-    Item {
+    ExplanationEntry {
         id: format!("ndc{}", id_suffix(name)),
         name: label_with_name("ndc", name),
         value: ItemValue::from(words),

@@ -1,7 +1,7 @@
 //! The formatter of scene files: one layout for all, with the words of today.
 //!
 //! ```text
-//!  text ─► older words replaced ─► tokens with the line breaks before them ─► groups of items ─► lines
+//!  text ─► older words replaced ─► tokens with their line breaks ─► groups of items ─► lines
 //! ```
 //! A group that fits on a line is written on one line; everything else has a line for each part;
 //! comments stay. A bracket that is followed by a line break stays open: the author decides what is

@@ -5,7 +5,7 @@
 //!  scene_struct! { pub struct ModelFile as "Model" { pub path: String, pub scale: Scale = … } }
 //!        ├─► struct ModelFile            what resolution works with
 //!        ├─► impl SceneValue             reads it from a syntax tree; reports every mistake in it
-//!        └─► ModelFile::ENTRY            name, fields, types, defaults and doc comments: `alberti scene doc`
+//!        └─► ModelFile::ENTRY          fields, types, defaults, doc comments: `alberti scene doc`
 //! ```
 //! A field with `= value`, or of type `Option`, may be left out.
 //!

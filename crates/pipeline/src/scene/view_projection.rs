@@ -5,8 +5,8 @@
 //!  Frame ─► bounds, direction ─────┼─► near and far from the depths of the vertices ─► projection
 //!  FromModel ─► node of the model ─┘    unless the file gives them
 //! ```
-//! Framing finds the eye at which every vertex just fits into the window: in closed form for perspective,
-//! from the box of the images for parallel projections.
+//! Framing finds the eye at which every vertex just fits into the window: in closed form for
+//! perspective, from the box of the images for parallel projections.
 
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;

@@ -12,7 +12,7 @@
 
 use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
-use crate::scene::syntax::{Group, Item, Key, Node, NodeKind};
+use crate::scene::syntax::{Group, SyntaxItem, Key, Node, NodeKind};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
 use core::fmt::Write as _;
 use core::ops::Range;
@@ -212,7 +212,7 @@ impl<'a> Checker<'a> {
         owner: &Owner,
         declared: &'static [FieldEntry],
     ) -> Option<Fields<'n>> {
-        let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
+        let mut found: Vec<(&'static str, &'n SyntaxItem<'n>)> = Vec::new();
         let mut meant: Vec<&'static str> = Vec::new();
         let mut unknown = 0;
         for item in &group.items {
@@ -256,7 +256,7 @@ impl<'a> Checker<'a> {
         Some(Fields { items: found })
     }
     /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
-    fn report_keyless_item(&mut self, item: &Item<'_>) {
+    fn report_keyless_item(&mut self, item: &SyntaxItem<'_>) {
         if item.value.kind == NodeKind::Invalid {
             return;
         }
@@ -359,7 +359,7 @@ impl<'a> Checker<'a> {
     /// run. Any other list is read whole or not at all.
     pub(in crate::scene) fn read_list<T: SceneValue>(
         &mut self,
-        items: &[Item<'_>],
+        items: &[SyntaxItem<'_>],
     ) -> Option<Vec<T>> {
         let mut values = Vec::new();
         let mut indices = Vec::new();
@@ -382,7 +382,7 @@ impl<'a> Checker<'a> {
     pub(in crate::scene) fn read_element<T: SceneValue>(
         &mut self,
         index: usize,
-        item: &Item<'_>,
+        item: &SyntaxItem<'_>,
     ) -> Option<T> {
         self.path.push(Segment::Index(index));
         self.scopes.push(item.span());
@@ -414,7 +414,7 @@ struct Owner {
 /// The fields of a struct or a variant that are in the text.
 pub(in crate::scene) struct Fields<'n> {
     /// The declared fields that were found, each once, in the order of the text.
-    items: Vec<(&'static str, &'n Item<'n>)>,
+    items: Vec<(&'static str, &'n SyntaxItem<'n>)>,
 }
 
 impl Fields<'_> {
@@ -500,7 +500,7 @@ impl<'n> Variant<'n> {
             checker.report(self.span.clone(), message, Some(help));
             return None;
         };
-        if let [Item { key: None, value }] = group.items.as_slice() {
+        if let [SyntaxItem { key: None, value }] = group.items.as_slice() {
             return T::from_node(value, checker);
         }
         let unnamed = Group { name: None, ..group.clone() };

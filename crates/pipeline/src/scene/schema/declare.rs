@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  scene_struct!  struct with fields           scene_enum!   variants with fields or a value
-//!  named_enum!    variants without anything    named_values! such names for an enum of another crate
+//!  named_enum!    variants without anything    named_values! names for a foreign enum
 //! ```
 //! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show one
 //! text. The macros expand to absolute `$crate` paths, since they are used in many modules.

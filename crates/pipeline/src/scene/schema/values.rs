@@ -227,7 +227,7 @@ fn tuple_items<'n, 'a>(
     node: &'n Node<'a>,
     count: usize,
     checker: &mut Checker<'_>,
-) -> Option<&'n [crate::scene::syntax::Item<'a>]> {
+) -> Option<&'n [crate::scene::syntax::SyntaxItem<'a>]> {
     let group = node.group().filter(|group| group.name.is_none() && group.open != '{');
     let expected = format!("{count} values in brackets");
     let Some(group) = group else {

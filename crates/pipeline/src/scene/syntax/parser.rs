@@ -14,7 +14,7 @@
 
 use super::literal::looks_like_number;
 use super::tokens::{Token, TokenKind, tokenize};
-use super::tree::{Group, Item, Key, Node, NodeKind};
+use super::tree::{Group, SyntaxItem, Key, Node, NodeKind};
 use crate::scene::mistake::Mistake;
 use core::ops::Range;
 
@@ -279,10 +279,10 @@ impl<'a> Parser<'a> {
     }
 
     /// An element, or a field with its key.
-    fn parse_item(&mut self) -> Item<'a> {
+    fn parse_item(&mut self) -> SyntaxItem<'a> {
         let (first, second) = (self.peek(), self.tokens.get(self.at + 1).copied());
         let (Some(first), Some(second)) = (first, second) else {
-            return Item { key: None, value: self.parse_value() };
+            return SyntaxItem { key: None, value: self.parse_value() };
         };
         let in_list = self.open.last().is_some_and(|open| open.text == "[");
         let may_be_key = first.kind == TokenKind::Word && !in_list;
@@ -292,7 +292,7 @@ impl<'a> Parser<'a> {
         let has_colon = second.kind == TokenKind::Colon && first.kind == TokenKind::Word;
         let lacks_colon = may_be_key && is_identifier(first.text) && begins_value;
         if !has_colon && !lacks_colon {
-            return Item { key: None, value: self.parse_value() };
+            return SyntaxItem { key: None, value: self.parse_value() };
         }
         let quoted = is_string(first.text).then(|| first.text.trim_matches('"'));
         let name = quoted.unwrap_or(first.text);
@@ -304,7 +304,7 @@ impl<'a> Parser<'a> {
         } else {
             self.at += 1;
         }
-        Item { key: Some(key), value: self.parse_value() }
+        SyntaxItem { key: Some(key), value: self.parse_value() }
     }
 
     /// Moves past the comma behind an item; reports it if it is missing.

@@ -33,17 +33,17 @@ pub(in crate::scene) struct Group<'a> {
     pub(in crate::scene) name: Option<Key<'a>>,
     /// `(`, `[` or `{`.
     pub(in crate::scene) open: char,
-    pub(in crate::scene) items: Vec<Item<'a>>,
+    pub(in crate::scene) items: Vec<SyntaxItem<'a>>,
 }
 
 /// An element of a group, with a key if it is a field.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(in crate::scene) struct Item<'a> {
+pub(in crate::scene) struct SyntaxItem<'a> {
     pub(in crate::scene) key: Option<Key<'a>>,
     pub(in crate::scene) value: Node<'a>,
 }
 
-impl Item<'_> {
+impl SyntaxItem<'_> {
     /// The bytes of the key and the value.
     pub(in crate::scene) fn span(&self) -> Range<usize> {
         self.key.as_ref().map_or(self.value.span.start, |key| key.span.start)..self.value.span.end
@@ -78,7 +78,7 @@ impl<'a> Node<'a> {
         };
         match (found, items.as_slice(), step) {
             (Some(item), ..) => Some(&item.value),
-            (None, [Item { key: None, value }], PathStep::Field(_)) => value.child(step),
+            (None, [SyntaxItem { key: None, value }], PathStep::Field(_)) => value.child(step),
             _ => None,
         }
     }
