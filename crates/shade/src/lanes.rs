@@ -249,8 +249,8 @@ where
 
 /// Lanes from each item of an array.
 ///
-/// In kernels it stands for the `map` of arrays, which is too large to be inlined always, and is then
-/// a call to code without the kernel's vector instructions.
+/// In kernels it stands for the `map` of arrays, which is too large to be inlined always, and is
+/// then a call to code without the kernel's vector instructions.
 #[inline(always)]
 pub(crate) fn map_to_lanes<T: Copy, const N: usize, const K: usize>(
     items: &[T; K],
