@@ -134,6 +134,7 @@ fn textured_quad(material: Value) -> Document {
 }
 
 /// The document with a material on its first primitive, and the material's extensions listed.
+#[expect(clippy::needless_pass_by_value, reason = "callers write the value in place")]
 fn quad_material(mut document: Document, material: Value) -> Document {
     if let Some(extensions) = material["extensions"].as_object() {
         let names: Vec<&String> = extensions.keys().collect();

@@ -131,7 +131,7 @@ fn to_world_variants(blocks: Blocks) -> Vec<Variant> {
             }
         }),
         mapping_variant("Affine::points_into", blocks, points, places, move |p, q| {
-            map.transform_points_into(p, q)
+            map.transform_points_into(p, q);
         }),
     ]
 }

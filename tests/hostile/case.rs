@@ -51,7 +51,8 @@ impl Case {
     /// Checks the file: a report that says whether it loads, and why not.
     pub fn check_bytes(&self) -> Result<(), String> {
         let report = check_bytes("model.gltf", &self.file, &self.options);
-        let fault = load_bytes("model.gltf", &self.file, &self.options).err().map(|e| e.diagnostic);
+        let fault =
+            load_bytes("model.gltf", &self.file, &self.options).err().map(|e| *e.diagnostic);
         if report.load_error != fault {
             return Err(format!("loading says {fault:?}, the report {:?}", report.load_error));
         }

@@ -26,7 +26,7 @@ pub(crate) fn parse_svg(text: &str) -> (PagePoint, Layers) {
                 ids.push(id);
             }
             (None, Some(path)) => {
-                layers.entry(layer.clone()).or_default().extend(parse_path(&path))
+                layers.entry(layer.clone()).or_default().extend(parse_path(&path));
             }
             (None, None) => panic!("neither id nor path: {tag}"),
         }

@@ -63,7 +63,7 @@ fn check_attributes(input: &Value, out: &Value) -> Result<(), String> {
     let depth = frame.visibility_buffer().depth;
     let mut fragments = Vec::new();
     frame.for_each_fragment(|f| {
-        fragments.push(CoveredFragment { x: f.x, y: f.y, weights: f.weights })
+        fragments.push(CoveredFragment { x: f.x, y: f.y, weights: f.weights });
     });
     let pixels = parse_array(&out["pixels"])?;
     if pixels.len() != fragments.len() {

@@ -1,4 +1,11 @@
 //! `alberti animate`: a turntable or an animation as image files, APNG, GIF or raw frames.
+//!
+//! ```text
+//!  scene ─► motion, times, frame count ─► frames in order ─► PNG files, APNG, GIF, raw bytes
+//! ```
+//! The scene is loaded and resolved once; each frame poses its models and renders them anew. Frames
+//! are rendered in parallel, one by each thread, and written in order; memory is that of a few
+//! frames per thread.
 
 mod frame_sink;
 
@@ -58,6 +65,13 @@ pub(crate) struct AnimateArgs {
 }
 
 /// Renders the frames and writes each as soon as it is there.
+///
+/// The warnings of the models are printed first: they apply to every frame, and a missing texture
+/// should be known before hundreds of frames are rendered without it.
+///
+/// # Errors
+/// If the input is invalid, a frame cannot be rendered, or the output cannot be written. A file of
+/// several frames does not exist then; of PNG files, those of the finished frames do.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     print_warnings(&scene, &[]);
@@ -81,6 +95,21 @@ impl AnimateArgs {
     ///
     /// A turntable rotates the models; otherwise their animations play, and the camera follows its
     /// keyframes, if it has any. Start, end and number of frames default to those of the animation.
+    ///
+    /// | flags and scene | motion | default number of frames |
+    /// | --- | --- | --- |
+    /// | `--turntable` | models rotate by the angle | 120 |
+    /// | an animation | its time goes from start to end | length × frames per second |
+    /// | camera keyframes only | the camera moves | length × frames per second |
+    /// | none of these | models rotate by 360° | 120 |
+    ///
+    /// The end is the time of the frame after the last, so that a loop does not show its first
+    /// picture twice. A start after the end plays the animation backwards. Camera keyframes go with
+    /// any of these motions; they then give the default times, and with them the number of frames.
+    ///
+    /// # Errors
+    /// If the scene chooses an animation that the model does not have, or its keyframes are
+    /// invalid.
     fn build_sequence(
         &self,
         origin: &Origin,
@@ -120,6 +149,12 @@ impl AnimateArgs {
 }
 
 /// The animation of each model instance: the one that the scene chooses, or the model's first.
+///
+/// Instances are in the order of the scene file; a model with several instances has one
+/// entry, with the choice of its file, for each. `None` stands for a model that does not move.
+///
+/// # Errors
+/// If a choice matches no animation; the message lists those that the model has.
 fn choose_animations(
     models: &[ModelInstance],
     file: &SceneFile,
@@ -141,6 +176,9 @@ fn choose_animations(
 }
 
 /// Parses a finite number.
+///
+/// NaN and infinite numbers are rejected, although Rust parses them: an angle or a time must be
+/// finite.
 fn parse_finite(text: &str) -> Result<Finite, String> {
     text.parse()
         .ok()
@@ -149,6 +187,8 @@ fn parse_finite(text: &str) -> Result<Finite, String> {
 }
 
 /// Parses a frame rate from 0.1 to 1000.
+///
+/// Fractions such as `23.976` are allowed.
 fn parse_frame_rate(text: &str) -> Result<f64, String> {
     let rate = text.parse().ok().filter(|rate: &f64| (0.1..=1000.0).contains(rate));
     rate.ok_or_else(|| "expected a number from 0.1 to 1000".to_owned())

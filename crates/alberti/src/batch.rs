@@ -6,6 +6,14 @@
 //! A job is done if a report has it with the same content and settings and its picture exists. A
 //! run that was stopped or killed therefore resumes where it was. A broken model is one line of the
 //! report and does not stop the others.
+//!
+//! The output folder holds, besides the pictures:
+//!
+//! - `report.jsonl`, or `report-I-of-N.jsonl` for a shard: one JSON object per job;
+//! - `index.html`, the contact sheet, written only by a run without shards.
+//!
+//! Jobs are sorted and named before the first one starts, so that neither threads nor shards change
+//! the name of a picture.
 
 mod contact_sheet;
 mod jobs;
@@ -51,6 +59,13 @@ pub(crate) struct BatchArgs {
 }
 
 /// Runs the jobs of this shard; the exit code is 1 if one has failed.
+///
+/// The reports of all shards in the folder count as earlier work, so a run may resume with another
+/// number of shards. They are read before this run's report is opened for appending.
+///
+/// # Errors
+/// If an input cannot be listed, or the folder or its report cannot be written. A job that fails is
+/// not an error of the run: it is a record of the report, and changes the exit code only.
 pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, CliError> {
     let all = jobs::find_jobs(&args.inputs)?;
     let shard = args.shard.unwrap_or(Shard::ALL_JOBS);
@@ -75,6 +90,14 @@ pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, CliError> {
 }
 
 /// Prints the failures and the counts; returns the exit code.
+///
+/// Failures go to the standard error stream, in the order of the jobs; the counts go to the
+/// standard output:
+///
+/// ```text
+/// failed: models/broken.glb: …
+/// 118 rendered, 40 up to date, 1 failed
+/// ```
 fn print_summary(records: &[JobRecord]) -> Result<ExitCode, CliError> {
     let count = |status| records.iter().filter(|record| record.status == status).count();
     let (done, before, failed) =

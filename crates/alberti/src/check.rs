@@ -2,6 +2,10 @@
 //!
 //! A scene gets its errors, lints for values that are probably unintended, and the validation of
 //! each model it refers to. A model is validated against the glTF 2.0 specification.
+//!
+//! The standard output has the report, also when it is full of errors: they are the result, not a
+//! failure. Only what keeps the check itself from running, such as a missing scene, is printed as
+//! `error:`. Either gives exit code 1.
 
 mod json;
 
@@ -31,6 +35,8 @@ pub(crate) struct CheckScenesArgs {
 }
 
 /// The results for one input: a scene with its models, or a bare model.
+///
+/// Text and JSON are both made from it, so that they cannot disagree.
 struct CheckResult {
     /// The path of the input.
     file: PathBuf,
@@ -43,6 +49,10 @@ struct CheckResult {
 }
 
 /// Validates a scene or a model; the exit code is 1 if there are errors.
+///
+/// # Errors
+/// If a scene file cannot be read. A model that cannot be read is an error of its report instead,
+/// so that a scene with a missing model is checked to the end.
 pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let findings = if is_scene_file(&args.input) {
@@ -58,6 +68,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
 }
 
 /// Validates scenes and their models; the exit code is 1 if there are errors.
+///
+/// All files are checked before anything is printed; the first that cannot be read ends the
+/// command.
 pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let check = |path: &PathBuf| check_scene(path, &options);
@@ -80,6 +93,10 @@ fn exit_code(errors: usize) -> ExitCode {
 ///
 /// A file that cannot be parsed has its syntax errors only. Lints need a resolved scene, so they
 /// are looked for only where there is no error.
+///
+/// The order is: parse, validate fields and references, resolve as `render` would, look for lints,
+/// check the models. The models are checked even if the scene has errors, unless it cannot be
+/// parsed.
 fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, CliError> {
     let found = |scene, advice, models| CheckResult {
         file: input.to_owned(),
@@ -110,6 +127,9 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
 }
 
 /// Validates each model file of a scene once, except those the scene may not read.
+///
+/// A path that is not allowed is an error of the scene already; reading it here would reveal
+/// whether it exists. Models are reported in the order in which they first appear.
 fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> Vec<CheckReport> {
     let mut paths: Vec<&str> = Vec::new();
     for entry in &file.models {
@@ -123,6 +143,8 @@ fn check_models(origin: &Origin, file: &SceneFile, options: &ImportOptions) -> V
 
 impl CheckResult {
     /// The number of errors of the scene and of its models.
+    ///
+    /// Warnings, notes and lints do not count: they do not change the exit code.
     fn error_count(&self) -> usize {
         let mistakes = self.scene.as_ref().map_or(0, Vec::len);
         mistakes + self.models.iter().map(|report| report.errors).sum::<usize>()
@@ -131,6 +153,15 @@ impl CheckResult {
     /// The report as text: the diagnostics of each file, then a summary of it.
     ///
     /// Writing to a `String` cannot fail.
+    ///
+    /// ```text
+    /// error: expected a number
+    ///  --> scene.ron:3:9
+    /// …
+    ///
+    /// scene.ron: 1 mistake
+    /// fox.glb: no errors, no warnings, no notes; it can be drawn
+    /// ```
     fn to_text(&self) -> String {
         let (mut text, color) = (String::new(), color::stdout_has_color());
         if let Some(mistakes) = &self.scene {

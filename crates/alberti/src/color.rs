@@ -18,6 +18,8 @@ pub(crate) enum ColorChoice {
 }
 
 /// The value of `--color`, once the arguments have been parsed.
+///
+/// Unset in unit tests, where it counts as `auto`.
 static COLOR_CHOICE: OnceLock<ColorChoice> = OnceLock::new();
 
 /// Sets the choice of the process; only the first call has an effect.
@@ -26,11 +28,17 @@ pub(super) fn set_color_choice(arg: ColorChoice) {
 }
 
 /// Whether messages on the standard error stream are colored.
+///
+/// It is independent of the standard output: with `alberti check x.ron > report.txt` errors still
+/// have colors and the report has none.
 pub(super) fn stderr_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stderr().is_terminal())
 }
 
 /// Whether reports on the standard output are colored.
+///
+/// Only `check` prints a report with colors. All other results are data and never get any; the
+/// escapes of `--show` are the picture itself.
 pub(super) fn stdout_has_color() -> bool {
     should_use_color(COLOR_CHOICE.get().copied(), std::io::stdout().is_terminal())
 }
@@ -51,6 +59,10 @@ fn should_use_color(chosen: Option<ColorChoice>, terminal: bool) -> bool {
 }
 
 /// The severity at the start of a message: bold red for errors, bold yellow for anything else.
+///
+/// The word may have a code behind it, such as that of a lint, `warning[CODE]`, which gets the
+/// color as well. The reset is part of the word, so that the text after it has the color of the
+/// terminal.
 pub(super) fn style_level(word: &str, colors: bool) -> String {
     match colors {
         false => word.to_owned(),

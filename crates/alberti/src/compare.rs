@@ -1,4 +1,10 @@
 //! `--compare`: image comparison of the rendered picture with a reference.
+//!
+//! Output is bit-exact on every machine, so the default tolerance is 0. A tolerance is meant for
+//! references from other programs or of older versions.
+//!
+//! The rendered picture and `NAME.compare.png` are written whether the pictures agree or not; the
+//! verdict is the exit code.
 
 use super::CliError;
 use super::passes::sibling_path;
@@ -38,6 +44,9 @@ pub(super) struct PictureComparison {
 
 impl PictureComparison {
     /// Compares two pictures of the same size, pixel by pixel.
+    ///
+    /// The caller guarantees equal sizes: a reference of another size is rejected before anything
+    /// is rendered.
     fn new(expected: &Picture, actual: &Picture, tolerance: u8) -> Self {
         let mut comparison = Self {
             max_difference: 0,
@@ -59,11 +68,16 @@ impl PictureComparison {
     }
 
     /// The fraction of pixels that differ, 0 to 1.
+    ///
+    /// An empty picture does not differ.
     pub(super) fn differing_fraction(&self) -> f64 {
         self.differing_pixels as f64 / self.total_pixels.max(1) as f64
     }
 }
 
+/// ```text
+/// compared: differs; greatest difference 12 of 255, 31 pixels (0.0045 %) beyond 0
+/// ```
 impl fmt::Display for PictureComparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { max_difference: greatest, differing_pixels: beyond, tolerance, .. } = self;
@@ -78,6 +92,9 @@ impl fmt::Display for PictureComparison {
 
 /// The maximum difference over the channels of two pixels. Two transparent pixels are equal,
 /// whatever their color.
+///
+/// Codes are compared, not light: the difference is in units of the file, 0 to 255. Alpha is a
+/// channel like the others.
 fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> u8 {
     if expected[3] == 0 && actual[3] == 0 {
         return 0;
@@ -93,6 +110,8 @@ impl CompareArgs {
 
     /// Reads the reference picture, if `--compare` was given.
     ///
+    /// It is called before rendering, so that a wrong path costs no time.
+    ///
     /// # Errors
     /// If it cannot be read, or its size is not that of the rendered region.
     pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
@@ -106,6 +125,9 @@ impl CompareArgs {
     /// Compares the pictures and writes both and their difference to a temporary file.
     ///
     /// The file is returned with the path it is to be renamed to.
+    ///
+    /// # Errors
+    /// If the temporary file cannot be created or written.
     pub(super) fn create_comparison(
         &self,
         expected: &Picture,
@@ -122,6 +144,13 @@ impl CompareArgs {
 }
 
 /// Reads a PNG of the size of the region as RGBA; 16-bit channels are rounded to 8 bits.
+///
+/// Palettes, gray and low bit depths are expanded, and an alpha channel is added where there is
+/// none. The size is checked before the pixels are decoded. 16-bit codes `c` become `(c + 128) /
+/// 257`, the nearest 8-bit code.
+///
+/// # Errors
+/// If the file cannot be read or is not a PNG, or has another size.
 fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
@@ -158,6 +187,9 @@ fn read_reference(path: &Path, region: PixelRect) -> Result<Picture, String> {
 ///
 /// The difference is white where the pictures are equal, and goes from pink to dark red with the
 /// difference.
+///
+/// The output is three times as wide as the pictures. The difference is opaque even where the
+/// pictures are transparent.
 fn side_by_side(expected: &Picture, actual: &Picture) -> Picture {
     let width = actual.width as usize;
     let rows = expected.pixels.chunks_exact(width).zip(actual.pixels.chunks_exact(width));

@@ -44,6 +44,9 @@ pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), CliError> {
 }
 
 /// The requested projections without duplicates, or all of them if none was named.
+///
+/// The name of a panel is the value of the flag, so that it can be copied to `--projection`. A
+/// projection that is named twice has one panel, at its first position.
 fn select_members(wanted: &[ProjectionArg]) -> Vec<NamedProjection> {
     let all = if wanted.is_empty() { ProjectionArg::value_variants() } else { wanted };
     let mut members: Vec<NamedProjection> = Vec::new();

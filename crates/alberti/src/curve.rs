@@ -58,10 +58,15 @@ enum DepthRangeArg {
 type TableFormatter = fn(&DepthTable, &[DepthRow]) -> String;
 
 /// The file extensions of a table without its plot, with their formatters.
+///
+/// Any other extension is that of a plot.
 const TABLE_FORMATS: [(&str, TableFormatter); 3] =
     [("txt", DepthTable::to_text), ("md", DepthTable::to_markdown), ("csv", DepthTable::to_csv)];
 
 /// Plots a function, or prints its table.
+///
+/// # Errors
+/// If the planes make no projection, a distance is invalid, or the output cannot be written.
 pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
     let CurveSubject::Depth(args) = &args.subject;
     let convention = match args.range {
@@ -86,6 +91,8 @@ pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
 }
 
 /// Writes the table or the plot, by the extension of the output.
+///
+/// An unknown extension is reported with the list of all six, instead of that of plots alone.
 fn write_output(output: &Path, table: &DepthTable, rows: &[DepthRow]) -> Result<(), CliError> {
     if let Some((_, written)) =
         TABLE_FORMATS.iter().find(|(ending, _)| has_extension(output, ending))

@@ -1,4 +1,7 @@
 //! `alberti demo`: the artifacts that appear when a stage of the pipeline is omitted.
+//!
+//! A demonstration draws a constant scene twice, with and without the stage, in panels with
+//! captions. It needs no input, so its output can be compared byte by byte.
 
 use super::CliError;
 use super::page_output::{check_panel_output, write_panels};

@@ -1,4 +1,11 @@
 //! Errors of the program: those of the libraries, and wrong combinations of flags.
+//!
+//! Usage errors that clap detects while it parses do not get here: they exit with code 2. A
+//! combination that depends on the input or on several flags is a [`CliError::Usage`] and exits
+//! with code 1 like any failure.
+//!
+//! A message may have several lines. Further ones begin with `  = help:` and name a flag or a value
+//! that solves the problem, as in rustc.
 
 use super::color;
 use drawing::SheetError;
@@ -7,6 +14,10 @@ use pipeline::demonstration::DemonstrationError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
 
 /// A failed run. `main` prints the message after `error: ` and exits with code 1.
+///
+/// No variant adds words of its own to the errors of the libraries: those already name the file and
+/// the field. An exception is the standard output, whose input/output errors say nothing about
+/// where they happened.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
     /// A scene could not be read or resolved.
@@ -40,6 +51,10 @@ pub(crate) enum CliError {
 
 impl CliError {
     /// The message for the standard error stream, with colors if it has them.
+    ///
+    /// Only errors of scene files have colors: they quote the line with a caret below the mistake.
+    /// They may be wrapped in an error of a demonstration or not, since demonstrations resolve
+    /// scenes themselves.
     pub(crate) fn to_message(&self) -> String {
         match self {
             Self::Resolve(ResolveError::Scene(mistake))

@@ -1,4 +1,8 @@
 //! `alberti explain`: every intermediate value of the viewing pipeline for one primitive or pixel.
+//!
+//! The chain of transforms is that of the renderer for the chosen picture, so the last coordinates
+//! are those of real pixels. `--conventions` shows the chain as another API would compute it, with
+//! its handedness, depth range and origin of pixels.
 
 use super::CliError;
 use super::load_options::LoadArgs;
@@ -16,6 +20,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 /// The longer side of the picture embedded in an HTML page, in pixels.
+///
+/// The picture only shows where the subject is, and it is embedded in base64.
 const MAX_PAGE_SIDE: f64 = 960.0;
 
 /// Arguments of `alberti explain`.
@@ -91,6 +97,12 @@ struct ExplainSubjectArgs {
 }
 
 /// Prints or writes the explanation of a subject.
+///
+/// The format is text, JSON or HTML; only HTML renders the scene, and only after the explanation
+/// has succeeded.
+///
+/// # Errors
+/// If the input is invalid or has no such subject, or the output cannot be written.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let (_, _, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
     let size = (scene.image.width, scene.image.height);
@@ -110,6 +122,8 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
 }
 
 /// Renders the scene, scaled down to at most [`MAX_PAGE_SIDE`].
+///
+/// A picture that is smaller already keeps its size. The aspect ratio is preserved to a pixel.
 fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
     let image = &mut scene.image;
     let most = f64::from(image.width.max(image.height));
@@ -121,6 +135,8 @@ fn render_page_picture(mut scene: Scene) -> Result<Picture, CliError> {
 
 impl ExplainSubjectArgs {
     /// Explains the subject that the flags name.
+    ///
+    /// clap has rejected combinations, so the first subject that is set is the only one.
     ///
     /// # Errors
     /// If the scene has no such model, node, primitive, vertex, triangle or pixel.
@@ -148,6 +164,9 @@ impl ExplainSubjectArgs {
     }
 
     /// Explains a vertex, a triangle, or the visibility of a node.
+    ///
+    /// # Errors
+    /// If the node has no mesh, or it has no such primitive, vertex or triangle.
     fn explain_part(
         &self,
         chain: &TransformChain,
@@ -164,6 +183,11 @@ impl ExplainSubjectArgs {
 }
 
 /// The index of a node, from its index or its name; an index is tried first.
+///
+/// A node whose name is a number is found by name only if there is no node of that index.
+///
+/// # Errors
+/// If there is no such node; the message lists up to twelve names.
 fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     let named = || model.nodes.iter().position(|known| known.name.as_deref() == Some(node));
     let numbered = node.parse().ok().filter(|&number: &usize| number < model.nodes.len());
@@ -176,6 +200,9 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
 }
 
 /// Parses `N` finite numbers separated by commas.
+///
+/// # Errors
+/// If there are more or fewer numbers, or one is not finite.
 fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let fault = || format!("expected {N} numbers separated by commas");
     let numbers: Vec<f64> = text
@@ -187,6 +214,8 @@ fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
 }
 
 /// Parses a column and a row.
+///
+/// Whether the pixel is inside the picture is checked when the scene is known.
 fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
     let fault = || "expected a column and a row, such as 320,200".to_owned();
     let (x, y) = text.split_once(',').ok_or_else(fault)?;

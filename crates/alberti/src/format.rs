@@ -1,4 +1,7 @@
 //! Output formats and their file extensions.
+//!
+//! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, which they
+//! look for before they ask for an [`OutputFormat`].
 
 use super::error::CliError;
 use drawing::{Page, to_pdf};
@@ -17,6 +20,9 @@ pub(crate) enum OutputFormat {
 
 impl OutputFormat {
     /// The format of a file, from its extension in any case.
+    ///
+    /// An unknown extension is an error rather than a PNG, because a typo such as `model.sgv` would
+    /// otherwise produce a file that no program opens.
     ///
     /// # Errors
     /// If the extension is none of those above.
@@ -46,6 +52,9 @@ impl OutputFormat {
     }
 
     /// Encodes pages in a vector format; an SVG holds the first one only.
+    ///
+    /// A PDF has one page for each; their sizes may differ. `Png` is not a vector format and is
+    /// treated as SVG here: callers rasterize the page before they come to this function.
     pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),

@@ -1,4 +1,8 @@
 //! `alberti info`: prints what a model contains.
+//!
+//! The model is imported like for rendering, so that a model that cannot be drawn has no
+//! description either; `check` says why. Image files are opened for their headers only: size and
+//! format are known without decoding megabytes of pixels.
 
 mod json;
 mod materials;
@@ -17,6 +21,9 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 /// Prints the contents of a model as text or JSON.
+///
+/// # Errors
+/// If the model cannot be loaded, or has no animation of the chosen name.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let model = load_model(args)?;
     let text = if args.json { json::info_document(args, &model) } else { describe_model(&model) };
@@ -25,6 +32,9 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 }
 
 /// Loads the model in the state that the flags choose. Only the headers of its images are read.
+///
+/// Either of `--animation` and `--time` poses the model; the other has its default then, the first
+/// animation and 0 seconds. Without both the model is in the pose of its nodes, as in the file.
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
@@ -46,6 +56,17 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
 }
 
 /// The report as text, one line per subject. Writing to a `String` cannot fail.
+///
+/// Lines about things that most models lack (scenes, lights, variants) are omitted if there are
+/// none; the others are always there, so that two models can be compared line by line:
+///
+/// ```text
+/// fox.glb
+///   nodes       24
+///   meshes      1, primitives 1, vertices 1728
+///   shown       triangles 576, lines 0, points 0
+///   …
+/// ```
 fn describe_model(model: &Model) -> String {
     let mut text = format!("{}\n", model.name);
     let mut line = |name: &str, value: String| {
@@ -79,6 +100,9 @@ fn describe_model(model: &Model) -> String {
 }
 
 /// The number of meshes, primitives and vertices in the file.
+///
+/// Each mesh counts once, however often it is instanced; vertices are those of the file, before any
+/// welding.
 fn meshes_line(model: &Model) -> String {
     let primitives: usize = model.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
     let vertices: usize =
@@ -87,6 +111,9 @@ fn meshes_line(model: &Model) -> String {
 }
 
 /// The primitives that the scene draws, counting every instance.
+///
+/// Instances of a mesh, by several nodes or by EXT_mesh_gpu_instancing, count each time: it is the
+/// work of a renderer, whereas the line above is the size of the file.
 fn shown_line(model: &Model) -> String {
     let mut counts = [0_usize; 3];
     for (_, primitive) in model.scene_primitives() {
@@ -101,6 +128,9 @@ fn shown_line(model: &Model) -> String {
 }
 
 /// The axis-aligned bounds of the drawn scene.
+///
+/// The corners of the box in the chosen pose, in model space: right-handed, y up, lengths in units
+/// of the file, which glTF defines as meters.
 fn bounds_line(model: &Model) -> String {
     let Some(bounds) = model.bounds() else { return "none: nothing is shown".to_owned() };
     let triple = |p: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", p[0], p[1], p[2]);
@@ -109,6 +139,9 @@ fn bounds_line(model: &Model) -> String {
 }
 
 /// The number of materials, and of those that need special treatment.
+///
+/// Masked and blended materials cost more to draw, because their texels decide about visibility;
+/// double-sided ones are not culled.
 fn materials_line(model: &Model) -> String {
     let count = |wanted: fn(&AlphaMode) -> bool| {
         model.materials.iter().filter(|material| wanted(&material.alpha_mode)).count()
@@ -121,6 +154,9 @@ fn materials_line(model: &Model) -> String {
 }
 
 /// The cameras by index and name, with their projections.
+///
+/// Angles are the vertical field of view in degrees, heights are those of the whole window in scene
+/// units, and the last two numbers are the near and far distance.
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");
@@ -158,6 +194,9 @@ fn scenes_line(model: &Model) -> String {
 }
 
 /// The punctual lights by name, with their intensity and its unit.
+///
+/// Directional lights have an illuminance in lux, point and spot lights a luminous intensity in
+/// candela (KHR_lights_punctual).
 fn lights_line(model: &Model) -> String {
     let describe = |light: &PunctualLight| {
         let unit = if light.kind == LightKind::Directional { "lx" } else { "cd" };
@@ -168,6 +207,9 @@ fn lights_line(model: &Model) -> String {
 }
 
 /// The extensions of the file, with a note at those that are not fully supported.
+///
+/// `(not drawn)` means that the model is shown without the effect, `(not read)` that the extension
+/// is unknown or that a model that requires it is rejected.
 fn extensions_line(model: &Model) -> String {
     let describe = |name: &String| match extension_use(name) {
         ExtensionUse::Drawn | ExtensionUse::Harmless => name.clone(),

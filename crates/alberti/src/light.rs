@@ -1,4 +1,7 @@
 //! Flags about light: environment, exposure, tone mapping, shadows, ground, ambient occlusion.
+//!
+//! They change the parsed scene file, not the resolved scene, so that a flag and the field of the
+//! scene file have one meaning and one set of checks.
 
 use super::options::option_parser;
 use clap::ValueEnum;
@@ -38,9 +41,13 @@ pub(crate) struct LightArgs {
 /// The value of `--environment`.
 #[derive(Clone, Debug)]
 enum EnvironmentArg {
+    /// Soft boxes, also the light of a bare model without lights.
     Studio,
+    /// A clear sky over gray ground, without the sun itself.
     Sky,
+    /// No environment light; the lights of the scene remain.
     None,
+    /// An equirectangular `.hdr` file, as an absolute path.
     File(PathBuf),
 }
 
@@ -62,6 +69,9 @@ enum GroundArg {
 
 impl LightArgs {
     /// Replaces the light of a scene by the flags that were given.
+    ///
+    /// Fields without a flag stay as the scene has them. `--ambient-occlusion` keeps the radius of
+    /// a scene that has one.
     pub(super) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(environment) = &self.environment {
             file.environment = Some(environment.to_environment_file());
@@ -87,6 +97,9 @@ impl LightArgs {
     }
 
     /// The environment map, if a file was given: it may be read wherever it is.
+    ///
+    /// A path in a scene file may come from elsewhere and is confined to the scene's folder; a
+    /// path on the command line comes from the user, who may read any file.
     pub(super) fn environment_file(&self) -> Option<PathBuf> {
         match &self.environment {
             Some(EnvironmentArg::File(path)) => Some(path.clone()),
@@ -96,6 +109,10 @@ impl LightArgs {
 }
 
 /// Enables or disables the shadows of all lights; settings of the scene are kept.
+///
+/// `off` disables them for the scene and for every light that overrides the scene. `on` keeps the
+/// parameters of lights that have shadows, and gives default ones to others. Lights that only
+/// inherit the setting keep inheriting it.
 fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     let switched_shadows = |known: Option<ShadowsFile>| match (switch, known) {
         (SwitchArg::Off, _) => Some(ShadowsFile::Off),
@@ -123,6 +140,13 @@ impl EnvironmentArg {
 }
 
 /// Parses a preset, or the path of a `.hdr` file relative to the current folder.
+///
+/// The path is made absolute, because paths in a scene are relative to the scene's folder, not to
+/// the current one. A preset takes precedence over a file of that name; `./sky.hdr` is always a
+/// file.
+///
+/// # Errors
+/// If the text is neither a preset nor the name of a `.hdr` file.
 fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
     let path = PathBuf::from(text);
     match text {
@@ -138,6 +162,9 @@ fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
 }
 
 /// Parses a number of stops from −30 to 30.
+///
+/// Thirty stops are a factor of about 10⁹, more than any scene needs and less than would overflow
+/// 32-bit floats.
 fn parse_exposure(text: &str) -> Result<Finite, String> {
     let fault = || "expected a number of stops from -30 to 30, such as 1.5".to_owned();
     let stops: f64 = text.parse().map_err(|_| fault())?;

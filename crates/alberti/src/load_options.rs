@@ -1,4 +1,7 @@
 //! Flags about loading models: leniency, allowed folders, and limits on the size of the input.
+//!
+//! Models come from anywhere and are not trusted: without limits, a file of a few kilobytes could
+//! demand terabytes. Every command that loads a model has these flags.
 
 use model::import::{ImportOptions, Limits};
 use std::path::PathBuf;
@@ -72,6 +75,9 @@ impl LoadArgs {
 
 impl LimitArgs {
     /// The limits of the `model` crate: the flags that were given, defaults for the others.
+    ///
+    /// A number that does not fit the type of its limit counts as the largest value, that is as no
+    /// limit.
     fn to_limits(&self) -> Limits {
         let defaults = Limits::default();
         let size = |flag: Option<u64>, usual: usize| {
@@ -95,6 +101,15 @@ impl LimitArgs {
 }
 
 /// Parses a whole number with an optional decimal or binary unit: `512MiB`, `200M`, `1_000`.
+///
+/// ```text
+/// 4096    64k = 64,000    64Ki = 65,536    512MiB    5 MB    1_000
+/// ```
+/// Units are case-insensitive, and a `B` may follow or not. Fractions are rejected: `1500M` instead
+/// of `1.5G`.
+///
+/// # Errors
+/// If the text is no such number, or exceeds 64 bits.
 fn parse_byte_size(text: &str) -> Result<u64, String> {
     let fault = || "expected an integer such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
     let start = text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len());

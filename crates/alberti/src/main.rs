@@ -62,6 +62,12 @@ use messages::{print_message, print_stdout};
 use std::process::ExitCode;
 
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap).
+///
+/// A failure is printed as one message, `error: MESSAGE`, on the standard error stream, and the
+/// code is 1. Usage errors never get here: clap prints them with the usage of the command and exits
+/// with 2; it also ends `--help` and `--version` itself, with 0. `check`, `render --compare`,
+/// `batch` and `scene fmt --check` also exit with 1 for a verdict rather than for a failure; they
+/// have then printed it themselves, without `error:`.
 fn main() -> ExitCode {
     match run(Args::parse()) {
         Ok(code) => code,
@@ -73,6 +79,10 @@ fn main() -> ExitCode {
 }
 
 /// Runs the command of the arguments.
+///
+/// The color choice is set first, because every message that follows depends on it. Commands with a
+/// verdict of their own (`render`, `check`, `batch`, `scene`) return their exit code; any other
+/// command succeeds or fails.
 ///
 /// # Errors
 /// If the input is invalid or the work fails; nothing has been printed about it then.

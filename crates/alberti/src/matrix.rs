@@ -1,4 +1,8 @@
 //! `alberti matrix`: classification of a 4x4 matrix.
+//!
+//! The numbers come from other programs, logs or books, so any brackets and separators are
+//! accepted, and the report names the convention (handedness, depth range, row or column vectors)
+//! that makes sense of them.
 
 use super::CliError;
 use pipeline::explain::explain_matrix;
@@ -21,6 +25,9 @@ pub(crate) struct MatrixArgs {
 }
 
 /// Prints the classification of a matrix.
+///
+/// # Errors
+/// If there are not sixteen numbers, or one of them is not finite.
 pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
     let text = if args.numbers.is_empty() { read_stdin()? } else { args.numbers.join(" ") };
     let rows = parse_matrix(&text, args.column_major).map_err(CliError::Usage)?;
@@ -31,6 +38,8 @@ pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
 }
 
 /// Reads the standard input as text, up to a limit that sixteen numbers cannot reach.
+///
+/// Further bytes are not read, and surplus numbers give the error of a wrong count.
 fn read_stdin() -> Result<String, CliError> {
     const MAX_BYTES: u64 = 1 << 16;
     let mut bytes = Vec::new();
@@ -42,6 +51,13 @@ fn read_stdin() -> Result<String, CliError> {
 }
 
 /// Parses the rows of a matrix from sixteen numbers between any brackets, commas and spaces.
+///
+/// ```text
+/// 1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1
+/// [[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]
+/// ```
+/// Rows are for column vectors: translation is in the fourth column. Numbers stored column by
+/// column, as in OpenGL, are transposed here.
 fn parse_matrix(text: &str, columns: bool) -> Result<[[f64; 4]; 4], String> {
     let between = |c: char| c.is_whitespace() || "[](){},;|".contains(c);
     let words = text.split(between).filter(|word| !word.is_empty());
@@ -54,6 +70,9 @@ fn parse_matrix(text: &str, columns: bool) -> Result<[[f64; 4]; 4], String> {
 }
 
 /// Parses a number or a fraction such as `2/3`.
+///
+/// A division by zero gives an infinite number, which is rejected later with all others that are
+/// not finite.
 fn parse_number(word: &str) -> Result<f64, String> {
     let fault = || format!("`{word}` is not a number");
     let parse = |digits: &str| digits.parse::<f64>().map_err(|_| fault());

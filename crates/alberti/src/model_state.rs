@@ -1,4 +1,6 @@
 //! Flags that choose the state of a model: its glTF scene, material variant, animation and time.
+//!
+//! The flags apply to every model of a scene; scene files can choose the state of each.
 
 use pipeline::scene::file::{Choice, Finite, ModelFile};
 
@@ -21,6 +23,8 @@ pub(crate) struct ModelStateArgs {
 
 impl ModelStateArgs {
     /// Replaces the fields of a scene's model by the flags that were given.
+    ///
+    /// A choice that a model does not have is an error when it is loaded.
     pub(crate) fn apply_to(&self, model: &mut ModelFile) {
         let replace = |flag: &Option<Choice>, field: &mut Option<Choice>| {
             if flag.is_some() {
@@ -35,6 +39,8 @@ impl ModelStateArgs {
 }
 
 /// Parses an index if the text is a whole number, and a name otherwise.
+///
+/// A name that is a whole number can only be chosen in a scene file, as `Name("3")`.
 fn parse_choice(text: &str) -> Result<Choice, String> {
     Ok(text.parse().map_or_else(|_| Choice::Name(text.to_owned()), Choice::Index))
 }

@@ -7,6 +7,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use pipeline::options::NamedOption;
 
 /// Names of values that are shorter in flags than in scene files.
+///
+/// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
+/// one that flags accept. Scene files keep the long name, because it is read more often than typed.
 const SHORT_NAMES: [(&str, &str); 6] = [
     ("ag-x", "agx"),
     ("meter", "m"),
@@ -17,6 +20,9 @@ const SHORT_NAMES: [(&str, &str); 6] = [
 ];
 
 /// The name of a value in flags.
+///
+/// Lower case with hyphens between words, as the library makes it, or the short name of
+/// [`SHORT_NAMES`]: `ModelUnit::Centimeter` is `cm`.
 fn flag_name<T: NamedOption>(value: T) -> String {
     let name = value.flag_name();
     let short = SHORT_NAMES.iter().find(|(long, _)| *long == name);
@@ -24,6 +30,14 @@ fn flag_name<T: NamedOption>(value: T) -> String {
 }
 
 /// Parses a value of an option by its name in flags; help and completions list all values.
+///
+/// A wrong value is rejected by clap before the command runs, with the list of possible values and
+/// exit code 2. The final period of a summary is removed: help lines are phrases, reference entries
+/// are sentences.
+///
+/// ```text
+/// --unit <UNIT>   [possible values: m, cm, mm, in, ft]
+/// ```
 pub(super) fn option_parser<T>() -> impl TypedValueParser<Value = T>
 where
     T: NamedOption + Send + Sync,

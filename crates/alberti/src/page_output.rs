@@ -1,4 +1,7 @@
 //! Output of pages and panels as SVG, PDF, PNG or HTML, by the extension of the output.
+//!
+//! HTML holds the panels as inline SVG in a page that refers to no other file. SVG, PDF and PNG
+//! have all panels on one page.
 
 use super::CliError;
 use super::format::OutputFormat;
@@ -12,6 +15,9 @@ use std::path::Path;
 /// Writes the panels of a scene, then prints the warnings of its models and panels.
 ///
 /// The progress line is removed before the first warning.
+///
+/// # Errors
+/// If the output cannot be written; warnings are not printed then.
 pub(super) fn finish_panels(
     output: &Path,
     panels: &Panels,
@@ -44,6 +50,8 @@ pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
 }
 
 /// Rejects an output with another extension before any work is done for it.
+///
+/// Drawing may take a minute, and a misspelled extension should not cost that.
 pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(());

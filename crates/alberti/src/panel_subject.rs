@@ -38,6 +38,8 @@ pub(super) struct PanelSubjectArgs {
 }
 
 /// The largest width and height of a panel in pixels.
+///
+/// A page has up to dozens of panels, so the limit is far below that of a picture.
 const MAX_PANEL_SIDE: u32 = 4096;
 
 /// Parses `WIDTHxHEIGHT` with both at most [`MAX_PANEL_SIDE`].
@@ -50,6 +52,9 @@ fn parse_panel_size(text: &str) -> Result<(u32, u32), String> {
 
 impl PanelSubjectArgs {
     /// Opens the scene file, or makes one for a bare model, and applies the flags to it.
+    ///
+    /// The scene is not resolved, because each panel changes its camera first. Size and style
+    /// always replace those of the scene, as panels have defaults of their own.
     pub(super) fn open_scene(&self) -> Result<(Origin, SceneFile), CliError> {
         let (origin, mut file) = open_input(&self.input, &self.load_options.import_options())?;
         file.image.size = self.size;

@@ -1,4 +1,7 @@
 //! Render passes: their flags, and the files they are written to.
+//!
+//! A pass holds data for compositing, masks or machine learning. The picture `fox.png` with
+//! `--passes depth,normal` has `fox.depth.png` and `fox.normal.png` beside it.
 
 use super::CliError;
 use super::options::option_parser;
@@ -33,6 +36,9 @@ pub(crate) struct PassArgs {
 
 impl PassArgs {
     /// Replaces the passes of the scene by the flags that were given.
+    ///
+    /// `--passes` replaces the list of the scene as a whole, so that one pass can be written
+    /// without the others.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if !self.passes.is_empty() {
             file.passes.write.clone_from(&self.passes);
@@ -44,6 +50,9 @@ impl PassArgs {
 }
 
 /// Writes passes to temporary files beside a picture, to be renamed when all are complete.
+///
+/// # Errors
+/// If a file cannot be created or written; those created so far are removed then.
 pub(super) fn create_pass_files(
     output: &Path,
     buffers: &[PassBuffer],
@@ -60,6 +69,8 @@ pub(super) fn create_pass_files(
 }
 
 /// The path of a file that belongs to a picture: `picture.depth.png` for `picture.png`.
+///
+/// The extension of the output is dropped: `fox.svg` and a pass give `fox.depth.png`.
 pub(super) fn sibling_path(output: &Path, what: &str, ending: &str) -> PathBuf {
     let mut name = output.file_stem().unwrap_or_default().to_owned();
     name.push(format!(".{what}.{ending}"));

@@ -2,6 +2,10 @@
 //!
 //! It is shown on the standard error stream only if that is a terminal, and only for work that
 //! takes longer than [`DISPLAY_DELAY`].
+//!
+//! The line is redrawn in place: `\r` returns to its first column and `\x1b[K` erases it. Errors of
+//! the stream are ignored, because a display that cannot be drawn is no reason to fail. The display
+//! must be dropped before a message is printed, which would otherwise be appended to the line.
 
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,6 +14,8 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Work that is done within this time shows no progress.
+///
+/// Most renderings finish sooner, and a line that flashes up is distracting.
 const DISPLAY_DELAY: Duration = Duration::from_millis(400);
 /// The interval between two updates of the elapsed time.
 const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
@@ -26,6 +32,14 @@ pub(crate) struct Progress {
 
 impl Progress {
     /// Starts the display, if the standard error stream is a terminal.
+    ///
+    /// Without a terminal no thread is started and nothing is ever written, so log files stay
+    /// clean. On a terminal the thread wakes every [`REFRESH_INTERVAL`], or at once for a new
+    /// stage:
+    ///
+    /// ```text
+    /// rendering … 2.4 s
+    /// ```
     pub(crate) fn start(stage: &'static str) -> Self {
         if !std::io::stderr().is_terminal() {
             return Self { stages: None };
@@ -52,6 +66,9 @@ impl Progress {
     }
 
     /// Shows another stage from now on.
+    ///
+    /// The elapsed time goes on: it is that of the command, not that of the stage. `--timings` has
+    /// the stages.
     pub(crate) fn enter_stage(&self, stage: &'static str) {
         if let Some((sender, _)) = &self.stages {
             let _ = sender.send(stage);
@@ -59,6 +76,8 @@ impl Progress {
     }
 }
 
+/// Closes the channel and waits for the thread, which erases the line: after the drop the cursor is
+/// at the start of an empty line.
 impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((sender, watcher)) = self.stages.take() {
@@ -69,6 +88,9 @@ impl Drop for Progress {
 }
 
 /// A terminal line with the number of finished jobs and an estimate of the time left.
+///
+/// The estimate is the mean time of the finished jobs times the number of the remaining ones. It
+/// already accounts for parallel jobs, because the mean is over elapsed time.
 #[derive(Debug)]
 pub(crate) struct ProgressCounter {
     /// The number of jobs.
@@ -78,6 +100,8 @@ pub(crate) struct ProgressCounter {
     /// When the first job started.
     begin: Instant,
     /// Whether the line is shown.
+    ///
+    /// It is decided once, at the start: asking for each job would be a system call per frame.
     is_visible: bool,
 }
 
@@ -89,6 +113,9 @@ impl ProgressCounter {
     }
 
     /// Counts one finished job; may be called from any thread.
+    ///
+    /// The last job erases the line. Two threads may write at a time; each write is one call, so
+    /// lines replace each other whole, and at worst an older count stays for one job.
     pub(crate) fn increment(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if !self.is_visible {

@@ -4,6 +4,10 @@
 //!  clap's commands ─► flags ──┐
 //!  scene::reference ─► fields ┴─► sections ─► search by a word ─► text, Markdown, HTML
 //! ```
+//!
+//! Flags and fields are both reduced to sections with entries, the only form that search and output
+//! formats know. Descriptions come from doc comments and help texts, so that there is one text for
+//! each.
 
 mod fields;
 mod flags;
@@ -81,6 +85,9 @@ pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
 }
 
 /// Prints some sections, or what a search finds in them.
+///
+/// # Errors
+/// If nothing has the name that is looked up.
 fn print_reference(
     args: &ReferenceArgs,
     title: &str,

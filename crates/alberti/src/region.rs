@@ -42,6 +42,9 @@ impl RegionArgs {
 
     /// The rectangle to render of a picture: the crop, and of it the band.
     ///
+    /// `--band` divides the crop if both are given. `nth_band` counts from 0, the flag from 1.
+    /// Heights of bands differ by at most one row, and together they have every row exactly once.
+    ///
     /// # Errors
     /// If the crop is not inside the picture, or the band has no row.
     pub(super) fn resolve_region(&self, image: ImageSpec) -> Result<PixelRect, CliError> {
@@ -67,6 +70,8 @@ impl RegionArgs {
 }
 
 /// Parses `X,Y,WIDTH,HEIGHT` with a width and a height above 0.
+///
+/// Whether the rectangle is inside the picture is not known before the scene is read.
 fn parse_region(text: &str) -> Result<PixelRect, String> {
     let fault =
         || "expected column, row, width and height in pixels, such as 100,50,640,480".to_owned();

@@ -1,4 +1,10 @@
 //! `alberti render`: renders scenes and models to PNG, or draws them as lines to SVG or PDF.
+//!
+//! ```text
+//!  flags ─► tasks ─► for each: open ─► override ─► resolve ─► render ─► files ─► messages
+//! ```
+//! One call renders every input from every view. The plan is complete before the first model is
+//! loaded, so that a bad output name costs nothing.
 
 pub(super) mod tasks;
 
@@ -19,6 +25,14 @@ use std::time::Duration;
 use tasks::RenderTask;
 
 /// Renders all pictures. With several, a failure or a difference does not stop the others.
+///
+/// The exit code is 1 if any picture failed or differs from its reference. A single failure is
+/// returned and printed by `main`; with several pictures it is printed at once, with the input's
+/// name before it, since `main` could report only one:
+///
+/// ```text
+/// error: broken.glb: not a glTF file: …
+/// ```
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
     let mut code = ExitCode::SUCCESS;
@@ -44,6 +58,17 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
 ///
 /// The overrides, the region and the passes are applied to the scene file in this order; then the
 /// scene is resolved and everything is rendered from it.
+///
+/// Messages come in a fixed order after the progress line is removed: the result of `--verify`, the
+/// times of `--timings`, the picture of `--show`, then either the JSON report or the warnings, and
+/// the result of `--compare` last. With `--json` warnings and comparison are part of the report and
+/// are not repeated.
+///
+/// Times are measured only if they will be printed: the stopwatch is cheap, but not free.
+///
+/// # Errors
+/// If the input is invalid, flags contradict each other, or a file cannot be written. No output
+/// file has been changed then, except if `--verify` or `--show` fails, which come after the files.
 fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let progress = Progress::start("loading");
     let timings = if args.timings || args.json { Timings::enabled() } else { Timings::default() };
@@ -84,6 +109,10 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
 /// Compares the scene's line drawing with its z-buffer image, with hidden lines removed.
 ///
 /// The drawing is made again, because dashed or drawn hidden lines would count as visible.
+///
+/// The two have nothing in common after clip space: visibility in the drawing comes from
+/// intersections of lines, in the image from coverage and depth of pixels. An error in one is
+/// therefore unlikely to be in the other.
 fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> {
     let options = DrawOptions {
         hidden_edges: HiddenEdges::Removed,
@@ -96,6 +125,10 @@ fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> 
 }
 
 /// The message of `--verify`.
+///
+/// The length is that of all visible lines, in pixels; the percentage is the part of it that lies
+/// behind the z-buffer's surface. Up to about 0.2 % is normal, because the image resolves a quarter
+/// of a pixel and the drawing is exact.
 fn agreement_message(agreement: &Agreement) -> String {
     let percent = 100.0 * agreement.disagreement_ratio();
     let length = agreement.visible_length;
@@ -105,6 +138,15 @@ fn agreement_message(agreement: &Agreement) -> String {
 }
 
 /// Prints the time of each stage and their sum on the standard error stream.
+///
+/// A stage that ran several times has one row, with the sum. The last row, `all`, is the sum of the
+/// rows above, not the time of the command; it is omitted if nothing was measured.
+///
+/// ```text
+/// load            12.31 ms
+/// write            1.07 ms
+/// all             13.38 ms
+/// ```
 fn print_timings(timings: &Timings) {
     let stages = timings.stages();
     let all: Duration = stages.iter().map(|(_, took)| *took).sum();
@@ -116,6 +158,10 @@ fn print_timings(timings: &Timings) {
 }
 
 /// Whether a file is a scene, by its extension.
+///
+/// The content is not looked at: a file named `.ron` that is no scene gets the error message of a
+/// scene, with its line and column. The standard input, which has no extension, is recognized by
+/// its content instead.
 pub(super) fn is_scene_file(input: &Path) -> bool {
     input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
 }
@@ -123,6 +169,12 @@ pub(super) fn is_scene_file(input: &Path) -> bool {
 /// Opens a scene file with its includes, or makes a scene for a bare model.
 ///
 /// `-` reads either from the standard input. Models are not loaded yet.
+///
+/// The scene of a bare model frames it from a three-quarter view, in studio light if the model has
+/// no lights. It is an ordinary scene file in memory, so all flags work on both.
+///
+/// # Errors
+/// If the scene or an include cannot be read or parsed, or lies outside the allowed folders.
 pub(super) fn open_input(
     input: &Path,
     options: &ImportOptions,
@@ -141,6 +193,12 @@ pub(super) fn open_input(
 ///
 /// A model is recognized by its first bytes, `glTF` or `{`. Paths of a scene are relative to the
 /// current folder.
+///
+/// At most `--max-file-bytes` are read, plus one byte that shows that there are more; an endless
+/// stream therefore ends with an error instead of filling the memory.
+///
+/// A scene is a RON struct and never begins with a brace, so the two cannot be confused. A model
+/// must be complete in itself: its buffers and images have no folder to be found in.
 fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> {
     let limit = options.limits.file_bytes;
     let mut bytes = Vec::new();
@@ -161,6 +219,9 @@ fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> 
 }
 
 /// The requested number of threads, or one per core.
+///
+/// One thread is used if the system does not report its cores. The number never changes the output:
+/// tiles and bands are independent of it.
 pub(super) fn thread_count(wanted: Option<u16>) -> usize {
     let all = || std::thread::available_parallelism().map_or(1, Into::into);
     wanted.map_or_else(all, usize::from)

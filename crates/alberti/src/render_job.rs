@@ -2,6 +2,14 @@
 //!
 //! A raster image is rendered and encoded band by band, so that its size is not bounded by memory.
 //! Every file is written under a temporary name and renamed once all are complete.
+//!
+//! ```text
+//!  scene ─► bands of rows ─► encoder ─► .part file ──┐
+//!        └► passes, comparison ─► .part files ───────┴─► renamed, the picture first
+//! ```
+//! A run that fails before the renaming leaves every existing file as it was and removes its
+//! temporary ones. Only the renaming itself can be interrupted between two files; each file is
+//! whole even then.
 
 use super::CliError;
 use super::args::RenderArgs;
@@ -23,6 +31,9 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A resolved scene with everything else that its files depend on.
+///
+/// It borrows everything, because several pictures share the flags, and the report needs the scene
+/// after the files are written.
 pub(super) struct RenderJob<'a> {
     /// The flags of the command.
     pub(super) args: &'a RenderArgs,
@@ -39,6 +50,8 @@ pub(super) struct RenderJob<'a> {
 }
 
 /// The files that were written, and their contents as far as something else needs them.
+///
+/// It exists only after all files are in place, so a report can read them back.
 pub(super) struct RenderOutput {
     /// The rectangle of the picture that was rendered.
     pub(super) region: PixelRect,
@@ -79,7 +92,9 @@ struct EncodedPicture {
 /// The standard output gets the bytes only when all of them are there, so that a failed run writes
 /// none.
 enum PictureSink {
+    /// The target's name, for error messages, and its temporary file.
     File(PathBuf, BufWriter<AtomicFile>),
+    /// All bytes of the picture. A streamed picture would be cut short by an error halfway.
     Stdout(Vec<u8>),
 }
 
@@ -101,6 +116,17 @@ impl Write for PictureSink {
 
 impl RenderJob<'_> {
     /// Writes all files, and renames them into place once all are complete.
+    ///
+    /// Everything that can fail without work comes first: region, combination of flags, size of the
+    /// reference. Then the picture is rendered and encoded, then its passes and comparison; all of
+    /// them exist under temporary names before the first is renamed.
+    ///
+    /// The standard output has no passes and no comparison, because there is no name to derive
+    /// theirs from; [`check_combination`](Self::check_combination) has rejected these flags.
+    ///
+    /// # Errors
+    /// If flags contradict each other, the reference cannot be read, rendering fails, or a file
+    /// cannot be written.
     pub(super) fn write_files(&self, progress: &Progress) -> Result<RenderOutput, CliError> {
         let region = self.args.region.resolve_region(self.scene.image)?;
         self.check_combination()?;
@@ -137,11 +163,17 @@ impl RenderJob<'_> {
     }
 
     /// Whether the pixels are needed beside the file.
+    ///
+    /// The pixels of a PNG are normally dropped band by band; `--compare` and `--show` are the only
+    /// reasons to hold the whole picture in memory, at four bytes a pixel.
     fn needs_picture(&self) -> bool {
         self.args.show || self.args.compare.is_requested()
     }
 
     /// Rejects combinations of flags that make no sense with the output format or destination.
+    ///
+    /// clap cannot check these, because the format may follow from the extension of the output, and
+    /// passes may be requested by the scene instead of a flag.
     fn check_combination(&self) -> Result<(), CliError> {
         let wrong = if self.task.format != OutputFormat::Png
             && (self.needs_picture() || self.args.region.is_partial())
@@ -158,6 +190,9 @@ impl RenderJob<'_> {
     }
 
     /// Opens the destination of the picture.
+    ///
+    /// The temporary file is created only when there is something to write: errors of the scene
+    /// leave no trace in the folder.
     fn open_sink(&self) -> Result<PictureSink, CliError> {
         Ok(match &self.task.output {
             Some(path) => {
@@ -168,6 +203,9 @@ impl RenderJob<'_> {
     }
 
     /// An input/output error as an error about the destination.
+    ///
+    /// Encoders report errors without a path; the message must name the file, or the standard
+    /// output.
     fn output_error(&self, cause: std::io::Error) -> CliError {
         match &self.task.output {
             Some(path) => OutputError { path: path.clone(), cause }.into(),
@@ -176,6 +214,13 @@ impl RenderJob<'_> {
     }
 
     /// Renders and encodes the region as a PNG of `C` bits per channel, band by band.
+    ///
+    /// The memory needed is that of one band and the encoder, whatever the height of the picture;
+    /// bands have the same pixels as the whole. `retained` collects the bands at 8 bits for
+    /// `--compare` and `--show`, because both work on 8-bit pixels.
+    ///
+    /// Errors of rendering and of writing arrive as one type and are separated here, so that a full
+    /// disk is reported with the name of the file.
     fn encode_picture<C: Channel>(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
         let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
         let context = RenderContext::new(self.scene, &textures, self.threads);
@@ -199,6 +244,9 @@ impl RenderJob<'_> {
     }
 
     /// Draws the scene as lines and encodes it as SVG or PDF.
+    ///
+    /// A drawing is small, so it is encoded in memory. Its warnings are moved out of the page and
+    /// printed after the file is written.
     fn encode_drawing(&self) -> Result<EncodedPicture, CliError> {
         let mut page = draw_lines(self.scene, self.threads, self.timings)?;
         let warnings = std::mem::take(&mut page.warnings);
@@ -209,6 +257,10 @@ impl RenderJob<'_> {
     }
 
     /// Renders the passes and writes them to temporary files beside the picture.
+    ///
+    /// Passes are a rendering of their own: they have one property per pixel center and neither
+    /// overlays nor background. Nothing is rendered if none is requested. An error drops the files
+    /// that were created, which removes them.
     fn create_pass_files(
         &self,
         output: &Path,

@@ -2,6 +2,18 @@
 //!
 //! New members may be added in any release; [`VERSION`] rises when one is removed or changes its
 //! meaning.
+//!
+//! ```json
+//! {
+//!   "schema": {"name": "alberti-render", "version": 1},
+//!   "input": "fox.glb",
+//!   "image": {"size": [960, 720], "region": [0, 0, 960, 720], "samples": 4, "bits": 8},
+//!   "models": [{"name": "fox.glb", "triangles": 576, "lines": 0, "points": 0, "warnings": []}],
+//!   "warnings": [], "comparison": null, "milliseconds": {"write": 1.07},
+//!   "files": [{"path": "fox.png", "bytes": 81234, "sha256": "9f86d0…"}]
+//! }
+//! ```
+//! Several pictures print several documents, one after the other.
 
 use super::CliError;
 use super::render_job::{RenderJob, RenderOutput};
@@ -16,6 +28,12 @@ use std::path::Path;
 const VERSION: u32 = 1;
 
 /// Prints the report of one picture.
+///
+/// `warnings` are those of the line drawing; each model has its own. `milliseconds` has the stages
+/// in alphabetical order. `share_beyond` is the fraction of differing pixels, 0 to 1.
+///
+/// # Errors
+/// If a written file cannot be read back, or the standard output cannot be written.
 pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result<(), CliError> {
     let PixelRect { x, y, width, height } = output.region;
     let scene = job.scene;
@@ -55,6 +73,9 @@ pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result
 }
 
 /// The eye and the axes of view space in world space, and the projection matrix by rows.
+///
+/// `back` points from the scene to the eye: view space is right-handed, and the camera looks along
+/// its negative third axis. The matrix is for column vectors.
 fn camera_json(job: &RenderJob<'_>) -> Value {
     let view_projection = job.scene.view_projection;
     let camera = view_projection.camera;
@@ -69,6 +90,9 @@ fn camera_json(job: &RenderJob<'_>) -> Value {
 }
 
 /// The model instances, with their numbers of primitives and their warnings.
+///
+/// A model with several instances has an entry for each, in the order of the scene. Counts include
+/// every node that draws a mesh.
 fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
     let model = |placed: &model::ModelInstance| {
         let model = &placed.model;
@@ -91,6 +115,12 @@ fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
 }
 
 /// The path of a file, its size, and the SHA-256 of its content.
+///
+/// The file is read back from the disk in blocks of 64 KiB, so the hash is of what was published,
+/// and a file of any size needs no more memory.
+///
+/// # Errors
+/// If the file cannot be read.
 fn file_json(path: &Path) -> Result<Value, CliError> {
     let mut file = std::fs::File::open(path)?;
     let (mut hash, mut bytes) = (Sha256::new(), 0);

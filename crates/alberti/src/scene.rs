@@ -1,4 +1,7 @@
 //! `alberti scene`: creates, validates, formats and documents scene files.
+//!
+//! Exit codes: `check` exits with 1 if there are errors, `fmt --check` if a file is not formatted;
+//! `init` and `doc` fail only if they cannot do their work.
 
 mod fmt;
 mod init;

@@ -2,6 +2,12 @@
 //!
 //! They are applied to the parsed scene file before it is resolved, so that a flag and a field have
 //! the same meaning and the same errors. A bare model is a scene in which every field is default.
+//!
+//! ```text
+//!  scene file ─► flags replace or extend its fields ─► Scene::resolve ─► scene
+//! ```
+//! A flag that is not given changes nothing. Lists (`--section`, `--overlay`) are appended to those
+//! of the scene; everything else is replaced.
 
 use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
@@ -67,6 +73,9 @@ pub(crate) struct SceneOverrideArgs {
 
 impl SceneOverrideArgs {
     /// Replaces the fields of a scene by the flags that were given.
+    ///
+    /// The order matters in one case: `--scale` multiplies the size of `--size`, if both are given.
+    /// A size is at least one pixel; one that is too large is rejected when the scene is resolved.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(size) = self.size {
             file.image.size = size;
@@ -96,6 +105,9 @@ impl SceneOverrideArgs {
     }
 
     /// The import options, with permission to read the files that these flags name.
+    ///
+    /// Only a file of `--environment` is named by a flag; it becomes an allowed path by itself, its
+    /// folder does not.
     pub(crate) fn import_options(&self, load: &LoadArgs) -> ImportOptions {
         let mut options = load.import_options();
         options.allow_outside.extend(self.light.environment_file());
@@ -123,6 +135,9 @@ impl SceneOverrideArgs {
     /// Replaces view and projection of the scene by the flags that were given.
     ///
     /// `--view` keeps the padding of a scene that frames its models.
+    ///
+    /// `--camera` takes a whole number as an index and anything else as a name. `--view` replaces
+    /// the view of the scene, also one with a fixed eye and target, but not its projection.
     fn apply_to_camera(&self, file: &mut CameraFile) {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());
@@ -142,6 +157,8 @@ impl SceneOverrideArgs {
     }
 }
 
+/// Styles of line drawings have parameters in scene files; flags have those with default
+/// parameters.
 impl From<StyleArg> for StyleFile {
     fn from(style: StyleArg) -> Self {
         match style {
@@ -166,6 +183,8 @@ impl From<StyleArg> for StyleFile {
     }
 }
 
+/// Each projection has default parameters here, such as the field of view; scene files can set
+/// them.
 impl From<ProjectionArg> for ProjectionFile {
     fn from(projection: ProjectionArg) -> Self {
         match projection {
@@ -198,6 +217,8 @@ impl From<OverlayArg> for OverlayFile {
 }
 
 /// Parses a view by its name in the `camera` crate; `iso` is short for `isometric`.
+///
+/// Help, completions and errors list the names; an alias is accepted, but not listed.
 pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
     let value = |view: NamedView| match view {
         NamedView::Isometric => PossibleValue::new(view.name()).alias("iso"),
@@ -213,6 +234,8 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
 }
 
 /// Parses `transparent`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
+///
+/// Names of colors are case-insensitive, as in CSS.
 fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);
@@ -222,12 +245,19 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
 }
 
 /// Parses a number of samples that the rasterizer has a pattern for.
+///
+/// # Errors
+/// For any other number, such as 2, which has no pattern.
 fn parse_samples(text: &str) -> Result<u32, String> {
     let samples = text.parse().ok().filter(|samples| [1, 4, 8, 16].contains(samples));
     samples.ok_or_else(|| "expected 1, 4, 8 or 16".to_owned())
 }
 
-/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_SIDE`].
+/// Parses `WIDTHxHEIGHT`, each from 1 to [`pipeline::MAX_IMAGE_SIDE`].
+///
+/// ```text
+/// 1920x1080    512X512    1x1
+/// ```
 pub(super) fn parse_image_size(text: &str) -> Result<(u32, u32), String> {
     let fault = || {
         format!(

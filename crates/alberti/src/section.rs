@@ -28,6 +28,16 @@ impl SectionArgs {
 /// Parses `AXIS=VALUE`, `-AXIS=VALUE`, or a point and a normal as six numbers.
 ///
 /// The normal points to the side that is removed.
+///
+/// ```text
+/// x=0.5           point (0.5, 0, 0), normal ( 1, 0, 0)
+/// -z=-2           point (0, 0, -2),  normal ( 0, 0, -1)
+/// 0,1,0,1,0,1     point (0, 1, 0),   normal ( 1, 0, 1)
+/// ```
+/// The normal need not have unit length.
+///
+/// # Errors
+/// If the text has another form, a number is not finite, or the normal is zero.
 fn parse_section_plane(text: &str) -> Result<SectionFile, String> {
     let fault = || {
         "expected a plane such as x=0.5 or -z=0, or six numbers: a point and the direction that is removed".to_owned()

@@ -1,4 +1,7 @@
 //! `alberti sheet`: orthographic views of a scene or a model on paper, to scale.
+//!
+//! The sheet is one page in vector format; PNG is a rasterization of the same page. Without a sheet
+//! in the scene file, and for a bare model, all of its fields have defaults.
 
 use super::CliError;
 use super::format::OutputFormat;
@@ -19,6 +22,8 @@ use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
 /// The resolution of a sheet written as PNG.
+///
+/// An A4 page has 1240 × 1754 pixels then: legible on a screen, and a few hundred kilobytes.
 const DOTS_PER_INCH: f64 = 150.0;
 
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
@@ -78,6 +83,12 @@ pub(crate) struct SheetArgs {
 }
 
 /// Draws the sheet and writes it.
+///
+/// The output's extension is checked before the model is loaded.
+///
+/// # Errors
+/// If the input is invalid, the views do not fit the paper at the requested scale, or the output
+/// cannot be written.
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;
@@ -108,6 +119,9 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
 }
 
 /// The input's name with the extension `.pdf`, in the current folder.
+///
+/// # Errors
+/// If the input's path has no file name, such as `..`.
 fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     let stem = args.input.file_stem();
     let stem = stem.ok_or_else(|| CliError::Usage("name the output with -o FILE".to_owned()))?;
@@ -115,6 +129,9 @@ fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
 }
 
 /// Rasterizes a page at [`DOTS_PER_INCH`].
+///
+/// Other commands with pages use it as well, so that all PNGs of pages have one resolution. The
+/// resolution must not depend on the display: output is the same on every machine.
 pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
@@ -125,6 +142,9 @@ pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
 }
 
 /// Replaces the fields of the scene's sheet by the flags that were given.
+///
+/// `--no-dimensions` can only switch dimensions off; there is no flag to switch on those that a
+/// scene has switched off.
 fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper);
     args.orientation.into_iter().for_each(|orientation| sheet.orientation = Some(orientation));
@@ -146,6 +166,8 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
 }
 
 /// Parses `PAPER:MODEL`, two whole numbers above 0.
+///
+/// The first number is the length on paper: `1:50` reduces, `2:1` enlarges.
 fn parse_scale(text: &str) -> Result<(u32, u32), String> {
     let fault = || "expected PAPER:MODEL, such as 1:50 or 2:1".to_owned();
     let (paper, model) = text.split_once(':').ok_or_else(fault)?;

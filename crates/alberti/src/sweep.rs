@@ -74,6 +74,12 @@ enum VaryArg {
 }
 
 /// Draws the page of panels.
+///
+/// The initial camera is that of the scene, with `--view` and `--projection` applied; each panel
+/// then changes one parameter of it. Models are loaded once for all panels.
+///
+/// # Errors
+/// If the input is invalid, or the parameter makes no sense for the projection or leaves its range.
 pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");

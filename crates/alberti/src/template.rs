@@ -1,4 +1,12 @@
 //! Templates of output names, such as `{stem}_{view}.png` or `frames/{frame:04}.png`.
+//!
+//! ```text
+//! {stem}_{view}.png       fox_front.png
+//! frames/{frame:04}.png   frames/0007.png
+//! {{{frame}}}.png         {7}.png
+//! ```
+//! Each command decides which fields it has. An unknown field is an error, not literal text,
+//! because a typo would otherwise write all pictures to one file.
 
 use std::path::PathBuf;
 
@@ -12,7 +20,9 @@ pub(super) struct NameTemplate {
 /// A piece of a template, in the order of the name.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum TemplatePart {
+    /// Literal text, with braces already unescaped.
     Text(String),
+    /// A text field, by its name.
     Word(&'static str),
     /// A number field, zero-padded to at least this many digits.
     Number(&'static str, usize),
@@ -20,6 +30,9 @@ enum TemplatePart {
 
 impl NameTemplate {
     /// Parses a template whose fields may be these `words` and `numbers`.
+    ///
+    /// The scan finds the next brace, takes the text before it, then either an escaped brace or a
+    /// field up to the next `}`.
     ///
     /// # Errors
     /// If a brace has no partner or a field is unknown; the message lists the known fields.
@@ -50,6 +63,8 @@ impl NameTemplate {
     }
 
     /// Whether the template has this field.
+    ///
+    /// Commands use it to distinguish a name for many files from a name for one.
     pub(super) fn has_field(&self, field: &str) -> bool {
         self.parts.iter().any(|part| match part {
             TemplatePart::Text(_) => false,
@@ -76,6 +91,8 @@ impl NameTemplate {
 }
 
 /// Appends literal text, joined to the text before it.
+///
+/// Joining keeps equal templates equal: `a{{b` has one part, not three.
 fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
     match parts.last_mut() {
         _ if text.is_empty() => {}
@@ -85,6 +102,9 @@ fn push_text(parts: &mut Vec<TemplatePart>, text: &str) {
 }
 
 /// Parses the inside of a pair of braces: `NAME`, or `NAME:0N` for `N` digits.
+///
+/// Digits are from 1 to 9, written with a leading zero as in Rust's format strings; without that
+/// zero, numbers would be padded with spaces.
 ///
 /// # Errors
 ///
@@ -122,6 +142,9 @@ fn parse_field(
 }
 
 /// A value as part of a file name: separators and characters that some system forbids become `_`.
+///
+/// The list is that of Windows, which includes all separators; control characters are invalid there
+/// as well. The literal text of a template is not changed, as it may name folders.
 fn sanitize_file_name(word: &str) -> String {
     let safe = |c: char| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     word.chars().map(safe).collect()

@@ -2,6 +2,9 @@
 //!
 //! Terminals with kitty's graphics protocol get the picture as a PNG. Others get half blocks, two
 //! pixels per cell in 24-bit color, or, with NO_COLOR set, ASCII art by luminance.
+//!
+//! The result goes to the standard output as text, so it can also be piped into a pager that passes
+//! escapes through.
 
 use super::CliError;
 use super::render_job::RenderOutput;
@@ -13,13 +16,27 @@ use std::io::Write as _;
 /// The width assumed for a terminal that does not report it.
 const DEFAULT_COLUMNS: u32 = 80;
 /// The largest width of a picture sent by kitty's protocol, in pixels.
+///
+/// A larger picture would be scaled down by the terminal anyway, and base64 of megabytes is slow
+/// over a remote connection.
 const MAX_KITTY_WIDTH: u32 = 1280;
 /// The largest payload of one command of kitty's protocol, in bytes of base64.
+///
+/// The protocol allows no more in one command.
 const KITTY_CHUNK_LENGTH: usize = 4096;
 /// ASCII characters from dark to light.
+///
+/// The order suits a dark terminal, where a denser character is brighter.
 const ASCII_RAMP: &[u8; 10] = b" .:-=+*#%@";
 
 /// Prints the picture by the best means of the terminal, by its environment variables.
+///
+/// `NO_COLOR` takes precedence over everything. Support for kitty's protocol is concluded from
+/// `KITTY_WINDOW_ID` and `TERM`, because asking the terminal means reading its answer from the
+/// keyboard input.
+///
+/// # Errors
+/// If the standard output cannot be written.
 pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
     let Some(picture) = &painted.picture else { return Ok(()) };
     let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
@@ -42,6 +59,9 @@ pub(super) fn print_image(painted: &RenderOutput) -> Result<(), CliError> {
 /// Box-filters a picture over black down to `columns` × `rows`.
 ///
 /// Squares of the codes stand in for linear light: a gamma of 2 is close enough to sRGB here.
+///
+/// Transparent pixels are black in proportion to their transparency. A cell smaller than a pixel
+/// shows the nearest one; `range` is never empty.
 fn downsample(picture: &Picture, columns: u32, rows: u32) -> Vec<[u8; 3]> {
     let range = |at: u32, of: u32, side: u32| {
         let bound = |at: u32| (u64::from(at) * u64::from(side) / u64::from(of)) as u32;
@@ -78,6 +98,9 @@ fn fit_columns(picture: &Picture, columns: u32, cells: f64) -> (u32, u32) {
 /// The picture as upper half blocks: foreground and background color are two pixels of a cell.
 ///
 /// A cell of a terminal is about twice as high as wide, so the pixels are square.
+///
+/// Each cell sets both colors (`38;2` foreground, `48;2` background); each line ends with a reset,
+/// so that the background does not extend to the edge of the terminal.
 fn half_blocks(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 1.0);
     let rows = rows.next_multiple_of(2);
@@ -95,6 +118,9 @@ fn half_blocks(picture: &Picture, columns: u32) -> String {
 }
 
 /// The picture as characters of [`ASCII_RAMP`], by luminance.
+///
+/// The weights are those of Rec. 709: 0.2126 red, 0.7152 green, 0.0722 blue. They are applied to
+/// codes (luma), which is close to perceived lightness.
 fn ascii_art(picture: &Picture, columns: u32) -> String {
     let (columns, rows) = fit_columns(picture, columns, 0.5);
     let mut text = String::new();
@@ -111,6 +137,9 @@ fn ascii_art(picture: &Picture, columns: u32) -> String {
 }
 
 /// Commands of kitty's graphics protocol that transmit and display a PNG, in chunks.
+///
+/// `a=T` transmits and displays, `f=100` is PNG, and `c` scales the picture to so many columns.
+/// `m=1` announces a further chunk; only the first has the other keys.
 fn kitty_graphics(picture: &Picture, columns: u32) -> String {
     let (cells, _) = fit_columns(picture, columns, 0.5);
     let small;

@@ -1,14 +1,14 @@
 //! Import: reads a file into a [`Model`] without trusting anything in it.
 //!
-//! Files come from strangers. Every index, length and size is checked before it is used, URIs refer
+//! Files are untrusted input. Every index, length and size is checked before it is used, URIs refer
 //! to files below one folder only, and everything a file can declare has a [limit](Limits). A
 //! [`Diagnostic`](crate::Diagnostic) says where the file is wrong, what is wrong and what to do.
 //!
-//! Faults in the shape (positions, indices, the node hierarchy) are errors; faults in the look
-//! (materials, normals, images) are [warnings](Model::warnings), and the file is drawn without what
-//! is broken. With [`ImportOptions::lenient`] most errors become warnings too, as long as something
-//! is left to load. [`check_file`] lists everything that is wrong instead of stopping at the first
-//! error.
+//! Faults in the geometry (positions, indices, the node hierarchy) are errors; faults in the
+//! appearance (materials, normals, images) are [warnings](Model::warnings), and the file is drawn
+//! without what is broken. With [`ImportOptions::lenient`] most errors become warnings too, as long
+//! as something is left to load. [`check_file`] lists everything that is wrong instead of stopping
+//! at the first error.
 //!
 //! | option | error by default | with `lenient` |
 //! | --- | --- | --- |
@@ -103,7 +103,10 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
         let resolver = UriResolver::new(path, bytes.len(), options)?;
         import_gltf(path, &bytes, &resolver, options)
     });
-    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
+    loaded.map_err(|diagnostic| ImportError {
+        file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
 }
 
 /// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
@@ -117,5 +120,8 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
         .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
-    loaded.map_err(|diagnostic| ImportError { file: path.to_owned(), diagnostic })
+    loaded.map_err(|diagnostic| ImportError {
+        file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
 }

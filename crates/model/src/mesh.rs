@@ -20,12 +20,12 @@ pub struct Mesh {
     pub morph_weights: Vec<f32>,
 }
 
-/// A mesh primitive: vertex attributes, indices and a material; the unit that is drawn at once.
+/// A mesh primitive: vertex attributes, indices and a material; the unit of a draw call.
 ///
 /// Strips, loops and fans have been expanded to plain lists, with the winding that the
 /// specification gives them. Every attribute that is present has one entry for each vertex, every
 /// index is less than the number of vertices, and every position is finite: the importer has
-/// dropped what is not.
+/// dropped invalid items.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Whether the indices form points, lines or triangles.
@@ -71,8 +71,8 @@ pub struct Primitive {
 pub struct DerivedData {
     /// Clusters of the triangles, without and with normal cones.
     clusters: [OnceLock<Clusters>; 2],
-    /// MikkTSpace tangents for the first set of texture coordinates that was asked for; `None`
-    /// inside if the algorithm fails.
+    /// MikkTSpace tangents for the first requested set of texture coordinates; `None` inside if the
+    /// algorithm fails.
     pub(super) tangents: OnceLock<(usize, Option<Vec<[f32; 4]>>)>,
 }
 

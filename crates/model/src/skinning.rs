@@ -166,6 +166,9 @@ impl Model {
     }
 
     /// Joint matrices of a skin: for each joint, from the mesh's coordinates to the model's.
+    ///
+    /// A joint out of range counts as the identity. The matrices are computed once for each
+    /// primitive and not for each vertex.
     fn joint_matrices(&self, skin: &Skin) -> Vec<DMat4> {
         let bone = |(&joint, bind): (&usize, &Affine<ModelSpace, ModelSpace>)| {
             self.nodes.get(joint).map_or(DMat4::IDENTITY, |node| bind.then(node.to_model).raw())
@@ -175,6 +178,9 @@ impl Model {
 }
 
 /// The morph targets whose weight is finite and not zero, each with its weight.
+///
+/// Targets beyond the list of weights have weight 0. Most targets of a face rig are inactive, so
+/// that skipping them is most of the speed.
 fn active_morph_targets<'a>(
     primitive: &'a Primitive,
     weights: &[f32],
@@ -184,6 +190,9 @@ fn active_morph_targets<'a>(
 }
 
 /// Positions and normals with the weighted deltas of the morph targets added.
+///
+/// Without an active target all arrays are borrowed. Morphed normals are normalized again;
+/// positions are summed target by target, in the order of the file.
 fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimitive<'a> {
     let (mut positions, mut normals) =
         (Cow::Borrowed(&*primitive.positions), primitive.normals.as_deref().map(Cow::Borrowed));
@@ -202,11 +211,13 @@ fn morph_vertices<'a>(primitive: &'a Primitive, weights: &[f32]) -> SkinnedPrimi
 }
 
 /// Adds `weight` times the deltas of a morph target; a delta that is not finite changes nothing.
+///
+/// A sum beyond the range of single precision becomes its largest number, and stays finite.
 fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; N]], weight: f32) {
     for (value, delta) in values.iter_mut().zip(deltas) {
         let sum: [f64; N] =
             std::array::from_fn(|k| f64::from(value[k]) + f64::from(delta[k]) * f64::from(weight));
-        // A difference that is no number changes nothing.
+        // A delta with NaN or an infinity is ignored.
         if sum.iter().all(|x| x.is_finite()) {
             *value = sum.map(saturate_f32);
         }
@@ -216,6 +227,9 @@ fn add_weighted_deltas<const N: usize>(values: &mut [[f32; N]], deltas: &[[f32; 
 /// Weighted mean of the joint matrices of a vertex; `None` if its weights are all zero.
 ///
 /// Dividing by the sum of the weights accepts files whose weights do not add up to 1.
+///
+/// Negative weights are ignored. A mean that overflows counts as no weights at all, so that a
+/// hostile file cannot produce positions that are not finite.
 fn blend_joint_matrices(
     joint_transforms: &[DMat4],
     primitive: &Primitive,
@@ -235,6 +249,8 @@ fn blend_joint_matrices(
 }
 
 /// Transforms each vertex by a matrix of its own, and its normal by the inverse transpose.
+///
+/// The result is in model space, hence the identity in `to_model`.
 fn skin_vertices<'a>(
     morphed: &SkinnedPrimitive<'_>,
     map: impl Fn(usize) -> DMat4,
@@ -255,15 +271,17 @@ fn skin_vertices<'a>(
     }
 }
 
+/// A vector in double precision, in which all sums are formed.
 fn to_f64(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-/// Rounds to single precision; what is too large becomes the largest finite number.
+/// Rounds to single precision; numbers out of range become the largest finite one.
 fn to_f32_saturating(v: DVec3) -> [f32; 3] {
     v.to_array().map(saturate_f32)
 }
 
+/// Rounds to single precision, clamped to the finite numbers; NaN becomes 0.
 fn saturate_f32(x: f64) -> f32 {
     const LARGEST: f64 = f32::MAX as f64;
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) as f32 }
@@ -276,8 +294,8 @@ fn unit_or_z(v: DVec3) -> [f32; 3] {
 
 /// Normal matrix: the inverse transpose up to a positive factor, as the matrix of cofactors.
 ///
-/// Unlike the inverse it exists for singular matrices too. The sign keeps normals on the outside
-/// when the map is a reflection.
+/// Unlike the inverse it exists for singular matrices too. The sign preserves the outward side of
+/// normals when the map is a reflection.
 fn normal_matrix(map: &DMat4) -> DMat3 {
     let (x, y, z) = (map.x_axis.truncate(), map.y_axis.truncate(), map.z_axis.truncate());
     let mirror = if x.dot(y.cross(z)) < 0.0 { -1.0 } else { 1.0 };

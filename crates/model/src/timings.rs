@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// Names of stages and the time each took.
 type StageTimes = Vec<(&'static str, Duration)>;
 
-/// A stopwatch for the stages of a run. Clones share what they measure; the default measures
+/// A stopwatch for the stages of a run. Clones add to one measurement; the default measures
 /// nothing.
 ///
 /// ```

@@ -28,6 +28,9 @@ use crate::render::RenderError;
 use crate::scene::ResolveError;
 
 /// A demonstration that cannot be computed.
+///
+/// Each variant carries the error of the stage that refused, or the parameter and the reason, so
+/// that the message can name a remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DemonstrationError {

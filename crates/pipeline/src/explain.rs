@@ -42,6 +42,9 @@ pub use transform_chain::TransformChain;
 pub use triangle::explain_triangle;
 
 /// The stages that a subject passes, and the result.
+///
+/// All values are plain data: the three writers (text, JSON, HTML) read the same structure and
+/// compute nothing, so the outputs cannot disagree.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Explanation {
     /// The subject in words.
@@ -53,9 +56,14 @@ pub struct Explanation {
 }
 
 /// One stage of the pipeline.
+///
+/// A step with an empty item list is legal: the divide and the viewport of a chain without points
+/// have only their matrices.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Step {
-    /// A stable identifier for programs.
+    /// A stable identifier for programs, such as `camera` or `clip`; it is also the anchor of the
+    /// step in the HTML page. Unique within an explanation except for repeated findings
+    /// (`other_fragment`, `other_misprint`).
     pub id: &'static str,
     /// A heading for people.
     pub title: String,
@@ -68,7 +76,8 @@ pub struct Step {
 /// A named value of a step.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Item {
-    /// A stable identifier for programs.
+    /// A stable identifier for programs, unique within its step. For one of several points it ends
+    /// in the point's label: `clip_a`, `ndc_start`.
     pub id: String,
     /// A label for people.
     pub name: String,
@@ -77,11 +86,14 @@ pub struct Item {
 }
 
 /// The value of an item.
+///
+/// Numbers stay f64 up to the writers: JSON prints all digits, text and HTML round to seven.
 #[derive(Clone, PartialEq, Debug)]
 pub enum ItemValue {
     /// A matrix for column vectors, by rows.
     Matrix([[f64; 4]; 4]),
-    /// Coordinates, or another list of numbers.
+    /// Coordinates, or another list of numbers: three for a Cartesian point, four for a homogeneous
+    /// point (x, y, z, w).
     Numbers(Vec<f64>),
     /// A number.
     Number(f64),
@@ -95,7 +107,7 @@ impl Step {
         Self { id, title: title.into(), formula, items: Vec::new() }
     }
 
-    /// The step with one more item.
+    /// Returns the step with one more item, for chains of calls.
     fn with_item(
         mut self,
         id: impl Into<String>,
@@ -106,7 +118,7 @@ impl Step {
         self
     }
 
-    /// Adds an item.
+    /// Appends an item in place, for loops over points.
     fn add_item(
         &mut self,
         id: impl Into<String>,

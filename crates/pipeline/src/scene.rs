@@ -7,7 +7,7 @@
 //! ```
 //! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]): models are loaded, angles
 //! are radians, every default is decided, and every mistake is an error that points into the file.
-//! `file` declares the language; [`reference`] lists the declarations; `vocabulary` knows the words of
+//! `file` declares the language; [`mod@reference`] lists the declarations; `vocabulary` knows the words of
 //! other programs.
 
 mod backdrop;

@@ -18,6 +18,10 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// The motion of a sequence.
+///
+/// Both are sampled at the fractions i / n for the frames i = 0 … n − 1: the end belongs to the
+/// frame after the last, so that a full turn or a looping animation repeats without a doubled
+/// frame.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Motion {
     /// The models rotate about the vertical axis through the center of their bounding box:
@@ -38,6 +42,8 @@ pub enum Motion {
 }
 
 /// A frame sequence, ready to be rendered.
+///
+/// Immutable while it renders: workers share it by reference.
 #[derive(Debug)]
 pub struct Sequence {
     /// The scene at the start of the motion.
@@ -48,11 +54,14 @@ pub struct Sequence {
     frame_count: usize,
     /// The point that a turntable's axis passes through.
     pivot: Point<World>,
-    /// The camera of each frame, if it moves; otherwise empty.
+    /// The camera of each frame, if it moves; otherwise empty, and the scene's camera holds for all
+    /// frames.
     view_projections: Vec<ViewProjection>,
 }
 
 /// A sequence that could not be rendered to its end.
+///
+/// `E` is the error of the function that receives the frames, such as an I/O error of an encoder.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SequenceError<E> {
@@ -65,9 +74,14 @@ pub enum SequenceError<E> {
 }
 
 /// Moments of the motion that an automatic camera is fitted to.
+///
+/// A turntable of 16 samples misses the extreme extent of a corner by at most 1 − cos(π/16), 2 % of
+/// its radius.
 const FRAMING_SAMPLES: usize = 16;
 /// Frames per worker that may be started before the oldest one is delivered. It bounds the memory
 /// of frames that finish out of order.
+///
+/// With w workers at most 2 w pictures exist at a time, whatever the length of the sequence.
 const FRAMES_AHEAD: usize = 2;
 
 impl Sequence {
@@ -76,6 +90,11 @@ impl Sequence {
     ///
     /// # Errors
     /// If the scene cannot be framed.
+    ///
+    /// The scene is resolved a second time with the models at 16 moments of the motion together, as
+    /// if they stood there at once. Camera, lights, ground and insets of that resolution replace
+    /// those of the start; otherwise automatic near and far planes or shadow maps would cut off
+    /// later poses.
     pub fn new(
         origin: &Origin,
         file: &SceneFile,
@@ -111,6 +130,10 @@ impl Sequence {
     ///
     /// # Errors
     /// If there is no view at some time, such as where the eye coincides with its target.
+    ///
+    /// One view is computed for each frame before rendering starts, so that errors come early.
+    /// Views that are fitted automatically use the models at 16 moments of the motion, or once if
+    /// they stand still.
     pub fn with_camera_path(
         mut self,
         origin: &Origin,
@@ -159,8 +182,16 @@ impl Sequence {
     /// Renders all frames with up to `threads` workers and hands them to `sink` in order, on the
     /// calling thread. The number of threads does not change a frame.
     ///
-    /// # Errors
-    /// If a frame cannot be rendered, or the sink fails; no further frame is started then.
+    /// ```text
+    ///  workers:  start frame ─► render ─► finished[frame]     at most FRAMES_AHEAD · w ahead
+    ///  caller:   wait for finished[next] ─► delivered += 1 ─► sink
+    /// ```
+    /// Each frame is rendered on one thread; parallel frames scale better than parallel tiles,
+    /// since there is no serial part between stages. The sink runs without the lock held and may
+    /// block, on a pipe for example: workers then stop at the limit. A poisoned lock is entered all
+    /// the same, because the queue is consistent after every statement.
+    ///
+    /// # Errors If a frame cannot be rendered, or the sink fails; no further frame is started then.
     pub fn render_frames<E>(
         &self,
         threads: usize,
@@ -194,6 +225,10 @@ impl Sequence {
     }
 
     /// Waits for each frame in order, and delivers it.
+    ///
+    /// `delivered` is advanced before the sink runs, so that a slow sink does not keep workers
+    /// waiting. On an error the caller marks all frames as started, which ends the workers after
+    /// their current frame.
     fn deliver_frames<'a, E>(
         &self,
         lock: &impl Fn() -> MutexGuard<'a, Queue>,
@@ -227,16 +262,20 @@ impl Sequence {
 /// The frames between start and delivery.
 #[derive(Default)]
 struct Queue {
-    /// The next frame to start.
+    /// The next frame to start; equal to the frame count when none is left or the sequence is
+    /// aborted.
     started: usize,
     /// The next frame to deliver.
     delivered: usize,
-    /// Rendered frames that wait for earlier ones.
+    /// Rendered frames that wait for earlier ones, by index.
     finished: BTreeMap<usize, Result<Picture, RenderError>>,
 }
 
 /// Waits until the next frame is at most `ahead` frames before the one delivered last, and starts
 /// it; `None` if all are started.
+///
+/// The condition variable is notified on every delivery and on abortion; the loop tolerates
+/// spurious wakeups.
 fn next_frame(
     mut queue: MutexGuard<'_, Queue>,
     progress: &Condvar,
@@ -256,17 +295,22 @@ fn next_frame(
 }
 
 /// The state of one thread: a scene with models of its own, and the buffers of its last frame.
+///
+/// Copies of the scene are cheap: models, images and environment are behind `Arc`s until they are
+/// posed.
 struct FrameWorker<'a> {
     /// The sequence, whose scene stays unposed.
     sequence: &'a Sequence,
     scene: Scene,
-    /// The buffers of the worker.
+    /// The renderer, whose buffers are reused from frame to frame.
     renderer: Renderer,
 }
 
 impl<'a> FrameWorker<'a> {
     /// Copies the models that animations pose. Instances of one model share one copy, and all
     /// copies share the images.
+    ///
+    /// A turntable changes only `model_to_world` and needs no copies.
     fn new(sequence: &'a Sequence) -> Self {
         let mut scene = sequence.scene.clone();
         if matches!(sequence.motion, Motion::Animations { .. }) {
@@ -282,6 +326,8 @@ impl<'a> FrameWorker<'a> {
     }
 
     /// Poses the models for a frame and renders it on this thread.
+    ///
+    /// Insets show the posed models of the main view, not poses of their own.
     fn render_frame(
         &mut self,
         frame: usize,
@@ -311,6 +357,11 @@ impl Motion {
     }
 
     /// Poses models at a fraction of the motion; `start` holds them unposed.
+    ///
+    /// A turntable computes model_to_world · T(−p) · R_y(αf) · T(p) in the order of application,
+    /// from the unposed transform each time: rotations of thousands of frames do not drift. An
+    /// animation is evaluated at t = from + (to − from) f seconds; instances of one model are posed
+    /// once and share the result.
     fn pose_models(
         &self,
         models: &mut [ModelInstance],
@@ -353,6 +404,8 @@ impl Motion {
 
 /// Instances that share their model with their predecessor: pairs of index and the first index of
 /// the run.
+///
+/// Instances of one file are consecutive, so comparing neighbors by pointer is enough and O(n).
 fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
     let mut first = 0;
     let mut shared = Vec::new();
@@ -367,6 +420,8 @@ fn shared_models(models: &[ModelInstance]) -> Vec<(usize, usize)> {
 }
 
 /// The center of the bounding box of points; the origin without points.
+///
+/// The box is that of the start pose; a center of mass would depend on the tessellation.
 fn bounds_center(points: &[Point<World>]) -> Point<World> {
     let mut points = points.iter().map(|point| point.raw());
     let Some(first) = points.next() else { return Point::ORIGIN };

@@ -148,6 +148,8 @@ impl Cluster {
         let axis = axis / cosine;
         let [least, greatest] = self.bounds.map(|corner| DVec3::from_array(corner.map(f64::from)));
         let (eye, w) = (viewer.raw().truncate(), viewer.w());
+        // From the box's center; in parallel projection w is 0 and the direction is the viewer's
+        // own.
         let to_viewer = eye - (least + greatest) * (0.5 * w);
         let radius = (greatest - least).length() * (0.5 * w.abs());
         let along = to_viewer.dot(axis);
@@ -199,6 +201,7 @@ impl TriangleNormals {
             return;
         };
         let (a, b) = (subtract(q, p), subtract(r, p));
+        // The cross product of two edges, twice the area long.
         let normal =
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let squared = dot(normal, normal);

@@ -34,6 +34,8 @@ impl EdgeFunction {
         // Top-left rule. (a, b) is the inner normal: it points right on a left edge, and down
         // (larger y) on a top edge.
         let is_top_left = a > 0 || (a == 0 && b > 0);
+        // E is 0 on the edge; the bias of one step makes E = 0 negative where the edge does not own
+        // it.
         Self { a, b, c: -(a * x + b * y) - i64::from(!is_top_left) }
     }
 

@@ -57,8 +57,10 @@ impl EdgePixels {
         planes: &[[u32; LANES]],
         colors: &[F32x8; 4],
     ) {
+        // Coverage of the first sample's triangle in each pixel.
         let masks = first_sample_masks(planes);
         self.blocks |= 1 << block;
+        // Weight each color by its number of samples, a block of eight at once.
         for (sums, color) in self.color_sums.iter_mut().zip(colors) {
             let sums = &mut sums[block * LANES..(block + 1) * LANES];
             for lane in 0..LANES {

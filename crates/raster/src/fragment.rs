@@ -72,6 +72,7 @@ impl<'a> Fragment<'a> {
     /// Derivatives by the quotient rule: a weight is a part over the sum of the parts, and these
     /// are linear on the screen.
     fn weight_derivatives(&self, steps: [f32; 3]) -> [f32; 3] {
+        // ∂weight = (∂part − weight · ∂Σ) / Σ.
         let sum = steps[0] + steps[1] + steps[2];
         let along = [0, 1, 2].map(|k| (steps[k] - self.barycentrics[k] * sum) * self.inv_sum);
         to_source_weights(self.triangle, self.source_weights, along)
@@ -118,6 +119,7 @@ pub(crate) fn to_source_weights(
     match triangle.source {
         WeightSource::Unclipped => [p, q, r],
         WeightSource::Flipped => [p, r, q],
+        // Weights in a part of the primitive, times the weights of its vertices in the whole.
         WeightSource::Clipped(entry) => {
             let [at_p, at_q, at_r] = source_weights[entry as usize];
             [0, 1, 2].map(|k| p * at_p[k] + q * at_q[k] + r * at_r[k])

@@ -5,6 +5,11 @@
 //! the processor's vector instructions ([`SimdLevel::run_kernel`](crate::SimdLevel::run_kernel)).
 //! Loops are written out: closures over arrays (`map`, `from_fn`) are not always inlined, and one
 //! call in the middle undoes the vectorization.
+//!
+//! ```text
+//!   areaₖ   = Δx_a Δy_b − Δy_a Δx_b          f64, exact: whole grid steps, 24 bits each
+//!   weightₖ = areaₖ / wₖ · 1 / Σ (areaᵢ / wᵢ)  f32, perspective-correct (IN-2)
+//! ```
 
 use crate::Fragment;
 use crate::fragment::{pixel_center, weight_steps_x, weight_steps_y};
@@ -28,13 +33,21 @@ pub struct Fragments<'a> {
     /// The row of the pixels, from the top.
     pub y: u32,
     /// Whether all are fragments of one triangle, in adjacent pixels.
+    ///
+    /// Set for runs of pixels that one triangle covers. It saves the gather of vertices and lets
+    /// shading fetch attributes once.
     is_single: bool,
+    /// The screen triangle of each fragment.
     triangles: [&'a ScreenTriangle; LANES],
+    /// The frame's table of weights for triangles that are part of a clipped primitive.
     source_weights: &'a [SourceWeights],
 }
 
 impl<'a> Fragments<'a> {
     /// The fragments of one triangle in eight pixels from (x, y) to the right.
+    ///
+    /// Pixels beyond the triangle's border are allowed: their weights are clamped, their colors
+    /// ignored.
     #[inline(always)]
     pub(crate) fn from_one_triangle(
         triangle: &'a ScreenTriangle,
@@ -76,6 +89,8 @@ impl<'a> Fragments<'a> {
     }
 
     /// The weights of the vertices in the eight fragments.
+    ///
+    /// They are perspective-correct: none is negative, and the three of a lane add up to 1.
     #[inline(always)]
     #[must_use]
     pub fn weights(&self) -> WeightLanes<'a> {
@@ -91,6 +106,8 @@ impl<'a> Fragments<'a> {
     }
 
     /// One of the fragments, `lane` from 0 to 7, given the weights of all.
+    ///
+    /// The result has the bits of a fragment that was computed by itself.
     #[inline(always)]
     #[must_use]
     pub fn fragment(&self, lane: usize, weights: &WeightLanes<'a>) -> Fragment<'a> {
@@ -109,6 +126,8 @@ impl<'a> Fragments<'a> {
 }
 
 /// The weights of the vertices in eight fragments, and their derivatives across the picture.
+///
+/// Derivatives are computed by methods, only where a surface calls them.
 #[derive(Clone, Copy, Debug)]
 pub struct WeightLanes<'a> {
     /// For each vertex its weights at the fragments: see [`Fragment::weights`].
@@ -138,6 +157,9 @@ impl WeightLanes<'_> {
     }
 
     /// Derivatives by the quotient rule, given the change per pixel of area times 1/w.
+    ///
+    /// With parts pₖ = areaₖ / wₖ, linear on the screen, and S their sum, a weight is pₖ / S and
+    /// its derivative (∂pₖ − weightₖ · ∂S) / S.
     #[inline(always)]
     fn derivatives(&self, steps_of: impl Fn(&ScreenTriangle) -> [f32; 3]) -> [F32x8; 3] {
         let mut steps = [[0.0; LANES]; 3];
@@ -154,10 +176,12 @@ impl WeightLanes<'_> {
                 steps[2][lane] = r;
             }
         }
+        // ∂S, the change of the normalizing sum.
         let mut sum = [0.0; LANES];
         for (lane, sum) in sum.iter_mut().enumerate() {
             *sum = steps[0][lane] + steps[1][lane] + steps[2][lane];
         }
+        // Quotient rule, with the division done once when the weights were made.
         for (steps, weights) in steps.iter_mut().zip(&self.barycentrics) {
             for (lane, step) in steps.iter_mut().enumerate() {
                 *step = (*step - weights[lane] * sum[lane]) * self.inv_sum[lane];
@@ -168,6 +192,8 @@ impl WeightLanes<'_> {
 }
 
 /// Weights of the source primitives' vertices from those of the screen triangles'.
+///
+/// Assembly may have swapped two vertices or clipped the primitive; shading sees neither.
 #[inline(always)]
 fn to_source_weights(
     is_single: bool,
@@ -184,6 +210,7 @@ fn to_source_weights(
     }
     // Most triangles of a mesh are flipped, for the rasterizer wants them clockwise.
     let mut weights = [p, r, q];
+    // One pass decides for all lanes: a select for swapped vertices, a flag for clipped ones.
     let mut is_clipped = false;
     for lane in 0..LANES {
         let source = triangles[lane].source;
@@ -213,6 +240,7 @@ fn clipped_source_weights(
         let WeightSource::Clipped(entry) = triangles[lane].source else { continue };
         let [at_p, at_q, at_r] = source_weights[entry as usize];
         for (k, weights) in weights.iter_mut().enumerate() {
+            // A convex combination of convex combinations: the weights still add up to 1.
             weights[lane] = p[lane] * at_p[k] + q[lane] * at_q[k] + r[lane] * at_r[k];
         }
     }
@@ -222,9 +250,14 @@ fn clipped_source_weights(
 /// The vertices of the triangles in eight pixels: their offsets from the pixel centers, and 1/w.
 ///
 /// Offsets are whole grid steps in `f64`, where their products and differences are exact.
+///
+/// Relative to the pixel they are small where it matters: next to a vertex no digits cancel.
 struct VertexLanes {
+    /// Grid steps from the pixel's center to each vertex, to the right.
     dx: [[f64; LANES]; 3],
+    /// Grid steps from the pixel's center to each vertex, downwards.
     dy: [[f64; LANES]; 3],
+    /// 1/w of each vertex.
     inv_w: [F32x8; 3],
 }
 
@@ -238,6 +271,7 @@ impl VertexLanes {
         let mut lanes = Self::ZERO;
         let (cx, cy) = (pixel_center(x), pixel_center(y));
         for (k, vertex) in triangle.vertices.iter().enumerate() {
+            // Along the row the offset falls by one pixel, 256 steps, per lane.
             let first = f64::from(vertex.x - cx);
             for (lane, dx) in lanes.dx[k].iter_mut().enumerate() {
                 *dx = first - f64::from(lane as i32 * SUBPIXELS);
@@ -270,6 +304,7 @@ impl VertexLanes {
     fn barycentric_weights(&self) -> ([F32x8; 3], F32x8) {
         let Self { dx, dy, inv_w } = self;
         let mut weights = *inv_w;
+        // Twice the area opposite each vertex, times its 1/w. The conversion to f32 rounds once.
         for (weight, (a, b)) in weights.iter_mut().zip([(1, 2), (2, 0), (0, 1)]) {
             for (lane, weight) in weight.iter_mut().enumerate() {
                 let area = (dx[a][lane] * dy[b][lane] - dy[a][lane] * dx[b][lane]) as f32;
@@ -277,6 +312,7 @@ impl VertexLanes {
                 *weight *= area.max(0.0);
             }
         }
+        // Normalize: one division for each lane, then products.
         let mut inv_sum = [0.0_f32; LANES];
         for (lane, inv_sum) in inv_sum.iter_mut().enumerate() {
             *inv_sum = 1.0 / (weights[0][lane] + weights[1][lane] + weights[2][lane]);

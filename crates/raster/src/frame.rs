@@ -35,9 +35,13 @@ const PARALLEL_TRIANGLES: usize = 8 * CHUNK_TRIANGLES;
 /// At equal depth the primitive added first wins, whatever the number of threads.
 #[derive(Clone, Debug)]
 pub struct Frame {
+    /// The pixels that the frame shows, in the coordinates of the whole picture.
     pub(crate) region: PixelRect,
+    /// The sample pattern of each pixel.
     pub(crate) samples: Samples,
+    /// The vector instructions that tiles are rasterized and shaded with.
     pub(crate) simd_level: SimdLevel,
+    /// The screen triangles in submission order.
     pub(crate) triangles: TriangleBuffer,
     /// The source weights of triangles that are part of another primitive: see
     /// [`WeightSource::Clipped`].
@@ -117,6 +121,10 @@ impl Frame {
         Self { cancel: Some(cancel), ..self }
     }
 
+    /// Whether drawing has been canceled.
+    ///
+    /// The load is relaxed: nothing else is ordered by the flag, and a late look costs one row of
+    /// tiles.
     pub(crate) fn is_canceled(&self) -> bool {
         self.cancel.as_ref().is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
@@ -159,6 +167,9 @@ impl Frame {
     /// Adds a whole triangle of either winding.
     ///
     /// Nothing is culled. To drop back faces, look at [`signed_area`] before, or add a mesh.
+    ///
+    /// Degenerate triangles and those between samples are dropped without a trace: they cover
+    /// nothing.
     pub fn add_triangle(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
         self.push_unclipped(vertices, id, opacity);
     }
@@ -184,7 +195,11 @@ impl Frame {
     /// mesh.
     ///
     /// Runs must be sorted and must not overlap; the part of a run beyond the mesh is ignored.
+    ///
+    /// With several threads the triangles are assembled in chunks of 4096; the order of the buffer,
+    /// and with it the winner among equal depths, does not depend on how the chunks are divided up.
     pub fn add_mesh_runs(&mut self, mesh: MeshTriangles<'_>, runs: &[Range<usize>]) {
+        // One rectangle test for all triangles of the mesh: it depends on the frame alone.
         let bounds = self.sample_bounds();
         let count: usize = runs.iter().map(ExactSizeIterator::len).sum();
         if self.threads > 1 && count >= PARALLEL_TRIANGLES {
@@ -195,6 +210,7 @@ impl Frame {
             let chunks = self.triangles.append_chunks(chunk_count).iter_mut();
             for_each_parallel(self.threads, chunks.enumerate(), |(index, chunk)| {
                 let slice = index * CHUNK_TRIANGLES..(index + 1) * CHUNK_TRIANGLES;
+                // The runs that reach into this chunk, by binary search.
                 let before = runs.partition_point(|run| run.end <= slice.start);
                 for run in runs[before..].iter().take_while(|run| run.start < slice.end) {
                     let run = run.start.max(slice.start)..run.end.min(slice.end);
@@ -204,6 +220,7 @@ impl Frame {
             self.triangles.remove_empty_chunks(first);
             return;
         }
+        // One thread: fill chunk after chunk.
         for run in runs {
             let mut rest = run.clone();
             while !rest.is_empty() {
@@ -262,7 +279,9 @@ impl Frame {
         }
     }
 
+    /// Assembles one whole triangle and appends it, unless it is degenerate or covers no sample.
     fn push_unclipped(&mut self, vertices: [ScreenVertex; 3], id: u32, opacity: Opacity) {
+        // Off the region, or between samples.
         let Some(tiles) = self.sample_bounds().touched_tiles(vertices) else { return };
         let area = signed_area(vertices);
         if let Some(triangle) = assemble_triangle(vertices, area, id, opacity) {
@@ -270,6 +289,10 @@ impl Frame {
         }
     }
 
+    /// Assembles one triangle that is part of a primitive, with its weights in a table beside it.
+    ///
+    /// Vertices and weights are swapped together where the winding asks for it, so the source needs
+    /// no flag for that.
     fn push_clipped(
         &mut self,
         vertices: [ScreenVertex; 3],
@@ -284,18 +307,22 @@ impl Frame {
             1.. => (vertices, [at_p, at_q, at_r]),
             _ => ([p, r, q], [at_p, at_r, at_q]),
         };
+        // An index instead of nine weights: most triangles have none, and all stay small.
         let source = WeightSource::Clipped(self.source_weights.len() as u32);
         self.source_weights.push(weights);
         let vertices = normalize_inv_w(vertices);
         self.triangles.push(ScreenTriangle { vertices, id, source, opacity }, tiles);
     }
 
+    /// The test whether a triangle can cover a sample of this frame.
     fn sample_bounds(&self) -> SampleBounds {
         SampleBounds { grid: TileGrid::new(self.region), offset_range: self.samples.offset_range() }
     }
 }
 
 /// Checks that a region is not empty and ends within [`MAX_SIDE`].
+///
+/// The sum of origin and side is checked for overflow.
 fn check_region(region: PixelRect) -> Result<PixelRect, RasterError> {
     let PixelRect { x, y, width, height } = region;
     let fits = |from: u32, side: u32| {
@@ -310,6 +337,9 @@ fn check_region(region: PixelRect) -> Result<PixelRect, RasterError> {
 impl MeshTriangles<'_> {
     /// Primitive assembly: appends those triangles of a run that are not culled and may cover a
     /// sample.
+    ///
+    /// In order: missing vertices, winding, bounds, degeneracy. Most triangles of a fine mesh end
+    /// at the bounds.
     fn assemble_triangles(
         &self,
         bounds: SampleBounds,
@@ -338,6 +368,8 @@ impl MeshTriangles<'_> {
 }
 
 /// A whole triangle with its vertices clockwise on the screen; `None` if it is degenerate.
+///
+/// `area` is the [`signed_area`] of the vertices, which culling has computed already.
 #[inline(always)]
 fn assemble_triangle(
     [p, q, r]: [ScreenVertex; 3],
@@ -356,8 +388,11 @@ fn assemble_triangle(
 }
 
 /// The test whether a triangle's bounds hold a sample of the frame, and which tiles they touch.
+///
+/// Conservative: a bounding rectangle may hold a sample that the triangle does not cover.
 #[derive(Clone, Copy)]
 struct SampleBounds {
+    /// The tiles of the frame's region.
     grid: TileGrid,
     /// The least and the greatest offset of a sample from its pixel's borders, in grid steps.
     offset_range: (i32, i32),
@@ -366,6 +401,9 @@ struct SampleBounds {
 impl SampleBounds {
     /// The tiles of the frame that a triangle's bounds touch; `None` if they touch none or hold no
     /// sample.
+    ///
+    /// Bounds are closed: a sample on a border counts, as the top-left rule may give it to the
+    /// triangle.
     #[inline(always)]
     fn touched_tiles(&self, [p, q, r]: [ScreenVertex; 3]) -> Option<TileRange> {
         let (least, greatest) = self.offset_range;
@@ -375,6 +413,7 @@ impl SampleBounds {
         let holds = |[low, high]: [i32; 2]| {
             (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
         };
+        // The bounding box in grid steps.
         let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
         let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
         if holds(x) & holds(y) { self.grid.tiles_in_bounds(x, y) } else { None }

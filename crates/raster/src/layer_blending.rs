@@ -32,6 +32,9 @@ impl<S: Surface> TileResolve<'_, S> {
     /// the layers back to front.
     ///
     /// A pixel that shows the background gets a contribution of no triangle, so that it is written.
+    ///
+    /// Every sample of a pixel is in exactly one opaque contribution: its triangle or the
+    /// background. The number of these is at most the number of samples.
     #[inline(always)]
     pub(crate) fn gather_contributions(
         &self,
@@ -43,6 +46,7 @@ impl<S: Surface> TileResolve<'_, S> {
         let mut layers = run.layers;
         for x in run.lanes.clone() {
             let lane = (x - run.block_start()) as usize;
+            // Group the samples of the pixel by their opaque triangle.
             let mut remaining = self.full_sample_mask();
             while remaining != 0 {
                 let triangle = planes[remaining.trailing_zeros() as usize][lane];
@@ -53,6 +57,7 @@ impl<S: Surface> TileResolve<'_, S> {
                 remaining &= !mask;
                 contributions.push(Contribution { x, triangle, mask, translucent: false });
             }
+            // The layers of this pixel: they are sorted by pixel.
             let over;
             (over, layers) = split_before(layers, (run.y * TILE + x + 1) as usize);
             contributions.extend(over.iter().map(|layer| {
@@ -68,6 +73,9 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 
     /// Shades the gathered contributions of a row eight at a time, blends and writes their pixels.
+    ///
+    /// Shading by eights runs across the borders of pixels, so that no lanes are idle but in the
+    /// last eight of the row.
     #[inline(always)]
     pub(crate) fn write_layered_pixels<P: Copy>(
         &self,
@@ -89,6 +97,7 @@ impl<S: Surface> TileResolve<'_, S> {
             };
             transmittances.extend((0..eight.len()).map(|k| [r[k], g[k], b[k]]));
         }
+        // Blend pixel by pixel: contributions of one pixel are adjacent.
         let mut from = 0;
         while let Some(first) = contributions.get(from) {
             let of_pixel = contributions[from..].iter().take_while(|next| next.x == first.x);
@@ -101,6 +110,8 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 
     /// The color of a pixel: the mean of its samples.
+    ///
+    /// Without a layer it is the plain multisample resolve, weighted by the numbers of samples.
     #[inline(always)]
     fn blend_pixel(
         &self,
@@ -125,6 +136,9 @@ impl<S: Surface> TileResolve<'_, S> {
     ///
     /// Blending the means instead would be cheaper, but lets the background shine through where an
     /// opaque edge and a layer's edge meet.
+    ///
+    /// Opaque contributions come first and set their samples; each layer then applies
+    /// `color + transmittance · behind`, with color premultiplied, channel by channel.
     fn blend_layers(
         &self,
         contributions: &[Contribution],
@@ -145,6 +159,7 @@ impl<S: Surface> TileResolve<'_, S> {
                 }
             }
         }
+        // Multisample resolve of the blended samples.
         let mut sum = [0.0; 4];
         for sample in &samples[..self.frame.samples.count()] {
             sum = [0, 1, 2, 3].map(|k| sum[k] + sample[k]);
@@ -152,6 +167,7 @@ impl<S: Surface> TileResolve<'_, S> {
         self.mean_color(sum)
     }
 
+    /// The mean of a pixel's samples from their sum, in linear light.
     #[inline(always)]
     fn mean_color(&self, sum: [f32; 4]) -> [f32; 4] {
         let count = self.frame.samples.count() as f32;

@@ -122,6 +122,7 @@ pub(crate) fn triangulate_line(
     // The normal of the line, half a line width long.
     let scale = 0.5 * width * f64::from(SUBPIXELS) / length;
     let (nx, ny) = (-dy * scale, dx * scale);
+    // The four vertices of the rectangle, each with the weights of its end.
     let (at_a, at_b) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let [a0, a1] = [offset_vertex(a, nx, ny), offset_vertex(a, -nx, -ny)];
     let [b0, b1] = [offset_vertex(b, nx, ny), offset_vertex(b, -nx, -ny)];
@@ -133,6 +134,7 @@ pub(crate) fn triangulate_point(
     center: ScreenVertex,
     size: f64,
 ) -> [([ScreenVertex; 3], SourceWeights); 2] {
+    // Half a side in grid steps.
     let half = 0.5 * size * f64::from(SUBPIXELS);
     let corner = |x: f64, y: f64| offset_vertex(center, x * half, y * half);
     let [nw, ne] = [corner(-1.0, -1.0), corner(1.0, -1.0)];

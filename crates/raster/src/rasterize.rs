@@ -15,6 +15,14 @@
 //!
 //! Eight blocks of a row are classified at once by the edge functions at their corners. For
 //! triangles of a few blocks that does not pay, and they are drawn block by block.
+//!
+//! ```text
+//!   E(x, y) = A x + B y + C                 edge function, ≥ 0 inside (Pineda 1988), 32 bits
+//!   z(x, y) = z₀ + dz/dx · x + dz/dy · y    depth plane, larger is nearer
+//! ```
+//!
+//! Both are linear, so their extremes over a block lie at its corners. That makes the tests of a
+//! whole block exact for edges, and safe for depth.
 
 use crate::sample_plane::{BLOCK_SIDE, BLOCKS_PER_ROW, SamplePlane};
 use crate::triangle_setup::{SampleStart, TriangleFunctions};
@@ -22,11 +30,16 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i32x8, mask32x8, u32x8};
 
 /// Triangles that touch no more blocks than this are drawn block by block, without classification.
+///
+/// Classification costs the same for one block of a row as for eight.
 const FEW_BLOCKS: i32 = 4;
 
 /// Rasterizes an opaque triangle into all sample planes of a tile, with depth test and depth write.
 ///
 /// `start` gives the start values of the triangle's functions in a plane.
+///
+/// Every plane holds one sample of each pixel. Small triangles go block by block through all
+/// planes, large ones plane by plane through the rows of blocks.
 #[inline(always)]
 pub(crate) fn rasterize_triangle<S: Simd>(
     simd: S,
@@ -36,6 +49,7 @@ pub(crate) fn rasterize_triangle<S: Simd>(
     triangle: u32,
 ) {
     let TriangleFunctions { x0, y0, x1, y1, max_depth, .. } = lanes.functions;
+    // The blocks under the bounding box.
     let (columns, rows) = (x0 / 8..(x1 - 1) / 8 + 1, y0 / 8..(y1 - 1) / 8 + 1);
     if (columns.end - columns.start) * (rows.end - rows.start) > FEW_BLOCKS {
         for (sample, plane) in planes.iter_mut().enumerate() {
@@ -64,6 +78,10 @@ pub(crate) fn rasterize_triangle<S: Simd>(
 
 impl SamplePlane {
     /// Rasterizes the part of a large triangle that lies in one row of blocks.
+    ///
+    /// All eight blocks are classified and bounded by vector instructions; then only touched ones
+    /// are visited, in the order of the bits of a mask. Bounds of the blocks are raised before
+    /// their samples are written, by depths that hold for the samples to come.
     #[inline(always)]
     fn rasterize_block_row<S: Simd>(
         &mut self,
@@ -77,6 +95,7 @@ impl SamplePlane {
         let end = first + BLOCKS_PER_ROW;
         let farthest = f32x8::from_slice(simd, &self.block_farthest[first..end]);
         let nearest = f32x8::from_slice(simd, &self.block_nearest[first..end]);
+        // Edge functions at the corners of the eight blocks, and the depth plane's range in each.
         let coverage = lanes.classify_blocks(simd, start, row);
         let BlockDepths { min_depth, max_depth, is_unclamped } =
             lanes.block_depth_bounds(simd, start, row);
@@ -94,6 +113,7 @@ impl SamplePlane {
         raised.store_slice(&mut self.block_nearest[first..end]);
         let (mut touched, full) = (touched.to_bitmask(), full.to_bitmask());
         let in_front = in_front.to_bitmask() & full;
+        // Visit the touched blocks by the set bits of the mask.
         while touched != 0 {
             let column = touched.trailing_zeros();
             touched &= touched - 1;
@@ -105,6 +125,8 @@ impl SamplePlane {
             } else {
                 let columns = lanes.block_columns(simd, block);
                 self.rasterize_partial_block(simd, lanes, start, columns, triangle);
+                // A partly covered block can only have come nearer as a whole if the triangle may
+                // reach all of it; otherwise its 64 samples need not be reduced.
                 if lanes.bounds_contain(block) {
                     self.block_farthest[block.index] = self.farthest_in_block(simd, block);
                     self.count_nearer_blocks(1);
@@ -115,6 +137,10 @@ impl SamplePlane {
     }
 
     /// Overwrites a block that the triangle fills, and is in front of everywhere.
+    ///
+    /// No coverage, no depth test and no clamping: a depth and an index are stored for each sample.
+    /// This is the fastest path: a large triangle that is the first in a block, or in front of all
+    /// before it.
     #[inline(always)]
     fn overwrite_block<S: Simd>(
         &mut self,
@@ -127,6 +153,7 @@ impl SamplePlane {
         let first = block.index * BLOCK_SIDE * BLOCK_SIDE;
         let columns = lanes.block_columns(simd, block);
         let depths = &mut self.depth[first..first + BLOCK_SIDE * BLOCK_SIDE];
+        // The depth plane, a row of eight at a time.
         for (row, depths) in depths.as_chunks_mut::<BLOCK_SIDE>().0.iter_mut().enumerate() {
             (columns.depths + lanes.row_depth(simd, start, block, row)).store_slice(depths);
         }
@@ -134,6 +161,8 @@ impl SamplePlane {
     }
 
     /// Rasterizes a block that the triangle fills: depth test only.
+    ///
+    /// The depth plane stays within the vertices' depths over the block, so it needs no clamping.
     #[inline(always)]
     fn depth_test_block<S: Simd>(
         &mut self,
@@ -151,6 +180,9 @@ impl SamplePlane {
     }
 
     /// Rasterizes a block that an edge may run through: coverage and depth test of each sample.
+    ///
+    /// Depth is clamped to the vertices' depths: on a steep sliver rounding alone may carry a
+    /// sample out of their range.
     #[inline(always)]
     fn rasterize_partial_block<S: Simd>(
         &mut self,
@@ -191,6 +223,7 @@ impl SamplePlane {
         let old = f32x8::from_slice(simd, depths);
         let nearer = depth.simd_gt(old);
         let visible = covered.map_or(nearer, |covered| covered & nearer);
+        // Both stores are unconditional: lanes that fail the test write back what was there.
         visible.select(depth, old).store_slice(depths);
         let triangles: &mut [u32] = &mut self.triangle[first..first + BLOCK_SIDE];
         let old = u32x8::from_slice(simd, triangles);
@@ -201,6 +234,9 @@ impl SamplePlane {
     ///
     /// Nothing is written: for masked triangles, whose alpha test comes in between, and translucent
     /// ones. The test is strict unless `or_equal`.
+    ///
+    /// `each` may write to the plane: the depth test of a row is done before its samples are
+    /// visited, and no sample is visited twice.
     #[inline(always)]
     pub(crate) fn visit_visible_samples<S: Simd>(
         &mut self,
@@ -231,6 +267,7 @@ impl SamplePlane {
                     let lane = visible.trailing_zeros() as usize;
                     visible &= visible - 1;
                     let (x, y) = (block.x as usize + lane, block.y as usize + row);
+                    // The vector may reach beyond the visible region's right border.
                     if (x as i32) < functions.x1 {
                         each(self, first + lane, x, y, depth[lane]);
                     }
@@ -240,6 +277,8 @@ impl SamplePlane {
     }
 
     /// The depth of the farthest sample of a block.
+    ///
+    /// 64 depths: eight vectors are reduced to one, then eight lanes to a number.
     #[inline(always)]
     fn farthest_in_block<S: Simd>(&self, simd: S, block: Block) -> f32 {
         let first = block.index * BLOCK_SIDE * BLOCK_SIDE;
@@ -253,6 +292,8 @@ impl SamplePlane {
     }
 
     /// Writes depth and triangle of one sample, without a test.
+    ///
+    /// The block's nearest bound is raised with it; its farthest bound stays, which is safe.
     pub(crate) fn write_sample(&mut self, index: usize, depth: f32, triangle: u32) {
         self.depth[index] = depth;
         self.triangle[index] = triangle;
@@ -269,12 +310,16 @@ fn nearer_depth(a: f32, b: f32) -> f32 {
 /// A block of 8 × 8 pixels: its index in the tile, and its upper left pixel.
 #[derive(Clone, Copy)]
 pub(crate) struct Block {
+    /// The index of the block in the tile, row by row: 0 … 63.
     index: usize,
+    /// The column of the upper left pixel in the tile.
     x: i32,
+    /// The row of the upper left pixel in the tile.
     y: i32,
 }
 
 impl Block {
+    /// The block in a column and a row of blocks of the tile.
     #[inline(always)]
     fn from_column_row(column: i32, row: i32) -> Self {
         Self { index: row as usize * BLOCKS_PER_ROW + column as usize, x: column * 8, y: row * 8 }
@@ -314,7 +359,9 @@ struct BlockCoverage<S: Simd> {
 
 /// Bounds of a triangle's depth in the eight blocks of a row.
 struct BlockDepths<S: Simd> {
+    /// The least depth in each block, not below the farthest vertex.
     min_depth: f32x8<S>,
+    /// The greatest depth in each block, not above the nearest vertex.
     max_depth: f32x8<S>,
     /// Whether the depth plane stays within the depths of the vertices: no sample needs clamping.
     is_unclamped: mask32x8<S>,
@@ -329,12 +376,16 @@ pub(crate) struct TriangleLanes<S: Simd> {
     edge_steps: [i32x8<S>; 3],
     /// 0.0 … 7.0.
     lane_offsets: f32x8<S>,
+    /// The change of depth per pixel to the right, in all lanes.
     dx: f32x8<S>,
+    /// The depth of the farthest vertex, in all lanes.
     min_depth: f32x8<S>,
+    /// The depth of the nearest vertex, in all lanes.
     max_depth: f32x8<S>,
 }
 
 impl<S: Simd> TriangleLanes<S> {
+    /// Spreads the functions of a triangle over eight lanes, for all planes alike.
     #[inline(always)]
     pub(crate) fn new(simd: S, functions: &TriangleFunctions) -> Self {
         let TriangleFunctions { a, dx, min_depth, max_depth, .. } = *functions;
@@ -351,6 +402,9 @@ impl<S: Simd> TriangleLanes<S> {
     }
 
     /// Edge function k at a pixel: E₀ + a·x + b·y.
+    ///
+    /// In 32 bits: E₀ is clamped to ±2³⁰ and changes by less than 2³⁰ across a tile, so nothing
+    /// overflows and the sign is right.
     #[inline(always)]
     fn edge_value(&self, k: usize, start: &SampleStart, x: i32, y: i32) -> i32 {
         start.edges[k] + self.functions.a[k] * x + self.functions.b[k] * y
@@ -374,6 +428,9 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// Whether an edge excludes the whole block: its function is negative even at the innermost
     /// corner.
+    ///
+    /// Of a linear function over a square the greatest value is at one corner, which the signs of A
+    /// and B give: seven pixels to the right if A > 0, seven down if B > 0.
     #[inline(always)]
     fn rejects_block(&self, start: &SampleStart, block: Block) -> bool {
         (0..3).any(|k| {
@@ -394,6 +451,9 @@ impl<S: Simd> TriangleLanes<S> {
     ///
     /// A block is touched if no edge excludes its innermost corner, and full if no edge excludes
     /// its outermost corner.
+    ///
+    /// The sign bits of the three edges are combined by "or": a set bit means that some edge
+    /// excludes the corner.
     #[inline(always)]
     fn classify_blocks(&self, simd: S, start: &SampleStart, row: i32) -> BlockCoverage<S> {
         let TriangleFunctions { a, b, x0, x1, .. } = self.functions;
@@ -401,11 +461,15 @@ impl<S: Simd> TriangleLanes<S> {
         let mut outermost = i32x8::splat(simd, 0);
         for k in 0..3 {
             let first = i32x8::splat(simd, self.edge_value(k, start, 0, row * 8));
+            // E at the upper left sample of each block, then at the corner with the greatest and at
+            // that with the least value.
             let corner = self.lane_indices * i32x8::splat(simd, 8 * a[k]) + first;
             innermost |= corner + i32x8::splat(simd, 7 * (a[k].max(0) + b[k].max(0)));
             outermost |= corner + i32x8::splat(simd, 7 * (a[k].min(0) + b[k].min(0)));
         }
         let zero = i32x8::splat(simd, 0);
+        // Blocks beside the bounding box: an edge alone does not exclude them behind a sharp
+        // vertex.
         let after_first = self.lane_indices.simd_ge(i32x8::splat(simd, x0 / 8));
         let to_last = self.lane_indices.simd_le(i32x8::splat(simd, (x1 - 1) / 8));
         let is_full = outermost.simd_ge(zero);
@@ -423,6 +487,7 @@ impl<S: Simd> TriangleLanes<S> {
         // The corner in the direction in which depth falls, and the one in which it rises.
         let (lower, upper) = if dy < 0.0 { (7, 0) } else { (0, 7) };
         let (left, right) = if dx < 0.0 { (7, 0) } else { (0, 7) };
+        // The first column of each block.
         let columns = self.lane_offsets * f32x8::splat(simd, 8.0);
         let at = |x: i32, y: i32| {
             let column = columns + f32x8::splat(simd, (x - x0) as f32);
@@ -445,6 +510,9 @@ impl<S: Simd> TriangleLanes<S> {
     }
 
     /// The second term of the depth in a block's row: z + dy·y.
+    ///
+    /// Added to the first in this order everywhere, so that a sample has the same bits on every
+    /// path.
     #[inline(always)]
     fn row_depth(&self, simd: S, start: &SampleStart, block: Block, row: usize) -> f32x8<S> {
         let y = block.y + row as i32 - self.functions.y0;
@@ -460,6 +528,9 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// Whether the triangle's bounds contain the whole block, so that its farthest sample may have
     /// come nearer.
+    ///
+    /// Conservative: the triangle itself may leave out a corner, and the bound is then computed in
+    /// vain.
     #[inline(always)]
     fn bounds_contain(&self, block: Block) -> bool {
         let TriangleFunctions { x0, y0, x1, y1, .. } = self.functions;

@@ -91,6 +91,7 @@ impl Samples {
     #[inline(always)]
     pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {
         let (x, y) = self.sixteenths()[sample];
+        // 1/16 pixel is 16 grid steps: sample positions are exact.
         let steps = |sixteenths: i32| i64::from(SUBPIXELS / 2 + sixteenths * (SUBPIXELS / 16));
         (steps(x), steps(y))
     }

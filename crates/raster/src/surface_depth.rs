@@ -60,6 +60,7 @@ impl Frame {
                 let target = row + (rect.x + x - self.region.x) as usize;
                 if let Some(target) = band.get_mut(target) {
                     let [dx, dy] = slopes;
+                    // From the sample to the pixel's center, along the depth plane.
                     let depth = tile.sample_depth(0, at) + dx * to_center[0] + dy * to_center[1];
                     *target = SurfaceDepth { depth, dx, dy };
                 }

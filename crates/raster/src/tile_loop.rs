@@ -40,6 +40,7 @@ impl Frame {
         let DrawBuffers { mut bins, mut workers } = self.buffers.take_buffers();
         bins.bin_triangles(&self.triangles, self.region, threads);
         workers.resize_with(threads.max(1), ThreadBuffers::default);
+        // One band is one item of work: threads take the next when they are done.
         let bands = Bands { region: self.region, rows: tile_rows(self.region), target };
         for_each_with_workers(&mut workers, bands, |worker, mut band| {
             if !self.is_canceled() {

@@ -8,6 +8,10 @@
 //! | under translucent layers | gathered, blended sample by sample | [`LayeredPixels`] |
 //!
 //! Most pixels are of the first kind, which needs no gathering and no sums.
+//!
+//! Resolving is the mean of the samples of a pixel in linear light, before the target's encoding: a
+//! mean of encoded values would darken edges. Each triangle is shaded at most once per pixel, and
+//! the color is weighted by the number of its samples (multisampling, not supersampling).
 
 use crate::edge_pixels::EdgePixels;
 use crate::fragment_lanes::{F32x8, LANES};
@@ -20,6 +24,8 @@ use crate::{Encode, Fragments, Frame, Surface};
 use homog::PixelRect;
 
 /// A filled tile, and everything that is needed to shade it.
+///
+/// Nothing here changes the tile: rows are written one after the other, from the top.
 pub(crate) struct TileResolve<'a, S> {
     pub(crate) frame: &'a Frame,
     pub(crate) surface: &'a S,
@@ -29,6 +35,8 @@ pub(crate) struct TileResolve<'a, S> {
 }
 
 /// The contribution of a triangle to a pixel: the samples it is visible at.
+///
+/// The masks of a pixel's opaque contributions are disjoint and together hold all of its samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contribution {
     /// The column of the pixel within the tile.
@@ -44,7 +52,9 @@ pub(crate) struct Contribution {
 /// The pixels of a row that cannot be written at once. Kept between rows for its memory.
 #[derive(Debug, Default)]
 pub(crate) struct RowScratch {
+    /// Pixels that several opaque triangles share.
     edges: EdgePixels,
+    /// Pixels with translucent layers.
     layered: LayeredPixels,
 }
 
@@ -54,6 +64,7 @@ pub(crate) struct PixelRun<'a> {
     pub(crate) y: u32,
     /// The columns within the tile.
     pub(crate) lanes: std::ops::Range<u32>,
+    /// The translucent layers over these pixels, sorted by pixel and back to front.
     pub(crate) layers: &'a [TranslucentLayer],
 }
 
@@ -68,13 +79,18 @@ impl PixelRun<'_> {
 struct TargetRow<'a, P> {
     /// The row within the tile.
     y: u32,
+    /// The visible pixels of the row, in the target.
     pixels: &'a mut [P],
+    /// The encoded background, computed once for the tile.
     empty: P,
 }
 
 impl<S: Surface> TileResolve<'_, S> {
     /// Writes the tile into its band: the rows of the frame that its row of tiles shows, filled
     /// with the background.
+    ///
+    /// Layers are sorted by pixel, row after row, so that each row takes its own from the front of
+    /// the list.
     #[inline(always)]
     pub(crate) fn write_tile<P: Copy>(
         &self,
@@ -87,6 +103,7 @@ impl<S: Surface> TileResolve<'_, S> {
         let empty = encode.encode_pixel(self.background);
         let mut layers = self.tile.layers.as_slice();
         for y in top..bottom {
+            // The row within the band; a target that is too short ends the tile early.
             let start = (y - top) as usize * width as usize + (x + left - from) as usize;
             let Some(row) = band.get_mut(start..start + (right - left) as usize) else { return };
             let over;
@@ -98,6 +115,9 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 
     /// Writes those pixels of a row that show one triangle each, and gathers the others.
+    ///
+    /// A block of eight pixels is of one kind as a whole: one pixel with a layer, or with an edge,
+    /// sends all eight the slower way, which is right for any pixel.
     #[inline(always)]
     fn write_row<P: Copy>(
         &self,
@@ -113,16 +133,19 @@ impl<S: Surface> TileResolve<'_, S> {
         let mut rest = pixels;
         let width = LANES as u32;
         for block in left / width..right.div_ceil(width) {
+            // The visible columns of the block: fewer than eight at the borders of the region.
             let lanes = left.max(block * width)..right.min((block + 1) * width);
             let targets;
             (targets, rest) = rest.split_at_mut(lanes.len());
             let over;
             (over, layers) = split_before(layers, (y * TILE + lanes.end) as usize);
             let run = PixelRun { y, lanes, layers: over };
+            // Translucent layers: gathered, and blended sample by sample after the row.
             if !run.layers.is_empty() {
                 self.gather_contributions(&run, &mut layered.contributions);
                 continue;
             }
+            // One triangle per pixel: shaded and written at once. Otherwise an edge runs through.
             match self.single_triangles(&run) {
                 Some(triangles) => self.write_uniform(&run, triangles, targets, empty, encode),
                 None => self.begin_edge_pixels(&run, edges),
@@ -131,11 +154,15 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 
     /// The triangles of a run's pixels, if each pixel has the same one at all samples.
+    ///
+    /// The test is an exclusive or of whole vectors, accumulated over the samples: no branch in the
+    /// loop.
     #[inline(always)]
     fn single_triangles(&self, run: &PixelRun<'_>) -> Option<[u32; LANES]> {
         let at = pixel_index(run.block_start() as usize, run.y as usize);
         let first = self.tile.row_triangles(0, at);
         let mut differs = 0;
+        // Every sample plane against the first.
         for sample in 1..self.frame.samples.count() {
             let triangles = self.tile.row_triangles(sample, at);
             for lane in 0..LANES {
@@ -146,6 +173,8 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 
     /// The triangles of a run's pixels, sample by sample.
+    ///
+    /// `planes` is the memory that the result lies in: 16 planes are the most that a frame has.
     #[inline(always)]
     pub(crate) fn sample_triangles<'p>(
         &self,
@@ -161,6 +190,8 @@ impl<S: Surface> TileResolve<'_, S> {
     }
 
     /// Shades and writes adjacent pixels with one triangle each.
+    ///
+    /// Pixels of the background are left as they are: the band was filled with it before.
     #[inline(always)]
     fn write_uniform<P: Copy>(
         &self,
@@ -171,11 +202,14 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
     ) {
         let differs = any_differ(triangles);
+        // Nothing but background.
         if !differs && triangles[0] == NO_TRIANGLE {
             return;
         }
         let [r, g, b] = self.shade_neighbors(run, triangles, differs);
+        // Opaque by definition: alpha is 1, whatever the surface returned.
         let mut pixels = encode.encode_eight(&[r, g, b, [1.0; LANES]]);
+        // Background lanes were shaded with a neighbor's fragment; put the background back.
         if differs {
             for (pixel, triangle) in pixels.iter_mut().zip(triangles) {
                 *pixel = if triangle == NO_TRIANGLE { empty } else { *pixel };
@@ -192,6 +226,9 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// The colors of a run with one triangle per pixel; `differs` if not all are the same.
     /// Background pixels get any color.
+    ///
+    /// One triangle in eight adjacent pixels is the common case: vertex attributes are fetched
+    /// once, and nothing is gathered.
     #[inline(always)]
     fn shade_neighbors(
         &self,
@@ -216,6 +253,7 @@ impl<S: Surface> TileResolve<'_, S> {
     fn shade_several(&self, triangles: [u32; LANES], x: u32, y: u32) -> [F32x8; 4] {
         // The background has the largest index, so the least is a triangle. Background lanes repeat
         // the fragment that shows it: no surface is shaded where it is not.
+        // Padding for background lanes.
         let (mut any, mut any_lane) = (NO_TRIANGLE, 0);
         for (lane, &triangle) in triangles.iter().enumerate() {
             if triangle < any {
@@ -234,6 +272,7 @@ impl<S: Surface> TileResolve<'_, S> {
         self.surface.shade_eight(&fragments)
     }
 
+    /// A triangle of the frame by its index, which is not [`NO_TRIANGLE`].
     #[inline(always)]
     fn triangle(&self, index: u32) -> &ScreenTriangle {
         self.frame.triangles.triangle(index)
@@ -241,6 +280,9 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// Shades the first samples of a run with edges, and gathers the triangles of the other
     /// samples.
+    ///
+    /// Most pixels of a run with edges still show the first sample's triangle at most samples, so
+    /// that this one vector of eight covers the greater part of the work.
     #[inline(always)]
     fn begin_edge_pixels(&self, run: &PixelRun<'_>, edges: &mut EdgePixels) {
         let mut planes = [[NO_TRIANGLE; LANES]; 16];
@@ -253,6 +295,7 @@ impl<S: Surface> TileResolve<'_, S> {
             [[0.0; LANES]; 3]
         };
         let mut colors = [r, g, b, [1.0; LANES]];
+        // The background's color, where the first sample sees it.
         for (color, background) in colors.iter_mut().zip(self.background) {
             for lane in 0..LANES {
                 color[lane] = if first[lane] == NO_TRIANGLE { background } else { color[lane] };
@@ -273,6 +316,7 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
         edges: &mut EdgePixels,
     ) {
+        // Shade the other samples' triangles, eight contributions at a time, along the whole row.
         for from in (0..edges.contributions().len()).step_by(LANES) {
             let end = edges.contributions().len().min(from + LANES);
             let eight = &edges.contributions()[from..end];
@@ -280,6 +324,7 @@ impl<S: Surface> TileResolve<'_, S> {
             edges.add_contributions(from..end, &colors);
         }
         let (left, right) = (self.rect.left as usize, self.rect.right as usize);
+        // Multisample resolve: the mean in linear light, then the encoding.
         for (block, means) in edges.mean_colors(self.frame.samples) {
             let pixels = encode.encode_eight(&means);
             let (first, end) = ((block * LANES).max(left), ((block + 1) * LANES).min(right));
@@ -291,6 +336,8 @@ impl<S: Surface> TileResolve<'_, S> {
     /// The fragments of up to eight contributions to a row; `None` if all are of the background.
     ///
     /// Lanes of the background repeat another.
+    ///
+    /// The contributions are of one row, so that a fragment needs only its column.
     #[inline(always)]
     pub(crate) fn gather_fragments(
         &self,
@@ -311,6 +358,9 @@ impl<S: Surface> TileResolve<'_, S> {
 
     /// The colors of up to eight contributions to a row, given their
     /// [fragments](Self::gather_fragments); those of no triangle have the background's.
+    ///
+    /// Alpha is 1 for opaque triangles and for no triangle that of the background, all
+    /// premultiplied.
     #[inline(always)]
     pub(crate) fn shade_contributions(
         &self,
@@ -335,6 +385,8 @@ impl<S: Surface> TileResolve<'_, S> {
 }
 
 /// Whether the triangles of eight pixels are not all the same.
+///
+/// Exclusive or instead of comparisons: eight lanes are one vector, and there is one branch.
 #[inline(always)]
 fn any_differ(triangles: [u32; LANES]) -> bool {
     let mut differs = 0;
@@ -345,6 +397,8 @@ fn any_differ(triangles: [u32; LANES]) -> bool {
 }
 
 /// Splits layers, which are sorted by pixel, into those of pixels before `end` and the rest.
+///
+/// Linear in the layers taken: over a tile every layer is passed once.
 #[inline]
 pub(crate) fn split_before(
     layers: &[TranslucentLayer],

@@ -71,6 +71,7 @@ impl TileVisibility {
         surface: &dyn Surface,
     ) {
         self.planes.resize_with(frame.samples.count(), SamplePlane::new);
+        // Clear depth and visibility buffer to the background.
         self.planes.iter_mut().for_each(|plane| plane.clear(rect));
         self.farthest_depth = f32::NEG_INFINITY;
         self.layers.clear();
@@ -104,10 +105,12 @@ impl TileVisibility {
             for (triangle, &index) in triangles.iter_mut().zip(some) {
                 *triangle = frame.triangles.triangle(index);
             }
+            // Triangle setup, once for all sample planes, then the start values of each plane.
             let batch = TriangleBatch::new(triangles, rect, frame.samples.offset_range());
             self.batch_starts.clear();
             let starts = frame.samples.sample_offsets().map(|offset| batch.sample_starts(offset));
             self.batch_starts.extend(starts);
+            // Rasterize in submission order, which breaks ties in depth.
             for (lane, &index) in some.iter().enumerate() {
                 match triangles[lane].opacity {
                     Opacity::Opaque if batch.is_prepared(lane) => {
@@ -118,6 +121,7 @@ impl TileVisibility {
                 }
             }
         }
+        // Second pass over the bin, only where there is something translucent.
         if has_translucent {
             for &index in bin {
                 if frame.triangles.triangle(index).opacity == Opacity::Translucent {
@@ -169,6 +173,7 @@ impl TileVisibility {
         if batch.is_outside(lane) || functions.max_depth <= self.farthest_depth {
             return;
         }
+        // The tile's depth bound stays: only triangles too large for a batch compute it anew.
         let lanes = TriangleLanes::new(simd, &functions);
         let start = |plane: usize| self.batch_starts[plane].lane_start(lane);
         rasterize_triangle(simd, &mut self.planes, &lanes, start, index);
@@ -188,6 +193,7 @@ impl TileVisibility {
         let mut farthest = f32::INFINITY;
         let start = |plane: usize| setup.sample_start(frame.samples.sample_offset(plane));
         rasterize_triangle(simd, &mut self.planes, &lanes, start, index);
+        // Hierarchical z of the tile: the farthest sample of all planes.
         for plane in &self.planes {
             farthest = farthest.min(plane.tile_farthest());
         }
@@ -216,6 +222,7 @@ impl TileVisibility {
             let start = setup.sample_start(offset);
             plane.visit_visible_samples(simd, &lanes, &start, false, |plane, at, x, y, depth| {
                 let pixel = 1 << x;
+                // The first sample of the pixel that survives the depth test runs the alpha test.
                 if tested[y] & pixel == 0 {
                     let first = x / LANES * LANES;
                     tested[y] |= 0xff << first;
@@ -246,6 +253,7 @@ impl TileVisibility {
         let samples = planes.iter_mut().zip(frame.samples.sample_offsets()).enumerate();
         for (sample, (plane, offset)) in samples {
             let start = setup.sample_start(offset);
+            // `or_equal`: a decal at the depth of the surface below it is drawn over it.
             plane.visit_visible_samples(simd, &lanes, &start, true, |_, _, x, y, depth| {
                 if rect.is_visible(x, y) {
                     let pixel = (y * TILE as usize + x) as u16;
@@ -262,6 +270,7 @@ impl TileVisibility {
     /// Depth ties go to submission order: of layers at the same depth the one submitted later is
     /// drawn over the other.
     fn sort_layers(&mut self) {
+        // Pixel, depth, triangle: a total order, so an unstable sort gives one result.
         self.layers.sort_unstable_by(|a, b| {
             let by_depth = a.depth.total_cmp(&b.depth);
             a.pixel.cmp(&b.pixel).then(by_depth).then(a.triangle.cmp(&b.triangle))
@@ -272,6 +281,7 @@ impl TileVisibility {
 /// Merges the layers of one triangle, from `first` on, that are samples of the same pixel. The
 /// layer has the depth of its first sample.
 fn merge_layer_samples(layers: &mut Vec<TranslucentLayer>, first: usize) {
+    // Samples of one pixel side by side, the first sample in front.
     layers[first..].sort_unstable_by_key(|layer| (layer.pixel, layer.mask));
     let mut merged = first;
     for next in first..layers.len() {

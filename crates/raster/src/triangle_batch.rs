@@ -6,6 +6,13 @@
 //! functions are exact in both, and depth goes through the same operations in the same order.
 //! Everything is a plain loop over eight lanes, which becomes vector instructions in the dispatched
 //! function that it is inlined into.
+//!
+//! # Why eight at a time
+//!
+//! A triangle of a few pixels takes less time to fill than to set up: six differences for the edge
+//! functions, one division and eight products for the depth plane. One vector instruction does a
+//! step of that for several triangles. Those that leave the 32-bit range are set up alone, in 64
+//! bits.
 
 use crate::primitive::ScreenTriangle;
 use crate::screen_vertex::{SUBPIXEL_BITS, SUBPIXELS};
@@ -18,13 +25,21 @@ pub(crate) const BATCH_SIZE: usize = 8;
 /// triangle.
 ///
 /// An edge is then shorter than 2¹⁵ steps, and products of edges and coordinates fit 32 bits.
+///
+/// Two such products are added in E = A·x + B·y + C: each is below 2³⁰, so the sum is below 2³¹.
 const SMALL_RANGE: (i32, i32) = (-32 * SUBPIXELS, 95 * SUBPIXELS);
 
+/// One `i32` for each triangle of a batch: coordinates and edge functions.
 type Ints = [i32; BATCH_SIZE];
+/// One `f32` for each triangle of a batch: depths and their steps per pixel.
 type Floats = [f32; BATCH_SIZE];
+/// One `f64` for each triangle of a batch: depth gradients before rounding.
 type Doubles = [f64; BATCH_SIZE];
 
 /// Eight triangles in the coordinates of one tile, as a structure of arrays.
+///
+/// All values are those of the tile, not of the picture: the tile's corner is subtracted before
+/// anything is multiplied, which is what keeps products within 32 bits.
 pub(crate) struct TriangleBatch {
     /// The vertices, in grid steps from the tile's corner.
     x: [Ints; 3],
@@ -49,11 +64,14 @@ pub(crate) struct TriangleBatch {
 /// The start values of eight triangles in one plane of samples: see [`SampleStart`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BatchStarts {
+    /// ⌊E/256⌋ at the sample of the tile's pixel (0, 0), for each edge.
     edges: [Ints; 3],
+    /// Depth at the first sample of the triangle's bounds.
     depth: Floats,
 }
 
 impl BatchStarts {
+    /// All zeros: values to be overwritten.
     pub(crate) const ZERO: Self = Self { edges: [[0; BATCH_SIZE]; 3], depth: [0.0; BATCH_SIZE] };
 
     /// The start values of one of the triangles.
@@ -68,6 +86,10 @@ impl TriangleBatch {
     /// Prepares eight triangles.
     ///
     /// `offset_range` is the least and the greatest offset of a sample from its pixel's borders.
+    ///
+    /// Lanes without a triangle to prepare may repeat another one. The work is the same for all
+    /// lanes, whether their triangle turns out to be small or not: a branch per lane would undo the
+    /// vectors.
     #[inline(always)]
     pub(crate) fn new(
         triangles: [&ScreenTriangle; BATCH_SIZE],
@@ -86,6 +108,7 @@ impl TriangleBatch {
                 z[k][lane] = vertex.depth;
             }
         }
+        // Bounding boxes, and whether 32 bits are enough for the triangle.
         let (min_x, max_x) = coordinate_extents(&x);
         let (min_y, max_y) = coordinate_extents(&y);
         let mut is_small = [false; BATCH_SIZE];
@@ -93,12 +116,16 @@ impl TriangleBatch {
             let is_near = min_x[lane].min(min_y[lane]) >= SMALL_RANGE.0;
             *small = is_near && max_x[lane].max(max_y[lane]) <= SMALL_RANGE.1;
         }
+        // The bounding box in pixels, clipped to the tile.
         let bounds = pixel_bounds([min_x, min_y, max_x, max_y], tile, offset_range);
         // (a, b) is the inner normal of each edge.
         let (a, b) = (edge_differences(&y, false), edge_differences(&x, true));
+        // The depth plane: gradients per grid step in f64, steps per pixel rounded to f32 once. The
+        // factor 256 is a power of two, so scaling adds no rounding of its own.
         let depth_gradient = depth_gradients(&x, &y, &z);
         let depth_step =
             depth_gradient.map(|steps| steps.map(|step| (step * f64::from(SUBPIXELS)) as f32));
+        // The range that samples are clamped to, and that hierarchical z tests against.
         let (min_depth, max_depth) = depth_extents(&z);
         Self {
             x,
@@ -122,6 +149,8 @@ impl TriangleBatch {
     }
 
     /// Whether the triangle's bounds hold none of the tile's samples.
+    ///
+    /// Small triangles often fall between samples; they end here, before any block is looked at.
     #[inline(always)]
     pub(crate) const fn is_outside(&self, lane: usize) -> bool {
         let [x0, y0, x1, y1] = &self.bounds;
@@ -129,6 +158,8 @@ impl TriangleBatch {
     }
 
     /// The functions of one of the triangles.
+    ///
+    /// A transposition of one lane: eight triangles are prepared together, but filled one by one.
     #[inline(always)]
     pub(crate) fn lane_functions(&self, lane: usize) -> TriangleFunctions {
         let Self { a, b, bounds: [x0, y0, x1, y1], depth_step: [dx, dy], .. } = self;
@@ -148,6 +179,8 @@ impl TriangleBatch {
 
     /// The start values for the samples at `offset` (grid steps) from the upper left corners of
     /// their pixels.
+    ///
+    /// Called once for each sample plane: the gradients stay, only the first sample moves.
     #[inline(always)]
     pub(crate) fn sample_starts(&self, offset: (i64, i64)) -> BatchStarts {
         let Self { x, y, a, b, bounds: [x0, y0, _, _], depth_gradient: [dx, dy], .. } = self;
@@ -158,14 +191,20 @@ impl TriangleBatch {
         for (k, edges) in starts.edges.iter_mut().enumerate() {
             for (lane, edge) in edges.iter_mut().enumerate() {
                 let (a, b) = (a[k][lane], b[k][lane]);
+                // E = A·(x − x₀) + B·(y − y₀), relative to the edge's first vertex: C need not be
+                // stored.
                 let along = a.wrapping_mul(right - x[k][lane]);
                 let value = along.wrapping_add(b.wrapping_mul(down - y[k][lane]));
+                // Top-left bias: an edge that does not own its samples counts E = 0 as outside.
                 let is_top_left = (a > 0) | ((a == 0) & (b > 0));
+                // From 1/256 to whole steps, rounded down: within a plane all samples are equal
+                // modulo 256.
                 *edge = value.wrapping_sub(i32::from(!is_top_left)) >> SUBPIXEL_BITS;
             }
         }
         // The depth plane at the first sample.
         for (lane, z) in starts.depth.iter_mut().enumerate() {
+            // Grid steps from the first vertex: whole numbers, exact in f64.
             let from_x = f64::from(right + x0[lane] * SUBPIXELS - x[0][lane]);
             let from_y = f64::from(down + y0[lane] * SUBPIXELS - y[0][lane]);
             *z = (f64::from(self.first_depth[lane]) + dx[lane] * from_x + dy[lane] * from_y) as f32;
@@ -175,6 +214,8 @@ impl TriangleBatch {
 }
 
 /// The least and the greatest coordinate of each triangle.
+///
+/// The bounding box along one axis, in grid steps from the tile's corner.
 #[inline(always)]
 fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
     let (mut low, mut high) = ([0; BATCH_SIZE], [0; BATCH_SIZE]);
@@ -187,16 +228,23 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
 
 /// The pixels of the tile that may have a sample within the bounds: the x0, y0, x1 and y1 that
 /// [`TriangleSetup::new`](crate::triangle_setup::TriangleSetup::new) computes.
+///
+/// `extent` holds the least x and y, then the greatest x and y, in grid steps from the tile's
+/// corner. Pixels before the tile are cut off at 0, pixels behind the visible part at its right and
+/// bottom.
 #[inline(always)]
 fn pixel_bounds(extent: [Ints; 4], tile: TileRect, (least, greatest): (i32, i32)) -> [Ints; 4] {
     let [mut x0, mut y0, mut x1, mut y1] = extent;
     for low in [&mut x0, &mut y0] {
         for low in low {
+            // The first pixel whose last sample is not before the bound: division by 256, rounded
+            // up.
             *low = ((*low - greatest + 255) >> SUBPIXEL_BITS).max(0);
         }
     }
     for (high, end) in [(&mut x1, tile.right), (&mut y1, tile.bottom)] {
         for high in high {
+            // One past the last pixel whose first sample is not behind the bound.
             *high = (((*high - least) >> SUBPIXEL_BITS) + 1).min(end as i32);
         }
     }
@@ -204,6 +252,9 @@ fn pixel_bounds(extent: [Ints; 4], tile: TileRect, (least, greatest): (i32, i32)
 }
 
 /// The difference of the coordinates of each edge's ends: start − end, or end − start if `forward`.
+///
+/// With y backward and x forward these are A and B of the edge function, as in
+/// [`EdgeFunction`](crate::edge_function::EdgeFunction).
 #[inline(always)]
 fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
     let mut differences = [[0; BATCH_SIZE]; 3];
@@ -218,6 +269,8 @@ fn edge_differences(c: &[Ints; 3], forward: bool) -> [Ints; 3] {
 }
 
 /// The change of depth per grid step to the right and down, by the steps of `DepthPlane::new`.
+///
+/// Lanes of degenerate triangles would divide by 0; primitive assembly has dropped those.
 #[inline(always)]
 fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2] {
     let mut gradients = [[0.0; BATCH_SIZE]; 2];
@@ -227,6 +280,7 @@ fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2
             (along(x, 1), along(y, 1), f64::from(z[1][lane]) - f64::from(z[0][lane]));
         let (rx, ry, rz) =
             (along(x, 2), along(y, 2), f64::from(z[2][lane]) - f64::from(z[0][lane]));
+        // Cramer's rule. Twice the area is a difference of products below 2³¹: exact in f64.
         let inv_area = 1.0 / (qx * ry - qy * rx);
         gradients[0][lane] = (qz * ry - rz * qy) * inv_area;
         gradients[1][lane] = (rz * qx - qz * rx) * inv_area;
@@ -239,6 +293,7 @@ fn depth_gradients(x: &[Ints; 3], y: &[Ints; 3], z: &[Floats; 3]) -> [Doubles; 2
 fn depth_extents([p, q, r]: &[Floats; 3]) -> (Floats, Floats) {
     let (mut least, mut greatest) = ([0.0; BATCH_SIZE], [0.0; BATCH_SIZE]);
     for lane in 0..BATCH_SIZE {
+        // Comparisons instead of `f32::min`: no depth is NaN, and each is one instruction.
         let (low, high) = if p[lane] < q[lane] { (p[lane], q[lane]) } else { (q[lane], p[lane]) };
         least[lane] = if r[lane] < low { r[lane] } else { low };
         greatest[lane] = if r[lane] > high { r[lane] } else { high };

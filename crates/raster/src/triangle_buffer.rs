@@ -110,6 +110,7 @@ impl TriangleBuffer {
         let mut filled = first;
         for index in first..self.chunks_in_use {
             if !self.chunks[index].triangles.is_empty() {
+                // The order of the filled chunks stays: it is that of submission.
                 self.chunks.swap(filled, index);
                 filled += 1;
             }

@@ -6,6 +6,12 @@
 //! whole numbers from pixel to pixel and fits 32 bits. Where it is too large it is clamped to ±2³⁰:
 //! the change across a tile is smaller than that, so the sign, which is all that counts, stays
 //! right.
+//!
+//! ```text
+//!   E(x, y) = A x + B y + C    A, B, C integers, x and y in 1/256 pixel, all exact
+//!   A = y₀ − y₁,  B = x₁ − x₀    |A|, |B| ≤ 2²³ within the guard band
+//!   across a tile E/256 changes by less than 64 · (|A| + |B|) ≤ 2³⁰
+//! ```
 
 use crate::edge_function::EdgeFunction;
 use crate::primitive::ScreenTriangle;
@@ -14,6 +20,9 @@ use crate::tile_grid::TileRect;
 
 /// A triangle in the coordinates of one tile, for all samples alike. Pixels count from the tile's
 /// corner.
+///
+/// A per pixel and B per pixel are the numbers A and B themselves: a pixel is 256 grid steps, and E
+/// is divided by 256.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct TriangleFunctions {
     /// The change of E/256 per pixel to the right, for each edge.
@@ -24,8 +33,11 @@ pub(crate) struct TriangleFunctions {
     /// empty. Depth counts from the pixel (x0, y0), which therefore must not depend on the visible
     /// region.
     pub(crate) x0: i32,
+    /// The first row of the bounds.
     pub(crate) y0: i32,
+    /// One past the last column of the bounds.
     pub(crate) x1: i32,
+    /// One past the last row of the bounds.
     pub(crate) y1: i32,
     /// The change of depth per pixel to the right.
     pub(crate) dx: f32,
@@ -38,12 +50,17 @@ pub(crate) struct TriangleFunctions {
 }
 
 /// A triangle prepared for one tile.
+///
+/// It holds the exact functions, from which each sample plane gets its start values.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleSetup {
+    /// The functions in 32 bits and `f32`, in the coordinates of the tile.
     pub(crate) functions: TriangleFunctions,
+    /// The edge functions in 64 bits, in the coordinates of the picture.
     edges: [EdgeFunction; 3],
     /// The grid position of the tile's corner.
     origin: (i64, i64),
+    /// The depth plane in f64, in the coordinates of the picture.
     depth: DepthPlane,
 }
 
@@ -101,7 +118,9 @@ impl TriangleSetup {
         if x0 >= x1 || y0 >= y1 {
             return None;
         }
+        // Edge functions, with the top-left bias in C.
         let edges = [EdgeFunction::new(p, q), EdgeFunction::new(q, r), EdgeFunction::new(r, p)];
+        // The depth plane; its gradients are per grid step, and those of the samples per pixel.
         let depth = DepthPlane::new(triangle);
         let functions = TriangleFunctions {
             a: edges.map(|edge| edge.a as i32),
@@ -121,12 +140,17 @@ impl TriangleSetup {
 
     /// The start values for the samples at `offset` (grid steps) from the upper left corners of
     /// their pixels.
+    ///
+    /// Exact for edges near the tile; for others only the sign is right, and that is all that is
+    /// read.
     pub(crate) fn sample_start(&self, offset: (i64, i64)) -> SampleStart {
         let limit = 1_i64 << 30;
         let (x, y) = (self.origin.0 + offset.0, self.origin.1 + offset.1);
         // The shift rounds down, also below 0: ⌊E/256⌋.
         let quotient =
             |edge: EdgeFunction| (edge.evaluate(x, y) >> SUBPIXEL_BITS).clamp(-limit, limit) as i32;
+        // Depth counts from the corner of the bounds, not of the tile: offsets of samples within
+        // the triangle are then small, and so is the rounding of their products.
         let pixels = |count: i32| i64::from(count) * i64::from(SUBPIXELS);
         let corner = (x + pixels(self.functions.x0), y + pixels(self.functions.y0));
         SampleStart { edges: self.edges.map(quotient), z: self.depth.depth_at(corner) as f32 }
@@ -135,6 +159,8 @@ impl TriangleSetup {
 
 /// The change of a triangle's depth per pixel to the right and down, clamped to the range of its
 /// vertices' depths.
+///
+/// The clamp bounds the error beside a sliver, whose plane may be arbitrarily steep.
 pub(crate) fn clamped_depth_slopes(triangle: &ScreenTriangle) -> [f32; 2] {
     let plane = DepthPlane::new(triangle);
     let depths = triangle.vertices.map(|vertex| vertex.depth);
@@ -150,6 +176,7 @@ impl DepthPlane {
         let d = |a: i32, b: i32| f64::from(a) - f64::from(b);
         let (qx, qy, qz) = (d(q.x, p.x), d(q.y, p.y), f64::from(q.depth) - f64::from(p.depth));
         let (rx, ry, rz) = (d(r.x, p.x), d(r.y, p.y), f64::from(r.depth) - f64::from(p.depth));
+        // Twice the area has at most 48 bits: exact in f64, and not 0.
         let inv_area = 1.0 / (qx * ry - qy * rx);
         Self {
             origin: (i64::from(p.x), i64::from(p.y)),

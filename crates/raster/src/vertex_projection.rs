@@ -8,6 +8,9 @@
 //! Every operation has the order of the single point's ([`ScreenVertex::snap`]), so that a vertex
 //! has the same bits in a mesh that is drawn whole and in a triangle beside it that was clipped: no
 //! cracks between them. The loops over eight lanes become vector instructions.
+//!
+//! Vertices on both sides of the eye are allowed: those with w ≤ 0, and those beyond the guard
+//! band, become `None`, and the triangles that use them go to the clipper.
 
 use crate::parallel::for_each_parallel;
 use crate::screen_vertex::{GUARD_BAND, SUBPIXELS};
@@ -20,12 +23,19 @@ use homog::{Affine, Clip, HPoint, Ndc, Projective, Screen, Space};
 /// Vertices that are projected at once.
 const SNAP_LANES: usize = 8;
 /// One `f64` for each of eight vertices.
+///
+/// Positions are transformed in `f64`, so that a vertex far from the origin keeps its sub-pixel
+/// bits.
 type F64x8 = [f64; SNAP_LANES];
 
 /// The positions that a thread takes at a time.
+///
+/// A multiple of the block size of selections, so that runs begin at whole blocks.
 const CHUNK_POSITIONS: usize = 8192;
 
 /// The projection of a mesh's positions in space `A` to the screen, and how to compute it.
+///
+/// Plain data: it may be made anew for each mesh, at the price of a copy.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexProjection<A: Space> {
     /// The model-view-projection matrix.
@@ -44,6 +54,8 @@ impl<A: Space> VertexProjection<A> {
     ///
     /// `vertices` gets the length of `positions`; if it has been as long before, nothing is
     /// allocated.
+    ///
+    /// Positions that are not finite, and those that cannot be drawn without clipping, give `None`.
     pub fn project_positions(
         &self,
         positions: &[[f32; 3]],
@@ -55,6 +67,8 @@ impl<A: Space> VertexProjection<A> {
     /// Projects only those positions that a selection needs.
     ///
     /// The other entries of `vertices` are meaningless: they keep what they were.
+    ///
+    /// Vertices of culled clusters are skipped in blocks of 64.
     pub fn project_selected_positions(
         &self,
         positions: &[[f32; 3]],
@@ -66,6 +80,8 @@ impl<A: Space> VertexProjection<A> {
 
     /// Projects those runs of each chunk of positions that `runs` gives, counted from the chunk's
     /// first.
+    ///
+    /// A chunk is a disjoint slice of positions and of vertices: threads write without locks.
     fn project_chunks<I: Iterator<Item = Range<usize>>>(
         &self,
         positions: &[[f32; 3]],
@@ -91,6 +107,8 @@ impl<A: Space> VertexProjection<A> {
 impl ScreenVertex {
     /// Perspective divide, viewport transform and snapping of many points: `vertices` gets for each
     /// what [`snap`](Self::snap) gives, bit for bit. As many as the shorter slice has.
+    ///
+    /// For points that are in clip space already, as the vertices of clipped polygons are.
     pub fn divide_and_snap_points(
         points: &[HPoint<Clip>],
         ndc_to_screen: Affine<Ndc, Screen>,
@@ -98,6 +116,7 @@ impl ScreenVertex {
         vertices: &mut [Option<Self>],
     ) {
         let rows = ndc_to_screen.raw().transpose();
+        // Whole vectors first.
         let eights = points.chunks_exact(SNAP_LANES).zip(vertices.chunks_exact_mut(SNAP_LANES));
         dispatch!(simd_level.level(), _simd => {
             for (points, vertices) in eights {
@@ -117,6 +136,8 @@ impl ScreenVertex {
 }
 
 /// Projects positions and snaps them; matrices are given by rows.
+///
+/// Padding lanes are zeros, whose results are thrown away.
 #[inline(always)]
 fn project_chunk(
     positions: &[[f32; 3]],
@@ -142,6 +163,9 @@ fn project_chunk(
 
 /// The clip-space x, y, z and w of positions: a matrix, given by rows, times each, in the order in
 /// which glam adds up.
+///
+/// The sum is ((x·m₀ + y·m₁) + z·m₂) + m₃: another order would round otherwise, and crack the edge
+/// between clipped and unclipped triangles.
 #[inline(always)]
 fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8; 4] {
     let mut clip = [[0.0; SNAP_LANES]; 4];
@@ -156,6 +180,8 @@ fn transform_to_clip(positions: &[[f32; 3]; SNAP_LANES], rows: DMat4) -> [F64x8;
 }
 
 /// The x, y, z and w of points as a structure of arrays.
+///
+/// A transposition, eight points to four vectors.
 #[inline(always)]
 fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
     let mut clip = [[0.0; SNAP_LANES]; 4];
@@ -167,6 +193,9 @@ fn split_coordinates(points: &[HPoint<Clip>; SNAP_LANES]) -> [F64x8; 4] {
 }
 
 /// Perspective divide, viewport transform (a matrix by rows) and snapping of eight points.
+///
+/// `None` in lanes whose point cannot be drawn: outside the guard band, w not positive or not
+/// finite, or a depth beyond ±2²⁰. All lanes are computed to the end, without branches.
 #[inline(always)]
 fn divide_and_snap(
     [x, y, z, w]: [F64x8; 4],
@@ -182,7 +211,9 @@ fn divide_and_snap(
     // Viewport transform, then rounding to the sub-pixel grid.
     let (x, is_x) = snap_to_grid(&transform_row(to_screen.x_axis, &ndc));
     let (y, is_y) = snap_to_grid(&transform_row(to_screen.y_axis, &ndc));
+    // Depth is a row of the same matrix: z/w mapped to far = 0, near = 1, in f64.
     let z = transform_row(to_screen.z_axis, &ndc);
+    // Rounded to f32 once, at the end.
     let (mut depth, mut inv_w) = ([0.0_f32; SNAP_LANES], [0.0_f32; SNAP_LANES]);
     for lane in 0..SNAP_LANES {
         depth[lane] = z[lane] as f32;
@@ -199,6 +230,8 @@ fn divide_and_snap(
 }
 
 /// A row of a matrix times the points (x, y, z, 1), in the order in which glam adds up.
+///
+/// The parentheses are glam's: x and y are added first, then z, then w.
 #[inline(always)]
 fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
     let mut sums = [0.0; SNAP_LANES];
@@ -209,6 +242,8 @@ fn transform_row(row: DVec4, [x, y, z]: &[F64x8; 3]) -> F64x8 {
 }
 
 /// The nearest grid steps, halves up, and whether the coordinates are within the guard band.
+///
+/// Lanes outside the guard band give 0, a number that the conversion to `i32` holds.
 #[inline(always)]
 fn snap_to_grid(pixels: &F64x8) -> ([i32; SNAP_LANES], [bool; SNAP_LANES]) {
     let (mut steps, mut within) = ([0; SNAP_LANES], [false; SNAP_LANES]);

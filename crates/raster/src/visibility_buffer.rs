@@ -68,6 +68,7 @@ impl Frame {
             if bin.is_empty() {
                 continue;
             }
+            // Hidden-surface removal of the tile; then its visible samples are read back.
             tile.rasterize_bin(self, rect, bin, &OpaqueSurface);
             for (x, y) in
                 (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (x, y)))

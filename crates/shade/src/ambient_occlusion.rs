@@ -152,6 +152,8 @@ impl AmbientOcclusion {
 
     /// The visibility of one position: the cosine-weighted arcs between the horizons, over all
     /// slices.
+    ///
+    /// The normalization by the unoccluded arcs makes the visibility of an open plane 1.
     #[inline(always)]
     fn visibility_at(&self, position: [f32; 3], normal: [f32; 3], view: [f32; 3]) -> f32 {
         let position = subtract(position, self.origin);
@@ -162,6 +164,7 @@ impl AmbientOcclusion {
         };
         // The radius in pixels; below one pixel nothing could be found.
         let (dx, dy) = (beside[0] - screen_position[0], beside[1] - screen_position[1]);
+        // The projected radius, at most the diagonal of the picture.
         let screen_radius = (dx * dx + dy * dy).sqrt().min(self.diagonal);
         if screen_radius <= 1.0 || screen_radius.is_nan() {
             return 1.0;
@@ -325,6 +328,7 @@ impl AmbientOcclusion {
             // `&` instead of `&&`: all conditions are computed, without branches.
             let is_found = (depths[k] > 0.0) & (distances[k] > 0.0) & (radii < MAX_RADII);
             let is_surface_itself = (-SURFACE_TOLERANCE < above) & (above <= 0.0);
+            // Falloff with the square of the distance over the radius.
             let occluding = surface + above * (1.0 - radii * radii);
             let below = if above < 0.0 { above } else { 0.0 };
             let beyond = if radii > 1.0 { radii - 1.0 } else { 0.0 };

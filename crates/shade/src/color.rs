@@ -83,6 +83,8 @@ impl SrgbEncoder {
     fn encode_to_code(&self, light: f32) -> u32 {
         let least = f32::from_bits(MIN_LIGHT_BITS);
         let bits = if light > least { light.min(1.0) } else { least }.to_bits();
+        // Table lookup by exponent and seven bits of the mantissa, then one addition for the
+        // threshold.
         let step = self.step_table[((bits - MIN_LIGHT_BITS) >> 16 & 2047) as usize];
         (step + (bits & 0xffff)) >> 16
     }

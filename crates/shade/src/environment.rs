@@ -31,6 +31,7 @@ const SIDE: usize = 257;
 /// Light from all directions: linear radiance, ready for diffuse and for specular lookups.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Environment {
+    /// Diffuse light, as nine spherical harmonics a channel.
     irradiance: IrradianceHarmonics,
     /// From mirrors to the roughest surfaces.
     prefiltered: PrefilteredLevels,
@@ -71,6 +72,8 @@ impl Environment {
 
     /// The radiance around directions of any length but 0, prefiltered for a perceptual roughness:
     /// trilinear between the two nearest levels.
+    ///
+    /// The level 0 is a mirror's, level 5 that of roughness 1; between two the lookup is linear.
     #[inline(always)]
     pub(super) fn prefiltered_radiance<const N: usize>(
         &self,

@@ -39,8 +39,11 @@ impl FragmentLanes<1> for Fragment<'_> {
 /// computed once.
 #[derive(Debug)]
 pub(super) struct FragmentPacket {
+    /// Perspective-correct barycentric weights.
     weights: [Lanes<LANES>; 3],
+    /// Derivatives of the weights by the pixel's column.
     weights_dx: [Lanes<LANES>; 3],
+    /// Derivatives of the weights by the pixel's row.
     weights_dy: [Lanes<LANES>; 3],
 }
 

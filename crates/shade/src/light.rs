@@ -58,6 +58,8 @@ pub enum Light {
 ///
 /// It is what the BRDF sees of a light: no kind, no position, only a direction and an illuminance.
 /// Shadows reduce it, and so does sheen for the layers below.
+///
+/// The cosine of Lambert's law is not in `lux`: each layer has normals of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IncidentLight<const N: usize> {
     /// The unit vectors towards the light.
@@ -147,6 +149,7 @@ fn light_from_point<const N: usize>(
     // Windowing function of the range, then the inverse-square law.
     let relative = square * inv_range * inv_range;
     let window = (1.0 - relative * relative).clamp(0.0, 1.0);
+    // E = I · window / d², times the spot's angular attenuation.
     let strength = window * inv_distance * inv_distance * attenuation(to_light);
     IncidentLight { to_light, lux: Rgb::splat(candela) * strength }
 }

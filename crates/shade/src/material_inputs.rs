@@ -91,6 +91,7 @@ impl<const N: usize> MaterialInputs<N> {
         for group in draw.textures.groups() {
             let uvs = draw.texture_coordinates(vertices, fragments, &group[0].info);
             let texels = draw.textures.sample_group(group, &uvs);
+            // Each texture multiplies the parameter of its slot.
             for (texture, texel) in group.iter().zip(texels) {
                 inputs.apply_texture(draw, texture.slot, texel);
             }

@@ -57,6 +57,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
 /// is dropped before that.
 #[derive(Debug)]
 pub struct AtomicFile {
+    /// The file that is replaced when the temporary one is finished.
     target_path: PathBuf,
     /// The temporary file: the target's name with the process id and `.part`.
     partial_path: PathBuf,

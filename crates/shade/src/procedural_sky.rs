@@ -101,6 +101,7 @@ impl PreethamSky {
         let [luminance, x, y] =
             [0, 1, 2].map(|k: usize| self.zenith[k] * perez_distribution(k, cosine, gamma));
         // xyY to XYZ to sRGB.
+        // Chromaticities to tristimulus values: X = x Y / y, Z = (1 − x − y) Y / y.
         let scale = luminance / y.max(1e-3);
         let xyz = [x * scale, luminance, (1.0 - x - y) * scale];
         let sky = multiply_matrix(&XYZ_TO_SRGB, xyz);
@@ -111,6 +112,8 @@ impl PreethamSky {
 
 /// Perez's distribution of a component (Y, x or y), by the cosine to the zenith and the angle to
 /// the sun in radians.
+///
+/// Perez, Seals and Michalsky 1993: five coefficients, linear in the turbidity.
 fn perez_distribution(component: usize, cosine: f32, gamma: f32) -> f32 {
     // A: gradient near the horizon, B: its width, C and D: the glow around the sun, E: backscatter.
     let [a, b, c, d, e] = PEREZ[component].map(|[factor, constant]| factor * TURBIDITY + constant);

@@ -94,6 +94,7 @@ impl Kernel for AlphaTestEight<'_> {
 
 /// The fragments of a packet that belong to one draw.
 pub(super) struct DrawSelection<'a> {
+    /// The draw of the selected lanes.
     pub(super) draw: &'a Draw<'a>,
     /// The ids of the fragments' primitives; in lanes of other draws that of the first fragment,
     /// which is shaded there and ignored.
@@ -282,6 +283,9 @@ impl Shading<'_> {
 
     /// Reflects lights and environment by the layered BRDF of a draw; ambient occlusion darkens
     /// `inputs`.
+    ///
+    /// Geometry is computed with smooth normals; the BRDF applies normal maps to a copy, layer by
+    /// layer.
     #[inline(always)]
     fn reflect_light<'i, const N: usize>(
         &self,

@@ -127,6 +127,8 @@ impl Surface for StyledShading<'_> {
 
 impl StyledShading<'_> {
     /// The radiance of a white Lambert surface, by lights without their shadows and environment.
+    ///
+    /// Σ E n·l / π over the lights, plus irradiance over π of the environment.
     fn diffuse_light(&self, geometry: &SurfaceGeometry<1>) -> [f32; 3] {
         let normal = geometry.normals.lane(0);
         let mut sum = [0.0; 3];
@@ -173,6 +175,9 @@ impl StyledShading<'_> {
     }
 
     /// The base color in steps of light by its luminance.
+    ///
+    /// The luminance of the diffuse light is quantized to three tones; the base color keeps its
+    /// hue.
     fn shade_toon(
         &self,
         draw: &Draw<'_>,
@@ -220,6 +225,7 @@ impl StyledShading<'_> {
 fn matcap_ball_color([x, y, z]: [f32; 3]) -> [f32; 3] {
     let light = [-0.4, 0.64, 0.656];
     // Wrapped diffuse.
+    // Half Lambert: the cosine mapped to 0 … 1, then squared.
     let wrapped = 0.5 + 0.5 * dot([x, y, z], light);
     let diffuse = 0.06 + 0.94 * wrapped * wrapped;
     // Blinn-Phong highlight.

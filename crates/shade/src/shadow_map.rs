@@ -17,6 +17,10 @@
 //! 2005): a search for blockers gives its radius, a percentage-closer filter of that radius the
 //! shadow. Both use a fixed pattern of positions, so that pictures have no noise and always the
 //! same bytes.
+//!
+//! Percentage-closer filtering (Reeves, Salesin and Cook, *Rendering antialiased shadows with depth
+//! maps*, 1987) averages the results of depth comparisons, not depths: a mean of depths would be
+//! the depth of no surface. Here the comparison is one of planes, and the average one over a disc.
 
 use super::vector::{dot, subtract};
 use glam::{DMat4, DVec3, DVec4};
@@ -34,6 +38,8 @@ pub struct Shadow {
 }
 
 /// The greatest radius in texels of blocker search and filter.
+///
+/// A wider penumbra is cut off: the 48 positions of the filter would be too far apart in it.
 const MAX_FILTER_RADIUS: f32 = 64.0;
 /// The bias for a step of depth per texel: vertices are snapped to a grid of 1/256 texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
@@ -63,6 +69,8 @@ struct WorldToShadowMap {
 }
 
 /// The depths of a scene from a light.
+///
+/// Larger depth is nearer to the light, as in the rasterizer that draws the map.
 #[derive(Clone, Debug, Default)]
 pub struct ShadowMap {
     /// Texels of a row, and rows.
@@ -142,6 +150,7 @@ impl ShadowMap {
         let search_radius = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
         let (mut depth_sum, mut blockers) = (0.0, 0.0);
         for [dx, dy] in VOGEL_DISC.iter().step_by(2) {
+            // One position of the blocker search.
             let position = [receiver.x + dx * search_radius, receiver.y + dy * search_radius];
             if let Some(depth) = self.find_blocker(&receiver, position) {
                 depth_sum += depth;
@@ -151,6 +160,7 @@ impl ShadowMap {
         if blockers == 0.0 {
             return self.filter_bilinear(&receiver);
         }
+        // Penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
         let radius =
             self.penumbra_radius(receiver.depth, depth_sum / blockers).min(MAX_FILTER_RADIUS);
         if radius <= 1.0 {
@@ -166,6 +176,9 @@ impl ShadowMap {
     }
 
     /// Projects a surface onto the map, with its plane; `None` beside the map or behind the light.
+    ///
+    /// Positions and planes transform by a matrix and by its inverse transpose; both are of `f32`
+    /// relative to the middle of the scene, where rounding is least.
     #[inline(always)]
     fn project_receiver(&self, position: [f32; 3], normal: [f32; 3]) -> Option<ReceiverPlane> {
         let WorldToShadowMap { origin, rows, plane_rows } = &self.world_to_map;
@@ -196,6 +209,9 @@ impl ShadowMap {
     }
 
     /// The radius in texels of the penumbra at one depth of a caster at another.
+    ///
+    /// By similar triangles: the size of the light times the distance of receiver and caster over
+    /// that of caster and light. In parallel light it grows with the difference of depth alone.
     #[inline(always)]
     fn penumbra_radius(&self, receiver: f32, caster: f32) -> f32 {
         let distance = match self.depth_at_infinity {
@@ -230,6 +246,7 @@ impl ShadowMap {
         let (left, top) = ((receiver.x - 0.5).floor(), (receiver.y - 0.5).floor());
         let (fx, fy) = (receiver.x - 0.5 - left, receiver.y - 0.5 - top);
         let mut visible = 0.0;
+        // Four comparisons, each with its bilinear weight.
         for (column, column_weight) in [(0.0, 1.0 - fx), (1.0, fx)] {
             for (row, row_weight) in [(0.0, 1.0 - fy), (1.0, fy)] {
                 let texel = self.texel_at((left + column) as i32, (top + row) as i32);

@@ -179,6 +179,9 @@ fn normalize_vectors<const N: usize>(vectors: &mut Vec3Lanes<N>, squares: Lanes<
 ///
 /// `squares` are the squared lengths of the interpolated normals, `steps` their derivatives by
 /// column and row: a unit vector turns by the part of a step that is perpendicular to it.
+///
+/// It widens roughness in the BRDF (geometric specular antialiasing): without it a curved surface
+/// far away would sparkle.
 #[inline(always)]
 fn normal_variation<const N: usize>(
     normals: Vec3Lanes<N>,
@@ -187,6 +190,7 @@ fn normal_variation<const N: usize>(
 ) -> Lanes<N> {
     let mut perpendicular = Lanes::ZERO;
     for step in steps {
+        // Only the perpendicular part of a step turns the normal.
         let along = normals.dot(step);
         perpendicular = perpendicular.max_lanes(step.dot(step) - along * along);
     }

@@ -38,7 +38,9 @@ impl<const N: usize> UvLanes<N> {
 /// Filtered texels at some fragments: linear color with straight alpha.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct TexelLanes<const N: usize> {
+    /// Linear color, not multiplied by alpha.
     pub(super) color: Rgb<N>,
+    /// Alpha, 1 where it was not asked for.
     pub(super) alpha: Lanes<N>,
 }
 

@@ -12,11 +12,17 @@
 //! Each fragment is tone mapped by itself, before the samples of a pixel are averaged: edges
 //! against bright light stay smooth, backgrounds keep their colors, and a transparent picture laid
 //! over a color is the opaque one over that color.
+//!
+//! All three curves work on linear sRGB and return linear sRGB: the encoding to the picture's codes
+//! comes later. Values are unbounded above on the way in, and at most 1 on the way out.
 
 use super::color::multiply_matrix;
 use super::lanes::Rgb;
 
 /// The curve that brings light beyond 1 into the range of a display.
+///
+/// The choice is one of look: Neutral keeps base colors, ACES adds contrast, AgX fades saturated
+/// highlights to white.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ToneMapping {
     /// No curve: light beyond 1 is clipped.
@@ -54,6 +60,9 @@ impl ToneMapper {
     }
 
     /// Maps linear light to linear display colors. Without a curve they may be above 1.
+    ///
+    /// Exposure is applied first. Light below 0, which filtering may leave, counts as 0 under a
+    /// curve.
     #[inline(always)]
     pub(super) fn map_colors<const N: usize>(&self, light: Rgb<N>) -> Rgb<N> {
         let mut light = light;
@@ -82,6 +91,8 @@ impl ToneMapper {
 ///  peak'  = 1 − d² / (peak + d − s)   s = 0.8 − 0.04, d = 1 − s, for peaks above s
 ///  result = mix(color' · peak' / peak, peak', 1 − 1 / (0.15 (peak − peak') + 1))
 /// ```
+///
+/// Below the start of compression the curve is the identity less the offset.
 #[inline(always)]
 fn khronos_neutral(light: [f32; 3]) -> [f32; 3] {
     /// Where compression of highlights begins: 0.8, less the reflectance of dielectrics.
@@ -109,6 +120,9 @@ const ACES_TO_SRGB: [[f32; 3]; 3] =
 
 /// ACES filmic tone mapping: reference rendering and output transform, fitted by a rational
 /// function between two matrices (Hill 2016).
+///
+/// The two matrices hold change of primaries and of saturation together; per channel it is a
+/// quotient of quadratics.
 #[inline(always)]
 fn aces_filmic(light: [f32; 3]) -> [f32; 3] {
     let curve = |x: f32| {
@@ -135,15 +149,20 @@ const AGX_TO_SRGB: [[f32; 3]; 3] = [
 
 /// AgX tone mapping: a sigmoid over the logarithm of light in inset primaries (Sobotka 2022),
 /// fitted by a polynomial (Wrensch 2023).
+///
+/// 16.5 stops become 0 … 1. Channels mix through the inset, so saturated bright light fades to
+/// white by itself.
 fn agx_tone_map(light: [f32; 3]) -> [f32; 3] {
     /// The range of light in stops.
     const MIN_EV: f32 = -12.473_93;
     const MAX_EV: f32 = 4.026_069;
     let curve = |x: f32| {
+        // Log encoding.
         let stops = libm::log2f(x.max(1e-10)).clamp(MIN_EV, MAX_EV);
         let x = (stops - MIN_EV) / (MAX_EV - MIN_EV);
         let square = x * x;
         let fourth = square * square;
+        // The sigmoid, a polynomial of degree six.
         15.5 * fourth * square - 40.14 * fourth * x + 31.96 * fourth - 6.868 * square * x
             + 0.4298 * square
             + 0.1191 * x

@@ -23,6 +23,9 @@ use raster::{F32x8, Fragments, Kernel, LANES};
 /// The color that white light has behind the surface: base color and absorption in the volume.
 ///
 /// `world_scale` is the scale from the mesh, in whose units the thickness is given, to the world.
+///
+/// Beer-Lambert: transmittance over a length d is attenuation color ^ (d / attenuation distance),
+/// so that white light has the attenuation color after one attenuation distance.
 #[inline(always)]
 pub(super) fn transmission_tint<const N: usize>(
     extensions: &MaterialExtensions,

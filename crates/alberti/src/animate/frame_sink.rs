@@ -1,4 +1,13 @@
 //! The output of a frame sequence, which takes one frame after the other.
+//!
+//! | output | format | colors | transparency |
+//! | --- | --- | --- | --- |
+//! | `NAME_{frame:04}.png` | a PNG for each frame | 8 bits | full |
+//! | `NAME.png`, `NAME.apng` | animated PNG | 8 bits | full |
+//! | `NAME.gif` | animated GIF | 256 per frame | on or off |
+//! | `-` | raw RGBA, for `ffmpeg -f rawvideo` | 8 bits | full |
+//!
+//! Frames arrive in order and are not stored: each is encoded and written before the next arrives.
 
 use crate::CliError;
 use crate::template::NameTemplate;
@@ -10,6 +19,9 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 /// An output of frames. A file of several frames appears under its name once it is complete.
+///
+/// The frames of [`Self::Files`] are each written atomically and stay if the run is stopped. The
+/// raw stream has no header: the reader must know size and frame rate.
 pub(super) enum FrameSink {
     /// One PNG per frame, with the value of `{stem}`.
     Files(NameTemplate, String),
@@ -23,6 +35,9 @@ pub(super) enum FrameSink {
 
 impl FrameSink {
     /// Opens the output that a name stands for; nothing appears under the name yet.
+    ///
+    /// A name with the field `{frame}` stands for a file per frame, even where there is only one
+    /// frame.
     ///
     /// # Errors
     ///
@@ -61,6 +76,13 @@ impl FrameSink {
     /// Opens an animated PNG: RGB if every frame is opaque, else RGBA.
     ///
     /// The delay of a frame is a fraction of 16-bit numbers, 1000 / (1000 fps).
+    ///
+    /// The numerator is 1000, so that rates such as 23.976 are exact to a thousandth. The
+    /// denominator has 16 bits as well: rates above 65.535 frames per second play at 65.535.
+    ///
+    /// Whether all frames are opaque must be known before the first, because the color type is in
+    /// the header; it follows from the background of the scene. The file plays endlessly (0
+    /// repetitions).
     fn open_png(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let ((width, height), opaque) = (film.image_size(), film.is_opaque());
         let file = SharedFile::create(output)?;
@@ -79,6 +101,11 @@ impl FrameSink {
     }
 
     /// Opens an animated GIF that repeats forever.
+    ///
+    /// The global palette is empty, because every frame brings its own.
+    ///
+    /// # Errors
+    /// If a side is above 65,535 pixels, the limit of the format's 16-bit fields.
     fn open_gif(output: &Path, film: &Sequence, fps: f64) -> Result<Self, CliError> {
         let (width, height) = film.image_size();
         let (Ok(width), Ok(height)) = (u16::try_from(width), u16::try_from(height)) else {
@@ -95,6 +122,9 @@ impl FrameSink {
     }
 
     /// Appends one frame, or writes it to a file of its own.
+    ///
+    /// A frame of the animated formats must have the size of the first, which [`Sequence`]
+    /// guarantees. Alpha is dropped from opaque frames only, never blended.
     pub(super) fn write_frame(&mut self, frame: usize, picture: &Picture) -> Result<(), CliError> {
         match self {
             Self::Files(template, stem) => {
@@ -120,6 +150,9 @@ impl FrameSink {
     }
 
     /// Finishes a file of several frames and renames it into place.
+    ///
+    /// It must be called: a sink that is dropped without it removes its temporary file, which is
+    /// the right end of a run that failed.
     pub(super) fn finish(self) -> Result<(), CliError> {
         match self {
             Self::Files(..) => Ok(()),
@@ -137,6 +170,9 @@ impl FrameSink {
 }
 
 /// A temporary file shared with an encoder that owns its writer and does not return it.
+///
+/// The encoder holds one clone and [`FrameSink`] the other, so that the file can be renamed after
+/// the encoder has written its last chunk. Everything happens on one thread; `Rc` is enough.
 #[derive(Clone)]
 pub(super) struct SharedFile(Rc<RefCell<BufWriter<AtomicFile>>>);
 
@@ -147,6 +183,9 @@ impl SharedFile {
     }
 
     /// Renames the file into place; the encoder must have been dropped.
+    ///
+    /// If another clone is still alive, nothing is renamed, and the last clone removes the
+    /// temporary file.
     fn finish(self, path: PathBuf) -> Result<(), CliError> {
         let Ok(file) = Rc::try_unwrap(self.0) else { return Ok(()) };
         let draft = file.into_inner().into_inner();
@@ -166,6 +205,10 @@ impl Write for SharedFile {
 }
 
 /// The display time of a GIF frame in hundredths of a second, rounded so that the sum is exact.
+///
+/// It is the difference of two rounded times rather than a rounded difference: at 30 frames per
+/// second the delays are 3, 4, 3, 3, 4, 3 …, and 30 of them last exactly one second. Many viewers
+/// raise delays below 2, that is rates above 50, to 10.
 fn frame_delay(frame: usize, fps: f64) -> u16 {
     let until = |frame: usize| libm::round(100.0 * frame as f64 / fps);
     (until(frame + 1) - until(frame)).min(65_535.0) as u16
@@ -174,6 +217,10 @@ fn frame_delay(frame: usize, fps: f64) -> u16 {
 /// Quantizes a picture to a palette of 256 colors of its own.
 ///
 /// GIF has no partial transparency: alpha below one half becomes transparent, the rest opaque.
+///
+/// The palette is made by NeuQuant with a sampling factor of 10, which reads a tenth of the pixels:
+/// a compromise of the `gif` crate between speed (30) and quality (1). Each frame is erased before
+/// the next, because transparent pixels would otherwise show the frame before.
 fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
     let mut pixels: Vec<u8> = picture
         .pixels
@@ -188,6 +235,9 @@ fn gif_frame(picture: &Picture, delay: u16) -> gif::Frame<'static> {
 }
 
 /// An error of the PNG encoder as an error about the output.
+///
+/// Only input/output errors have a cause of the system; others, such as a wrong amount of data,
+/// become one with the encoder's message, so that both are reported with the name of the file.
 fn png_error(path: &Path, error: png::EncodingError) -> CliError {
     let cause = match error {
         png::EncodingError::IoError(cause) => cause,

@@ -1,10 +1,16 @@
 //! The contact sheet: an HTML page with all pictures and the failures.
+//!
+//! The page is static and needs no script; pictures are loaded when they are scrolled into view, so
+//! that a folder of thousands can be opened.
 
 use super::report::{FAILED, JobRecord};
 use drawing::escape_markup;
 use std::fmt::Write as _;
 
 /// The page; it refers to the pictures by paths relative to itself.
+///
+/// Pictures come first, in the order of the jobs, then the failures with their messages. Names of
+/// files are untrusted text and are escaped everywhere.
 pub(super) fn contact_sheet_html(records: &[JobRecord]) -> String {
     let (failed, shown): (Vec<&JobRecord>, Vec<&JobRecord>) =
         records.iter().partition(|record| record.status == FAILED);
@@ -45,6 +51,13 @@ img { width: 100%; background: #fff; border: 1px solid #ccc } pre { white-space:
 ";
 
 /// A relative URL of a path, percent-encoded.
+///
+/// The `./` in front marks it as relative, whatever the name begins with. Everything but letters,
+/// digits and `/.-_` is encoded byte by byte, in UTF-8:
+///
+/// ```text
+/// a b/c#d.png  ─►  ./a%20b/c%23d.png
+/// ```
 fn relative_url(path: &str) -> String {
     let mut url = String::from("./");
     for byte in path.bytes() {

@@ -6,6 +6,8 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// A model or a scene to render, and the name of its picture.
+///
+/// The name is fixed before any job runs and depends on the set of inputs, not on their contents.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct BatchJob {
     /// The file.
@@ -15,9 +17,18 @@ pub(super) struct BatchJob {
 }
 
 /// The maximum depth of folders that are searched; symbolic links may form cycles.
+///
+/// No real folder is that deep, and a cycle ends after this many rounds.
 const MAX_DEPTH: usize = 64;
 
 /// Finds the jobs of all inputs, sorted, so that every shard sees the same order.
+///
+/// A file that is found twice under the same path and name is one job. Files that are named
+/// directly are taken whatever their extension; the importer then reports those it cannot read.
+///
+/// # Errors
+/// If a folder or a list cannot be read. A listed file that does not exist is no error here: its
+/// job fails, and the others run.
 pub(super) fn find_jobs(inputs: &[PathBuf]) -> Result<Vec<BatchJob>, CliError> {
     let mut found = Vec::new();
     for input in inputs {
@@ -53,6 +64,9 @@ fn lowercase_extension(path: &Path) -> Option<String> {
 }
 
 /// Adds the files of a list, relative to its folder. Empty lines and `#` comments are skipped.
+///
+/// Pairs are the path to read and the name below the output folder. A line is a path as it is
+/// written, without quotes or escapes; spaces at its ends are removed.
 fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
         list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -60,6 +74,9 @@ fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
 }
 
 /// A path without root and `..`, so that it stays below the output folder.
+///
+/// `../up/x.glb` and `/up/x.glb` both become `up/x.glb`. A list is often made by another program,
+/// and must not be able to write outside the folder.
 fn normal_components(path: &Path) -> PathBuf {
     path.components().filter(|part| matches!(part, std::path::Component::Normal(_))).collect()
 }
@@ -67,6 +84,11 @@ fn normal_components(path: &Path) -> PathBuf {
 /// Adds the models below a folder, recursively.
 ///
 /// Scenes are not searched for: they are rare among models, and often refer to these very models.
+///
+/// The name of a picture is the path below `root`, so subfolders appear in the output as well.
+///
+/// # Errors
+/// If a folder cannot be read. A run must not silently leave out a part of its models.
 fn add_models_below(
     folder: &Path,
     root: &Path,
@@ -93,6 +115,13 @@ fn add_models_below(
 /// Where two files would have the same, the original extension stays in the name, and a number is
 /// appended if that does not help. Names are compared without case, because some file systems
 /// ignore it.
+///
+/// ```text
+/// fox.glb                ─►  fox.png
+/// fox.glb, fox.gltf      ─►  fox.glb.png, fox.gltf.png
+/// a/fox.glb, b/fox.glb   ─►  fox.glb.png, fox.glb-2.png     (both named directly)
+/// ```
+/// The input is sorted, so numbers are the same in every shard.
 fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
     let stem = |name: &Path| slash_path(&name.with_extension(""));
     let mut shared: BTreeMap<String, usize> = BTreeMap::new();

@@ -2,6 +2,9 @@
 //!
 //! That is the version of the program, the settings, and the content of the model or scene with all
 //! files it refers to. A picture is up to date if its key is unchanged.
+//!
+//! Content is hashed rather than compared by time, because models are copied, checked out and
+//! mounted in ways that change their times but not their bytes.
 
 use crate::render::is_scene_file;
 use pipeline::Origin;
@@ -12,6 +15,10 @@ use std::path::{Path, PathBuf};
 /// The key of a model or a scene: the first 16 bytes of a SHA-256, in hexadecimal.
 ///
 /// Files that cannot be read count as empty; rendering reports what is wrong with them.
+///
+/// `settings` is the debug form of the flags; a flag that is added changes it and thereby renders
+/// everything again, which is the safe side. 128 bits make an accidental collision impossible in
+/// practice.
 pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
     let mut hash = Sha256::new();
     hash_part(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
@@ -25,6 +32,10 @@ pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> 
 }
 
 /// Hashes a model with the buffers and images it refers to.
+///
+/// The file is read as bytes and not imported: a key costs a read of the files, not a parse of the
+/// meshes. Files in folders above the model are hashed as well, since only their bytes matter here;
+/// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {
     let bytes = std::fs::read(path).unwrap_or_default();
     hash_part(hash, &bytes);
@@ -35,6 +46,9 @@ fn hash_model(hash: &mut Sha256, path: &Path) {
 }
 
 /// Hashes a scene with its includes, models and images.
+///
+/// A scene that cannot be parsed is hashed by its own text alone; it fails anyway, and failed jobs
+/// are always tried again.
 fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
     hash_part(hash, &std::fs::read(path).unwrap_or_default());
     let Ok((origin, file)) = Origin::read_scene_allowing(path, allowed) else { return };
@@ -48,12 +62,17 @@ fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
 }
 
 /// Hashes one part, prefixed by its length, so that no two lists of parts give the same bytes.
+///
+/// Without the length, `ab` + `c` and `a` + `bc` would have the same key.
 fn hash_part(hash: &mut Sha256, part: &[u8]) {
     hash.update((part.len() as u64).to_le_bytes());
     hash.update(part);
 }
 
 /// The external buffers and images of a glTF file.
+///
+/// Embedded `data:` URIs are part of the file's bytes and are left out, as are buffers without a
+/// URI, the binary chunk of a GLB. Invalid JSON refers to nothing.
 fn referenced_files(bytes: &[u8]) -> Vec<String> {
     let Ok(json) = serde_json::from_slice::<Value>(json_chunk(bytes)) else { return Vec::new() };
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
@@ -63,6 +82,10 @@ fn referenced_files(bytes: &[u8]) -> Vec<String> {
 }
 
 /// The JSON chunk of a GLB file, or all of a `.gltf` file.
+///
+/// A GLB begins with a header of 12 bytes (magic, version, length), then the length and the type of
+/// the first chunk, 4 bytes each, then the JSON (glTF 2.0 §4.4). Truncated files give a shorter
+/// slice and never a panic.
 fn json_chunk(bytes: &[u8]) -> &[u8] {
     let Some(rest) = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(8..)) else {
         return bytes;
@@ -73,6 +96,9 @@ fn json_chunk(bytes: &[u8]) -> &[u8] {
 }
 
 /// Decodes the `%XX` escapes of a URI (RFC 3986 §2.1).
+///
+/// A `%` without two hexadecimal digits is left as it is. Bytes that are not UTF-8 become
+/// replacement characters; such a file is not found and counts as empty.
 fn percent_decode(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();

@@ -1,4 +1,7 @@
 //! Runs the jobs of a batch in parallel, one thread for each, isolated from each other's failures.
+//!
+//! One thread per picture is faster for many small pictures than all threads on one: loading,
+//! decoding and encoding are serial, and take most of the time of a thumbnail.
 
 use super::jobs::BatchJob;
 use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
@@ -30,6 +33,10 @@ impl BatchRun<'_> {
     ///
     /// Worker threads take the next job from a shared counter, so that large models do not leave
     /// threads idle.
+    ///
+    /// The calling thread works as well, so one job needs no further thread. Each worker has a
+    /// [`Renderer`] of its own, whose buffers are reused from job to job. Records arrive in any
+    /// order and are sorted by the index of their job.
     pub(super) fn run_jobs(&self, jobs: &[&BatchJob], report: &BatchReport) -> Vec<JobRecord> {
         let before: BTreeMap<&str, &JobRecord> = self
             .earlier
@@ -66,6 +73,12 @@ impl BatchRun<'_> {
     ///
     /// A panic is caught and recorded like any other failure: one broken model must not end a run
     /// of thousands.
+    ///
+    /// The key is taken before rendering: if the model is changed meanwhile, the record has the old
+    /// key, and the next run renders it again.
+    ///
+    /// The assertion of unwind safety holds because the renderer, the only thing a panic can leave
+    /// in a broken state, is replaced then.
     fn run_job(
         &self,
         job: &BatchJob,
@@ -106,6 +119,12 @@ impl BatchRun<'_> {
     }
 
     /// Renders one picture; returns the warnings of its models and of the drawing.
+    ///
+    /// Rendering is single-threaded, as the jobs themselves are parallel. The folder of the picture
+    /// is made only now, so that failed models leave no empty folders.
+    ///
+    /// # Errors
+    /// If the model is invalid, it cannot be rendered, or the picture cannot be written.
     fn render_picture(
         &self,
         input: &Path,

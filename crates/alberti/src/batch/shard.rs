@@ -1,8 +1,18 @@
 //! Shards: the jobs of a batch divided between several machines.
+//!
+//! Every machine runs the same command with a shard of its own and needs nothing from the others
+//! but a common view of the inputs: each finds all jobs, sorts them, and takes its part.
+//!
+//! ```text
+//! alberti batch models --out-dir out --shard 2/8
+//! alberti batch models --out-dir out --shard auto     (in an array job of Slurm, AWS, …)
+//! ```
 
 use std::str::FromStr as _;
 
 /// One of `count` shards.
+///
+/// Always `index < count`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Shard {
     /// The index of the shard, from 0.
@@ -16,6 +26,9 @@ impl Shard {
     pub(super) const ALL_JOBS: Self = Self { index: 0, count: 1 };
 
     /// Whether there is only one shard.
+    ///
+    /// Only then can the run write the contact sheet: a shard does not know the results of the
+    /// others.
     pub(super) fn has_all_jobs(self) -> bool {
         self.count == 1
     }
@@ -27,6 +40,9 @@ impl Shard {
     }
 
     /// The suffix of the report's file name.
+    ///
+    /// Shards are counted from 1 here, as on the command line: `-2-of-8`. Each has its own report,
+    /// because appending from several machines to one file is not safe on network file systems.
     pub(super) fn file_suffix(self) -> String {
         if self.has_all_jobs() {
             String::new()
@@ -42,6 +58,9 @@ impl Shard {
 }
 
 /// Parses `I/N`, or takes both from the environment for `auto`.
+///
+/// # Errors
+/// If the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside of an array job.
 pub(super) fn parse_shard(text: &str) -> Result<Shard, String> {
     if text == "auto" {
         return from_variables(|name| std::env::var(name).ok().as_deref().and_then(parse_count));
@@ -54,11 +73,17 @@ pub(super) fn parse_shard(text: &str) -> Result<Shard, String> {
 }
 
 /// Parses a non-negative integer.
+///
+/// Signs are rejected by the type, except a leading `+`, which Rust accepts.
 fn parse_count(digits: &str) -> Option<usize> {
     usize::from_str(digits.trim()).ok()
 }
 
 /// The environment variables of job schedulers: index of the task, first index, and task count.
+///
+/// Slurm, AWS Batch, Cloud Run jobs, Google Batch, Grid Engine, LSF, Buildkite, and GitLab CI, in
+/// this order. The first index is given separately, because array jobs may be numbered from any
+/// index. Steps other than 1 leave gaps in the indices and are not supported.
 const SCHEDULERS: &[(&str, FirstIndex, TaskCount)] = &[
     (
         "SLURM_ARRAY_TASK_ID",
@@ -83,14 +108,20 @@ const SCHEDULERS: &[(&str, FirstIndex, TaskCount)] = &[
 ];
 
 /// The index of the first task.
+///
+/// Schedulers that always count from the same number need no variable.
 enum FirstIndex {
+    /// The scheduler always counts from this index.
     Constant(usize),
+    /// The variable holds the first index; 0 if it is not set.
     Variable(&'static str),
 }
 
 /// The number of tasks, or the index of the last one.
 enum TaskCount {
+    /// The variable holds the number of tasks.
     Variable(&'static str),
+    /// The variable holds the index of the last task; the count follows from the first index.
     Last(&'static str),
 }
 

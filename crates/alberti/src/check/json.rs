@@ -1,4 +1,16 @@
 //! The JSON reports of `alberti check` and `alberti scene check`.
+//!
+//! ```json
+//! {
+//!   "schema": {"name": "alberti-check", "version": 1},
+//!   "file": "scene.ron", "errors": 1,
+//!   "scene": [{"file": "scene.ron", "line": 3, "column": 9, "message": "…", "remedy": "…"}],
+//!   "advice": [],
+//!   "models": [{"file": "fox.glb", "problems": [{"code": "…", "pointer": "/meshes/0"}]}]
+//! }
+//! ```
+//! Member names are part of the interface and keep their words, even where the program now uses
+//! others.
 
 use super::CheckResult;
 use model::{CheckReport, Diagnostic};
@@ -11,6 +23,8 @@ use serde_json::{Value, json};
 const VERSION: u32 = 1;
 
 /// The report on a scene or a model.
+///
+/// Members are in alphabetical order, as `serde_json` writes them; the text ends with a line feed.
 pub(super) fn file_report(findings: &CheckResult) -> String {
     let mut document = result_json(findings);
     document["schema"] = json!({"name": "alberti-check", "version": VERSION});
@@ -18,6 +32,9 @@ pub(super) fn file_report(findings: &CheckResult) -> String {
 }
 
 /// The report on scenes.
+///
+/// The sums at the top let a script decide without looking at the files. `files` has one entry for
+/// each argument, in that order.
 pub(super) fn scenes_report(all: &[CheckResult]) -> String {
     let document = json!({
         "schema": {"name": "alberti-scene-check", "version": VERSION},
@@ -29,6 +46,9 @@ pub(super) fn scenes_report(all: &[CheckResult]) -> String {
 }
 
 /// The result for one input.
+///
+/// `scene` is `null` for a bare model and an empty list for a scene without errors. `errors` counts
+/// those of the scene and of all its models.
 fn result_json(findings: &CheckResult) -> Value {
     let scene = findings.scene.as_ref();
     json!({
@@ -41,6 +61,9 @@ fn result_json(findings: &CheckResult) -> Value {
 }
 
 /// An error of a scene, with line and column from 1.
+///
+/// `file` may be an include. Columns count characters, not bytes. `remedy` is `null` if there is no
+/// suggestion.
 fn scene_error_json(mistake: &SceneError) -> Value {
     let (line, column) = mistake.line_and_column();
     json!({
@@ -53,6 +76,8 @@ fn scene_error_json(mistake: &SceneError) -> Value {
 }
 
 /// A lint: a scene error with a code.
+///
+/// The code names the kind of lint and is stable, so that a script can ignore it.
 fn lint_json(advice: &Lint) -> Value {
     let mut value = scene_error_json(&advice.error);
     value["code"] = json!(advice.code);
@@ -60,6 +85,10 @@ fn lint_json(advice: &Lint) -> Value {
 }
 
 /// The report of a model.
+///
+/// `refusal` is the error that kept the model from being loaded, and `null` if it was loaded.
+/// `problems` is limited in length; `problems_left_out` is the number of those beyond the limit,
+/// which the counts include.
 fn report_json(report: &CheckReport) -> Value {
     let refusal = report.load_error.as_ref().map(
         |fault| json!({"pointer": fault.location, "message": fault.message, "remedy": fault.help}),
@@ -76,6 +105,9 @@ fn report_json(report: &CheckReport) -> Value {
 }
 
 /// A diagnostic of a model.
+///
+/// `pointer` is a JSON pointer (RFC 6901) into the glTF document, `severity` is `error`, `warning`
+/// or `note`, and `code` names the violated rule.
 fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
     json!({
         "severity": diagnostic.severity.name(),

@@ -4,6 +4,18 @@
 //! the model, angles in radians, times in seconds, colors linear. Absent values are `null` or empty
 //! lists. New members may be added in any release; [`VERSION`] rises when one is removed or changes
 //! its meaning.
+//!
+//! ```json
+//! {
+//!   "schema": {"name": "alberti-info", "version": 1},
+//!   "file": "fox.glb", "name": "fox.glb",
+//!   "shown": {"scene": 0, "variant": null, "animation": null, "time": null, "meshes": 1},
+//!   "counts": {"primitives": 1, "vertices": 1728, "triangles": 576, "lines": 0, "points": 0},
+//!   "scenes": [], "nodes": [], "meshes": [], "materials": [], "textures": [], "images": []
+//! }
+//! ```
+//! (Shortened: `shown` also has bounds and counts, and lists follow for cameras, lights, skins,
+//! animations, variants, extensions and warnings.)
 
 use super::materials::{images_json, materials_json, textures_json};
 use super::scenes::{cameras_json, lights_json, meshes_json, nodes_json, scenes_json};
@@ -22,6 +34,9 @@ use serde_json::{Value, json};
 const VERSION: u32 = 1;
 
 /// The document as text, with a final newline.
+///
+/// `shown` describes the drawn scene in its pose, counting instances; the top level `counts` is the
+/// content of the file. `animation` and `time` are `null` unless a flag has posed the model.
 pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
     let ModelStateArgs { animation, time, .. } = &args.model_state;
     let posed = animation.is_some() || time.is_some();
@@ -57,11 +72,16 @@ pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
 }
 
 /// The index of the animation that poses the model.
+///
+/// `None` cannot happen for a loaded model, because an invalid choice has ended the command before.
 fn chosen_animation_index(args: &InfoArgs, model: &Model) -> Option<usize> {
     pipeline::scene::select_animation(model, args.model_state.animation.as_ref()).ok()
 }
 
 /// An f32 as the shortest decimal number that rounds to it: 0.8, not 0.800000011920929.
+///
+/// glTF stores factors as 32-bit floats; widened to 64 bits they show digits that the
+/// file does not have. NaN and infinities become `null`, as JSON has no such numbers.
 pub(super) fn shortest_number(x: f32) -> Value {
     x.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }
@@ -72,6 +92,8 @@ pub(super) fn shortest_numbers(numbers: &[f32]) -> Vec<Value> {
 }
 
 /// Bounds as two points, or `null`.
+///
+/// Coordinates are 64-bit, as the bounds are computed in that precision.
 pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
     of.map_or(Value::Null, |bounds| {
         let [min, max] = [bounds.min(), bounds.max()].map(<[f64; 3]>::from);
@@ -80,6 +102,9 @@ pub(super) fn bounds_json<S: homog::Space>(of: Option<Bounds<S>>) -> Value {
 }
 
 /// Totals of some primitives: vertices, triangles, lines and points.
+///
+/// `items` is indexed by the number of vertices of a primitive's item less one: points, lines,
+/// triangles.
 pub(super) fn counts_json<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Value {
     let (mut parts, mut vertices, mut items) = (0_usize, 0_usize, [0_usize; 3]);
     for primitive in primitives {
@@ -112,6 +137,8 @@ fn skin_json(skin: &Skin) -> Value {
 }
 
 /// An animation: its name, duration and channels.
+///
+/// `duration` is the time of the last keyframe of any channel.
 fn animation_json(model: &Model, animation: &Animation) -> Value {
     json!({
         "name": animation.name,
@@ -121,6 +148,9 @@ fn animation_json(model: &Model, animation: &Animation) -> Value {
 }
 
 /// A channel: its target, interpolation, number of keyframes, start and end time.
+///
+/// Spherical interpolation of rotations is `LINEAR` in glTF, so both have that name. `start` and
+/// `end` are `null` for a channel without keyframes.
 fn channel_json(model: &Model, AnimationChannel { target, curve }: &AnimationChannel) -> Value {
     json!({
         "target": target_pointer(model, *target),
@@ -136,6 +166,14 @@ fn channel_json(model: &Model, AnimationChannel { target, curve }: &AnimationCha
 }
 
 /// The property that an animation channel changes, as a JSON pointer into the file.
+///
+/// The form is that of KHR_animation_pointer, also for channels of core glTF:
+///
+/// ```text
+/// /nodes/3/rotation
+/// /meshes/0/weights/2
+/// /materials/1/…/extensions/KHR_texture_transform/offset
+/// ```
 fn target_pointer(model: &Model, target: AnimationTarget) -> String {
     match target {
         AnimationTarget::Node { node, property } => {
@@ -171,6 +209,9 @@ fn target_pointer(model: &Model, target: AnimationTarget) -> String {
 }
 
 /// The extensions of the file, sorted, with the way in which each is supported.
+///
+/// `extensionsRequired` should be a subset of `extensionsUsed`, but files get it wrong, so both
+/// lists are merged. `note` explains a status that is not plain success.
 fn extensions_json(model: &Model) -> Value {
     let mut names: Vec<&String> =
         model.extensions_used.iter().chain(&model.extensions_required).collect();
@@ -192,6 +233,8 @@ fn extensions_json(model: &Model) -> Value {
 }
 
 /// The warnings of the importer.
+///
+/// `check` has more: it looks at everything, the importer only at what it reads.
 fn warnings_json(model: &Model) -> Value {
     let describe = |warning: &model::Diagnostic| json!({"pointer": warning.location, "message": warning.message});
     model.warnings.iter().map(describe).collect()

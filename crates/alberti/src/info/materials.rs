@@ -1,4 +1,7 @@
 //! Materials, textures and images in `alberti info --json`.
+//!
+//! Colors are linear, as in glTF, and factors are those of the file: textures are listed, not
+//! multiplied in.
 
 use super::json::{shortest_number, shortest_numbers};
 use model::{
@@ -13,6 +16,9 @@ pub(super) fn materials_json(model: &Model) -> Vec<Value> {
 }
 
 /// A material: the factors and textures of core glTF, and its extensions.
+///
+/// `alpha_cutoff` is `null` unless the mode is `MASK`. `base_color` has four components, the last
+/// of them alpha; `emissive` has three and does not include the strength of the extension.
 fn material_json(material: &Material) -> Value {
     let (mode, cutoff) = match material.alpha_mode {
         AlphaMode::Opaque => ("OPAQUE", None),
@@ -35,6 +41,9 @@ fn material_json(material: &Material) -> Value {
 }
 
 /// A texture slot of a material.
+///
+/// `slot` is the path of the texture in the material's JSON. `transformed` says whether
+/// KHR_texture_transform changes the texture coordinates.
 fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
     json!({
         "slot": slot.json_path(),
@@ -45,6 +54,10 @@ fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
 }
 
 /// The material extensions that differ from their defaults, by name without `KHR_materials_`.
+///
+/// An extension that is present with default values has no effect and is left out: an index of
+/// refraction of 1.5, a dispersion of 0, a strength of 1. Textures of extensions are among those of
+/// the material.
 fn material_extensions_json(material: &Material) -> Value {
     let (more, strength) = (&material.extensions, material.emission.strength);
     let ior = (more.ior != 1.5).then(|| json!({"ior": shortest_number(more.ior)}));
@@ -69,6 +82,8 @@ fn material_extensions_json(material: &Material) -> Value {
 }
 
 /// The extensions that add or replace a layer of the BRDF; `None` where the material has none.
+///
+/// The thickness of iridescence is a pair, minimum and maximum, in nanometers.
 fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Value>); 7] {
     // A color or reflectance has three components, every other parameter one.
     let (one, three) = (shortest_number, |color: &[f32]| shortest_numbers(color));
@@ -109,6 +124,9 @@ fn material_layers_json(more: &MaterialExtensions) -> [(&'static str, Option<Val
 }
 
 /// All textures of the file, with their samplers.
+///
+/// `wrap` has the modes along u and v. Samplers of glTF combine minification and mipmaps in one
+/// constant, such as `LINEAR_MIPMAP_NEAREST`; they are two members here.
 pub(super) fn textures_json(model: &Model) -> Vec<Value> {
     let describe = |texture: &model::Texture| {
         let sampler = texture.sampler;
@@ -145,6 +163,8 @@ fn filter_name(filter: TextureFilter) -> &'static str {
 }
 
 /// All images of the file; `file` has the header of those that can be read.
+///
+/// `uri` is `null` for an image in a buffer. `bytes` is the size of the encoded file.
 pub(super) fn images_json(model: &Model) -> Vec<Value> {
     let describe = |file: &model::ImageInfo| {
         let header = file.header.map(|header: ImageHeader| {

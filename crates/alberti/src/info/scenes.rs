@@ -1,4 +1,8 @@
 //! Scenes, nodes, meshes, cameras and lights in `alberti info --json`.
+//!
+//! Arrays are in the order of the file, so that an index of the glTF document is an index here.
+//! Nodes refer to meshes, skins, cameras and lights by index; cameras and lights list their nodes
+//! in return, which the glTF document does not.
 
 use super::json::{bounds_json, counts_json, shortest_number, shortest_numbers, topology_name};
 use model::{
@@ -8,6 +12,8 @@ use model::{
 use serde_json::{Value, json};
 
 /// All scenes of the file, with their root nodes and bounds.
+///
+/// `bounds` is `null` for a scene that draws nothing.
 pub(super) fn scenes_json(model: &Model) -> Vec<Value> {
     let describe = |scene: &SceneRoots| {
         let bounds = bounds_json(model.scene_bounds(scene));
@@ -25,6 +31,10 @@ pub(super) fn nodes_json(model: &Model) -> Vec<Value> {
 ///
 /// `transform` is the local one, `null` for a node with a matrix; `to_model` is the matrix from the
 /// node to the model, column by column, in the current pose.
+///
+/// `rotation` is a unit quaternion `x, y, z, w`. `places` is the number of instances of
+/// EXT_mesh_gpu_instancing, `null` without the extension. `weights` are those of the node, which
+/// replace those of its mesh.
 fn node_json(node: &Node) -> Value {
     let parts = node.trs.map(|parts| {
         json!({
@@ -49,6 +59,9 @@ fn node_json(node: &Node) -> Value {
 }
 
 /// All meshes of the file; `shown` is the number of instances in the drawn scene.
+///
+/// A mesh with `shown` 0 is not part of the drawn scene, which often explains why something seems
+/// to be missing.
 pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
     let mut shown = vec![0_usize; model.meshes.len()];
     for instance in model.mesh_instances() {
@@ -71,6 +84,9 @@ pub(super) fn meshes_json(model: &Model) -> Vec<Value> {
 }
 
 /// A primitive: its topology, its counts, and which attributes it has.
+///
+/// `count` is the number of triangles, lines or points after strips, fans and loops have been
+/// converted to lists.
 fn primitive_json(primitive: &Primitive) -> Value {
     let variant = |of: &VariantMaterial| json!({"variant": of.variant, "material": of.material});
     json!({
@@ -90,6 +106,9 @@ fn primitive_json(primitive: &Primitive) -> Value {
 }
 
 /// The edges that the file declares visible (EXT_mesh_primitive_edge_visibility).
+///
+/// `hard` and `silhouette` count edges of triangles, so an edge shared by two triangles may count
+/// twice. `lines` counts segments of explicit line strings.
 fn edges_json(edges: &PrimitiveEdges) -> Value {
     let of_triangles = edges.visibility.iter().flat_map(|all| all.as_flattened());
     let count = |wanted: EdgeVisibility| of_triangles.clone().filter(|v| **v == wanted).count();
@@ -102,6 +121,9 @@ fn edges_json(edges: &PrimitiveEdges) -> Value {
 }
 
 /// All cameras of the file, with the nodes that carry them.
+///
+/// `fov_y` is in radians, `width` and `height` are the whole extent, twice the `xmag` and `ymag` of
+/// glTF. `aspect` is `null` if the camera adapts to the picture, `far` if it is infinite.
 pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let mut value = match lens.projection {
@@ -128,6 +150,9 @@ pub(super) fn cameras_json(model: &Model) -> Vec<Value> {
 }
 
 /// All punctual lights of the file, with the nodes that carry them.
+///
+/// `range` is present for point and spot lights, the cone angles, in radians from the axis, for
+/// spot lights only.
 pub(super) fn lights_json(model: &Model) -> Vec<Value> {
     let describe = |(number, light): (usize, &model::PunctualLight)| {
         let unit = if light.kind == LightKind::Directional { "lux" } else { "candela" };
@@ -153,6 +178,8 @@ pub(super) fn lights_json(model: &Model) -> Vec<Value> {
 }
 
 /// The indices of the nodes that satisfy a predicate.
+///
+/// A list, because several nodes may share one camera or light.
 fn nodes_where(model: &Model, carries: impl Fn(&Node) -> bool) -> Value {
     let nodes = model.nodes.iter().enumerate().filter(|(_, node)| carries(node));
     nodes.map(|(at, _)| Value::from(at)).collect()

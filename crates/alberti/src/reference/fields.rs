@@ -1,4 +1,7 @@
 //! Sections of the reference for the types of scene files.
+//!
+//! The scene language declares its types with their doc comments in a schema; nothing is repeated
+//! here.
 
 use super::{ReferenceEntry, ReferenceSection};
 use pipeline::scene::reference::{FieldEntry, Shape, TypeEntry, VariantEntry, all_types};
@@ -19,6 +22,8 @@ fn type_section(entry: &TypeEntry) -> ReferenceSection {
 }
 
 /// The entry of one field.
+///
+/// Optional fields need no note, because nearly all are.
 fn field_entry(field: &FieldEntry) -> ReferenceEntry {
     ReferenceEntry {
         term: field.name.to_owned(),
@@ -30,6 +35,8 @@ fn field_entry(field: &FieldEntry) -> ReferenceEntry {
 }
 
 /// The entry of a variant, written as in a scene: `Word`, `Word(value)` or `Word(field: …)`.
+///
+/// The fields of a variant are inner entries, so that a search can find them by name.
 fn variant_entry(variant: &VariantEntry) -> ReferenceEntry {
     let brackets = match variant.value_type {
         Some(value_type) => format!("({})", value_type().words()),

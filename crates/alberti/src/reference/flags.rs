@@ -4,6 +4,9 @@ use super::{ReferenceEntry, ReferenceSection};
 use clap::{Arg, Command};
 
 /// A section for each command, in the order of the help.
+///
+/// The program must be built first: clap adds global flags and the names of subcommands (`alberti
+/// scene init`) only then.
 pub(super) fn command_sections(program: Command) -> Vec<ReferenceSection> {
     let mut program = program.disable_help_subcommand(true);
     program.build();
@@ -28,6 +31,9 @@ fn collect_sections(command: &Command, sections: &mut Vec<ReferenceSection>) {
 
 /// The entry of a flag or a positional argument, as clap parses it: names, value, default and
 /// possible values.
+///
+/// Positional arguments have no flag and are listed by the name of their value. A switch has
+/// neither value nor default, although clap stores `true` and `false` for it.
 fn argument_entry(arg: &Arg) -> ReferenceEntry {
     let takes_value = arg.get_action().takes_values();
     let names = arg.get_value_names().filter(|_| takes_value).unwrap_or_default();

@@ -19,6 +19,11 @@ pub(super) fn format_markdown(title: &str, sections: &[ReferenceSection]) -> Str
 }
 
 /// Appends an entry as a list item, then the entries inside.
+///
+/// ```text
+/// - `--size` `<WxH>` — Width and height of the picture in pixels, such as 1920x1080
+/// ```
+/// Paragraphs are joined, because an empty line would end the list item.
 fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
     let value = match (entry.value.is_empty(), entry.term.starts_with('-')) {
         (true, _) => String::new(),
@@ -33,6 +38,9 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, depth: usize) {
 }
 
 /// Escapes angle brackets, stars and underscores outside of code spans.
+///
+/// An angle bracket would start an HTML tag, and `W_H` could become italic. Code spans need no
+/// escapes.
 fn escape_markdown(text: &str) -> String {
     let parts = text.split('`').enumerate().map(|(number, part)| match number % 2 {
         0 => part.replace('<', "&lt;").replace('*', "\\*").replace('_', "\\_"),

@@ -5,6 +5,9 @@ use super::{ReferenceEntry, ReferenceSection};
 /// Finds the section with the title `word`, the end of a path of fields with its types, or all
 /// entries of that name.
 ///
+/// Titles come first, because they are the most specific: `render` is the command, not every entry
+/// of that name. Types are found in any case, commands with or without `alberti`.
+///
 /// # Errors
 /// If nothing has that name; the message suggests the most similar one.
 pub(super) fn find_sections(
@@ -44,6 +47,9 @@ fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSecti
 }
 
 /// An entry of this name, or an entry reduced to inner entries of this name.
+///
+/// An entry that matches itself keeps all of its inner entries; one that only contains a match
+/// keeps the matches.
 fn prune_entry(entry: &ReferenceEntry, word: &str) -> Option<ReferenceEntry> {
     if is_named(entry, word) {
         return Some(entry.clone());
@@ -67,6 +73,10 @@ fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
 ///
 /// Variants on the path may be named or left out. The types of the values at the end are appended,
 /// so that `camera.view` describes `View` as well.
+///
+/// Each step looks for its name in the current scopes, beginning with `Scene`; the next scopes are
+/// the types of the values that were found and the fields inside of them. A step without a match
+/// ends with nothing found.
 fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceSection> {
     let is_scene = |section: &&ReferenceSection| section.title == "Scene";
     let mut scopes: Vec<ReferenceSection> = sections.iter().filter(is_scene).cloned().collect();
@@ -86,6 +96,8 @@ fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceS
 }
 
 /// The scope below the entries of this name: their own fields, and the types of their values.
+///
+/// Types are found by their names in the text of the value, so `list of Model` opens `Model`.
 fn open_entries(
     sections: &[ReferenceSection],
     part: &ReferenceSection,
@@ -106,6 +118,9 @@ fn open_entries(
 }
 
 /// The message for a word that nothing matches, with the most similar name as a hint.
+///
+/// Similarity is that of Jaro and Winkler, which favors a common beginning; below 0.8 a suggestion
+/// would mislead. Of a path only the last step is compared.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     fn collect_names<'a>(entry: &'a ReferenceEntry, found: &mut Vec<&'a str>) {
         found.extend(entry_names(entry));

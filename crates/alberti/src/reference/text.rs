@@ -1,4 +1,10 @@
 //! The reference as plain text for a terminal.
+//!
+//! ```text
+//! alberti render
+//!   --size <WxH>
+//!       Width and height of the picture in pixels, such as 1920x1080
+//! ```
 
 use super::{ReferenceEntry, ReferenceSection};
 
@@ -37,6 +43,9 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
 }
 
 /// Appends paragraphs, wrapped at [`LINE_WIDTH`] and indented.
+///
+/// The width includes the indentation. A word longer than a line is not broken. Widths are counted
+/// in characters, which is exact for the text of the reference.
 fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
     for line in text.lines().filter(|line| !line.is_empty()) {
         let mut column = 0;

@@ -13,11 +13,18 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The text and number fields of an output name template.
+///
+/// All but `stem` have the value of a flag, or `default` without it. They differ between calls
+/// rather than between pictures, except `view` with `--views`.
 const WORD_FIELDS: [&str; 6] = ["stem", "camera", "view", "style", "projection", "variant"];
 /// The number fields of an output name template.
+///
+/// `frame` starts again for each input, `index` does not.
 const NUMBER_FIELDS: [&str; 2] = ["frame", "index"];
 
 /// One picture to render.
+///
+/// It owns its overrides, because `--views` makes one task of each view, with the flags of all.
 #[derive(Debug)]
 pub(crate) struct RenderTask {
     /// The scene or the model; `-` for the standard input.
@@ -80,6 +87,9 @@ fn overrides_per_view(args: &RenderArgs) -> Vec<SceneOverrideArgs> {
 }
 
 /// The template of the output name: that of `--output`, or the default.
+///
+/// The default names the view only if there are several, so that `--view front` and `--views front`
+/// write the same file.
 fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
     let ending = args.format.unwrap_or(OutputFormat::Png).extension();
     let usual = if args.views.len() > 1 {
@@ -95,6 +105,9 @@ fn output_template(args: &RenderArgs) -> Result<NameTemplate, CliError> {
 /// The value of a text field of the template; `default` where no flag sets it.
 ///
 /// The value of a flag is its name as written on the command line.
+///
+/// Names of cameras and variants come from models and may hold any character; the template replaces
+/// those that are no part of a file name.
 fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
     let choice = |choice: &Option<pipeline::scene::file::Choice>| {
         choice.as_ref().map(|choice| match choice {
@@ -119,6 +132,9 @@ fn template_word(name: &str, input: &Path, look: &SceneOverrideArgs) -> String {
 }
 
 /// Checks that no two pictures have the same file name.
+///
+/// Paths are compared as they are written: `a.png` and `./a.png` count as two. A scene and a model
+/// of one stem are a typical cause.
 fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     let mut taken: BTreeMap<&Path, &RenderTask> = BTreeMap::new();
     for job in jobs {

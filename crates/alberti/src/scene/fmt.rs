@@ -18,6 +18,12 @@ pub(crate) struct FmtArgs {
 }
 
 /// Formats the files, or with `--check` lists those that are not formatted.
+///
+/// A file that is formatted already is not written, so its time of modification stays. Files before
+/// one with a syntax error have been formatted when the command fails.
+///
+/// # Errors
+/// If a file cannot be read, parsed or written.
 pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     let mut differ = Vec::new();
     for path in &args.files {
@@ -43,6 +49,9 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
 }
 
 /// Reads a file, or the standard input for `-`.
+///
+/// # Errors
+/// If it cannot be read or is not UTF-8.
 fn read_source(path: &Path) -> Result<String, CliError> {
     let mut text = String::new();
     let read = if path.as_os_str() == "-" {

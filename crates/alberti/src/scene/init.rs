@@ -1,4 +1,16 @@
 //! `alberti scene init`: creates a commented scene file for a model.
+//!
+//! The file is a starting point to be edited: it has the default view and light as explicit fields,
+//! and everything else that the model offers as comments.
+//!
+//! ```text
+//! // fox.glb: 576 triangles, 0.256 wide, 0.788 high, 1.545 deep.
+//! Scene(
+//!     models: [Model(path: "fox.glb", …)],
+//!     camera: Camera(view: Frame(from: ThreeQuarter, padding_percent: 5), …),
+//!     …
+//! )
+//! ```
 
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_stdout};
@@ -24,6 +36,13 @@ pub(crate) struct InitArgs {
 }
 
 /// Writes the scene file, and warns if it cannot be read without further permission.
+///
+/// The model is loaded to learn its size, cameras and lights. The text is built without indentation
+/// and formatted like by `scene fmt`, which also proves that it can be parsed.
+///
+/// # Errors
+/// If the output exists and `--force` is not given, the model cannot be loaded, or the file cannot
+/// be written.
 pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";
@@ -62,6 +81,9 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
 ///
 /// Both paths are made canonical first, so that symbolic links and `..` in the current folder do
 /// not matter.
+///
+/// A path that cannot be made canonical, such as in a folder that does not exist yet, is written as
+/// it was given.
 fn relative_path(folder: &Path, file: &Path) -> String {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (Ok(from), Ok(to)) = (here.canonicalize(), file.canonicalize()) else {
@@ -78,6 +100,8 @@ fn relative_path(folder: &Path, file: &Path) -> String {
 ///
 /// Every comment that shows a field is valid RON, so that removing the slashes is enough to try it.
 /// Writing to a `String` cannot fail.
+///
+/// Strings are written with `{:?}`, whose escapes are valid in RON.
 fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
     let placed = &scene.models[0];
     let model = &placed.model;
@@ -105,6 +129,8 @@ fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
 }
 
 /// The comment at the top: the size of the model, and commands to go on with.
+///
+/// The commands can be copied as they are if the path has no spaces.
 fn header_comment(model: &Model, path: &str, output: &str) -> String {
     let triangles =
         model.scene_primitives().filter(|(_, part)| part.topology == Topology::Triangles);
@@ -122,6 +148,9 @@ fn header_comment(model: &Model, path: &str, output: &str) -> String {
 }
 
 /// Writes comments for the scenes, variants and animations that the model offers.
+///
+/// Things without a name are chosen by index. Nothing is written for a model with one scene and
+/// neither variants nor animations.
 fn write_model_states(text: &mut String, model: &Model) {
     let names = |all: Vec<Option<&str>>, field: &str, text: &mut String| {
         for (number, name) in all.into_iter().enumerate() {
@@ -149,6 +178,9 @@ fn write_model_states(text: &mut String, model: &Model) {
 ///
 /// The target of the `LookAt` is the point on the view axis that is nearest to the center of the
 /// model.
+///
+/// Numbers have four decimals, enough to edit and short enough to read; the active view stays
+/// exact, because it has no numbers.
 fn write_views(text: &mut String, scene: &Scene) {
     let model = &scene.models[0].model;
     let camera = scene.view_projection.camera;
@@ -177,6 +209,9 @@ fn write_views(text: &mut String, scene: &Scene) {
 }
 
 /// Replaces control characters, so that a name cannot end the line of a comment.
+///
+/// Names come from files: a line break in one would otherwise turn the rest of it into fields of
+/// the scene.
 fn single_line(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

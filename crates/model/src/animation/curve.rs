@@ -52,6 +52,9 @@ impl AnimationCurve {
     ///
     /// A rotation is a quaternion of any length but 0, or 0 halfway between two opposite ones,
     /// which have no shorter arc.
+    ///
+    /// The keyframe is found by binary search, in O(log n). A time at or after the last keyframe
+    /// gives the last value.
     #[must_use]
     pub fn sample(&self, seconds: f64) -> Vec<f64> {
         let after = self.times.partition_point(|&time| f64::from(time) <= seconds);
@@ -95,12 +98,17 @@ impl AnimationCurve {
 }
 
 /// Sum of the rows, each times its weight; as many components as the shortest row has.
+///
+/// Terms are added in order, so that the rounding is the same on all machines.
 fn weighted_sum(rows: &[(f64, Vec<f64>)]) -> Vec<f64> {
     let width = rows.iter().map(|(_, row)| row.len()).min().unwrap_or(0);
     (0..width).map(|at| rows.iter().map(|(weight, row)| weight * row[at]).sum()).collect()
 }
 
 /// Spherical linear interpolation along the shorter arc (Shoemake 1985), at `t` in [0, 1].
+///
+/// Both quaternions are normalized first, as files round them. With a negative dot product the
+/// second is negated, which is the same rotation by the shorter arc.
 fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let unit = |q: &[f64]| {
         let length = libm::sqrt(q.iter().map(|x| x * x).sum());
@@ -111,8 +119,8 @@ fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
     let angle = libm::acos(cosine.abs().min(1.0));
     let sine = libm::sin(angle);
-    // Where both are nearly the same the straight way is as good, and there is no division by
-    // nearly nothing.
+    // Nearly equal rotations: linear interpolation is as accurate, and avoids a division by nearly
+    // zero.
     let (first, second) = if sine < 1e-6 {
         (1.0 - t, t)
     } else {

@@ -42,6 +42,7 @@ pub(crate) struct PropertyRow<T> {
     pub(crate) numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
 }
 
+/// A row of a property table; the order of the arguments is that of the figure above.
 const fn property_row<T>(
     path: &'static str,
     width: usize,
@@ -51,14 +52,18 @@ const fn property_row<T>(
     PropertyRow { path, component_count: width, bounds, numbers_mut: numbers }
 }
 
+/// Bounds of factors and colors: [0, 1].
 const UNIT_RANGE: [f32; 2] = [0.0, 1.0];
+/// Bounds of intensities, thicknesses and the like: at least 0, finite.
 const NON_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
+/// Any finite number: scales and angles.
 const UNBOUNDED: [f32; 2] = [f32::MIN, f32::MAX];
 /// A larger strength is a mistake, and products with it would overflow.
 const EMISSIVE_STRENGTH_RANGE: [f32; 2] = [0.0, 1e6];
 /// Zero itself is excluded: the smallest normal number stands for it.
 const STRICTLY_POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
 
+/// Access to a property of one component, as a slice of length 1.
 fn single_number(number: &mut f32) -> Option<&mut [f32]> {
     Some(std::slice::from_mut(number))
 }
@@ -186,6 +191,9 @@ impl ObjectProperty {
 ///
 /// `None` where the object lacks the property; values that are not finite or of another length
 /// change nothing.
+///
+/// Clamping keeps materials valid whatever an animation contains; a cubic spline overshoots its
+/// keyframes even in a valid file.
 fn set_clamped<T>(
     table: &[PropertyRow<T>],
     row_index: usize,
@@ -231,6 +239,9 @@ impl PunctualLight {
     }
 
     /// Restores the invariant inner < outer of a spot light's cone angles.
+    ///
+    /// Shading divides by the difference of their cosines. Both corrections are far below the
+    /// resolution of a picture.
     pub(crate) fn order_cone_angles(&mut self) {
         if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
             &mut self.kind
@@ -243,6 +254,9 @@ impl PunctualLight {
 
 impl CameraProjection {
     /// Sets a number, unless the projection would become invalid.
+    ///
+    /// The change is made on a copy and validated as a whole, because validity depends on two
+    /// numbers: near must remain less than far.
     pub(crate) fn set_property(&mut self, row_index: usize, value: f64) {
         let mut changed = *self;
         match (&mut changed, row_index) {

@@ -36,6 +36,9 @@ impl Model {
     }
 
     /// Sets the target of a channel to a value.
+    ///
+    /// Indices out of range are ignored, as models can also be composed by programs. A weight of a
+    /// node that has none starts from the weights of its mesh.
     fn apply_channel(&mut self, target: AnimationTarget, value: &[f64]) {
         match target {
             AnimationTarget::Node { node, property } => {
@@ -105,6 +108,9 @@ impl Model {
     ///
     /// A local transform that is invalid or would overflow falls back to the previous one, then to
     /// the identity.
+    ///
+    /// The time is linear in the number of nodes; the traversal has its own stack, so that the
+    /// depth of the hierarchy does not matter.
     fn update_node_transforms(&mut self) {
         let mut stack: Vec<usize> =
             (0..self.nodes.len()).filter(|&index| self.nodes[index].parent.is_none()).collect();
@@ -124,6 +130,8 @@ impl Model {
 }
 
 /// Sets one weight, or all of them.
+///
+/// The list grows with zeros if the target is beyond its end.
 fn set_morph_weights(weights: &mut Vec<f32>, target: Option<usize>, value: &[f64]) {
     match (target, value) {
         (None, all) => *weights = all.iter().map(|&weight| weight as f32).collect(),

@@ -10,6 +10,9 @@ use serde_json::Value;
 /// Validates the layout of all accessors.
 ///
 /// Only the declarations are compared here; the elements are read by [`data`](super::data).
+///
+/// `min` and `max` are checked even where the layout is incomplete, because they depend on the
+/// element type alone.
 pub(super) fn check_accessors(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -26,6 +29,8 @@ pub(super) fn check_accessors(
 }
 
 /// The validation of one accessor.
+///
+/// It borrows the whole context of the validation, and lives as long as one iteration of the loop.
 struct AccessorChecker<'a> {
     document: &'a CheckedDocument<'a>,
     store: &'a BufferStore<'a>,
@@ -35,6 +40,9 @@ struct AccessorChecker<'a> {
 }
 
 /// A range of bytes in a buffer view that holds components of `size` bytes.
+///
+/// For an accessor it reaches from the first byte of the first element to the last byte of the last
+/// one; the padding after the last element is not part of it.
 struct ByteRange {
     /// Where the range starts, in bytes from the start of the buffer view.
     offset: u64,
@@ -45,10 +53,11 @@ struct ByteRange {
 }
 
 impl AccessorChecker<'_> {
-    /// Normalization, alignment, stride and extent of the accessor, and its sparse part.
+    /// Validates normalization, alignment, stride and extent of the accessor, and its sparse part.
     ///
     /// Only 8-bit and 16-bit integers can be normalized; matrices are aligned to four bytes; a
-    /// stride is at least the size of an element.
+    /// stride is at least the size of an element (glTF 2.0 §3.6.2.4). Graphics APIs require the
+    /// alignment to read a component in one access.
     fn check_layout(&self, accessor: &Value, layout: AccessorLayout) {
         let diagnostics = self.document.diagnostics;
         let pointer = &self.pointer;
@@ -92,7 +101,7 @@ impl AccessorChecker<'_> {
         }
     }
 
-    /// `min` and `max` have one number for each component.
+    /// Validates that `min` and `max` have one number for each component.
     fn check_bounds(&self, accessor: &Value) {
         let shape = AccessorLayout::from_accessor(accessor)
             .map(|layout| layout.element_type.component_count());
@@ -108,7 +117,7 @@ impl AccessorChecker<'_> {
         }
     }
 
-    /// A sparse accessor: its count, and the layout of its indices and values.
+    /// Validates a sparse accessor: its count, and the layout of its indices and values.
     ///
     /// The values have the component type of the accessor and are tightly packed; so are the
     /// indices, in a component type of their own (glTF 2.0 §3.6.2.3).
@@ -144,8 +153,8 @@ impl AccessorChecker<'_> {
         self.check_sparse_indices(sparse, layout, &pointer);
     }
 
-    /// The indices or values of a sparse accessor: `count` elements of `length` bytes with
-    /// components of `size` bytes.
+    /// Validates the indices or values of a sparse accessor: `count` elements of `length` bytes
+    /// with components of `size` bytes.
     ///
     /// Both are tightly packed: their buffer view must not have a `byteStride`.
     fn check_sparse_part(
@@ -168,10 +177,11 @@ impl AccessorChecker<'_> {
         self.check_byte_range(view, &ByteRange { offset, length, size }, pointer);
     }
 
-    /// A range of bytes must be aligned to its component size and be inside its buffer view.
+    /// Validates that a range of bytes is aligned to its component size and inside its buffer view.
     ///
     /// Alignment is required of the offset in the view and of the offset in the buffer, and
-    /// reported by different codes (glTF 2.0 §3.6.2.4).
+    /// reported by different codes (glTF 2.0 §3.6.2.4). The sums saturate: offsets near the largest
+    /// integer must not wrap around to a small one that looks valid.
     fn check_byte_range(&self, view: usize, stretch: &ByteRange, pointer: &str) {
         let diagnostics = self.document.diagnostics;
         let Some(json) = self.document.root_array("bufferViews").get(view) else { return };
@@ -196,7 +206,8 @@ impl AccessorChecker<'_> {
         }
     }
 
-    /// The sparse indices are strictly increasing and less than the accessor's count.
+    /// Validates that the sparse indices are strictly increasing and less than the accessor's
+    /// count.
     ///
     /// They are the only data that is read here, because the elements cannot be read without them.
     fn check_sparse_indices(&self, sparse: &Value, layout: AccessorLayout, pointer: &str) {

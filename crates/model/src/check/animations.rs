@@ -1,4 +1,10 @@
 //! Animations: samplers, channels and their targets (glTF 2.0 §3.11).
+//!
+//! ```text
+//!  channel ──sampler──► sampler ──input───► times, one for each keyframe
+//!     │                    └──────output──► values: 1 a key; CUBICSPLINE 3; weights × targets
+//!     └──target──► node and path, or a JSON pointer (KHR_animation_pointer)
+//! ```
 
 use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
@@ -15,6 +21,9 @@ use std::fmt::Display;
 /// Validates all animations, and records rules for the elements of their accessors.
 ///
 /// Samplers come first, because channels refer to them; samplers that no channel uses get a note.
+///
+/// The number of morph targets of a mesh, which determines the count of weights, is taken from its
+/// first primitive: all others must agree with it.
 pub(super) fn check_animations(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -81,6 +90,9 @@ impl<'a> AnimationChecker<'a, '_> {
     }
 
     /// The accessors of a sampler: their uses and strides, and its keyframe times.
+    ///
+    /// Keyframes are read one after the other: a `byteStride`, which exists for interleaved vertex
+    /// attributes, is not allowed on their buffer views.
     fn check_sampler(&mut self, number: usize, sampler: &Value) {
         for (key, role) in [("input", AccessorUse::Input), ("output", AccessorUse::Output)] {
             let Some(at) = index_member(sampler, key) else { continue };
@@ -101,6 +113,10 @@ impl<'a> AnimationChecker<'a, '_> {
     }
 
     /// Keyframe times: bounded, non-normalized float scalars, at least two for a cubic spline.
+    ///
+    /// `min` and `max` are required here, because players take the duration of an animation from
+    /// them without reading the data. A cubic spline with one keyframe has no segment to
+    /// interpolate.
     fn check_input(&mut self, at: usize, sampler: &Value, member: &str, pointer: &str) {
         let Some(accessor) = self.accessor_json(Some(at)) else { return };
         if accessor.get("min").is_none() || accessor.get("max").is_none() {
@@ -125,6 +141,10 @@ impl<'a> AnimationChecker<'a, '_> {
     /// A channel: its target is animated once and can be animated, and its sampler exists.
     ///
     /// `known` has the targets of the channels before it, as pairs of node and path.
+    ///
+    /// Two channels for one property would race: the result would depend on the order of
+    /// evaluation. The check of the values needs the path, and is skipped for pointers, whose type
+    /// the loader resolves.
     fn check_channel(
         &mut self,
         number: usize,
@@ -172,6 +192,9 @@ impl<'a> AnimationChecker<'a, '_> {
 
     /// A target by JSON pointer (KHR_animation_pointer): the path is `pointer`, and there is no
     /// node.
+    ///
+    /// The extension reuses the members of the target, and fixes both of them for old readers,
+    /// which then ignore the channel.
     fn check_pointer_target(&self, target: &Value, path: &str, member: &str) {
         if path != "pointer" {
             let message = format_args!(
@@ -209,6 +232,9 @@ impl<'a> AnimationChecker<'a, '_> {
     ///
     /// There is one value per keyframe; for morph weights one per target; and three of each for a
     /// cubic spline, with its in- and out-tangents (glTF 2.0 §3.11).
+    ///
+    /// Quaternions additionally get a rule about their length, tested on the data. With a wrong
+    /// count the loader cannot assign values to keyframes, and leaves out the channel.
     fn check_output(&mut self, sampler: &Value, path: &str, targets: u64, member: &str) {
         let at = index_member(sampler, "output");
         let Some(layout) = self.accessor_json(at).and_then(AccessorLayout::from_accessor) else {

@@ -17,7 +17,7 @@ pub(super) struct DiagnosticCode {
     pub(super) remedy: &'static str,
 }
 
-/// Declares a constant for each code: severity, then help, then the names that share both.
+/// Declares a constant for each code: severity, then help, then the names that have both in common.
 macro_rules! codes {
     ($($severity:ident { $($remedy:literal => $($name:ident)*;)* })*) => {$($($(
         pub(super) const $name: DiagnosticCode =

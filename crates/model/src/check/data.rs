@@ -2,6 +2,17 @@
 //!
 //! Each accessor is read once, whatever the number of its users. One diagnostic covers all elements
 //! that violate one rule: their number, and the first of them.
+//!
+//! Rules are collected first and tested last: the checks of meshes, skins and animations know which
+//! rules apply to an accessor, and this pass knows its elements.
+//!
+//! ```text
+//!  meshes, skins, animations ──add──► ElementRules ──► AccessorScan ──► one diagnostic a rule
+//!                                    by accessor      one pass over the elements
+//! ```
+//!
+//! The time is the number of components times the number of rules, of which there are at most
+//! [`MAX_RULES`] for an accessor.
 
 use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, array_items};
@@ -13,41 +24,58 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 /// A rule for the elements of an accessor, from the member that uses it.
+///
+/// Rules are compared for equality to test each of them once, however many primitives share an
+/// accessor. Values that are not finite are left to the check of the bounds, which reports them.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ElementRule {
-    /// Unit vectors; a fourth component, the handedness of a tangent, is −1 or 1.
+    /// Unit vectors, tested after dequantization; a fourth component, the handedness of a tangent,
+    /// is −1 or 1.
     Unit,
-    /// Values in [0, 1].
+    /// Values in [0, 1], such as vertex colors.
     Clamped,
-    /// Indices less than the number of vertices; `triangles` if every three are a triangle.
+    /// Indices less than the number of vertices; with `triangles`, every three of them are a
+    /// triangle.
+    ///
+    /// The largest value of the component type is the primitive restart value of graphics APIs,
+    /// which glTF forbids (§3.7.2.1).
     Indices { vertices: u64, triangles: bool },
-    /// Keyframe times: not negative, strictly increasing.
+    /// Keyframe times in seconds: not negative, strictly increasing.
     Times,
     /// Unit quaternions; of cubic splines only the value between the two tangents.
     Quaternions { spline: bool },
-    /// Affine matrices: the last row is 0, 0, 0, 1.
+    /// Affine matrices, stored column by column: the components 3, 7, 11 and 15, that is the last
+    /// row, are 0, 0, 0, 1.
     Matrices,
 }
 
 /// The rules for the elements of all accessors, each with the pointer of the member it comes from.
 #[derive(Default, Debug)]
 pub(super) struct ElementRules {
-    /// The rules of each accessor; a rule from several members is kept once, with the first
+    /// The rules of each accessor; a rule from several members is stored once, with the first
     /// pointer.
     by_accessor: BTreeMap<usize, Vec<(ElementRule, String)>>,
 }
 
 /// The maximum number of rules for one accessor: each costs a comparison per element.
+///
+/// An accessor has one or two rules in sensible files. Without a maximum, a small file in which
+/// thousands of primitives index one accessor, each with its own number of vertices, would take
+/// time in the square of its size.
 const MAX_RULES: usize = 16;
 
 /// The tolerance for the length of unit vectors, slightly more than the rounding of signed bytes.
 /// This and the next are the Khronos validator's values.
 const UNIT_VECTOR_TOLERANCE: f64 = 0.00674;
 /// The tolerance for the length of unit quaternions.
+///
+/// It is larger than that of vectors, because a fourth quantized component adds to the error.
 const UNIT_QUATERNION_TOLERANCE: f64 = 0.00769;
 
 impl ElementRules {
     /// Adds a rule for the elements of an accessor, unless it is known or there are too many.
+    ///
+    /// `pointer` is the member that the rule comes from, where its violations will be reported.
     pub(super) fn add(&mut self, accessor: usize, demand: ElementRule, pointer: &str) {
         let list = self.by_accessor.entry(accessor).or_default();
         if list.len() < MAX_RULES && list.iter().all(|(known, _)| *known != demand) {
@@ -56,10 +84,10 @@ impl ElementRules {
     }
 }
 
-/// Reads the elements of all accessors that have data.
+/// Reads the elements of all accessors that have data, and reports their violations.
 ///
 /// The work is charged to the memory budget, so that a small file that declares many elements
-/// cannot take long.
+/// cannot take long: an accessor without data costs no bytes, and overlapping accessors reuse them.
 pub(super) fn check_data(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -80,6 +108,8 @@ pub(super) fn check_data(
 }
 
 /// The number of violations of one rule, and the element and value of the first.
+///
+/// One diagnostic with a count replaces a diagnostic for each of possibly millions of elements.
 #[derive(Clone, Default, Debug)]
 struct Tally {
     /// The number of violations.
@@ -113,6 +143,9 @@ struct AccessorScan<'a> {
 }
 
 /// A rule with its violations, and the state it carries from one element to the next.
+///
+/// `last` and `triangle` have a meaning only for some rules; separate states for each rule would be
+/// a second enum with the same variants.
 struct RuleScan<'a> {
     rule: ElementRule,
     /// The pointer of the member that the rule comes from, where violations are reported.
@@ -126,8 +159,11 @@ struct RuleScan<'a> {
 }
 
 /// The actual minimum and maximum of each component, and how often the declared ones are exceeded.
+///
+/// Bounds are compared before dequantization: `min` and `max` of normalized integers are the stored
+/// integers (glTF 2.0 §3.6.2.5).
 struct BoundsScan {
-    /// `min` and `max` as declared, `None` for values that are no numbers.
+    /// `min` and `max` as declared, `None` for values other than numbers.
     declared: [Vec<Option<f64>>; 2],
     /// The minimum and maximum of each component; an element has at most 16.
     actual: [[f64; 16]; 2],
@@ -156,6 +192,9 @@ impl<'a> AccessorScan<'a> {
     }
 
     /// Visits every element once, then reports the violations.
+    ///
+    /// The bounds and all rules are tested in one traversal, because decoding an element costs more
+    /// than testing it.
     fn scan_elements(mut self, accessor: &Value) {
         let mut extremes = BoundsScan::new(accessor, self.elements.layout);
         let (elements, watches) = (self.elements, &mut self.scans);
@@ -174,6 +213,9 @@ impl<'a> AccessorScan<'a> {
 
 impl BoundsScan {
     /// Reads the declared bounds of an accessor.
+    ///
+    /// A bound that is not a number has been reported by the schema walk; its component is not
+    /// compared.
     fn new(accessor: &Value, layout: AccessorLayout) -> Self {
         // A JSON number may have more digits than a float: the nearest float is compared.
         let bound = |value: &Value| {
@@ -190,7 +232,10 @@ impl BoundsScan {
         Self { declared, actual, outside: [[0; 16]; 2], non_finite: Tally::default() }
     }
 
-    /// Updates the bounds with the components of one element.
+    /// Updates the actual bounds with the components of one element, and counts those outside.
+    ///
+    /// NaN and infinities are tallied and skipped: they would make every later comparison
+    /// meaningless.
     fn visit_element(&mut self, at: u64, numbers: &[f64]) {
         for (component, &number) in numbers.iter().enumerate() {
             if !number.is_finite() {
@@ -248,6 +293,9 @@ impl BoundsScan {
 
 impl RuleScan<'_> {
     /// Tests one element against the rule.
+    ///
+    /// `numbers` are the stored components; `elements` dequantizes them where the rule is about the
+    /// value that a renderer sees. Each violation goes to the tally of its code.
     fn visit_element(&mut self, elements: &AccessorElements<'_>, at: u64, numbers: &[f64]) {
         let length = |numbers: &[f64]| {
             let squares = numbers.iter().map(|&x| elements.dequantize(x)).map(|x| x * x);
@@ -308,6 +356,9 @@ impl RuleScan<'_> {
     }
 
     /// Reports the violations of the rule in an accessor of `total` elements.
+    ///
+    /// Messages have the form "… (3 of 24; the first is 1.5 in element 7)", which leads to the
+    /// defect without a list of all of them.
     fn report_violations(&self, document: &CheckedDocument<'_>, total: u64) {
         let say = |code: &DiagnosticCode, tally: &Tally, what: &dyn Display| {
             let Tally { count, first, value } = tally;

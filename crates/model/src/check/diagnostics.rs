@@ -7,6 +7,9 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 
 /// The number of diagnostics of each severity that are listed; further ones are only counted.
+///
+/// A report with more is not read by anyone, but would cost memory and time in every consumer of
+/// it.
 const MAX_PER_SEVERITY: usize = 400;
 /// The maximum length of a message or pointer in bytes: names in a file may have megabytes.
 const MAX_TEXT_LENGTH: usize = 500;
@@ -21,6 +24,9 @@ pub(super) struct Diagnostics {
 }
 
 /// The diagnostics of one severity.
+///
+/// Duplicates are recognized by code and pointer: two messages of one code at one location say the
+/// same.
 #[derive(Default, Debug)]
 struct SeverityList {
     /// The diagnostics that are listed, in the order in which they were added.

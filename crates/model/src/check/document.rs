@@ -60,7 +60,7 @@ impl<'a> CheckedDocument<'a> {
     }
 }
 
-/// The items of an array member; empty if there is none.
+/// The items of an array member; empty if it is absent or not an array.
 pub(super) fn array_items<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }

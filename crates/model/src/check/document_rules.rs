@@ -1,4 +1,7 @@
 //! Rules of the document as a whole: version, extension lists, variants, cameras, unused objects.
+//!
+//! These rules relate several objects, or several members of one object, which the tables of the
+//! schema cannot express.
 
 use super::codes;
 use super::document::{
@@ -13,6 +16,8 @@ use std::collections::BTreeSet;
 ///
 /// Another major version stops the validation, because its schema is unknown; a later minor version
 /// is only a warning, because minor versions are compatible (glTF 2.0 §3.2).
+///
+/// Versions are compared as pairs of integers, since 2.10 is later than 2.9.
 pub(super) fn check_asset(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     let Some(asset) = document.root.get("asset") else { return };
@@ -71,6 +76,9 @@ fn is_known(extension: &str) -> bool {
 /// Validates KHR_materials_variants.
 ///
 /// The root must declare the variants, and each of them maps a primitive to at most one material.
+///
+/// A variant that two mappings of one primitive list would have two materials, and viewers would
+/// differ in the one they use.
 pub(super) fn check_variants(document: &CheckedDocument<'_>) {
     const NAME: &str = "KHR_materials_variants";
     let diagnostics = document.diagnostics;
@@ -108,6 +116,8 @@ pub(super) fn check_variants(document: &CheckedDocument<'_>) {
 ///
 /// `zfar` is greater than `znear`, magnifications are not zero, and the field of view is less than
 /// a half turn: other values make no projection.
+///
+/// The object that `type` names must be present. Angles are in radians.
 pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
     let diagnostics = document.diagnostics;
     for (at, camera) in document.root_array("cameras").iter().enumerate() {
@@ -158,6 +168,8 @@ pub(super) fn check_cameras(document: &CheckedDocument<'_>) {
 ///
 /// Skipped with unsupported extensions, which may refer to anything. Nodes and scenes are never
 /// reported: a viewer may select them.
+///
+/// Unused objects are valid, but cost download time; they are notes.
 pub(super) fn check_unused(document: &CheckedDocument<'_>) {
     let names = array_items(document.root, "extensionsUsed").iter().filter_map(Value::as_str);
     if names.into_iter().any(|name| !is_known(name)) {

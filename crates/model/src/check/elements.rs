@@ -1,8 +1,13 @@
 //! Streaming access to the elements of an accessor, without a decoded copy.
+//!
+//! Accessors may have millions of elements, so that they are decoded one at a time into a buffer of
+//! 16 numbers, the size of the largest element type.
 
 use super::layout::AccessorLayout;
 
 /// The elements of one accessor whose bytes are all present, with its sparse replacements.
+///
+/// All numbers are read as f64, which represents each of the component types exactly.
 #[derive(Debug)]
 pub(super) struct AccessorElements<'a> {
     /// The layout that the accessor declares.
@@ -37,6 +42,9 @@ impl<'a> AccessorElements<'a> {
     ///
     /// The components are those of the file: [`dequantize`](Self::dequantize) maps normalized
     /// integers. The sorted replacements are merged with the elements, so that the pass is linear.
+    ///
+    /// Of several sparse values for one element the last counts; the sparse indices have a
+    /// diagnostic of their own if they are not increasing.
     pub(super) fn for_each_element(&self, mut see: impl FnMut(u64, &[f64])) {
         let mut numbers = [0.0; 16];
         let numbers = &mut numbers[..self.layout.element_type.component_count()];
@@ -58,6 +66,8 @@ impl<'a> AccessorElements<'a> {
     }
 
     /// Decodes the components of the element that starts at a byte offset, column by column.
+    ///
+    /// Columns of matrices are padded to four bytes; vectors have one column.
     fn read_element(&self, bytes: &[u8], start: usize, numbers: &mut [f64]) {
         let AccessorLayout { component_type: component, element_type: shape, .. } = self.layout;
         let bytes = bytes.get(start..).unwrap_or(&[]);

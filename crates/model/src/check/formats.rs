@@ -2,6 +2,18 @@
 //!
 //! KHR_mesh_quantization adds integer formats for positions, normals, tangents and texture
 //! coordinates.
+//!
+//! The integer formats of core glTF are normalized, with the exception of joint indices and
+//! primitive indices, which are integers by nature:
+//!
+//! ```text
+//!               float   normalized integers        with KHR_mesh_quantization
+//!  POSITION     VEC3                               VEC3 of 8 and 16 bits
+//!  NORMAL       VEC3                               VEC3 of signed 8 and 16 bits
+//!  TEXCOORD_n   VEC2    VEC2 of unsigned 8, 16     VEC2 of 8 and 16 bits
+//!  COLOR_n      VEC3/4  VEC3/4 of unsigned 8, 16
+//!  WEIGHTS_n    VEC4    VEC4 of unsigned 8, 16
+//! ```
 
 use super::layout::ComponentType::{F32, I8, I16, U8, U16, U32};
 use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VEC3, VEC4};
@@ -10,6 +22,8 @@ use super::layout::{AccessorLayout, ComponentType, ElementType, SCALAR, VEC2, VE
 type AttributeFormat = (ElementType, ComponentType, bool);
 
 /// The semantic of an attribute, parsed from its name.
+///
+/// Its lifetime is that of the name in the document.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Semantic<'a> {
     /// POSITION, NORMAL, TANGENT.
@@ -51,6 +65,9 @@ impl<'a> Semantic<'a> {
     ///
     /// `in_target` is for displacements of morph targets: tangents have three components there, and
     /// signed integers are allowed for texture coordinates and colors.
+    ///
+    /// `quantized` is set if the file uses KHR_mesh_quantization. The formats of the extension are
+    /// added to those of core glTF and never replace them.
     pub(super) fn allowed_formats(
         self,
         in_target: bool,
@@ -91,6 +108,8 @@ impl<'a> Semantic<'a> {
 }
 
 /// Float formats, and formats of normalized integers of some types.
+///
+/// Each element type is combined with each component type.
 fn float_or_normalized(
     shapes: &[ElementType],
     components: &[ComponentType],
@@ -112,6 +131,9 @@ pub(super) const INDEX_FORMATS: [AttributeFormat; 3] =
     [(SCALAR, U8, false), (SCALAR, U16, false), (SCALAR, U32, false)];
 
 /// The formats of an animation output by the path of its target; `None` for an unknown path.
+///
+/// Translations and scales are floats without exception, because they have no natural range (glTF
+/// 2.0 §3.11).
 pub(super) fn animation_output_formats(path: &str) -> Option<Vec<AttributeFormat>> {
     match path {
         "translation" | "scale" => Some(vec![(VEC3, F32, false)]),

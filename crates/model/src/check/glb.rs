@@ -3,6 +3,10 @@
 //! ```text
 //!  magic · version · length │ length · JSON · … │ length · BIN · … │ length · anything · …
 //! ```
+//!
+//! All numbers are little-endian 32-bit integers. The header has 12 bytes, that of a chunk 8; the
+//! length of a chunk counts its content only, and content is padded to a multiple of 4. A defect in
+//! one chunk does not stop the validation as long as the start of the next chunk is known.
 
 use super::codes::{self, DiagnosticCode};
 use super::diagnostics::Diagnostics;
@@ -10,6 +14,8 @@ use std::fmt::Display;
 use std::ops::Range;
 
 /// The byte ranges of the parts of a file, as far as they can be determined.
+///
+/// A part is absent if the container is damaged before it; the checks of the JSON are skipped then.
 #[derive(Default, Debug)]
 pub(super) struct ContainerParts {
     /// The JSON, in a GLB the content of its first chunk.
@@ -22,7 +28,8 @@ pub(super) struct ContainerParts {
 
 /// Validates the container, and finds its parts.
 ///
-/// A file that does not start with `glTF` is taken for JSON.
+/// A file that does not start with `glTF` is taken for JSON. A byte order mark is reported and
+/// skipped, because many editors write one and everything after it may be valid.
 pub(super) fn check_container(bytes: &[u8], diagnostics: &Diagnostics) -> ContainerParts {
     if !bytes.starts_with(b"glTF") {
         let mark = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
@@ -69,7 +76,11 @@ impl ContainerReader<'_> {
         usize::try_from(number).ok()
     }
 
-    /// The 12-byte header: version, and length against the size of the file.
+    /// Validates the 12-byte header: version, and declared length against the size of the file.
+    ///
+    /// Another version ends the validation, because its chunks may be laid out differently. Extra
+    /// bytes after the declared end are a warning and are cut off; a file shorter than declared is
+    /// read as far as it goes. The smallest meaningful length, 20, is a header and an empty chunk.
     fn check_header(&mut self) {
         let actual = self.bytes.len();
         let (Some(version), Some(length)) = (self.read_u32(4), self.read_u32(8)) else {
@@ -98,7 +109,10 @@ impl ContainerReader<'_> {
         self.check_chunks();
     }
 
-    /// All chunks; the JSON chunk counts only as the first, and the BIN chunk only as the second.
+    /// Validates all chunks, and finds the content of the JSON and the BIN chunk.
+    ///
+    /// The JSON chunk counts only as the first, and the BIN chunk only as the second (glTF 2.0
+    /// §4.4.3): later ones are reported and ignored, as in the loader.
     fn check_chunks(&mut self) {
         let (mut at, mut number, mut known) = (12, 0, [false; 2]);
         while at < self.bytes.len() {
@@ -130,9 +144,11 @@ impl ContainerReader<'_> {
         }
     }
 
-    /// The rules for one chunk: alignment, type, order and duplicates.
+    /// Validates one chunk: alignment, type, order and duplicates.
     ///
-    /// Unknown types are allowed and ignored (glTF 2.0 §4.4.3).
+    /// `known` has a flag for JSON and one for BIN, set once such a chunk has been found. Unknown
+    /// types are allowed and ignored (glTF 2.0 §4.4.3); the warning about them helps with
+    /// misspelled types.
     fn check_chunk(
         &self,
         number: usize,

@@ -1,4 +1,13 @@
 //! Images: their source, their format against the declared one, and their use in textures.
+//!
+//! ```text
+//!  uri ──────────┐             ┌─► mimeType, data URI: must agree with the bytes
+//!                ├─► bytes ────┼─► header: must be complete
+//!  bufferView ───┘             └─► textures: PNG and JPEG, others with an extension
+//! ```
+//!
+//! No pixel is decoded: a header tells the format and the size, and a full decode would take most
+//! of the time of the validation.
 
 use super::codes;
 use super::document::{CheckedDocument, extension_object, index_member, string_member};
@@ -14,6 +23,8 @@ use std::borrow::Cow;
 ///
 /// The media types of the images, by their bytes or as declared, decide which textures may refer to
 /// them.
+///
+/// `is_binary` is set for a GLB, in which data URIs are discouraged.
 pub(super) fn check_images(
     document: &CheckedDocument<'_>,
     store: &BufferStore<'_>,
@@ -39,6 +50,9 @@ pub(super) fn check_images(
 }
 
 /// The image formats by media type, with the extension that allows each.
+///
+/// Core glTF has PNG and JPEG only (§3.8.3). An extension allows its format in its own `source`
+/// member, so that a texture can also have a fallback image.
 const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
     ("image/png", None),
     ("image/jpeg", None),
@@ -49,6 +63,8 @@ const IMAGE_FORMATS: [(&str, Option<&str>); 4] = [
 /// The media type of an image, from its first bytes (glTF 2.0 §3.8.3).
 ///
 /// The bytes decide, not the declared type, as in every viewer.
+///
+/// WebP is a RIFF container: bytes 4 to 7 are the length of the file, and are skipped.
 fn sniff_media_type(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
@@ -76,6 +92,10 @@ impl ImageChecker<'_> {
     ///
     /// The declared `mimeType` and that of a data URI must agree with the bytes, and formats other
     /// than PNG and JPEG need their extension.
+    ///
+    /// An image in a buffer view needs a `mimeType` (glTF 2.0 §3.8.3); for a URI it is optional.
+    /// Without readable bytes the declared type is returned, so that the textures are still
+    /// validated.
     fn check_image(&self, image: &Value) -> Option<String> {
         let diagnostics = self.document.diagnostics;
         let declared = string_member(image, "mimeType");
@@ -116,6 +136,8 @@ impl ImageChecker<'_> {
     }
 
     /// The bytes of an image, from its buffer view or its URI; `None` if they cannot be read.
+    ///
+    /// A `byteStride` on the buffer view of an image is reported: images are read contiguously.
     fn image_bytes(&self, image: &Value) -> Option<Cow<'_, [u8]>> {
         let diagnostics = self.document.diagnostics;
         if let Some(view) = index_member(image, "bufferView") {
@@ -133,10 +155,11 @@ impl ImageChecker<'_> {
         uris::read_uri(self.resolver, uri, &pointer, diagnostics).map(Cow::Owned)
     }
 
-    /// The media type of an image, whose header must be complete.
+    /// Validates the header of an image; returns its media type by its first bytes.
     ///
-    /// Only the header is decoded. Decoders tell a truncated file from a corrupt one in the text of
-    /// their errors alone, which decides the code here.
+    /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one in the
+    /// text of their errors alone, which decides the code here. KTX2 is recognized but not decoded.
+    /// `None` stands for an unknown format, which has been reported.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;
         let Some(kind) = sniff_media_type(bytes) else {
@@ -166,9 +189,10 @@ impl ImageChecker<'_> {
     }
 }
 
-/// A texture refers to PNG or JPEG directly, and to other formats through their extensions.
+/// Validates the images of a texture: PNG or JPEG directly, other formats through their extensions.
 ///
 /// An extension such as EXT_texture_webp has a `source` of its own, which must be of its format.
+/// Images whose type is unknown are skipped, because they have a diagnostic already.
 fn check_texture(
     document: &CheckedDocument<'_>,
     at: usize,

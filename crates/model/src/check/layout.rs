@@ -1,16 +1,28 @@
 //! The memory layout of accessor elements (glTF 2.0 §3.6.2).
+//!
+//! ```text
+//!  buffer view
+//!  ├─ byte_offset ─┼────── stride ──────┼────── stride ──────┼──────────┤
+//!                  │ element   padding  │ element   padding  │ element    no padding at the end
+//! ```
+//!
+//! Sizes are in bytes, and sums saturate: a declared size may exceed any buffer, and is compared
+//! with the actual one later.
 
 use super::document::{index_member, integer_member, string_member};
 use serde_json::Value;
 
 /// The layout that an accessor declares.
+///
+/// It is a copy of the accessor's members, which have passed the schema; nothing refers to the
+/// buffer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct AccessorLayout {
     /// The type of each component (`componentType`).
     pub(super) component_type: ComponentType,
     /// The type of an element (`type`).
     pub(super) element_type: ElementType,
-    /// Whether integers stand for fractions (`normalized`).
+    /// Whether integers represent fractions in [0, 1] or [−1, 1] (`normalized`).
     pub(super) normalized: bool,
     /// The number of elements (`count`).
     pub(super) count: u64,
@@ -21,13 +33,21 @@ pub(super) struct AccessorLayout {
 }
 
 /// The type of a component (glTF 2.0 §3.6.2.2).
+///
+/// The order matters: `U32` and above cannot be normalized.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum ComponentType {
+    /// Signed byte, OpenGL's `BYTE`.
     I8,
+    /// Unsigned byte.
     U8,
+    /// Signed short.
     I16,
+    /// Unsigned short.
     U16,
+    /// Unsigned int, for indices.
     U32,
+    /// IEEE 754 single precision.
     F32,
 }
 
@@ -75,6 +95,8 @@ impl ComponentType {
     }
 
     /// The maximum of the type. As an index it is the primitive restart value.
+    ///
+    /// Normalized integers are divided by it; for `F32` it has no use.
     pub(super) fn max_value(self) -> f64 {
         match self {
             Self::I8 => f64::from(i8::MAX),
@@ -156,6 +178,8 @@ impl ElementType {
 
 impl AccessorLayout {
     /// The layout of an accessor, if its type, component type and count are valid.
+    ///
+    /// `None` where the schema walk has reported a member: such an accessor has no layout to check.
     pub(super) fn from_accessor(accessor: &Value) -> Option<Self> {
         Some(Self {
             component_type: ComponentType::from_gl_constant(integer_member(
@@ -174,6 +198,8 @@ impl AccessorLayout {
     }
 
     /// The bytes from one column to the next: columns of matrices are aligned to four (§3.6.2.4).
+    ///
+    /// Without the alignment, a column of a small matrix would start at an odd address.
     pub(super) fn column_stride(&self) -> usize {
         let column = self.element_type.rows * self.component_type.byte_size();
         if self.element_type.is_matrix() { column.next_multiple_of(4) } else { column }
@@ -186,6 +212,9 @@ impl AccessorLayout {
     }
 
     /// The bytes from one element to the next if the buffer view has no `byteStride`.
+    ///
+    /// For vectors it is the size of an element; for matrices it includes the padding of the last
+    /// column.
     pub(super) fn packed_stride(&self) -> usize {
         self.element_type.columns * self.column_stride()
     }

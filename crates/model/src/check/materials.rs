@@ -11,6 +11,8 @@ use serde_json::Value;
 ///
 /// The schema covers single values; here are the rules about two members, and the gap in the range
 /// of `ior`.
+///
+/// Textures are validated by the schema walk; here are neither texture nor image accessed.
 pub(super) fn check_materials(document: &CheckedDocument<'_>) {
     for (at, material) in document.root_array("materials").iter().enumerate() {
         let mode = material.get("alphaMode").and_then(Value::as_str).unwrap_or("OPAQUE");
@@ -36,6 +38,9 @@ pub(super) fn check_materials(document: &CheckedDocument<'_>) {
 }
 
 /// Validates a punctual light: a spot light has a `spot` with ordered cone angles.
+///
+/// Absent angles have their defaults: 0 and π/4. With equal angles the falloff between them, a
+/// division by their difference, has no value.
 fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
     let pointer = format!("/extensions/KHR_lights_punctual/lights/{at}");
     let is_spot = light.get("type").and_then(Value::as_str) == Some("spot");
@@ -67,6 +72,8 @@ fn check_light(document: &CheckedDocument<'_>, at: usize, light: &Value) {
 }
 
 /// The vertex attributes that a material requires.
+///
+/// A primitive that lacks them is drawn without the texture, or with generated tangents.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct MaterialRequirements {
     /// The largest index of texture coordinates that its textures use.
@@ -129,6 +136,8 @@ impl MaterialRequirements {
 ///
 /// A texture info is any object with an `index`, so that those of extensions are found without a
 /// list; KHR_texture_transform may override its `texCoord`.
+///
+/// The recursion is as deep as the JSON, which the limit on nesting bounds.
 fn find_max_uv_set(value: &Value, most: &mut Option<u64>) {
     let Some(members) = value.as_object() else { return };
     if index_member(value, "index").is_some() {

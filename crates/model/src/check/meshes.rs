@@ -1,4 +1,7 @@
 //! Meshes: their attributes, indices and morph targets (glTF 2.0 §3.7.2).
+//!
+//! Here are the checks of declarations: names, formats and counts. They need no buffer. Rules about
+//! the stored values are passed on to [`data`](super::data), which reads every accessor once.
 
 use super::codes::{self, DiagnosticCode};
 use super::data::{ElementRule, ElementRules};
@@ -17,6 +20,10 @@ use std::fmt::Display;
 /// Validates all meshes, and records rules for the elements of their accessors.
 ///
 /// All primitives of a mesh have the same number of morph targets, and `weights` has one for each.
+///
+/// Renderers blend all primitives of a mesh with one list of weights, which is why the counts must
+/// agree. The first primitive sets the expected count, so that one deviating primitive gives one
+/// diagnostic.
 pub(super) fn check_meshes(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -73,6 +80,9 @@ struct PrimitiveChecker<'a, 'd> {
 type ResolvedAttributes<'a> = Vec<(&'a str, usize, &'a Value)>;
 
 /// The number of elements of each attribute of a primitive.
+///
+/// `None` stands for an accessor without a valid `count`. Morph targets are compared with it: a
+/// displacement needs the base attribute, and one value for each vertex (glTF 2.0 §3.7.2.2).
 type AttributeCounts<'a> = BTreeMap<&'a str, Option<u64>>;
 
 impl<'a> PrimitiveChecker<'a, '_> {
@@ -83,7 +93,10 @@ impl<'a> PrimitiveChecker<'a, '_> {
         self.document.diagnostics.add(code, pointer, message);
     }
 
-    /// Attributes, indices, mode, material requirements and morph targets, in this order.
+    /// Validates attributes, indices, mode, material requirements and morph targets, in this order.
+    ///
+    /// The order follows the data: the number of vertices comes from the attributes, and bounds the
+    /// indices; the number of indices, or else of vertices, must suit the mode.
     fn check_primitive(&mut self) {
         let Some(named) = object_members(self.primitive, "attributes") else {
             self.check_indices(None);
@@ -117,6 +130,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
     }
 
     /// The attributes whose accessors exist; others have been reported by the schema walk.
+    ///
+    /// The JSON of the accessor is resolved once here instead of in each check.
     fn resolve_attributes(&self, named: &'a Map<String, Value>) -> ResolvedAttributes<'a> {
         let accessors = self.document.root_array("accessors");
         let find = |(name, value): (&'a String, &Value)| {
@@ -131,6 +146,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
     ///
     /// Sets are numbered from 0 without gaps, and there are as many of joints as of weights (glTF
     /// 2.0 §3.7.2.1).
+    ///
+    /// Gaps are an error because renderers stop at the first missing set. The check needs no sorted
+    /// list: `n` distinct indices are consecutive from 0 if and only if the largest is `n − 1`.
     fn check_names(&self, named: &Map<String, Value>) -> u64 {
         for name in named.keys().filter(|name| Semantic::from_name(name).is_none()) {
             let message = format_args!("unknown attribute {name:?}");
@@ -179,6 +197,8 @@ impl<'a> PrimitiveChecker<'a, '_> {
     /// Validates the formats and counts of all attributes; returns the number of vertices.
     ///
     /// That is the count of `POSITION`, or of the first attribute without it.
+    ///
+    /// All counts must be equal, because one index addresses all attributes of a vertex.
     fn check_attributes(&mut self, attributes: &ResolvedAttributes<'_>) -> Option<u64> {
         let mut vertices = None;
         // POSITION comes first, because its count is the number of vertices.
@@ -208,6 +228,9 @@ impl<'a> PrimitiveChecker<'a, '_> {
     /// Records rules for the elements of an attribute in a valid format.
     ///
     /// Normals and tangents are unit vectors; float colors are in [0, 1].
+    ///
+    /// Only float colors can leave [0, 1]: normalized integers are inside by construction. Values
+    /// in an invalid format are not read.
     fn add_element_rules(&mut self, name: &str, at: usize, layout: AccessorLayout, pointer: &str) {
         let quantized = self.document.uses_extension("KHR_mesh_quantization");
         let formats = Semantic::from_name(name)

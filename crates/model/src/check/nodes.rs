@@ -1,4 +1,8 @@
 //! Nodes and scenes: transforms, the node hierarchy, and the meshes of nodes (glTF 2.0 §3.5).
+//!
+//! The hierarchy must be a set of disjoint strict trees (glTF 2.0 §3.5.2): a node has at most one
+//! parent, and no node is its own ancestor. Files may violate both, so that no traversal here
+//! recurses or follows a link twice.
 
 use super::codes;
 use super::document::{
@@ -7,7 +11,15 @@ use super::document::{
 use glam::DMat4;
 use serde_json::Value;
 
-/// The node hierarchy, as far as it is a forest.
+/// The node hierarchy, without the links that would make it other than a forest.
+///
+/// ```text
+///        A [0, 4)            B is below A: [1, 3) is inside [0, 4)
+///       ╱        ╲
+///   B [1, 3)    D [3, 4)     C is not below D: [2, 3) is not inside [3, 4)
+///      │
+///   C [2, 3)
+/// ```
 #[derive(Debug)]
 pub(super) struct NodeTree {
     /// The parent of each node; of several, the first.
@@ -21,6 +33,8 @@ pub(super) struct NodeTree {
 
 impl NodeTree {
     /// Whether a node is another one or a descendant of it, in constant time.
+    ///
+    /// A node of a cycle counts as below every node: the cycle itself has been reported.
     pub(super) fn is_at_or_below(&self, node: usize, other: usize) -> bool {
         let (Some(inner), Some(outer)) =
             (self.visit_intervals.get(node), self.visit_intervals.get(other))
@@ -31,9 +45,10 @@ impl NodeTree {
     }
 }
 
-/// Validates all nodes and scenes; returns the hierarchy.
+/// Validates all nodes and scenes; returns the hierarchy for the checks of skins.
 ///
-/// The root nodes of a scene must have no parent.
+/// The root nodes of a scene must have no parent (glTF 2.0 §3.5.1): drawn from there, a node would
+/// lose the transforms of its ancestors.
 pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
     let meshes = document.root_array("meshes");
     let shapes: Vec<MeshSummary> = meshes.iter().map(MeshSummary::from_mesh).collect();
@@ -58,7 +73,11 @@ pub(super) fn check_nodes(document: &CheckedDocument<'_>) -> NodeTree {
     tree
 }
 
-/// Validates the transform of a node: a matrix or its parts, decomposable, with a unit rotation.
+/// Validates the transform of a node (glTF 2.0 §3.5.3).
+///
+/// A node has a matrix or its decomposition, not both; the matrix can be decomposed into
+/// translation, rotation and scale, without shear or projection; the rotation is a unit quaternion.
+/// A matrix equal to the identity gets a note, because it is the default and can be omitted.
 fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
     let diagnostics = document.diagnostics;
     let has_parts = ["translation", "rotation", "scale"].iter().any(|key| node.get(key).is_some());
@@ -99,8 +118,11 @@ fn check_transform(document: &CheckedDocument<'_>, at: usize, node: &Value) {
 /// The tolerance for the length of rotations in JSON, which exporters round to four digits.
 const ROTATION_ROUNDING: f64 = 5e-4;
 
-/// Whether a matrix is a translation, rotation and scale: its columns are perpendicular and its
-/// last row is 0, 0, 0, 1.
+/// Whether a matrix is a product of translation, rotation and scale.
+///
+/// Its columns are then perpendicular, and its last row is 0, 0, 0, 1. The tolerance is relative to
+/// the lengths of the columns (0.005 is an angle of about 0.3°), so that it does not depend on the
+/// scale. A column of length 0 has lost its direction, and is refused.
 fn is_decomposable(matrix: &DMat4) -> bool {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let [x, y, z] = columns;
@@ -129,6 +151,8 @@ struct MeshSummary {
 
 impl MeshSummary {
     /// Summarizes the JSON of a mesh.
+    ///
+    /// Many nodes may use one mesh, so that the summary is computed once instead of for each node.
     fn from_mesh(mesh: &Value) -> Self {
         let primitives = array_items(mesh, "primitives");
         let has_joints = |primitive: &Value| {
@@ -144,6 +168,8 @@ impl MeshSummary {
 }
 
 /// Validates morph weights and skin of a node against its mesh.
+///
+/// A mesh with joints on a node without a skin is only a warning: it can be drawn undeformed.
 fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shapes: &[MeshSummary]) {
     let diagnostics = document.diagnostics;
     let Some(&shape) = index_member(node, "mesh").and_then(|mesh| shapes.get(mesh)) else { return };
@@ -172,6 +198,9 @@ fn check_mesh_use(document: &CheckedDocument<'_>, at: usize, node: &Value, shape
 /// Builds the hierarchy, and reports nodes with several parents or in a cycle.
 ///
 /// Of several parents the first counts, so that the rest of the validation has a forest.
+///
+/// A child that is listed by several parents is reported at each of the later ones. Indices out of
+/// range have been reported by the schema walk, and are skipped.
 fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
     let nodes = document.root_array("nodes");
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
@@ -199,6 +228,9 @@ fn build_tree(document: &CheckedDocument<'_>) -> NodeTree {
 ///
 /// It numbers the nodes for [`NodeTree::is_at_or_below`], and finds cycles: their nodes are not
 /// reached.
+///
+/// Hostile files may nest nodes a million deep: the stack of open nodes is therefore on the heap. A
+/// cycle has no root, and its nodes keep the empty interval. The time is linear in the nodes.
 fn traverse_tree(
     document: &CheckedDocument<'_>,
     parents: Vec<Option<usize>>,
@@ -212,7 +244,7 @@ fn traverse_tree(
     };
     let mut time = 0;
     for root in (0..count).filter(|&at| tree.parents[at].is_none()).collect::<Vec<_>>() {
-        // The node, and which of its children is next.
+        // Stack of open nodes, each with the position of its next child.
         let mut open = vec![(root, 0)];
         while let Some((at, next)) = open.pop() {
             if next == 0 {

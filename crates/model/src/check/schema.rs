@@ -4,6 +4,13 @@
 //! by row. The schema walk ([`super::schema_walk`]) interprets them: it finds values of the wrong
 //! type or out of range, missing members and unresolved references without code for any single
 //! member.
+//!
+//! A member is a row of its object's table:
+//!
+//! ```text
+//!  requires("byteOffset", "bufferView", Integer(0, MAX_INTEGER))
+//!  presence   name          other         kind and range
+//! ```
 
 pub(super) mod core;
 pub(super) mod extensions;
@@ -20,6 +27,8 @@ pub(super) struct ObjectSchema {
 }
 
 /// The schema of a member.
+///
+/// Default values are not part of the schema: an absent member is valid whatever its default.
 #[derive(Debug)]
 pub(super) struct MemberSchema {
     /// The name of the member.
@@ -33,19 +42,21 @@ pub(super) struct MemberSchema {
 /// When a member must be present.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum PresenceRule {
-    /// Never.
+    /// It may be present or absent.
     Optional,
-    /// Always.
+    /// It must be present; the validator reports `UNDEFINED_PROPERTY` otherwise.
     Required,
-    /// Only together with another member.
+    /// It may be present only together with another member (`dependencies` in the JSON schema).
     Requires(&'static str),
-    /// Exactly one of this member and another one.
+    /// Exactly one of this member and another one is present (`oneOf` in the JSON schema).
     ExactlyOne(&'static str),
-    /// Only without another member.
+    /// It may be present only without another member (`not` in the JSON schema).
     Excludes(&'static str),
 }
 
 /// The type and range of a value.
+///
+/// Composite kinds refer to the schema of their objects; all others are leaves of the walk.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ValueKind {
     /// Any value.
@@ -83,6 +94,9 @@ pub(super) enum ValueKind {
 }
 
 /// A range of numbers, with or without its minimum.
+///
+/// Only the minimum can be exclusive: `yfov > 0` exists in the specification, an open maximum does
+/// not.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumberRange {
     /// The minimum.
@@ -111,6 +125,8 @@ const NOT_NEGATIVE: NumberRange = NumberRange { min: 0.0, ..ANY };
 const POSITIVE: NumberRange = NumberRange { min: 0.0, exclusive_min: true, ..ANY };
 
 /// A collection of objects that indices refer to.
+///
+/// The discriminants index [`Collection::ALL`] and the flags of used objects.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Collection {
     Accessors,
@@ -133,6 +149,9 @@ pub(super) enum Collection {
 
 impl Collection {
     /// The collections of a document with their pointers, and whether unused objects get a note.
+    ///
+    /// Nodes and scenes get no note about being unused: nodes are reached through scenes, and all
+    /// scenes but one are unused by design.
     pub(super) const ALL: [(Self, &'static str, bool); 14] = [
         (Self::Accessors, "/accessors", true),
         (Self::Buffers, "/buffers", true),

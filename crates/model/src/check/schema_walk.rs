@@ -3,6 +3,18 @@
 //! Every value is compared with the kind that its member has in the tables, and every index that
 //! resolves marks its target as used, for the notes about unused objects. The codes are those of
 //! the Khronos validator, including its distinction between members and items of arrays.
+//!
+//! The walk is a recursive descent. [`SchemaWalker::check_value`] dispatches on the kind of a
+//! value; objects and arrays descend with one more token on the JSON pointer:
+//!
+//! ```text
+//!  check_object ──► check_value ──► check_number, check_index, …   leaves
+//!       ▲               │
+//!       └───────────────┴─► check_objects, check_object            inner nodes
+//! ```
+//!
+//! The recursion is as deep as the schema and not as deep as the file: members that the tables do
+//! not name are reported but never entered. The time is linear in the size of the JSON.
 
 use super::codes::{self, DiagnosticCode};
 use super::document::{CheckedDocument, as_whole_number, escape_pointer_token};
@@ -14,6 +26,9 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 
 /// Validates a whole document against the schema, and records all references.
+///
+/// A root that is not an object ends the walk with a single `TYPE_MISMATCH`. Later checks see
+/// missing and mistyped members as absent, so that each defect is reported once, here.
 pub(super) fn check_schema(document: &CheckedDocument<'_>) {
     let mut walker = SchemaWalker { document, pointer: String::new() };
     match document.root {
@@ -23,6 +38,9 @@ pub(super) fn check_schema(document: &CheckedDocument<'_>) {
 }
 
 /// The state of the walk: the document and the JSON pointer of the current value.
+///
+/// One buffer holds the pointer for the whole walk: tokens are appended on the way down and
+/// truncated on the way up, so that a value without a defect costs no allocation.
 struct SchemaWalker<'a> {
     /// The document, which records references and diagnostics.
     document: &'a CheckedDocument<'a>,
@@ -41,7 +59,10 @@ impl SchemaWalker<'_> {
         self.report(&codes::TYPE_MISMATCH, format_args!("{} is not {expected}", ShortValue(value)));
     }
 
-    /// Calls `work` for a member or an item: its pointer token is appended meanwhile.
+    /// Calls `work` for a member or an item, with its token appended to the JSON pointer.
+    ///
+    /// Tokens are escaped as in RFC 6901: `~` becomes `~0` and `/` becomes `~1`. Names with
+    /// neither, that is nearly all, are appended without a copy.
     fn descend(&mut self, name: &str, work: impl FnOnce(&mut Self)) {
         let length = self.pointer.len();
         self.pointer.push('/');
@@ -53,7 +74,10 @@ impl SchemaWalker<'_> {
         self.pointer.truncate(length);
     }
 
-    /// An object: known members by their kinds, required members, unknown members, extensions.
+    /// Validates an object: known members by kind, required members, unknown members, extensions.
+    ///
+    /// The first loop follows the schema and finds what is missing; the second follows the file and
+    /// finds what is unknown. `extras` may hold anything (glTF 2.0 §5.16), and is not entered.
     fn check_object(&mut self, members: &Map<String, Value>, object: &ObjectSchema) {
         for member in object.members {
             match members.get(member.name) {
@@ -63,7 +87,8 @@ impl SchemaWalker<'_> {
                 None if member.rule == PresenceRule::Required => {
                     let name = member.name;
                     let message = format_args!("missing property `{name}`");
-                    // The pointer names the missing member, so that each is reported by itself.
+                    // The pointer names the missing member, so that each is a diagnostic of its
+                    // own.
                     let diagnostics = &self.document.diagnostics;
                     diagnostics.add(
                         &codes::UNDEFINED_PROPERTY,
@@ -87,7 +112,10 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// The rule of a member about the presence of other members.
+    /// Validates the rule of a member about the presence of other members.
+    ///
+    /// `UNSATISFIED_DEPENDENCY` is reported at the member that needs another one, `ONE_OF_MISMATCH`
+    /// at the parent, because neither of the two members is more at fault than the other.
     fn check_presence(&mut self, members: &Map<String, Value>, member: &MemberSchema) {
         let is_there = members.contains_key(member.name);
         match member.rule {
@@ -111,7 +139,8 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// The extension objects of an object.
+    /// Validates the `extensions` of an object: an object with one member for each extension (glTF
+    /// 2.0 §3.12).
     fn check_extensions(&mut self, value: &Value, parent: &ObjectSchema) {
         let Value::Object(extensions) = value else {
             return self.report_type_mismatch(value, "an object");
@@ -121,7 +150,12 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// An extension object: it must be declared, and allowed in this parent.
+    /// Validates an extension object: it must be declared, and allowed in this parent.
+    ///
+    /// Extensions that the tables do not know are checked for their declaration only. A known
+    /// extension in an object where its specification does not allow it is an
+    /// `UNEXPECTED_EXTENSION_OBJECT`, and its members are not validated, because their meaning is
+    /// unknown there.
     fn check_extension(&mut self, name: &str, value: &Value, parent: &ObjectSchema) {
         if !self.document.uses_extension(name) {
             let message = format_args!("the extension is not listed in {}", "/extensionsUsed");
@@ -143,7 +177,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Any value, by its kind.
+    /// Validates any value, by the kind that the schema gives it.
     fn check_value(&mut self, value: &Value, kind: ValueKind) {
         match kind {
             ValueKind::Any => {}
@@ -173,7 +207,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// A string of the form `2.0`.
+    /// Validates a version string of the form `2.0`: two decimal numbers and a dot (glTF 2.0 §5.9).
     fn check_version(&self, value: &Value) {
         let Some(text) = value.as_str() else {
             return self.report_type_mismatch(value, "a string");
@@ -186,7 +220,9 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// One of a list of strings; another one is a warning, as an extension may define it.
+    /// Validates a string with a fixed list of values.
+    ///
+    /// A string outside the list is only a warning, because an extension may define further values.
     fn check_enum_string(&self, value: &Value, words: &[&str]) {
         match value.as_str() {
             None => self.report_type_mismatch(value, "a string"),
@@ -199,8 +235,11 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// An integer in a range; `1.0` is one, but another number with a fraction is of the wrong
-    /// type.
+    /// Validates an integer in a range, both ends included.
+    ///
+    /// `1.0` is accepted as an integer, as in the JSON schema of glTF; `1.5` is of the wrong type.
+    /// A negative integer does not fit `u64`, and is therefore reported as out of range in a case
+    /// of its own.
     fn check_integer(&self, value: &Value, min: u64, max: u64) {
         match (as_whole_number(value), value.as_f64()) {
             (Some(number), _) if (min..=max).contains(&number) => {}
@@ -212,7 +251,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Reports an integer out of range.
+    /// Reports an integer out of range; the message names the maximum only if the schema has one.
     fn report_out_of_range(&self, value: &Value, min: u64, max: u64) {
         let code = &codes::VALUE_NOT_IN_RANGE;
         if max == u64::MAX {
@@ -223,7 +262,10 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// One of a list of integers.
+    /// Validates an integer with a fixed list of values, such as the OpenGL constants of a sampler.
+    ///
+    /// As in the Khronos validator, a number with a fraction is a value outside the list, and not a
+    /// value of the wrong type.
     fn check_enum_integer(&self, value: &Value, numbers: &[u64]) {
         match as_whole_number(value) {
             Some(number) if numbers.contains(&number) => {}
@@ -235,7 +277,10 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// A number in a range.
+    /// Validates a number in a range.
+    ///
+    /// The message has the bracket of the interval's open or closed lower end: `(0, 1]` or `[0,
+    /// 1]`.
     fn check_number(&self, number: f64, range: NumberRange) {
         let NumberRange { min, max, exclusive_min } = range;
         let is_inside = if exclusive_min { number > min } else { number >= min } && number <= max;
@@ -252,7 +297,10 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// An array of `length` numbers in a range; 0 for any length above 0.
+    /// Validates an array of numbers, each in a range.
+    ///
+    /// `length` is the required number of items, or 0 for any length above 0. A wrong length ends
+    /// the check: the positions of the items would have no meaning.
     fn check_numbers(&mut self, value: &Value, length: usize, range: NumberRange) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of numbers");
@@ -285,7 +333,11 @@ impl SchemaWalker<'_> {
         );
     }
 
-    /// An index that must resolve. Samplers of animations are checked with their animation.
+    /// Validates an index, and marks its target as used.
+    ///
+    /// Indices into the samplers of an animation are relative to that animation, and are resolved
+    /// with it. A value such as `-1` or `1.5` is an `INVALID_INDEX`; an index past the end of its
+    /// collection is an `UNRESOLVED_REFERENCE`.
     fn check_index(&self, value: &Value, collection: Collection) {
         match as_whole_number(value) {
             None if !value.is_number() => self.report_type_mismatch(value, "an index"),
@@ -296,7 +348,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Reports an index that is no non-negative integer.
+    /// Reports a number that cannot be an index: negative, or with a fraction.
     fn report_invalid_index(&self, value: &Value) {
         let message = format_args!("{} is not a valid index", ShortValue(value));
         self.report(&codes::INVALID_INDEX, message);
@@ -311,7 +363,9 @@ impl SchemaWalker<'_> {
         self.report(&codes::UNRESOLVED_REFERENCE, message);
     }
 
-    /// A non-empty array of distinct indices.
+    /// Validates a non-empty array of distinct indices, such as the children of a node.
+    ///
+    /// A duplicate is reported in addition to the check of the index itself, by its own code.
     fn check_indices(&mut self, value: &Value, collection: Collection) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of indices");
@@ -331,7 +385,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// A non-empty array of distinct strings.
+    /// Validates a non-empty array of distinct strings, such as `extensionsUsed`.
     fn check_strings(&mut self, value: &Value) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of strings");
@@ -352,7 +406,10 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// A non-empty array of objects.
+    /// Validates a non-empty array of objects.
+    ///
+    /// glTF forbids empty arrays everywhere (`minItems: 1`): a file without animations must omit
+    /// `animations`.
     fn check_objects(&mut self, value: &Value, object: &ObjectSchema) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of objects");
@@ -372,7 +429,9 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Attributes: accessor indices by attribute name.
+    /// Validates an attributes object: accessor indices by attribute name (glTF 2.0 §3.7.2.1).
+    ///
+    /// The names themselves are validated with the meshes, which know the semantics.
     fn check_attributes(&mut self, value: &Value) {
         let Value::Object(members) = value else {
             return self.report_type_mismatch(value, "an object");
@@ -388,7 +447,7 @@ impl SchemaWalker<'_> {
         }
     }
 
-    /// Morph targets: a non-empty array of attributes.
+    /// Validates morph targets: a non-empty array of attributes objects (glTF 2.0 §3.7.2.2).
     fn check_morph_targets(&mut self, value: &Value) {
         let Value::Array(items) = value else {
             return self.report_type_mismatch(value, "an array of objects");
@@ -406,6 +465,8 @@ impl SchemaWalker<'_> {
 }
 
 /// A value as quoted in a message: arrays, objects and long strings only by their type.
+///
+/// A message must stay one short line whatever the file contains.
 struct ShortValue<'a>(&'a Value);
 
 impl Display for ShortValue<'_> {

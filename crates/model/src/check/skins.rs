@@ -16,6 +16,9 @@ use serde_json::{Map, Value};
 ///
 /// The weights of vertices are validated later, by [`check_skinned_meshes`], because they need a
 /// mesh and a skin together.
+///
+/// `joints` that are not valid indices are skipped: the schema walk has reported them. They still
+/// count for the number of inverse bind matrices, which correspond to joints by position.
 pub(super) fn check_skins(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -32,10 +35,10 @@ pub(super) fn check_skins(
     }
 }
 
-/// The joints have a common root, and `skeleton` is a common ancestor of them.
+/// Validates that the joints have a common root, and that `skeleton` is a common ancestor of them.
 ///
-/// Both are constant-time queries per joint: the root of each node, and its traversal interval, are
-/// part of the tree.
+/// Both are constant-time queries for each joint, because the tree has the root and the traversal
+/// interval of each node; walking up from each joint would take time in the square of a long chain.
 fn check_common_root(
     document: &CheckedDocument<'_>,
     tree: &NodeTree,
@@ -60,7 +63,10 @@ fn check_common_root(
     }
 }
 
-/// The inverse bind matrices: format, stride, and at least one for each joint.
+/// Validates the inverse bind matrices: format, stride, and at least one for each joint.
+///
+/// The format is MAT4 of floats without exception (glTF 2.0 §5.28). More matrices than joints are
+/// allowed; the affine last row is tested with the data.
 fn check_inverse_bind_matrices(
     document: &CheckedDocument<'_>,
     usage: &UsageMap<'_>,
@@ -95,6 +101,9 @@ fn check_inverse_bind_matrices(
 /// Validates the joints and weights of all skinned meshes.
 ///
 /// It runs after the accessors have been validated, so that only data in a valid format is decoded.
+///
+/// The cost is linear in the number of vertices and sets of influences. A mesh without a skinned
+/// node is skipped, because its joint indices refer to nothing.
 pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &BufferStore<'_>) {
     // A mesh may be used with several skins: its joint indices must fit the smallest.
     let mut fewest_joints: Vec<Option<usize>> = vec![None; document.root_array("meshes").len()];
@@ -120,6 +129,8 @@ pub(super) fn check_skinned_meshes(document: &CheckedDocument<'_>, store: &Buffe
 }
 
 /// One set of joints and weights: four of each per vertex.
+///
+/// The components of `JOINTS_n` and `WEIGHTS_n`, the weights after dequantization.
 type InfluenceSet = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 
 /// The validation of the joints and weights of one primitive.
@@ -133,15 +144,24 @@ struct InfluenceChecker<'a> {
 }
 
 /// The maximum number of sets of joints and weights that are validated.
+///
+/// Exporters write one or two sets, for four or eight influences. The maximum bounds the memory, as
+/// all sets of a primitive are in memory together for the sum of the weights.
 const MAX_SETS: usize = 16;
 
 /// The tolerance for the sum of weights rounded to bytes, for every two joints beyond the first two
 /// (the Khronos validator's value).
+///
+/// It is 1/255: quantization to bytes moves each weight by up to half of that, so that two joints
+/// can move the sum by one step.
 const WEIGHT_ROUNDING: f64 = 0.003_921_6;
 
 impl InfluenceChecker<'_> {
     /// Validates all sets of joints and weights of a primitive together, because the weights of a
     /// vertex sum to 1 over all sets.
+    ///
+    /// Sets are read up to the first that is missing or undecodable. The four kinds of faults are
+    /// counted for each set, which gives one diagnostic for each kind and attribute.
     fn check_influences(&self, named: &Map<String, Value>) {
         let mut sets = Vec::new();
         while let (true, Some(joints), Some(weights)) = (
@@ -191,6 +211,8 @@ impl InfluenceChecker<'_> {
     }
 
     /// Decodes the four components of every vertex.
+    ///
+    /// `None` leaves the primitive unvalidated: the defect of the accessor has been reported.
     fn read_vec4s(&self, accessor: &Value) -> Option<Vec<[f32; 4]>> {
         let at = usize::try_from(as_whole_number(accessor)?).ok()?;
         let accessor = self.document.root_array("accessors").get(at)?;

@@ -1,4 +1,8 @@
 //! Buffer data: buffers are read once, and buffer views are resolved in them.
+//!
+//! A [`BufferStore`] lends slices and never copies a buffer. Every request is answered with `None`
+//! if any byte of it is missing, and the checks skip such data: the missing bytes have a diagnostic
+//! of their own already.
 
 use super::codes;
 use super::document::{
@@ -14,6 +18,10 @@ use serde_json::Value;
 use std::cell::{Cell, OnceCell};
 
 /// The buffers of a document, its decompressed buffer views, and the budget for reading them.
+///
+/// Time and memory are bounded in two ways. Reading a URI is limited by the resolver; decoding and
+/// visiting elements is charged to `budget`, which is proportional to the bytes that the files
+/// really have.
 pub(super) struct BufferStore<'a> {
     document: &'a CheckedDocument<'a>,
     resolver: &'a UriResolver<'a>,
@@ -28,13 +36,20 @@ pub(super) struct BufferStore<'a> {
 }
 
 /// The bytes of a buffer.
+///
+/// The binary chunk is borrowed from the GLB, which is in memory as a whole.
 enum BufferBytes<'a> {
+    /// The binary chunk of a GLB.
     Chunk(&'a [u8]),
+    /// The content of a file, or of a decoded data URI.
     Read(Vec<u8>),
 }
 
 impl<'a> BufferStore<'a> {
     /// Reads all buffers; `chunk` is the binary chunk of a GLB.
+    ///
+    /// Errors are reported, and leave a buffer without bytes. Buffer views are decompressed later,
+    /// on first use, because a view without a user need not be valid.
     pub(super) fn load_buffers(
         document: &'a CheckedDocument<'a>,
         resolver: &'a UriResolver<'a>,
@@ -61,6 +76,9 @@ impl<'a> BufferStore<'a> {
     ///
     /// The binary chunk is the first buffer without a URI; it may be up to three bytes longer than
     /// the buffer, for padding.
+    ///
+    /// The declared `byteLength` may be less than the data, but not greater: a short buffer gives
+    /// `BUFFER_BYTE_LENGTH_MISMATCH`, and the bytes it has remain in use.
     fn load_buffer(
         &self,
         at: usize,
@@ -105,7 +123,7 @@ impl<'a> BufferStore<'a> {
         Some(BufferBytes::Read(bytes))
     }
 
-    /// Reports data that is shorter than the declared `byteLength`.
+    /// Reports data that is shorter than the declared `byteLength`, both in bytes.
     fn check_length(&self, at: usize, available: usize, length: u64) {
         if (available as u64) < length {
             let message =
@@ -118,7 +136,10 @@ impl<'a> BufferStore<'a> {
     /// Charges bytes to the budget; returns whether they may be read.
     ///
     /// The first time the budget is exceeded, that is reported; after that nothing is read, so that
-    /// a hostile file cannot keep the validation busy.
+    /// a hostile file cannot prolong the validation.
+    ///
+    /// The first refusal is final even if a smaller request would still fit: otherwise the report
+    /// would depend on the order of the accessors.
     pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
         if self.exhausted.get() {
             return false;
@@ -138,7 +159,7 @@ impl<'a> BufferStore<'a> {
         charged.is_ok()
     }
 
-    /// All bytes of a buffer.
+    /// All bytes of a buffer; `None` if it does not exist or could not be read.
     fn buffer_bytes(&self, buffer: usize) -> Option<&[u8]> {
         match self.buffers.get(buffer)?.as_ref()? {
             BufferBytes::Chunk(bytes) => Some(bytes),
@@ -148,7 +169,9 @@ impl<'a> BufferStore<'a> {
 
     /// The bytes of a buffer view, if all of them are present.
     ///
-    /// A view of EXT_meshopt_compression is decompressed on first use and kept.
+    /// A view compressed by EXT_meshopt_compression or KHR_meshopt_compression is decompressed on
+    /// first use, and stored. Its own `buffer` is then only a fallback for readers without the
+    /// extension, which may have no data at all.
     pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
         let json = self.document.root_array("bufferViews").get(view)?;
         let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
@@ -168,13 +191,21 @@ impl<'a> BufferStore<'a> {
         )
     }
 
-    /// A range of a buffer, if it is inside.
+    /// The range of a buffer that starts at `offset`; `None` if it is not completely inside.
+    ///
+    /// Both values come from the file, and may be larger than the address space of a 32-bit
+    /// machine.
     fn buffer_range(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
         let start = usize::try_from(offset).ok()?;
         self.buffer_bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
     }
 
-    /// Decompresses a meshopt buffer view. Errors of the stream are reported by the loader.
+    /// Decompresses a meshopt buffer view; `None` if the stream is invalid or the budget is
+    /// exceeded.
+    ///
+    /// Errors of the stream are reported by the loader, which uses the same decoder. The
+    /// decompressed length is declared in the file, and is therefore charged before anything is
+    /// allocated.
     fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
         let pointer = format!("/bufferViews/{view}");
         let json = serde_json::from_value(json.clone()).ok()?;
@@ -186,8 +217,16 @@ impl<'a> BufferStore<'a> {
 
     /// The elements of an accessor, if all of their bytes are present.
     ///
-    /// A missing part has been reported elsewhere; the data is then not looked at, so that no
-    /// diagnostic is a consequence of another.
+    /// A missing part has been reported elsewhere; the data is then skipped, so that no diagnostic
+    /// is a consequence of another. The layers of an accessor are resolved in this order:
+    ///
+    /// ```text
+    ///  buffer view   count elements at its stride, or zeros without a view
+    ///  sparse        some of them replaced: indices and values, tightly packed
+    /// ```
+    ///
+    /// The last packed element needs no padding after it, which matters for matrices of small
+    /// components.
     pub(super) fn accessor_elements(
         &self,
         accessor: &Value,
@@ -217,7 +256,10 @@ impl<'a> BufferStore<'a> {
         Some(AccessorElements::new(layout, base, indices, values))
     }
 
-    /// The indices of a sparse accessor, if all of their bytes are present.
+    /// The indices of a sparse accessor, if all of their bytes are present (glTF 2.0 §3.6.2.3).
+    ///
+    /// They are converted to 32 bits, whatever their component type; the conversion is charged to
+    /// the budget, as the count is only a declaration.
     pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
         let json = sparse.get("indices")?;
         let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
@@ -236,7 +278,7 @@ impl<'a> BufferStore<'a> {
         )
     }
 
-    /// The `byteStride` that a buffer view declares.
+    /// The `byteStride` that a buffer view declares, in bytes; `None` for tightly packed elements.
     pub(super) fn view_stride(&self, view: usize) -> Option<usize> {
         index_member(self.document.root_array("bufferViews").get(view)?, "byteStride")
     }
@@ -249,8 +291,11 @@ pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
     }
 }
 
-/// Validates one buffer view: its range, and its stride, which is a multiple of four, not set for
-/// indices, and not greater than the view.
+/// Validates one buffer view: its range, and its stride.
+///
+/// The stride is a multiple of four, not set for indices, and not greater than the view. The range
+/// is compared with the declared length of the buffer, not with its data, so that a truncated file
+/// gives one diagnostic at the buffer and none at each of its views.
 fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
     let diagnostics = document.diagnostics;
     let offset = integer_member(view, "byteOffset").unwrap_or(0);

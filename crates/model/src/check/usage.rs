@@ -1,4 +1,7 @@
 //! Uses of accessors and buffer views: each may have one purpose only (glTF 2.0 §3.6.2.1, §5.11.5).
+//!
+//! Graphics APIs upload a buffer view as a whole, with one purpose: a vertex buffer cannot be an
+//! index buffer at the same time in WebGL. Only the first conflicting use of each is reported.
 
 use super::codes;
 use super::document::{CheckedDocument, index_member, integer_member};
@@ -6,22 +9,30 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The purpose of an accessor.
+///
+/// Accessors of different purposes have different rules for bounds, strides and formats.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AccessorUse {
+    /// A vertex attribute, or the displacement of one in a morph target.
     Attribute,
     Indices,
     InverseBind,
+    /// Keyframe times.
     Input,
+    /// Keyframe values.
     Output,
 }
 
 /// The purpose of a buffer view.
+///
+/// It follows from the accessors in the view, or from its declared `target`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewUse {
     Vertices,
     Indices,
     InverseBind,
     Image,
+    /// Data that is never uploaded, such as keyframes or sparse values.
     Other,
 }
 
@@ -52,6 +63,9 @@ impl ViewUse {
 }
 
 /// The uses of all accessors and buffer views found so far.
+///
+/// Interior mutability lets all checks hold a reference to it. The maps are ordered, so that
+/// nothing depends on a hash seed.
 pub(super) struct UsageMap<'a> {
     document: &'a CheckedDocument<'a>,
     /// The first use of each accessor.
@@ -83,6 +97,9 @@ impl<'a> UsageMap<'a> {
 
     /// Records the use of an accessor and of its buffer view; `pointer` is the member that refers
     /// to it.
+    ///
+    /// The first use wins; a different later one is an `ACCESSOR_USAGE_OVERRIDE` at its own
+    /// pointer, which names both purposes.
     pub(super) fn note_accessor(&self, accessor: usize, new: AccessorUse, pointer: &str) {
         let old = *self.accessors.borrow_mut().entry(accessor).or_insert(new);
         if old != new {
@@ -103,6 +120,8 @@ impl<'a> UsageMap<'a> {
     }
 
     /// Records the use of a buffer view.
+    ///
+    /// An index out of range is ignored: the schema walk has reported it.
     pub(super) fn note_view(&self, view: usize, new: ViewUse, pointer: &str) {
         if view >= self.document.root_array("bufferViews").len() {
             return;
@@ -117,6 +136,10 @@ impl<'a> UsageMap<'a> {
     }
 
     /// Records an accessor of vertex attributes: several in one buffer view need a `byteStride`.
+    ///
+    /// Interleaved attributes cannot be distinguished from consecutive ones without it, so the
+    /// specification requires it for two or more accessors (glTF 2.0 §5.11.4). One accessor may be
+    /// used any number of times.
     pub(super) fn note_vertex_accessor(&self, accessor: usize, pointer: &str) {
         let Some(view) = self.accessor_view(accessor) else { return };
         let json = self.document.root_array("bufferViews").get(view);

@@ -14,7 +14,9 @@ pub struct ImportError {
     /// The file that was to be loaded.
     pub file: PathBuf,
     /// The error that stopped loading; its [`code`](Diagnostic::code) is one of [`codes`].
-    pub diagnostic: Diagnostic,
+    ///
+    /// Boxed, so that a `Result` with this error stays small.
+    pub diagnostic: Box<Diagnostic>,
 }
 
 impl Diagnostic {

@@ -23,6 +23,8 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// An image of a file that has been read but not decoded.
+///
+/// The size has been checked against the limits.
 pub(crate) struct EncodedImage<'a> {
     /// Index of the image in the file.
     pub(crate) index: usize,
@@ -38,6 +40,8 @@ pub(crate) struct EncodedImage<'a> {
 ///
 /// # Errors
 /// A message for people: the format is not known, the header is broken, or the size is implausible.
+///
+/// The plausibility of the size depends on the compression ratio that the format can reach.
 pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => {
@@ -109,11 +113,14 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
 }
 
 /// Runs a decoder; a panic means that the image is broken.
+///
+/// Decoders are written for well-formed files; an index out of range in one of them must not end
+/// the program because of one texture.
 fn catch_decoder_panic<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
 }
 
-/// The message for a header that promises more texels than the bytes can hold.
+/// The message for a header that declares more texels than the bytes can encode.
 fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
     format!("the image says {width} x {height} texels, which cannot be in {bytes} bytes")
 }
@@ -124,19 +131,22 @@ const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
 
 /// A supported image format.
 enum ImageFormat {
+    /// PNG (ISO/IEC 15948).
     Png,
+    /// JPEG: baseline or progressive (ITU-T T.81).
     Jpeg,
+    /// WebP: lossy or lossless (RFC 9649).
     WebP,
     #[cfg(feature = "basisu")]
     Ktx2,
 }
 
 impl ImageFormat {
-    /// Upper bound of the texels that so many bytes can encode.
+    /// Upper bound of the texels that an image of this many bytes can encode.
     ///
     /// - PNG: deflate makes at most 1,032 bytes of one, and a byte has eight 1-bit texels.
     /// - JPEG: each block of 64 texels takes at least one bit.
-    /// - WebP: a flat image takes next to nothing, so that its size itself is bounded: what
+    /// - WebP: a flat image takes almost no bytes, so that its size itself is bounded: what
     ///   [`BOMB_ALLOWANCE_TEXELS`] allows takes 70 MB while it is decoded.
     fn max_plausible_texels(&self, bytes: usize) -> u64 {
         let bytes = bytes as u64;
@@ -144,7 +154,7 @@ impl ImageFormat {
             Self::Png => bytes.saturating_mul(8 * 1032),
             Self::Jpeg => bytes.saturating_mul(8 * 64),
             Self::WebP => bytes.saturating_mul(1024).saturating_add(BOMB_ALLOWANCE_TEXELS),
-            // Blocks of one colour that are repeated need next to nothing as well.
+            // Repeated blocks of one color compress to almost nothing as well.
             #[cfg(feature = "basisu")]
             Self::Ktx2 => bytes.saturating_mul(1024).saturating_add(BOMB_ALLOWANCE_TEXELS),
         }
@@ -173,11 +183,15 @@ impl ImageFormat {
     }
 }
 
+/// The message for a PNG that cannot be decoded.
 fn png_problem(error: &png::DecodingError) -> String {
     format!("the PNG is broken: {error}")
 }
 
 /// Decodes a PNG, converting palettes, gray and 16 bits to RGBA of 8 bits.
+///
+/// Color profiles and text chunks are skipped: glTF requires that profiles be ignored (§3.8.3).
+/// Memory of the decoder is limited to 1 GiB.
 fn decode_png(bytes: &[u8]) -> Result<Image, String> {
     let message = |error: png::DecodingError| png_problem(&error);
     let mut decoder =
@@ -203,10 +217,12 @@ fn decode_png(bytes: &[u8]) -> Result<Image, String> {
     }
 }
 
+/// Texels for a decoder to fill in, transparent black.
 fn blank_texels(width: u32, height: u32) -> Vec<[u8; 4]> {
     vec![[0; 4]; width as usize * height as usize]
 }
 
+/// A JPEG decoder with RGBA output and the largest size of the format, 65535 in each direction.
 fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGBA)
@@ -215,6 +231,7 @@ fn jpeg_decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
     JpegDecoder::new_with_options(ZCursor::new(bytes), options)
 }
 
+/// The message for a JPEG that cannot be decoded.
 fn jpeg_problem(error: &zune_jpeg::errors::DecodeErrors) -> String {
     format!("the JPEG is broken: {error}")
 }
@@ -234,10 +251,15 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     Ok(Image { width, height, rgba })
 }
 
+/// The message for a WebP that cannot be decoded.
 fn webp_problem(error: &image_webp::DecodingError) -> String {
     format!("the WebP is broken: {error}")
 }
 
+/// A WebP decoder whose memory is limited to 1 GiB.
+///
+/// # Errors
+/// The container is invalid.
 fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
     let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| webp_problem(&error))?;
     decoder.set_memory_limit(1 << 30);
@@ -245,6 +267,8 @@ fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
 }
 
 /// Decodes the first frame of a lossy or lossless WebP.
+///
+/// Without an alpha channel the decoder produces RGB, and alpha is added here.
 fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = webp_decoder(bytes)?;
     let (width, height) = decoder.dimensions();

@@ -1,9 +1,9 @@
-//! Memory budget for the arrays that a file asks for: the defense against decompression bombs.
+//! Memory budget for the arrays that a file declares: the defense against decompression bombs.
 //!
 //! Two bounds apply: an absolute one, and one relative to the bytes that have been read. The second
-//! catches small files that ask for much: an honest model's arrays are at most a few times as large
-//! as its files, even when compressed. Charges are made before an array is allocated and never
-//! refunded, as the arrays live as long as the model.
+//! catches small files that declare much: an ordinary model's arrays are at most a few times as
+//! large as its files, even when compressed. Charges are made before an array is allocated and
+//! never refunded, as the arrays live as long as the model.
 
 use super::limits::Limits;
 use crate::diagnostic::{Diagnostic, codes};
@@ -15,11 +15,14 @@ const FREE_ARRAY_BYTES: u64 = 16 << 20;
 /// Running total of array bytes; see [`Limits::array_bytes`] and [`Limits::array_growth`].
 #[derive(Debug)]
 pub(crate) struct MemoryBudget<'a> {
+    /// The absolute and the relative limit.
     limits: &'a Limits,
+    /// Bytes charged so far, of all arrays; saturating.
     allocated: Cell<u64>,
 }
 
 impl<'a> MemoryBudget<'a> {
+    /// A budget of which nothing has been spent.
     pub(crate) fn new(limits: &'a Limits) -> Self {
         Self { limits, allocated: Cell::new(0) }
     }

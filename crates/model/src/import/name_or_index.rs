@@ -1,7 +1,7 @@
 //! Selection of a scene or a variant of a file, by name or by index.
 //!
-//! Users type `--scene 2` or `--scene Kitchen`; both are a [`NameOrIndex`]. An error lists what
-//! there is to choose from.
+//! Users type `--scene 2` or `--scene Kitchen`; both are a [`NameOrIndex`]. An error lists the
+//! available names.
 
 use crate::diagnostic::{Diagnostic, codes};
 

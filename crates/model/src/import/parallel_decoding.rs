@@ -3,6 +3,9 @@
 //! Threads take images from a common queue and store results by index, so that it makes no
 //! difference which thread decodes which image. The thread that reads the geometry joins in when it
 //! is done.
+//!
+//! Scoped threads borrow the encoded bytes, and end with the call. An image is the unit of work:
+//! one large image occupies one thread.
 
 use super::image_decoder;
 use super::image_decoder::EncodedImage;
@@ -17,6 +20,8 @@ use std::thread;
 pub(super) type DecodeResult = Result<Image, String>;
 
 /// Decodes images on all processors.
+///
+/// The calling thread takes part; the results are in the order of `encoded`.
 pub(super) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
     let Ok(((), decoded)) =
         decode_images_alongside(encoded, &Timings::default(), || Ok::<_, Infallible>(()));
@@ -25,6 +30,11 @@ pub(super) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
 
 /// Runs `work` while other threads decode images, then helps with those that are left, which is
 /// measured as `images`. If the work fails no further image is begun.
+///
+/// With a single processor no thread is started, and the images are decoded after the work.
+///
+/// # Errors
+/// The error of `work`. Images that fail are messages in the result.
 pub(super) fn decode_images_alongside<T, E>(
     encoded: &[EncodedImage<'_>],
     timings: &Timings,
@@ -50,15 +60,20 @@ pub(super) fn decode_images_alongside<T, E>(
 }
 
 /// Queue of images from which each thread takes the next.
+///
+/// The counter hands out each index once; each result has a lock of its own, which is never
+/// contended.
 struct DecodeQueue<'a> {
+    /// The images to decode.
     encoded: &'a [EncodedImage<'a>],
     /// Index of the next image that no thread has taken.
     next: AtomicUsize,
-    /// Results by index; `None` where a thread gave up.
+    /// Results by index; `None` where a thread panicked.
     results: Vec<Mutex<Option<DecodeResult>>>,
 }
 
 impl<'a> DecodeQueue<'a> {
+    /// A queue of all images, of which none has been taken.
     fn new(encoded: &'a [EncodedImage<'a>]) -> Self {
         let results = encoded.iter().map(|_| Mutex::new(None)).collect();
         Self { encoded, next: AtomicUsize::new(0), results }
@@ -82,6 +97,8 @@ impl<'a> DecodeQueue<'a> {
     }
 
     /// The results in the order of the images.
+    ///
+    /// A thread that panics leaves its image without a result, which becomes a message.
     fn into_results(self) -> Vec<DecodeResult> {
         let given_up = || Err("it was not decoded".to_owned());
         let results = self.results.into_iter().map(|slot| slot.into_inner().ok().flatten());

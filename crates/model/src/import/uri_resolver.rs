@@ -1,10 +1,10 @@
 //! URI resolution within a sandbox of folders: which file a URI means, and whether it may be read.
 //!
-//! A model comes from a stranger, so its URIs are not trusted: they are relative paths below one
-//! folder, the root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the
-//! root, no symbolic link that leads out of it, no device or pipe, no file larger than the limit.
-//! Everything is checked before a file is opened, and a path that would leave the root is refused
-//! without looking whether something exists there. The user may allow further folders
+//! A model is untrusted input, and so are its URIs: they are relative paths below one folder, the
+//! root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no
+//! symbolic link that leads out of it, no device or pipe, no file larger than the limit. Everything
+//! is checked before a file is opened, and a path that would leave the root is refused without
+//! looking whether something exists there. The user may allow further folders
 //! ([`ImportOptions::allow_outside`]): then `..` and symbolic links may lead there too.
 
 use super::ImportOptions;
@@ -32,6 +32,9 @@ pub(crate) struct UriResolver<'a> {
 }
 
 /// The folders that referenced files may be in.
+///
+/// Paths are compared after both sides are canonical, so that neither `..` nor symbolic links
+/// matter.
 #[derive(Debug)]
 struct AssetSandbox {
     /// The folder that relative paths begin at.
@@ -66,6 +69,9 @@ impl<'a> UriResolver<'a> {
     }
 
     /// A resolver for assets whose paths begin at a folder and stay below a root.
+    ///
+    /// # Errors
+    /// An allowed folder does not exist.
     fn with_sandbox(
         sandbox: Option<(PathBuf, PathBuf)>,
         length: usize,
@@ -221,7 +227,7 @@ pub(crate) fn read_file(
     let allowed = limits.file_bytes;
     let mut bytes = Vec::new();
     if metadata.len() <= allowed {
-        // Room for one byte more: reading to the end then needs no second allocation.
+        // One spare byte: `read_to_end` then detects the end without a second allocation.
         bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
         let file = File::open(path).map_err(to_diagnostic)?;
         file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(to_diagnostic)?;
@@ -243,13 +249,17 @@ fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     })
 }
 
+/// Canonical path of a folder that must exist.
 fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| unreadable_file("", folder, &error))
 }
 
 /// The error for a file that cannot be opened or read.
+///
+/// The two common cases, a missing file and missing permissions, have messages and advice of their
+/// own.
 fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
-    // Without a pointer it is the file that the message begins with anyway.
+    // An empty pointer stands for the glTF file, whose path precedes the message.
     let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
     let (message, help) = match error.kind() {
         std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),

@@ -1,6 +1,6 @@
 //! The importer's list of warnings, bounded even if a file has millions of faults.
 //!
-//! Errors become warnings in two ways: some always do, because only the look suffers
+//! Errors become warnings in two ways: some always do, because only the appearance suffers
 //! ([`ImportWarnings::downgrade`]); others only when reading leniently
 //! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: what is
 //! left out, or what replaces it.
@@ -27,6 +27,7 @@ impl ImportWarnings {
         Self { lenient, ..Self::default() }
     }
 
+    /// Whether the file is read leniently.
     pub(super) fn is_lenient(&self) -> bool {
         self.lenient
     }
@@ -36,6 +37,7 @@ impl ImportWarnings {
         self.push(warning(codes::LEFT_OUT, pointer, message.into()));
     }
 
+    /// Stores a warning, or counts it if the list is full.
     fn push(&mut self, warning: Diagnostic) {
         if self.list.len() < MAX_WARNINGS {
             self.list.push(warning);
@@ -55,8 +57,8 @@ impl ImportWarnings {
 
     /// Adds an error as a warning if reading leniently, and returns it otherwise.
     ///
-    /// Limits and the scene or variant that was asked for are never waived: those errors are
-    /// returned always.
+    /// Limits and the requested scene or variant are never waived: those errors are returned
+    /// always.
     pub(super) fn downgrade_if_lenient(
         &mut self,
         diagnostic: Diagnostic,

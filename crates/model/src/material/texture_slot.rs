@@ -3,6 +3,8 @@
 use crate::{Material, TextureInfo};
 
 /// A property of a material that can have a texture.
+///
+/// Channels are listed with the fields of [`Material`] and its extensions.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum TextureSlot {
     /// Base color.
@@ -47,6 +49,8 @@ pub enum TextureSlot {
 
 impl TextureSlot {
     /// Every slot with its location in a glTF material: a JSON pointer without the leading slash.
+    ///
+    /// KHR_animation_pointer uses these pointers for texture transforms as well.
     pub const PATHS: [(Self, &'static str); 19] = [
         (Self::BaseColor, "pbrMetallicRoughness/baseColorTexture"),
         (Self::MetallicRoughness, "pbrMetallicRoughness/metallicRoughnessTexture"),
@@ -115,9 +119,11 @@ impl Material {
     }
 
     /// The texture in a slot, to be changed.
+    ///
+    /// `None` where the slot is empty or its extension absent.
     pub fn texture_mut(&mut self, slot: TextureSlot) -> Option<&mut TextureInfo> {
         let extensions = &mut self.extensions;
-        // The diffuse texture of the older model stands in the place of the base colour's.
+        // The specular-glossiness workflow stores its diffuse texture as the base color texture.
         let is_spec_gloss = extensions.specular_glossiness.is_some();
         match slot {
             TextureSlot::BaseColor => self.base_color_texture.as_mut().filter(|_| !is_spec_gloss),

@@ -20,8 +20,8 @@ impl Primitive {
     ///
     /// `uv_set` is the set of texture coordinates that the normal map uses. Flat normals replace
     /// missing ones. `None` for points and lines, without such a set, and for shapes that the
-    /// algorithm gives up on. The result for the first set that is asked for is cached with the
-    /// primitive, so that the frames of an animation share it.
+    /// algorithm rejects. The result for the first requested set is cached with the primitive, so
+    /// that the frames of an animation share it.
     #[must_use]
     pub fn mikktspace_tangents(&self, uv_set: usize) -> Option<Cow<'_, [[f32; 4]]>> {
         let (cached_set, cached) =
@@ -33,21 +33,28 @@ impl Primitive {
     }
 
     /// Runs the algorithm; a panic inside it counts as failure.
+    ///
+    /// Triangles whose texture coordinates are degenerate keep the x axis as tangent.
     fn run_mikktspace(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
         let uvs = self.uvs.get(uv_set).filter(|_| self.topology == Topology::Triangles)?;
-        // What has no direction in the texture keeps this one.
+        // Default for triangles whose texture coordinates are degenerate.
         let tangents = vec![[1.0, 0.0, 0.0, 1.0]; self.indices.len()];
         let mut input = MikktspaceInput { primitive: self, uvs, tangents };
-        // The crate trusts shapes more than a stranger's file deserves.
+        // The crate assumes well-formed geometry, which an untrusted file need not have.
         let done = catch_unwind(AssertUnwindSafe(|| generate_tangents(&mut input).is_ok()));
         done.unwrap_or(false).then_some(input.tangents)
     }
 }
 
 /// Adapter that presents a primitive to `bevy_mikktspace` and collects its tangents.
+///
+/// The algorithm calls back for each corner of each face.
 struct MikktspaceInput<'a> {
+    /// The triangles, whose indices are valid.
     primitive: &'a Primitive,
+    /// Texture coordinates of the normal map, one for each vertex.
     uvs: &'a [[f32; 2]],
+    /// Tangents so far, one for each index.
     tangents: Vec<[f32; 4]>,
 }
 

@@ -24,6 +24,9 @@ impl Model {
     }
 
     /// Positions of all vertices that a visible point, line or triangle uses, in the current pose.
+    ///
+    /// A large model has millions; [`for_each_scene_point`](Self::for_each_scene_point) needs no
+    /// memory.
     #[must_use]
     pub fn scene_points(&self) -> Vec<Point<ModelSpace>> {
         let mut points = Vec::new();
@@ -38,6 +41,8 @@ impl Model {
     }
 
     /// Calls `visit` with the deformed position of every used vertex at the given nodes and below.
+    ///
+    /// Vertices that no index uses are skipped: some files have stray ones far from the shape.
     fn for_each_point_below(&self, roots: &[usize], mut visit: impl FnMut(Point<ModelSpace>)) {
         for (instance, primitive) in self.primitives_below(roots) {
             let SkinnedPrimitive { positions, to_model, .. } =
@@ -50,6 +55,9 @@ impl Model {
     }
 
     /// Axis-aligned bounding box of the active scene in model space; `None` if nothing is visible.
+    ///
+    /// Every visible vertex is skinned and transformed, so that the box is tight in the current
+    /// pose. The time is linear in the number of vertices of all instances.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds<ModelSpace>> {
         self.bounds_below(&self.roots)
@@ -79,6 +87,8 @@ impl Model {
 }
 
 /// For each vertex of a primitive, whether some index refers to it.
+///
+/// Every index is less than the number of vertices, as the importer has checked.
 fn used_vertices(primitive: &Primitive) -> Vec<bool> {
     let mut used = vec![false; primitive.positions.len()];
     for &index in &primitive.indices {

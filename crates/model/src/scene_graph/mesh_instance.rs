@@ -17,13 +17,15 @@ impl Model {
     /// All nodes of the active scene, parents before their children, otherwise in the order of the
     /// file.
     ///
-    /// The traversal keeps its own stack, so that a deep hierarchy cannot exhaust the thread's.
+    /// The traversal has its own stack, so that a deep hierarchy cannot exhaust the thread's.
     #[must_use]
     pub fn node_instances(&self) -> Vec<MeshInstance> {
         self.instances_below(&self.roots)
     }
 
     /// The given nodes and all their descendants.
+    ///
+    /// Roots and children are pushed in reverse, so that they are popped in the order of the file.
     pub(super) fn instances_below(&self, roots: &[usize]) -> Vec<MeshInstance> {
         let mut instances = Vec::new();
         let mut stack: Vec<MeshInstance> =
@@ -45,6 +47,8 @@ impl Model {
     }
 
     /// Mesh instances among the given nodes and their descendants.
+    ///
+    /// An instanced mesh with an empty list of transforms is not drawn.
     pub(super) fn mesh_instances_below(
         &self,
         roots: &[usize],

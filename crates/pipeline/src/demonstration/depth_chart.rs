@@ -34,10 +34,11 @@ const LOWER_CHART_CORNER: DVec2 = DVec2::new(24.0, 126.0);
 /// The upper left corner of the table.
 const TABLE_CORNER: DVec2 = DVec2::new(184.0, 36.0);
 
-/// The right ends of the table's columns in millimeters from its left.
+/// The right ends of the table's columns in millimeters from its left; cells are aligned right, so
+/// that decimal points of a column stand close to each other.
 const COLUMN_ENDS: [f64; 5] = [18.0, 38.0, 59.0, 80.0, 105.0];
 
-/// Letter heights in millimeters.
+/// Letter height of the heading in millimeters.
 const HEADING_HEIGHT: f64 = 4.5;
 /// Letter height of notes and table in millimeters.
 const LETTER_HEIGHT: f64 = 2.3;
@@ -50,6 +51,9 @@ const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
     /// Draws curves and table on a page.
+    ///
+    /// The charts have their own samples; `rows` appear in the table only. Each table line takes
+    /// 4.83 mm, so 31 rows fit on A4, and the page grows downwards beyond that.
     #[must_use]
     pub fn to_page(&self, rows: &[DepthRow]) -> Page {
         let table_end = TABLE_CORNER.y + (rows.len() + 2) as f64 * LETTER_HEIGHT * LINE_SPACING;
@@ -65,6 +69,10 @@ impl DepthTable {
     }
 
     /// The two charts: depth and resolution against distance.
+    ///
+    /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A tick on it
+    /// marks the distance 2FN/(F + N) at which half of the range is spent. Normal curves are solid,
+    /// reversed ones dashed: readable without color.
     fn build_charts(&self) -> [Chart; 2] {
         let samples = self.sample_rows();
         let [from, to] = self.distance_range();
@@ -116,6 +124,10 @@ impl DepthTable {
     }
 
     /// Densely sampled rows, in equal ratios of distance.
+    ///
+    /// D(s) = N (E / N)^(s / samples), even on a logarithmic axis. The first and the last sample
+    /// are the planes themselves, without the rounding of `exp`. Distances whose depth is not
+    /// representable are dropped.
     fn sample_rows(&self) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
@@ -130,6 +142,9 @@ impl DepthTable {
 
 /// The range of the resolution axis, finest to coarsest. Next to depth 0 floating-point resolution
 /// becomes arbitrarily fine; the finest fiftieth is left out, or nothing else could be read.
+///
+/// Fixed point has a constant step in depth, so all of its samples count. The last sample is
+/// excluded, since there is no step at the far plane. Sorting makes this O(n log n) in the samples.
 fn step_range(samples: &[DepthRow], format: DepthFormat) -> [f64; 2] {
     let left_out = if format == DepthFormat::Float32 { 50 } else { usize::MAX };
     let before_last = samples.len().saturating_sub(1);
@@ -152,6 +167,9 @@ fn drop_steps_below(mut curve: Curve, least: f64) -> Curve {
 }
 
 /// Title and notes at the top of the page.
+///
+/// Text is drawn as strokes of a plotter font, so the page needs no font file. The notes are one
+/// line, narrowed to 270 mm if they are longer.
 fn heading_layer(title: &str, notes: &[String]) -> Layer {
     let mut layer = Layer::new("heading", "heading", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     let left = UPPER_CHART_CORNER.x - 12.0;
@@ -163,6 +181,9 @@ fn heading_layer(title: &str, notes: &[String]) -> Layer {
 }
 
 /// The rows as text, columns aligned right.
+///
+/// One group for each row, whose id is `row-0`, `row-1`, …; row 0 has the column names and a gap of
+/// 1.5 mm below it.
 fn table_layer(cells: &[[String; 5]]) -> Layer {
     let mut layer = Layer::new("table", "table", Pen::solid(LETTER_HEIGHT * 0.1, INK));
     for (number, row) in cells.iter().enumerate() {

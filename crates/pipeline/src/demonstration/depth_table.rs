@@ -17,12 +17,16 @@ use projection::{Convention, DepthCurve, DepthFormat, ProjectionError, chapter};
 use std::fmt::Write as _;
 
 /// The rows of a table with default distances.
+///
+/// Enough to see the shape of the curve, and short enough for a terminal.
 const DEFAULT_ROWS: u32 = 16;
 
 /// The last distance of a table with an infinite far plane, in near distances.
 const INFINITE_FAR_RATIO: f64 = 1e4;
 
 /// Depth against distance, in normal and in reversed depth.
+///
+/// The convention is not stored: the two curves hold its range of depths in both directions.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DepthTable {
     /// Distance of the near plane.
@@ -40,9 +44,11 @@ pub struct DepthTable {
 pub struct DepthRow {
     /// Distance from the eye along the line of sight.
     pub distance: f64,
-    /// Depth after the divide.
+    /// Depth after the divide, in the range of the convention: 0 to 1, or −1 to 1.
     pub depths: [f64; 2],
     /// Resolution: the smallest step away from the eye that changes the stored depth.
+    ///
+    /// In world units, for a depth that is rounded to the table's storage format.
     pub steps: [f64; 2],
 }
 
@@ -52,6 +58,9 @@ impl DepthTable {
     ///
     /// # Errors
     /// Unless 0 < near < far, and the format has 1 to 64 bits.
+    ///
+    /// One row is computed as a test, so that planes too close to each other for f64 are refused
+    /// here and not in the middle of a table.
     pub fn new(
         near: f64,
         far: f64,
@@ -86,6 +95,9 @@ impl DepthTable {
     }
 
     /// Sixteen distances from near to far in equal ratios, the inner ones rounded to three digits.
+    ///
+    /// Dᵢ = N (E / N)^(i / 15). Rounding can move a distance past a plane or onto its neighbor when
+    /// the planes are close; such distances are dropped, so there may be fewer than sixteen.
     #[must_use]
     pub fn default_distances(&self) -> Vec<f64> {
         let [near, end] = self.distance_range();
@@ -137,6 +149,10 @@ impl DepthTable {
 
     /// The midpoint between the planes, and the distance to which the chapter's P moves it before
     /// scaling; `None` for an infinite far plane.
+    ///
+    /// The chapter's P has the rows (n, 0, 0, 0), (0, n, 0, 0), (0, 0, n + f, −fn), (0, 0, 1, 0):
+    /// it maps z to n + f − fn/z, which leaves n and f in place and moves everything between them
+    /// away from the eye.
     #[must_use]
     pub fn moved_midpoint(&self) -> Option<[f64; 2]> {
         let midpoint = 0.5 * self.near + 0.5 * self.far;
@@ -146,6 +162,9 @@ impl DepthTable {
     }
 
     /// Formats rows as plain text with aligned columns.
+    ///
+    /// Notes first, one a line, then a blank line and the table, aligned right. All cells are
+    /// ASCII, so the byte length is the width.
     #[must_use]
     pub fn to_text(&self, rows: &[DepthRow]) -> String {
         let cells = self.table_cells(rows);
@@ -162,6 +181,9 @@ impl DepthTable {
     }
 
     /// Formats rows as a Markdown table.
+    ///
+    /// The notes are a sentence above the table; the second line of the table aligns all columns
+    /// right.
     #[must_use]
     pub fn to_markdown(&self, rows: &[DepthRow]) -> String {
         let mut text = self.notes().join("; ") + ".\n\n";
@@ -176,6 +198,9 @@ impl DepthTable {
 
     /// The cells of a table, column names first. At the far plane there is no step: no depth is
     /// farther.
+    ///
+    /// Depths have four decimals, distances six and steps three significant digits. Adding 0 turns
+    /// −0 into 0, which a reader would take for a negative depth.
     pub(super) fn table_cells(&self, rows: &[DepthRow]) -> Vec<[String; 5]> {
         let names = ["distance", "depth", "reversed", "step", "step reversed"].map(str::to_owned);
         let fixed = |depth: f64| format!("{:.4}", depth + 0.0);
@@ -191,6 +216,9 @@ impl DepthTable {
 
     /// Formats rows as CSV with all digits, for programs: a line of names, then a line per
     /// distance.
+    ///
+    /// Decimals are the shortest that parse to the same f64. At the far plane the step is a number
+    /// here too, not a dash.
     #[must_use]
     pub fn to_csv(&self, rows: &[DepthRow]) -> String {
         let mut text = "distance,depth,reversed_depth,step,reversed_step\n".to_owned();

@@ -5,6 +5,9 @@
 
 /// Formats a number with at most `digits` significant digits, without trailing zeros; very small
 /// and very large ones with an exponent.
+///
+/// Decimal notation from 1e-4 up to but not including 1e6, scientific outside. Positive infinity is
+/// `infinite`, as it appears for far planes; −∞ and NaN print as Rust prints them.
 pub(super) fn format_short(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return if x > 0.0 { "infinite".to_owned() } else { format!("{x}") };

@@ -2,6 +2,12 @@
 //!
 //! The measurements come from the matrix, not from the name: lengths and directions in which a
 //! parallel projection draws the axes (C76, C77), vanishing points of a perspective (C80, C81).
+//!
+//! ```text
+//!  planar ─┬─ parallel ─┬─ orthographic: multiview, isometric, dimetric, trimetric
+//!          │            └─ oblique: cavalier, cabinet, military
+//!          └─ perspective: one-, two-, three-point
+//! ```
 
 use super::DemonstrationError;
 use super::number_format::format_short;
@@ -17,13 +23,13 @@ use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
 
-/// The world axes by name.
+/// The world axes by name, as unit vectors: their images give foreshortening and vanishing points.
 const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
 
 /// A projection with its name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct NamedProjection {
-    /// The name: lower case, hyphens.
+    /// The name: lower case, hyphens. It becomes the id of the panel and, with blanks, its title.
     pub name: String,
     /// The projection as a scene file describes it.
     pub projection: ProjectionFile,
@@ -34,6 +40,9 @@ pub struct NamedProjection {
 ///
 /// # Errors
 /// If the scene cannot be resolved, there is nothing to draw, or the picture has no pixels.
+///
+/// The background is opaque white, as on paper. Panels keep the order of `members`; the title names
+/// the models. The cost is one resolution and one line drawing for each projection.
 pub fn projection_panels(
     origin: &Origin,
     file: &SceneFile,
@@ -57,6 +66,10 @@ pub fn projection_panels(
 }
 
 /// The notes of a panel: class, formulas, measurements.
+///
+/// A parallel projection gets the lengths and directions of the axes, a perspective its angle and
+/// vanishing points. Parallel means that w does not change along any axis, which the matrix shows
+/// even if its decomposition fails.
 fn projection_notes(
     projection: &ProjectionFile,
     view_projection: &ViewProjection,
@@ -87,6 +100,8 @@ fn projection_notes(
 }
 
 /// The classes from below the root to this one, such as `parallel, oblique, cavalier`.
+///
+/// The root, which every class shares, is left out.
 fn class_path(class: ProjectionClass) -> String {
     let mut names: Vec<&str> = class.ancestors().map(ProjectionClass::name).collect();
     names.pop();
@@ -95,6 +110,10 @@ fn class_path(class: ProjectionClass) -> String {
 }
 
 /// The class of a projection: by its name, or for perspectives by the number of vanishing points.
+///
+/// The parallel kinds of a scene file are names of classes already. A perspective is of the class
+/// that its camera makes of it: turning the camera turns a one-point into a two-point perspective
+/// with the same lens.
 fn classify_projection(
     projection: &ProjectionFile,
     map: Projective<World, Clip>,
@@ -121,6 +140,8 @@ fn classify_projection(
 }
 
 /// The formula ids of the projection's class, then those of its matrix, each once.
+///
+/// Order is class first, matrix second; a linear search removes duplicates from the few ids.
 fn formula_list(class: ProjectionClass, view_projection: &ViewProjection) -> String {
     let named = match class {
         ProjectionClass::Multiview => "MV-1",
@@ -149,6 +170,9 @@ enum ViewWindow {
 }
 
 /// The window of a decomposed projection; `None` if its matrix does not determine one.
+///
+/// A frustum is measured by slopes (x and y per unit of distance), which do not depend on where its
+/// near plane lies.
 fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
     Some(match kind {
         Decomposed::Frustum(frustum) => ViewWindow::Perspective(frustum.slopes()),
@@ -163,6 +187,10 @@ fn view_window(kind: &Decomposed) -> Option<ViewWindow> {
 ///
 /// `pixels` is the length of a unit of the picture plane. If the matrix does not determine it, the
 /// longest axis counts as drawn to full scale, as the plan of a military projection.
+///
+/// The image of an axis d is the vector M (d, 0), scaled from NDC to pixels. Its length over the
+/// length of a unit is the foreshortening ratio: √(2/3) = 0.816 for isometric, 1 and ½ for the
+/// receding axes of cavalier and cabinet. An axis shorter than 1e-9 is seen end-on.
 fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>) -> String {
     let images = AXES.map(|(name, axis)| {
         let image = map.transform_direction(axis);
@@ -188,12 +216,17 @@ fn describe_axes(map: Projective<World, Clip>, size: DVec2, pixels: Option<f64>)
 }
 
 /// The vertical opening angle of a perspective.
+///
+/// atan(top) − atan(bottom), which is also right for windows off the line of sight.
 fn describe_opening_angle(slopes: Window) -> String {
     let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
     format!("{}° high · ", format_short(degrees, 3))
 }
 
 /// The vanishing points of the axes, in half heights of the picture from its center.
+///
+/// Axes parallel to the picture plane have their vanishing point at infinity and are left out.
+/// Units are equal on both axes: x is multiplied by the aspect ratio.
 fn describe_vanishing_points(map: Projective<World, Clip>, size: DVec2) -> String {
     let Ok(points) = principal_vanishing_points(map) else { return String::new() };
     let aspect = size.x / size.y;

@@ -25,7 +25,7 @@ use projection::{Convention, Orthographic};
 use std::fmt;
 use step::SweepBase;
 
-/// The gap between a picture and its view volume in millimeters.
+/// The gap between a picture and the picture of its view volume below it, in millimeters.
 const PANEL_GAP: f64 = 4.0;
 
 /// The parameter of a sweep.
@@ -55,12 +55,15 @@ pub enum SweepParameter {
     Angle,
 }
 
-/// A parameter with its range of values.
+/// A parameter with its range of values, in the parameter's unit: degrees for angles, world units
+/// for distances and heights, plain ratios for the others.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Sweep {
     /// The parameter.
     pub parameter: SweepParameter,
     /// The first value.
+    ///
+    /// It may be greater than the last value: the sweep then runs downwards.
     pub from: f64,
     /// The last value.
     pub to: f64,
@@ -103,6 +106,8 @@ impl SweepParameter {
     }
 
     /// Its effect on the picture, in the words of the lessons.
+    ///
+    /// It is the title of the whole page, behind the name of the parameter.
     const fn caption(self) -> &'static str {
         match self {
             Self::Fov => "a smaller angle enlarges",
@@ -159,6 +164,10 @@ impl Sweep {
     ///
     /// # Errors
     /// As [`view_projections`](Self::view_projections), or if a picture has no pixels.
+    ///
+    /// The panels have the ids `step-1`, `step-2`, … Each is drawn in turn with all threads. One
+    /// observer is fitted to all steps, so that the view volumes can be compared from panel to
+    /// panel.
     pub fn draw_panels(&self, scene: &Scene, threads: usize) -> Result<Panels, DemonstrationError> {
         let mut scene = scene.clone();
         scene.image.background = [1.0; 4];
@@ -188,6 +197,10 @@ impl Sweep {
 }
 
 /// A picture with its view volume below it, seen by an observer aside.
+///
+/// The scene is drawn a second time with the volume of its camera as an overlay, from the
+/// observer's view. Ids of layers are prefixed with `view-` and `volume-`, so that they stay unique
+/// on the common page.
 fn add_volume_panel(
     view: Panel,
     scene: &Scene,
@@ -207,6 +220,10 @@ fn add_volume_panel(
 }
 
 /// A trimetric view that shows the models, all eyes and all near windows; `None` without models.
+///
+/// The near windows are the corners (±1, ±1, +1) of the canonical volume, mapped back to the world.
+/// Far windows are left out: they would shrink the models to a few pixels. The margin is 8 % on
+/// each side.
 fn observer_view(scene: &Scene, views: &[(ViewProjection, String)]) -> Option<ViewProjection> {
     let mut points = scene.world_points();
     for (view_projection, _) in views {

@@ -57,6 +57,8 @@ const BOARD_KINDS: [(&str, &str, Ink); 3] = [
 ];
 
 /// A board of the floor: index of its layer, corners.
+///
+/// A board lies in the floor plane y = 0 and has an area of 1 × 6 world units.
 struct Board {
     /// Index into [`BOARD_KINDS`].
     kind: usize,
@@ -68,6 +70,9 @@ struct Board {
 ///
 /// # Errors
 /// None in practice: camera and projection are constants.
+///
+/// The page depends on nothing but the constants of this file. The notes state the numbers behind
+/// the picture: w and image of two pairs of points, and the number of boards that clipping leaves.
 pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
     let world_to_clip = world_to_clip()?;
     let boards = floor_boards();
@@ -80,6 +85,9 @@ pub fn wraparound_panels() -> Result<Panels, DemonstrationError> {
 }
 
 /// World to the chapter's canonical volume (PE-3), looking along −z.
+///
+/// A vertical field of view of 60° from the eye's height. w = −z for the points of the floor, so
+/// the sign of z tells ahead from behind.
 fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
     let eye = Point::new(0.0, EYE_HEIGHT, 0.0);
     let camera = Camera::look_to(eye, -Vector::Z, Vector::Y)?;
@@ -93,6 +101,9 @@ fn world_to_clip() -> Result<Projective<World, Clip>, DemonstrationError> {
 }
 
 /// The boards of the floor, row by row.
+///
+/// Four rows of four boards. A row is ahead if it ends at z < 0, behind if it begins at z ≥ 0, and
+/// else crosses the plane of the eye.
 fn floor_boards() -> Vec<Board> {
     let mut boards = Vec::new();
     for end in BOARD_ENDS.windows(2) {
@@ -115,6 +126,10 @@ fn floor_boards() -> Vec<Board> {
 }
 
 /// The scene from the side, looking to the left: the visible part is left of the eye.
+///
+/// An orthographic view along −x at 3.2 mm per world unit, drawn directly on the page and not
+/// through the pipeline. Dashed lines are the plane of the eye and the near plane, thin lines the
+/// opening angle of 60°.
 fn side_panel(boards: &[Board]) -> Panel {
     let position = |z: f64, y: f64| DVec2::new(56.0 + z * 3.2, 40.0 - y * 3.2);
     let line = |a: [f64; 2], b: [f64; 2]| {
@@ -157,6 +172,10 @@ fn side_panel(boards: &[Board]) -> Panel {
 }
 
 /// The perspective divide without clipping: images of the corners, joined.
+///
+/// This is the mistake that the lesson shows: the segment between the images of two corners with w
+/// of different signs is the complement of the true image. Only afterwards is the drawing cut at
+/// the border of the picture, which cannot repair it.
 fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let outline = |board: &Board| -> Vec<Polyline> {
         let images = board.corners.map(|corner| map.transform_point(corner).divide());
@@ -172,6 +191,10 @@ fn divided_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
 }
 
 /// Clipping against the view volume, then the divide.
+///
+/// Polygon clipping in homogeneous space (Sutherland and Hodgman, 1974; CL-3). Every remaining
+/// vertex has w ≥ near; the least w of all is printed. Boards behind the eye vanish, crossing ones
+/// keep their part ahead.
 fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
     let ring = |board: &Board| {
         clip_convex(&board.corners.map(|corner| map.transform_point(corner)), &Volume::CHAPTER)
@@ -197,6 +220,8 @@ fn clipped_panel(boards: &[Board], map: Projective<World, Clip>) -> Panel {
 }
 
 /// A picture of the boards by their outlines.
+///
+/// One layer for each kind of board with at least one line; empty layers are dropped.
 fn boards_panel(
     id: &str,
     title: &str,
@@ -214,6 +239,8 @@ fn boards_panel(
 }
 
 /// The part of a line between two images inside the picture.
+///
+/// Reuses homogeneous segment clipping with w = 1 and z = 0. `None` if the line misses the picture.
 fn clip_to_picture([a, b]: [Point<Ndc>; 2]) -> Option<Polyline> {
     // Divided already: w is 1, and depth is irrelevant.
     let flat = |p: Point<Ndc>| HPoint::<Clip>::new(p.x(), p.y(), 0.0, 1.0);
@@ -230,6 +257,8 @@ fn to_page(image: Point<Ndc>) -> DVec2 {
 }
 
 /// The w and the image of a point, in words.
+///
+/// Image coordinates are NDC; they may be far outside of [−1, 1].
 fn describe_image(map: Projective<World, Clip>, point: Point<World>) -> String {
     let clip = map.transform_point(point);
     let Some(image) = clip.divide() else { return "has no image".to_owned() };

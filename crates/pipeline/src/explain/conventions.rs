@@ -8,6 +8,11 @@
 //! | Vulkan | 0 to 1 | down | looks along −z |
 //! | Direct3D | 0 to 1 | up | looks along +z |
 //! | WebGPU, Metal | 0 to 1 | up | looks along −z |
+//!
+//! A conversion between two rows is one matrix C after the projection, M' = C · M_proj: a scale and
+//! offset of z (for example z' = (w − z)/2 from +1 … −1 to 0 … 1) and a sign of y. The frustum in
+//! the world and the pixel under a point stay as they are; matrices, outcodes and depth values
+//! change.
 
 use homog::{Affine, PixelConvention, View};
 use projection::{Convention, Handedness, NdcY};
@@ -15,6 +20,9 @@ use std::str::FromStr;
 use viewport::{DepthRange, Rectangle, Viewport, ViewportError};
 
 /// The conventions of a textbook or of a graphics API.
+///
+/// Each value fixes four choices: the canonical volume, the handedness of view space, the pixel
+/// convention of the viewport and its depth range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ApiConventions {
     /// The program's own: the chapter's volume, near at z = +1; pixels as in image files, depth 1
@@ -23,10 +31,15 @@ pub enum ApiConventions {
     Alberti,
     /// Shirley and others, chapters 7 and 8: near at z = +1, integer pixel centers, y up, z
     /// unchanged.
+    ///
+    /// The viewport matrix is M_vp of the chapter, with x from −1/2 to width − 1/2.
     Chapter,
     /// OpenGL: near at z = −1, y up, depth 0 at the near plane.
     OpenGl,
     /// Vulkan: near at z = 0, y down in clip space.
+    ///
+    /// Framebuffer rows count from the top, like those of image files, because both flips of y
+    /// cancel.
     Vulkan,
     /// Direct3D: near at z = 0, view space looks along +z.
     Direct3d,
@@ -40,6 +53,8 @@ impl ApiConventions {
         [Self::Alberti, Self::Chapter, Self::OpenGl, Self::Vulkan, Self::Direct3d, Self::WebGpu];
 
     /// The name on the command line.
+    ///
+    /// Lower case, without spaces; `FromStr` accepts exactly these names.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -53,6 +68,10 @@ impl ApiConventions {
     }
 
     /// The canonical view volume.
+    ///
+    /// It holds the NDC range of z, the direction of y and the handedness of view space. None of
+    /// the conventions here is reversed-z in the sense of Vulkan or Direct3D; the chapter's near
+    /// plane at +1 has the same ordering by nature.
     #[must_use]
     pub const fn canonical_volume(self) -> Convention {
         match self {
@@ -64,7 +83,10 @@ impl ApiConventions {
         }
     }
 
-    /// The change of view space from −z to the direction of gaze of the conventions.
+    /// The map from a view space that looks along −z to that of the conventions: diag(1, 1, ±1).
+    ///
+    /// It is its own inverse, and its determinant of −1 turns right-handed into left-handed
+    /// coordinates.
     pub(super) fn view_flip(self) -> Affine<View, View> {
         Affine::scale(1.0, 1.0, if self.looks_along_z() { -1.0 } else { 1.0 })
     }
@@ -80,6 +102,11 @@ impl ApiConventions {
     }
 
     /// The viewport that covers an image.
+    ///
+    /// The depth range of OpenGL maps −1 … +1 to 0 … 1 as `glDepthRange(0, 1)` does; conventions
+    /// with NDC z in 0 … 1 pass z through unchanged.
+    ///
+    /// # Errors If width or height is 0.
     pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
         let (pixels, depth) = match self {
             Self::Alberti => (PixelConvention::IMAGE, DepthRange::ZERO_ONE),
@@ -104,6 +131,9 @@ impl FromStr for ApiConventions {
 }
 
 /// The common name of a canonical volume.
+///
+/// Compares with a table of the volumes in use, in their plain and reversed forms. A custom
+/// convention has no entry and is called `another convention`.
 pub(super) fn volume_name(volume: Convention) -> &'static str {
     const NAMES: [(Convention, &str); 9] = [
         (Convention::OPENGL, "OpenGL (near −1, far +1)"),

@@ -9,6 +9,10 @@
 //!   eye    •   │ far           │   •   │            │    •  │
 //!      ╲───────┘               └───────┘            └───────┘
 //! ```
+//!
+//! The point coordinates come from items whose ids begin with `view`, `ndc` or `screen`, so a new
+//! subject gets its diagrams without code here. All projections are orthographic along an axis; a
+//! frustum keeps its shape because its edges are straight in view space.
 
 use super::plain_text::format_number;
 use super::transform_chain::TransformChain;
@@ -18,28 +22,41 @@ use base64::engine::general_purpose::STANDARD;
 use homog::HPoint;
 use shade::Picture;
 
-/// Width and height of a diagram in its own units.
+/// Width and height of a volume diagram in SVG user units; the page scales it to the column.
 const SIZE: [f64; 2] = [300.0, 220.0];
-/// The margin around its contents.
+/// Free border around the contents in SVG user units: labels of extreme points lie in it.
 const MARGIN: f64 = 24.0;
 
 /// A point of the subject in one space, with its label.
 struct LabeledPoint {
-    /// The label: empty for a single point.
+    /// The label, such as `a` or `start`: empty for a single point.
     name: String,
     /// Three finite coordinates in the space of the diagram.
     coordinates: Vec<f64>,
 }
 
 /// A diagram: caption and SVG element.
+///
+/// The SVG has classes instead of colors; the page's style sheet sets these for light and dark
+/// schemes.
 pub(super) struct Diagram {
     /// The caption below the diagram.
     pub(super) caption: String,
-    /// The SVG element.
+    /// The SVG element, complete with its closing tag.
     pub(super) svg: String,
 }
 
 /// All diagrams for which an explanation has the numbers.
+///
+/// ```text
+///  view from above   (depth ahead, x)      if the view volume is finite
+///  view from side    (depth ahead, y)      ″
+///  NDC front         (x, y)                if a point survives the divide
+///  NDC side          (z, y)                ″
+///  picture           (column, row)         if a picture is given
+/// ```
+/// View space is drawn with the gaze to the right in all conventions: z is negated where view space
+/// looks along −z.
 pub(super) fn draw_diagrams(
     explanation: &Explanation,
     chain: &TransformChain,
@@ -90,6 +107,9 @@ pub(super) fn draw_diagrams(
 }
 
 /// The points of the steps in a space, found by the ids of items: one, two ends or three vertices.
+///
+/// Accepts the id `space` itself and `space_label`. Items of other types, homogeneous points (four
+/// numbers) and coordinates that are not finite are skipped, such as a clip-space point near w = 0.
 fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
     let items = explanation.steps.iter().flat_map(|step| &step.items);
     let marks = items.filter_map(|item| {
@@ -103,6 +123,9 @@ fn labeled_points(explanation: &Explanation, space: &str) -> Vec<LabeledPoint> {
 }
 
 /// The corners of the canonical volume in NDC: x varies fastest, then y, then z.
+///
+/// Corner n has bit 0 for right, bit 1 for top and bit 2 for far; [`BOX_EDGES`] relies on this
+/// order.
 fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
     let [near, far] = chain.depth_range();
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
@@ -110,6 +133,10 @@ fn canonical_corners(chain: &TransformChain) -> [[f64; 3]; 8] {
 }
 
 /// The corners of the view volume in view space; `None` if it is infinite.
+///
+/// Maps the corners of the canonical volume back by the inverse projection, p_view = M⁻¹ p_ndc, and
+/// divides by w. Infinite far planes give w = 0, singular projections no inverse; coordinates
+/// beyond 1e12 would reduce the rest of the diagram to a dot.
 fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
     let clip_to_view = chain.view_to_clip().inverse()?;
     let mut corners = [[0.0; 3]; 8];
@@ -121,6 +148,9 @@ fn view_volume_corners(chain: &TransformChain) -> Option<[[f64; 3]; 8]> {
 }
 
 /// The edges of a box by the indices of its corners.
+///
+/// Two indices of an edge differ in exactly one bit: four edges along x, four along y, four along
+/// z.
 const BOX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
@@ -137,6 +167,10 @@ const BOX_EDGES: [[usize; 2]; 12] = [
 ];
 
 /// The diagram of a volume seen along an axis, with the points of the subject.
+///
+/// `corners` are already projected to the plane of the diagram; `project` does this for the points.
+/// Diagrams of view space also show the eye, which is the origin there. The window includes points
+/// outside the volume, so a clipped point is visible beside the box.
 fn volume_diagram(
     caption: &str,
     corners: [[f64; 2]; 8],
@@ -170,6 +204,10 @@ fn volume_diagram(
 }
 
 /// The diagram of the picture with the points of the subject.
+///
+/// The user units of this SVG are pixels of the image, so marks need no scaling, only a change to
+/// the upper left origin. The PNG is embedded as a base64 data URI and may be smaller than the
+/// image: `preserveAspectRatio="none"` stretches it to the full size.
 fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPoint]) -> Diagram {
     let [width, height] = chain.image_size();
     let mut svg = open_svg([width, height]);
@@ -179,7 +217,7 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
     );
     let positions: Vec<[f64; 2]> = marks
         .iter()
-        .map(|mark| chain.from_top_left([mark.coordinates[0], mark.coordinates[1]]))
+        .map(|mark| chain.image_coordinates([mark.coordinates[0], mark.coordinates[1]]))
         .collect();
     svg += &subject_svg(marks, &positions, width / SIZE[0]);
     svg += "</svg>";
@@ -190,6 +228,9 @@ fn picture_diagram(chain: &TransformChain, picture: &Picture, marks: &[LabeledPo
 
 /// The points with their labels, joined to a polygon if there are several; `unit` scales lines and
 /// letters.
+///
+/// `positions` are in SVG user units, one for each mark. A segment is a polygon of two points,
+/// which draws as a line. Labels are ids of this program (`a`, `b`, `1`, …) and need no escaping.
 fn subject_svg(marks: &[LabeledPoint], positions: &[[f64; 2]], unit: f64) -> String {
     let mut svg = String::new();
     if positions.len() > 1 {
@@ -221,11 +262,18 @@ fn subject_svg(marks: &[LabeledPoint], positions: &[[f64; 2]], unit: f64) -> Str
 }
 
 /// The opening tag of a diagram.
+///
+/// `role="img"` makes screen readers announce the diagram as one image, described by its caption.
 fn open_svg([width, height]: [f64; 2]) -> String {
     format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\">")
 }
 
 /// The window-to-viewport map of a diagram: y up to y down, equal scales on both axes.
+///
+/// ```text
+///  x_svg = SIZE_x / 2 + (x − center_x) · scale
+///  y_svg = SIZE_y / 2 − (y − center_y) · scale
+/// ```
 struct DiagramWindow {
     /// The point that is mapped to the diagram's center.
     center: [f64; 2],
@@ -235,6 +283,9 @@ struct DiagramWindow {
 
 impl DiagramWindow {
     /// The map that shows all points, centered.
+    ///
+    /// The smaller of the two axis scales fits both extents. A single point has extent 0; the lower
+    /// bound 1e-300 avoids a division by zero, and the point lands at the center.
     fn around_points<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {

@@ -12,6 +12,8 @@ use shade::Picture;
 impl Explanation {
     /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,
     /// of any size and of the scene's aspect ratio, shows the position of the subject.
+    ///
+    /// The page is complete without network access. The order is subject, verdict, diagrams, steps.
     #[must_use]
     pub fn to_html(&self, chain: &TransformChain, picture: Option<&Picture>) -> String {
         let subject = escape_html(&self.subject);
@@ -35,6 +37,9 @@ impl Explanation {
 }
 
 /// One step as a list item with a table of its values.
+///
+/// The id of the step is the anchor, so `page.html#clip` leads to clipping. Formula ids become
+/// `<code>` chips behind the title.
 fn step_html(step: &Step) -> String {
     let formulas = step.formula.unwrap_or_default();
     let chips: String = formulas
@@ -48,6 +53,9 @@ fn step_html(step: &Step) -> String {
 }
 
 /// One value as a term with its description.
+///
+/// Matrices are tables whose left and right borders act as brackets; coordinates are a list in
+/// parentheses. Numbers have at most seven significant digits, as in plain text.
 fn item_html(item: &Item) -> String {
     let value = match &item.value {
         ItemValue::Matrix(rows) => {
@@ -68,11 +76,17 @@ fn item_html(item: &Item) -> String {
 }
 
 /// Escapes text for HTML content and attribute values.
+///
+/// The ampersand comes first, or it would escape the entities of the others. Names of nodes and
+/// models come from files and can hold any character.
 fn escape_html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// The style sheet of the page, for light and dark color schemes.
+///
+/// Colors are custom properties; `prefers-color-scheme` replaces three of them. Diagrams use the
+/// classes `volume`, `eye`, `subject` and `mark`.
 const STYLESHEET: &str = "
 :root { color-scheme: light dark; --ink: #1c2430; --paper: #fff; --faint: #8a94a3; --mark: #c62828; }
 @media (prefers-color-scheme: dark) { :root { --ink: #dfe4ec; --paper: #14181e; --mark: #ff7b72; } }

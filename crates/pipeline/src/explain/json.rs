@@ -10,6 +10,9 @@ use super::{Explanation, Item, ItemValue, Step};
 use serde_json::{Value as Json, json};
 
 /// The name of the schema.
+///
+/// Consumers compare it before they read anything else; the program writes other JSON documents
+/// too.
 pub const SCHEMA_NAME: &str = "alberti-explain";
 /// The version of the schema. It rises when a member changes its meaning or is removed; new members
 /// may come in any release.
@@ -18,6 +21,9 @@ pub const SCHEMA_VERSION: u32 = 1;
 impl Explanation {
     /// Formats the explanation as a JSON document: a list of steps, each with a list of items.
     /// Numbers that are not finite become `null`.
+    ///
+    /// Decimals are the shortest that parse to the same f64, so a program can recompute each step
+    /// bit for bit. Matrices are `{"rows": [[…], …]}` for column vectors.
     #[must_use]
     pub fn to_json(&self) -> Json {
         json!({
@@ -30,6 +36,8 @@ impl Explanation {
 }
 
 /// One step with its items.
+///
+/// A step without a formula has `"formula": null`, not a missing member.
 fn step_json(step: &Step) -> Json {
     json!({
         "id": step.id,
@@ -40,6 +48,8 @@ fn step_json(step: &Step) -> Json {
 }
 
 /// One item; a matrix as an object with its rows.
+///
+/// The object tells a matrix from a list of coordinates without counting numbers.
 fn item_json(item: &Item) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),

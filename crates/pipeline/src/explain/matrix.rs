@@ -16,6 +16,10 @@ use projection::{Convention, Decomposed, Symptom, readings, symptoms};
 ///
 /// # Errors
 /// If an entry is not a finite number.
+///
+/// The matrix is read as a map from view to clip space, M p with p a column. Entries of the
+/// transposed matrix (row vectors, or column-major storage read by rows) are recognized as a
+/// misprint and shown corrected.
 pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     if let Some(at) = rows.as_flattened().iter().position(|entry| !entry.is_finite()) {
         let (row, column) = (at / 4 + 1, at % 4 + 1);
@@ -35,9 +39,15 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
 }
 
 /// A projection that the matrix is, with the convention in which it is one.
+///
+/// The decomposition holds the parameters and the common factor: a projective map does not change
+/// when it is multiplied by a number other than 0.
 type ProjectionReading = (Convention, projection::Decomposition);
 
 /// The kind of map: affine, projective, its rank and determinant.
+///
+/// A rank below 4 loses a dimension, as a projection onto a plane does; the sign of the determinant
+/// says whether orientation changes, as it does between handednesses.
 fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
     let found = map.classify();
     Step::new("kind", "What kind of map it is", Some("HO-3"))
@@ -48,6 +58,16 @@ fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
 }
 
 /// The parts of an affine map: translation, scale of each axis, shear, handedness.
+///
+/// Only for matrices whose last row is a multiple of (0, 0, 0, 1). With the columns a₁, a₂, a₃ of
+/// the upper left 3 × 3:
+///
+/// ```text
+///  scales      |a₁|, |a₂|, |a₃|
+///  shear       |aᵢ · aⱼ| > 1e-9 |aᵢ| |aⱼ| for some pair
+///  handedness  sign of (a₁ × a₂) · a₃
+/// ```
+/// The tolerance is relative to the lengths, so that scales of 1e-6 do not hide a shear.
 fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
     let matrix = map.to_affine()?.raw();
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
@@ -73,6 +93,9 @@ fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
 }
 
 /// The vanishing points of the three axes.
+///
+/// The vanishing point of a direction d is M (d, 0): the columns of the matrix. Finite columns
+/// belong to one-, two- and three-point perspective (VN-1); 1e-12 is the relative tolerance on w.
 fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
     let points = map.principal_vanishing_points(1e-12);
     let words = |meaning: HPointKind<Clip>| match meaning {
@@ -91,6 +114,9 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
 }
 
 /// The projections that the matrix may be.
+///
+/// One item for each reading, labeled with its convention. A common factor other than 1 is printed:
+/// it does not move any point, but it scales w, which some programs use as a distance.
 fn readings_step(read: &[ProjectionReading]) -> Step {
     let step =
         Step::new("readings", "Which projection it is, in whose convention", Some("GL-1, PE-2"));
@@ -111,6 +137,9 @@ fn readings_step(read: &[ProjectionReading]) -> Step {
 }
 
 /// A projection with its parameters in words.
+///
+/// Window and depth are in the units of view space, depth as positive distances from the eye. A
+/// placed projection is one that has a camera transform multiplied into it.
 pub(super) fn describe_projection(kind: &Decomposed) -> String {
     let window = |w: projection::Window| {
         let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
@@ -147,6 +176,9 @@ pub(super) fn describe_projection(kind: &Decomposed) -> String {
 }
 
 /// A known misprint that the matrix resembles, with the correction.
+///
+/// The corrected matrix is shown only where the sixteen entries determine it. The first misprint
+/// has the id `misprint`, further ones `other_misprint`.
 fn misprint_step(at: usize, slip: &Symptom) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
     let title = format!("It looks like a known misprint ({known})");
@@ -162,6 +194,8 @@ fn misprint_step(at: usize, slip: &Symptom) -> Step {
 }
 
 /// The result in a sentence: the first reading, and the first misprint.
+///
+/// The readings come simplest first, so the first one is the likeliest intention.
 fn matrix_verdict(
     map: Projective<View, Clip>,
     read: &[ProjectionReading],

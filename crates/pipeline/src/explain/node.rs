@@ -6,6 +6,10 @@
 //! ```
 //! A primitive is counted at the first stage that removes it. Where everything fails at one stage,
 //! the verdict names it and a remedy.
+//!
+//! The order of the stages is that of the pipeline, so the count of a later stage excludes
+//! everything that an earlier one removed. Counts are exact integers; the percentage in the verdict
+//! is the only rounded number.
 
 use super::plain_text::format_number;
 use super::point::{describe_node, model_point};
@@ -21,6 +25,10 @@ use model::{AlphaMode, MeshInstance, Model, Primitive, Topology};
 /// culling, transparency.
 ///
 /// Occlusion by other surfaces is not tested: it comes after all of these stages.
+///
+/// The cost is O(vertices + primitives) of the node's mesh, for each of its instances. The node's
+/// own mesh is meant, not those of its children. Skinned meshes are posed first, so the bounds are
+/// those of the current pose.
 #[must_use]
 pub fn explain_node(
     chain: &TransformChain,
@@ -48,6 +56,9 @@ pub fn explain_node(
 }
 
 /// The path from the root to the node.
+///
+/// Follows the parent indices to the root and prints them root first. The matrix is the accumulated
+/// node-to-model transform, the product of the local TRS matrices along this path.
 fn tree_step(model: &Model, node: usize) -> Step {
     let mut path = Vec::new();
     let mut above = Some(node);
@@ -73,6 +84,9 @@ fn tree_step(model: &Model, node: usize) -> Step {
 }
 
 /// The reason for a node without a visible mesh.
+///
+/// Three causes: the index is out of range, the node has no mesh (a group, joint, light or camera),
+/// or the node is outside the scene that is drawn.
 fn explain_absence(model: &Model, node: usize) -> String {
     match model.nodes.get(node) {
         None => "There is no such node.".to_owned(),
@@ -90,9 +104,11 @@ fn explain_absence(model: &Model, node: usize) -> String {
 /// The number of points, lines and triangles by the stage that removes them.
 #[derive(Default)]
 struct PrimitiveCounts {
-    /// The bounding box in the world.
+    /// The axis-aligned bounding box in world space: least and greatest corner; `None` without
+    /// vertices.
     bounds: Option<[DVec3; 2]>,
-    /// The planes of the view volume that every vertex is outside of.
+    /// The planes of the view volume that every vertex is outside of: the AND of all outcodes. A
+    /// plane in it rejects the whole mesh, which names the simplest remedy.
     common_outcode: Option<Outcode>,
     /// All points, lines and triangles of the node's mesh.
     total: usize,
@@ -110,6 +126,10 @@ struct PrimitiveCounts {
 
 impl PrimitiveCounts {
     /// Counts all points, lines and triangles of a primitive.
+    ///
+    /// Positions are skinned, mapped to world and clip space in f64, then assembled by topology. A
+    /// transform with a negative determinant mirrors the mesh: triangles that were counterclockwise
+    /// appear clockwise, so the culled side is exchanged as the glTF specification demands.
     fn count_primitive(
         &mut self,
         chain: &TransformChain,
@@ -148,6 +168,10 @@ impl PrimitiveCounts {
 
     /// Counts one point, line or triangle. `culled` says for a front face (`true`) or back face
     /// whether it is culled.
+    ///
+    /// The tests in order: trivial rejection (the AND of the vertices' outcodes is not 0), facing
+    /// (edge-on if the area is 0), culling, alpha. A primitive outside several planes is counted at
+    /// the first of them, so that the counts add up to the total.
     fn classify_primitive(
         &mut self,
         chain: &TransformChain,
@@ -177,6 +201,8 @@ impl PrimitiveCounts {
     }
 
     /// The bounding box and its relation to the view volume.
+    ///
+    /// World units. A mesh whose box lies outside one plane is explained by this step alone.
     fn bounds_step(&self) -> Step {
         let step = Step::new("bounds", "Where all of it is", Some("CL-1"));
         let Some([min, most]) = self.bounds else {
@@ -193,6 +219,9 @@ impl PrimitiveCounts {
     }
 
     /// The counts as a step.
+    ///
+    /// Planes that reject nothing are left out of the list. Primitives that cross a plane count as
+    /// visible: only a part of them is clipped.
     fn count_step(&self) -> Step {
         let mut step =
             Step::new("counts", "Its points, lines and triangles", Some("CL-1, CL-3, RA-1"))
@@ -210,6 +239,10 @@ impl PrimitiveCounts {
     }
 
     /// The result in a sentence: the stage that removes everything, or the visible fraction.
+    ///
+    /// The first condition that explains everything wins: an empty mesh, one plane that rejects
+    /// all, a visible remainder, culling, alpha. A mesh that is rejected partly by one plane and
+    /// partly by another has no single cause.
     fn verdict(&self) -> String {
         let common = self.common_outcode.unwrap_or(Outcode::INSIDE);
         if self.total == 0 {

@@ -4,6 +4,12 @@
 //! The fragments come from the renderer itself ([`inspect_pixel`]): the pixel is rendered again
 //! with a recording surface. Several fragments mean an edge within the pixel, or translucent
 //! layers.
+//!
+//! ```text
+//!  pixel (x, y) ─► fragments: primitive, barycentric weights, linear color ─► resolve ─► sRGB
+//!                     └─ nearest surface point ─► camera, projection, outcodes, divide, viewport
+//! ```
+//! Weights are perspective-correct: they blend vertex attributes in the world, not on the screen.
 
 use super::point::{describe_node, model_point};
 use super::transform_chain::TransformChain;
@@ -17,6 +23,9 @@ use model::Topology;
 ///
 /// # Errors
 /// If there is no such pixel, or none of the picture's pixels is shaded; the text says which.
+///
+/// The nearest fragment is that with the largest depth in the pipeline's own volume, whatever the
+/// conventions of `chain`: reversed or flipped depth would otherwise select the farthest.
 pub fn explain_pixel(
     chain: &TransformChain,
     scene: &Scene,
@@ -49,6 +58,9 @@ pub fn explain_pixel(
 }
 
 /// A fragment: the primitive it comes from, weights, color, world position.
+///
+/// A fragment without a source comes from environment, backdrop or ground and has no position. Its
+/// color is linear RGB, premultiplied by alpha.
 fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let title = match seen.source {
         Some(owner) => format!("Seen: {}", source_name(scene, owner)),
@@ -65,6 +77,9 @@ fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
 }
 
 /// The primitive of a fragment in words.
+///
+/// `triangle 12 of primitive 0 at node 3 of model 0`: the indices are those that `--triangle` and
+/// `--node` accept, so the next question can be asked directly.
 fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     let FragmentSource { model, node, primitive, element: item } = owner;
     let Some(model_instance) = scene.models.get(model) else { return String::new() };
@@ -80,7 +95,7 @@ fn source_name(scene: &Scene, owner: FragmentSource) -> String {
     )
 }
 
-/// The glTF primitive that a fragment comes from.
+/// The glTF primitive that a fragment comes from; `None` if an index is out of range.
 fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primitive> {
     let model = &scene.models.get(owner.model)?.model;
     let mesh = model.meshes.get(model.nodes.get(owner.node)?.mesh?)?;
@@ -88,6 +103,10 @@ fn find_primitive(scene: &Scene, owner: FragmentSource) -> Option<&model::Primit
 }
 
 /// The world position of a triangle's fragment: its vertices blended by the barycentric weights.
+///
+/// p = w₀ p₀ + w₁ p₁ + w₂ p₂ with the vertices skinned and mapped to world space in f64. The
+/// weights are f32, so the position is exact to about 1e-7 of the triangle's size. Points and lines
+/// have no barycentric weights and give `None`.
 fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World>> {
     let owner = seen.source?;
     let model_instance = scene.models.get(owner.model)?;
@@ -106,6 +125,9 @@ fn fragment_position(scene: &Scene, seen: &ShadedFragment) -> Option<Point<World
 }
 
 /// The resolved color of the pixel.
+///
+/// Samples are averaged in linear light; an average of sRGB values would darken edges. The result
+/// is 8 bits for each channel, alpha not premultiplied, as the PNG stores it.
 fn color_step(makeup: &PixelFragments) -> Step {
     let [r, g, b, alpha] = makeup.color;
     Step::new("pixel", "The pixel: samples resolved in linear light, then sRGB", Some("RA-2"))
@@ -114,6 +136,9 @@ fn color_step(makeup: &PixelFragments) -> Step {
 }
 
 /// The result in a sentence.
+///
+/// Names the color in hexadecimal and the number of distinct fragments: more than one is an
+/// antialiased edge or blending.
 fn pixel_verdict(makeup: &PixelFragments) -> String {
     let [r, g, b, alpha] = makeup.color;
     let what = match makeup.fragments.len() {

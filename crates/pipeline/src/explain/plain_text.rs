@@ -26,6 +26,8 @@ impl Display for Explanation {
 }
 
 /// The formula ids of a step in parentheses.
+///
+/// Prints ` (CA-1, CA-2)`, or nothing for a step without a formula.
 struct FormulaSuffix<'a>(&'a Step);
 
 impl Display for FormulaSuffix<'_> {
@@ -35,6 +37,9 @@ impl Display for FormulaSuffix<'_> {
 }
 
 /// Writes an item, its label padded to `width`.
+///
+/// The label stands before the first line only; the other rows of a matrix are indented below it.
+/// `width` counts characters, not bytes, for labels such as `x, y = ±distance`.
 fn write_item_text(f: &mut Formatter<'_>, item: &Item, width: usize) -> fmt::Result {
     let lines = match &item.value {
         ItemValue::Matrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
@@ -54,6 +59,13 @@ fn write_item_text(f: &mut Formatter<'_>, item: &Item, width: usize) -> fmt::Res
 }
 
 /// Formats a number with up to seven significant digits, without trailing zeros; −0 as 0.
+///
+/// ```text
+///  0, 1e-4 ≤ |x| < 1e9   decimal     0.333333   123456.8
+///  otherwise             scientific  1.000000e-9
+/// ```
+/// The digits before the point are counted on the rounded number, so 9.9999999 becomes 10 and not a
+/// number with eight digits. Infinities print as `inf`.
 pub(super) fn format_number(x: f64) -> String {
     // −0 is a 0 to people.
     let x = x + 0.0;

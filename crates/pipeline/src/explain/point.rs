@@ -13,6 +13,8 @@ use model::ModelInstance;
 use model::{MeshInstance, Model};
 
 /// Explains the transforms themselves, without a point.
+///
+/// Camera, projection and viewport matrices: all that a program needs to repeat the projection.
 #[must_use]
 pub fn explain_transforms(chain: &TransformChain) -> Explanation {
     let [_, screen] = chain.screen_steps(&[]);
@@ -26,6 +28,8 @@ pub fn explain_transforms(chain: &TransformChain) -> Explanation {
 }
 
 /// Follows a world point through every stage.
+///
+/// Coordinates are those of the world, in the units of the scene.
 #[must_use]
 pub fn explain_point(chain: &TransformChain, point: Point<World>) -> Explanation {
     let [x, y, z] = <[f64; 3]>::from(point).map(format_number);
@@ -47,6 +51,9 @@ pub struct VertexRef {
 ///
 /// # Errors
 /// If the model does not show such a vertex; the text says what there is.
+///
+/// Morph targets, then skinning, then node and model transform, as the glTF specification orders
+/// them.
 pub fn explain_vertex(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -72,6 +79,9 @@ pub fn explain_vertex(
 }
 
 /// The steps of a world point, after those that led to it.
+///
+/// The verdict is positive only if the outcode is 0 and w is not 0: a point behind the eye can
+/// divide to coordinates inside the image, which is why the outcode is tested and not the NDC.
 fn explain_world_point(
     chain: &TransformChain,
     point: Point<World>,
@@ -95,6 +105,9 @@ fn explain_world_point(
 }
 
 /// The model transform: mesh to world, for labeled points.
+///
+/// `to_model` is the accumulated node transform, or the identity for a skinned mesh: its joints
+/// already map to model space. The product is applied in one multiplication.
 pub(super) fn model_step(
     model_instance: &ModelInstance,
     to_model: Affine<ModelSpace, ModelSpace>,
@@ -129,6 +142,9 @@ pub(super) fn model_step(
 ///
 /// # Errors
 /// If there is none; the message lists nodes or counts primitives that exist.
+///
+/// A node outside the drawn scene has no instance. The message lists up to twelve nodes that have
+/// one.
 pub(super) fn find_shown_primitive(
     model: &Model,
     node: usize,
@@ -158,6 +174,8 @@ pub(super) fn describe_node(model: &Model, node: usize) -> String {
 }
 
 /// A vertex position in f64.
+///
+/// The conversion is exact; everything behind it is computed in f64.
 pub(super) fn model_point(position: [f32; 3]) -> Point<ModelSpace> {
     Point::from(position.map(f64::from))
 }

@@ -13,6 +13,14 @@ use homog::{Clip, Projective, View};
 use projection::{Classical, Decomposed, decompose};
 
 /// Adds the kind of a projection, and its factors in the order in which they apply to a point.
+///
+/// The product of the factors equals the projection matrix up to rounding. A projection that cannot
+/// be decomposed adds nothing, and neither does one whose kind has no textbook factorization: only
+/// its kind is named then.
+///
+/// The shear of a frustum moves the center of the window onto the axis, x' = x + z (l + r)/(2n);
+/// for a symmetric frustum it is the identity. The shear of an oblique projection makes its
+/// projectors parallel to the axis.
 pub(super) fn add_projection_factors(
     step: &mut Step,
     view_to_clip: Projective<View, Clip>,
@@ -44,6 +52,8 @@ pub(super) fn add_projection_factors(
 
 /// The ids of the formulas of a projection in the pipeline's own conventions, as the chapter
 /// numbers them.
+///
+/// Such as `PE-1, PE-3, VV-2`; `None` for a matrix that is not recognized.
 pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
     let decomposition =
         decompose(view_to_clip.raw(), ApiConventions::Alberti.canonical_volume()).ok()?;
@@ -51,6 +61,9 @@ pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'stat
 }
 
 /// The ids of the formulas of a kind of projection in the given conventions.
+///
+/// Perspective and orthographic matrices have formulas of their own for the volumes of graphics
+/// APIs (GL-1, GL-3); the classical projections are numbered once.
 fn formula_ids_of_kind(kind: &Decomposed, conventions: ApiConventions) -> Option<&'static str> {
     let chapter = matches!(conventions, ApiConventions::Alberti | ApiConventions::Chapter);
     match kind {

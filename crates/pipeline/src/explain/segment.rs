@@ -13,6 +13,10 @@ use clip::{clip_segment, segment_outcomes};
 use homog::{Clip, HPoint, Point, World};
 
 /// Follows a world segment through every stage.
+///
+/// t is a parameter in clip space before the divide, so it is affine in the world: t = 0.5 is the
+/// midpoint of the world segment, not of its image. The screen steps show the ends of the visible
+/// part, labeled `start` and `end`.
 #[must_use]
 pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Explanation {
     let named = [("a", ends[0]), ("b", ends[1])];
@@ -45,6 +49,9 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
 }
 
 /// The clipping step: the planes through which the visible part enters and leaves.
+///
+/// `left` is `None` for a segment that is rejected, trivially or because its interval is empty (t₀
+/// > t₁); the step then names the planes that it is outside of.
 fn clip_step(
     chain: &TransformChain,
     a: HPoint<Clip>,

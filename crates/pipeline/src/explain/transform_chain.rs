@@ -4,6 +4,9 @@
 //! ```text
 //!  World ──T, R──► View ──projection──► Clip ──÷w──► Ndc ──M_vp──► Screen
 //! ```
+//!
+//! Matrices act on column vectors; the composition reads from left to right in the figure and from
+//! right to left in a product, M = M_vp · M_proj · M_cam.
 
 use super::conventions::ApiConventions;
 use super::plain_text::format_number;
@@ -15,6 +18,8 @@ use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, View, World};
 use viewport::{Viewport, ViewportError};
 
 /// Camera, projection and viewport in the conventions of a graphics API.
+///
+/// The volume is converted once, when the chain is built; all steps then speak one convention.
 #[derive(Clone, Copy, Debug)]
 pub struct TransformChain {
     /// The camera, whose view space looks along −z.
@@ -27,7 +32,8 @@ pub struct TransformChain {
     viewport: Viewport,
     /// World → clip → screen in these conventions.
     transform: ViewTransform,
-    /// Whether the window exchanges left and right, or bottom and top.
+    /// Whether the window exchanges left and right, or bottom and top; front faces then wind
+    /// clockwise.
     is_mirrored: bool,
 }
 
@@ -39,6 +45,10 @@ impl TransformChain {
     ///
     /// # Errors
     /// If the picture has no pixels.
+    ///
+    /// The projection is converted from the pipeline's own volume by `Convention::convert`; the
+    /// camera is composed with the flip of z of left-handed conventions. World to clip is the
+    /// product in f64.
     pub fn new(
         view_projection: &ViewProjection,
         (width, height): (u32, u32),
@@ -96,6 +106,10 @@ impl TransformChain {
 
     /// Back-face test: whether a triangle shows the viewer the side on which its vertices run
     /// counterclockwise; `None` if it is seen edge-on. Points and lines have no back.
+    ///
+    /// Working before the divide avoids clipping: the sign is right for triangles that cross the
+    /// plane of the eye. A flip of y (Vulkan) and a mirrored window each invert it; two flips
+    /// cancel.
     pub(super) fn is_front_facing(&self, corners: &[HPoint<Clip>]) -> Option<bool> {
         let &[a, b, c] = corners else { return Some(true) };
         // The determinant of the (x, y, w) is positive for counterclockwise triangles in clip space
@@ -108,6 +122,8 @@ impl TransformChain {
     }
 
     /// The depth of a point in the pipeline's own volume: larger is nearer, in any convention.
+    ///
+    /// Points with w = 0 give −∞ and are never the nearest.
     pub(super) fn nearness(&self, point: Point<World>) -> f64 {
         let own_volume = ApiConventions::Alberti.canonical_volume();
         let to_own_volume = self.conventions.canonical_volume().clip_to_clip(own_volume);
@@ -142,13 +158,17 @@ impl TransformChain {
     }
 
     /// Screen coordinates as pixels from the upper left corner of the picture, y down.
-    pub(super) fn from_top_left(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn image_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let border = self.viewport.convention().centers.image_border();
         let (x, y) = (x - border, y - border);
         [x, if self.rows_run_up() { self.image_size()[1] - y } else { y }]
     }
 
     /// The view transform's two factors, and the points in view space.
+    ///
+    /// M_cam = R · T (CA-1): the translation of the eye to the origin, then the rotation whose rows
+    /// are u, v, w. Left-handed conventions add diag(1, 1, −1). The distance of a point is measured
+    /// along the gaze, positive ahead of the eye, and is not its Euclidean distance.
     pub(super) fn camera_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
         let mut step =
             Step::new("camera", "Camera: from the world to view space", Some("CA-1, CA-2"))
@@ -183,6 +203,10 @@ impl TransformChain {
     }
 
     /// The projection's factors, and the points in clip space.
+    ///
+    /// The formula ids depend on the kind of projection and are set with the factors. Clip
+    /// coordinates have four components; w is the distance ahead for a perspective and 1 for a
+    /// parallel projection.
     pub(super) fn projection_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
         let mut step = Step::new("projection", "Projection: from view to clip space", None);
         projection_factors::add_projection_factors(&mut step, self.view_to_clip, self.conventions);
@@ -201,6 +225,9 @@ impl TransformChain {
     }
 
     /// The outcodes of points of clip space.
+    ///
+    /// A bit is set where the signed distance of the point from a plane is negative, such as w − x
+    /// < 0 for right (Cohen and Sutherland). The bits are printed in binary and as plane names.
     pub(super) fn outcode_step(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> Step {
         let mut step =
             Step::new("outcodes", "Outcodes: which planes each is outside of", Some("CL-1"));
@@ -217,6 +244,10 @@ impl TransformChain {
     }
 
     /// Perspective divide and viewport transform of clip-space points.
+    ///
+    /// Returns the step of the divide and that of the viewport. A point at infinity appears in the
+    /// first only. Points outside the volume are mapped too: their coordinates show how far outside
+    /// they are. Depth is 0 … 1, its direction given by the conventions.
     pub(super) fn screen_steps(&self, points: &[NamedPoint<'_, HPoint<Clip>>]) -> [Step; 2] {
         let mut divide = Step::new("divide", "The divide by w", Some("HO-1"));
         let mut screen = Step::new(
@@ -252,6 +283,9 @@ impl TransformChain {
     }
 
     /// The pixel in words: column and row from the top, as image files count them.
+    ///
+    /// The floor of the coordinates relative to the image border; for points outside the picture
+    /// the column or row is negative or beyond the last.
     fn describe_pixel(&self, [x, y, _]: [f64; 3]) -> String {
         let pixels = self.viewport.convention();
         let (border, height) = (pixels.centers.image_border(), self.viewport.area().height());
@@ -272,6 +306,9 @@ impl TransformChain {
 }
 
 /// The item of a point whose w is 0.
+///
+/// It takes the id of the NDC coordinates, with text in their stead; a direction or a point in the
+/// plane of the eye has no image.
 fn infinity_item(name: &str) -> Item {
     let words = "w is 0: it is at infinity and has no place on the screen";
     Item {
@@ -291,11 +328,15 @@ pub(super) fn describe_outcode(code: Outcode) -> String {
 }
 
 /// The end of an item's id for a labeled point.
+///
+/// `_a` for the point a, empty for a single point.
 fn id_suffix(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("_{name}") }
 }
 
 /// The label of an item for a labeled point.
+///
+/// `clip of a` for the point a, `clip` for a single point.
 fn label_with_name(what: &str, name: &str) -> String {
     if name.is_empty() { what.to_owned() } else { format!("{what} of {name}") }
 }

@@ -4,6 +4,12 @@
 //! Clipping cuts the triangle at each plane in turn (Sutherland and Hodgman, 1974), in homogeneous
 //! coordinates before the divide. A vertex of the result is a blend of a, b and c; the weights of
 //! the blend are what attributes are interpolated by.
+//!
+//! ```text
+//!       b                 3───4          up to nine vertices: each of the six
+//!      ╱ ╲       ──►     ╱     ╲         planes can add one
+//!     a───c             1───────2
+//! ```
 
 use super::plain_text::format_number;
 use super::point::{describe_node, find_shown_primitive, model_point, model_step};
@@ -18,6 +24,10 @@ use model::Topology;
 ///
 /// # Errors
 /// If the model does not show such a triangle; the text says what there is.
+///
+/// Vertices keep the labels a, b, c through the transforms; those of the clipped polygon are
+/// numbered from 1. The area is that of the visible part, in square pixels, before samples decide
+/// coverage.
 pub fn explain_triangle(
     chain: &TransformChain,
     model_instance: &ModelInstance,
@@ -81,6 +91,9 @@ pub fn explain_triangle(
 }
 
 /// The clipping step: planes, and the vertices of the clipped polygon with their weights.
+///
+/// The weights of a vertex sum to 1 and are affine in the world, since clipping comes before the
+/// divide: 1, 0, 0 is the vertex a itself, two entries other than 0 are a cut of an edge.
 fn clip_step(left: &ClippedPolygon) -> Step {
     let mut step = Step::new("clip", "Clipping, in homogeneous space", Some("CL-3"))
         .with_item("cut", "cut by", plane_list(left.outcomes.clipped, "no plane"))
@@ -111,6 +124,9 @@ fn plane_list(code: clip::Outcode, none: &str) -> String {
 
 /// The signed area on the screen in pixels (shoelace formula): positive if the vertices run
 /// clockwise, with y down.
+///
+/// A = ½ Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ). The clipped polygon is convex and has w > 0, so no vertex is
+/// skipped.
 fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
     let corners: Vec<DVec2> = left
         .vertices()
@@ -123,6 +139,9 @@ fn screen_area(chain: &TransformChain, left: &ClippedPolygon) -> f64 {
 }
 
 /// The area and winding on the screen.
+///
+/// The turn is named by axes and not by a clock, since y runs up in some conventions and down in
+/// others.
 fn area_step(area: f64) -> Step {
     let orientation = match area {
         area if area > 0.0 => "from +x towards +y",

@@ -1,4 +1,11 @@
 //! Resolution of the background: a color, or a backdrop of a gradient or an image.
+//!
+//! ```text
+//!  Transparent          0, 0, 0, 0
+//!  Color                linear color, alpha 1
+//!  Environment          drawn by the renderer along the view rays
+//!  Gradient, Picture    a backdrop behind the models, over the clear color
+//! ```
 
 use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile};
 use super::surrounding_light::read_image_bytes;
@@ -11,15 +18,19 @@ use shade::Gradient;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The most colors of a gradient.
+/// The most colors of a gradient, at even distances.
 const MAX_GRADIENT_COLORS: usize = 16;
-/// The most pixels of a picture behind the models.
+/// The most pixels of a backdrop image: 67 million, a limit on the memory that a small compressed
+/// file can demand.
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
 /// The path of the background in a scene file; viewports have their own.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
 impl SceneFile {
-    /// The paths of all pictures around and behind the models, from the scene's folder on.
+    /// The paths of all environment and backdrop images, relative to the scene's folder.
+    ///
+    /// Insets may have backdrops of their own. The caller uses the list for access checks and for
+    /// finding changed files.
     pub fn image_paths(&self) -> impl Iterator<Item = &str> {
         let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
         let behind =
@@ -34,8 +45,8 @@ impl SceneFile {
         around.into_iter().chain(behind)
     }
 }
-/// An error that points into the background, at the value at the end of `rest`.
 
+/// An error that points into the background, at the value at the end of `rest`.
 fn background_error(
     origin: &Origin,
     rest: &[PathStep<'_>],
@@ -45,8 +56,13 @@ fn background_error(
     origin.error_at(&[&BACKGROUND_PATH, rest].concat(), message, help.map(str::to_owned))
 }
 
-/// The color that all samples are cleared to: linear, premultiplied by alpha. Behind a gradient or
-/// a picture it only serves to choose a color of lines that contrasts with it.
+/// The clear color of all samples: linear, premultiplied by alpha.
+///
+/// Behind a gradient it is the color of its center, behind an image the color given with it: it
+/// shows where the image does not cover the frame, and automatic line colors are chosen to contrast
+/// with it.
+///
+/// # Errors If the background is the environment, and the scene has none.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -73,7 +89,10 @@ pub(super) fn resolve_background_color(
     }
 }
 
-/// The gradient of `colors` in the direction `angle`, in radians.
+/// The linear gradient of `colors` in the direction `angle`, in radians, over an image of width ×
+/// height pixels.
+///
+/// # Errors If there are fewer than 2 or more than 16 colors.
 fn resolve_gradient(
     origin: &Origin,
     colors: &[Color],
@@ -89,8 +108,13 @@ fn resolve_gradient(
     Ok(Gradient::new(&codes, angle, [width, height]))
 }
 
-/// The gradient or image behind the models; `None` for plain backgrounds. An image file may lie in
+/// The backdrop behind the models, a gradient or an image; `None` for plain backgrounds.
+///
+/// The image is decoded and fitted to the frame once; renderers share it. An image file may lie in
 /// one of the `allowed` folders too.
+///
+/// # Errors If the file is outside of the allowed folders, cannot be read, is too large or not an
+/// image.
 pub(super) fn resolve_backdrop(
     origin: &Origin,
     file: &SceneFile,

@@ -1,4 +1,10 @@
 //! Camera paths: keyframes of a camera, and their interpolation by Catmull–Rom splines.
+//!
+//! ```text
+//!  keys (tᵢ, vᵢ) ─► v(t), ten numbers: eye, target, up, field of view ─► LookAt + projection
+//! ```
+//! Each number is interpolated alone. Eye and target are splines, the orientation follows from
+//! them, so the target stays in the center of the picture between keys too.
 
 use super::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
@@ -10,26 +16,28 @@ use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
 use model::ModelInstance;
 
-/// The most keys.
+/// The most keyframes of a path.
 const MAX_KEYS: usize = 10_000;
-/// The numbers of a key: eye, target, view-up vector, opening angle in degrees.
+/// The values of a keyframe: eye, target and view-up vector in world space (three each), vertical
+/// field of view in degrees.
 type KeyValues = [f64; 10];
 
 /// The path of a camera in time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CameraPath {
+    /// Times in seconds, strictly increasing, with the values at them; at least two.
     keys: Vec<(f64, KeyValues)>,
+    /// The interpolation: linear, or Catmull–Rom.
     curve: CurveFile,
-    /// The camera whose projection it has.
+    /// The camera of the scene, whose projection the path uses.
     camera: CameraFile,
 }
 
 impl CameraPath {
-    /// The camera path of a scene file, if it has one.
+    /// The camera path of a scene file; `None` without one.
     ///
-    /// # Errors
-    /// If there are too few keys or too many, their times do not grow, or a key has an opening
-    /// angle and the projection has none; the error points at it.
+    /// # Errors If there are fewer than 2 or more than 10 000 keys, their times do not increase, or
+    /// a key has a field of view and the projection has none; the error points at it.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
         let fault = |rest: &[PathStep<'_>], message: String, help: &str| {
@@ -75,7 +83,9 @@ impl CameraPath {
         [time(self.keys.first()), time(self.keys.last())]
     }
 
-    /// The camera at a time in seconds; before the first key it is there, and after the last.
+    /// The camera at a time in seconds, with the first or last keyframe outside of the range.
+    ///
+    /// A cubic curve can overshoot its keys, so the field of view is clamped to 0.01° … 179°.
     #[must_use]
     pub fn camera_at(&self, time: f64) -> CameraFile {
         let numbers = self.interpolate_keys(time);
@@ -90,7 +100,10 @@ impl CameraPath {
         camera
     }
 
-    /// The view-projection at a time, around models that are loaded and posed.
+    /// The view-projection at a time in seconds, around models that are loaded and posed.
+    ///
+    /// # Errors If eye and target coincide, or up is parallel to the gaze, between keys for
+    /// example; the message gives the time.
     pub(crate) fn view_projection_at(
         &self,
         origin: &Origin,
@@ -103,10 +116,13 @@ impl CameraPath {
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
+
     /// The values at a time: those of the first and the last keyframe outside of their range, else
     /// an interpolation of the keyframes around it, linear or by a cubic Hermite curve with
     /// Catmull–Rom slopes.
-
+    ///
+    /// With s = (t − tᵢ)/(tᵢ₊₁ − tᵢ) and slopes per second scaled by the length of the interval.
+    /// The interval is found by binary search, O(log keys).
     fn interpolate_keys(&self, time: f64) -> KeyValues {
         let after = self.keys.partition_point(|key| key.0 <= time);
         let (Some(before), Some(&(end, to))) = (after.checked_sub(1), self.keys.get(after)) else {
@@ -125,22 +141,26 @@ impl CameraPath {
         })
     }
 
-    /// How fast a number changes at a key: as fast as between its neighbours (Catmull and Rom,
-    /// 1974, at unequal times).
+    /// The slope of a value at a key, per second (Catmull and Rom, 1974, at unequal times).
+    ///
+    /// mᵢ = (vᵢ₊₁ − vᵢ₋₁)/(tᵢ₊₁ − tᵢ₋₁); at the first and last key the one-sided difference. Equal
+    /// slopes on both sides of a key make the motion C¹: no jump of velocity.
     fn catmull_rom_slope(&self, at: usize, number: usize) -> f64 {
         let (start, from) = self.keys[at.saturating_sub(1)];
         let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];
         (to[number] - from[number]) / (end - start)
     }
 }
-/// The values of a keyframe; `usual` is the field of view of keyframes without one.
 
+/// The values of a keyframe; `usual` is the field of view of keyframes without one.
 fn key_values(key: &CameraKeyFile, usual: FieldOfView) -> KeyValues {
     let [[a, b, c], [d, e, f], [g, h, i]] = [key.eye.0, key.target.0, key.up.0];
     [a, b, c, d, e, f, g, h, i, key.fov_y_degrees.unwrap_or(usual).value()]
 }
 
-/// The cubic with these values and slopes at 0 and 1 (Hermite).
+/// The cubic Hermite polynomial with given values and slopes at 0 and 1, in Horner form.
+///
+/// p(t) = p₀ + t (m₀ + t (3Δ − 2m₀ − m₁ + t (m₀ + m₁ − 2Δ))) with Δ = p₁ − p₀.
 fn interpolate_hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f64 {
     let change = to - from;
     let bend = 3.0 * change - 2.0 * out - into;

@@ -18,16 +18,25 @@ use projection::{
     Orthographic, Planometric, PrincipalView, ProjectionError, Window,
 };
 
-/// The box around the images of all points.
+/// The axis-aligned bounding box of the projected vertices, in the space of the picture plane.
 #[derive(Clone, Copy, Debug)]
 struct ProjectedBounds {
+    /// The least x, y and z.
     low: DVec3,
+    /// The greatest x, y and z; larger z is nearer.
     high: DVec3,
 }
 
 impl CameraResolver<'_> {
-    /// A classical projection of the models as seen from a side; the front, unless another is
-    /// named.
+    /// A classical projection framed around the models, seen from `from`, by default from the
+    /// front.
+    ///
+    /// `padding` is the free margin on each side, as a fraction of the window. The camera of a
+    /// projection by a picture plane is at the center of the models: parallel projections do not
+    /// depend on where it stands.
+    ///
+    /// # Errors If the parameters are impossible, there is nothing to draw, or a vertex is behind
+    /// the eye.
     pub(super) fn frame_classical(
         &self,
         from: Option<&FromFile>,
@@ -44,7 +53,10 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, padding)
     }
 
-    /// A classical projection before a camera that stands somewhere.
+    /// A classical projection for a camera whose position is given; the window is fitted with a
+    /// margin of 5 %.
+    ///
+    /// # Errors For perspectives by vanishing points, whose eye follows from their points.
     pub(super) fn project_classical(
         &self,
         camera: Camera,
@@ -56,7 +68,10 @@ impl CameraResolver<'_> {
         self.frame_on_picture_plane(camera, projection, 0.05)
     }
 
-    /// A projection that is given by its picture plane.
+    /// A projection given by its picture plane, with the window fitted to the models.
+    ///
+    /// The depth-preserving form of the projection keeps a third coordinate for the depth test; the
+    /// orthographic volume around the projected bounds then maps to clip space: M = V · P.
     fn frame_on_picture_plane(
         &self,
         camera: Camera,
@@ -82,7 +97,11 @@ impl CameraResolver<'_> {
         Ok(ViewProjection { camera, view_to_clip })
     }
 
-    /// A perspective that is given by vanishing points.
+    /// A perspective given by vanishing points, with the eye placed so that the models fit.
+    ///
+    /// The points determine the rotation of the eye against the axes and the off-axis window
+    /// (slopes per unit of distance); both are independent of scale. [`frame_perspective`] then
+    /// finds the eye in closed form.
     fn frame_construction(
         &self,
         from: Basis,
@@ -117,8 +136,10 @@ impl CameraResolver<'_> {
     }
 }
 
-/// The mistake in the numbers of a classical projection, if there is one. Those by vanishing points
-/// find their own eye: they need a view that is framed.
+/// Validates the parameters of a classical projection without models; `None` if they are possible.
+///
+/// Perspectives by vanishing points also need a framed view (`is_framed`), since they find their
+/// own eye.
 pub(super) fn check_classical_projection(
     origin: &Origin,
     projection: Option<&ProjectionFile>,
@@ -136,14 +157,18 @@ pub(super) fn check_classical_projection(
     Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None))
 }
 
-/// A perspective by vanishing points before a camera whose position is given.
+/// The error for a perspective by vanishing points whose camera position is given too.
 fn own_eye_error(origin: &Origin) -> SceneError {
     let help = "take Frame(from: …), or leave the view out".to_owned();
     let message = "a perspective by vanishing points finds its own eye";
     origin.error_at(&VIEW_PATH, message, Some(help))
 }
 
-/// The construction, for the projections that are given by vanishing points.
+/// The construction of a one-, two- or three-point perspective from its vanishing points (VN-1);
+/// `None` for other projections.
+///
+/// Coordinates of the points are in half heights of the picture from its center, y up. The inner
+/// error reports points that no orthogonal axes can have, such as three in an obtuse triangle.
 fn vanishing_point_construction(
     projection: &ProjectionFile,
 ) -> Option<Result<ConstructedPerspective, ProjectionError>> {
@@ -162,8 +187,11 @@ fn vanishing_point_construction(
     })
 }
 
-/// The projection that is given by its picture plane; `radius` is that of the models about the
-/// camera.
+/// The projection given by its picture plane.
+///
+/// `radius` is the greatest distance of a vertex from the camera; p, q and r of an n-point
+/// perspective are divided by it, so that their effect does not depend on the size of the models.
+/// Projections without parameters cannot fail.
 fn picture_plane_projection(
     projection: &ProjectionFile,
     radius: f64,
@@ -194,19 +222,22 @@ fn picture_plane_projection(
     })
 }
 
-/// From (2, 3, 6), as the camera of that name sees.
+/// The default trimetric projection: view direction from (2, 3, 6), as the named view of the camera
+/// crate.
 fn default_trimetric() -> Result<Axonometric, ProjectionError> {
     Axonometric::by_normal(homog::Normal::new(2.0, 3.0, 6.0))
 }
 
-/// The greatest distance of a point from the camera; 1 if there is none.
+/// The greatest distance of a point from the origin of view space; 1 without points or if all are
+/// there.
 fn bounding_radius(points: &[Point<View>]) -> f64 {
     let most = points.iter().map(|point| point.raw().length()).fold(0.0, f64::max);
     if most > 0.0 { most } else { 1.0 }
 }
 
 impl ProjectedBounds {
-    /// The box around the images; `None` if a point has none or lies behind the eye.
+    /// The bounding box of the projected points; `None` if one has w ≤ 0, that is lies behind the
+    /// eye, or there are none.
     fn from_points(points: &[Point<View>], map: Projective<View, View>) -> Option<Self> {
         let nothing = DVec3::splat(f64::INFINITY);
         let mut image = Self { low: nothing, high: -nothing };
@@ -222,7 +253,11 @@ impl ProjectedBounds {
         (image.low.is_finite() && image.high.is_finite()).then_some(image)
     }
 
-    /// The volume with everything in it, of this aspect, with a part of its sides free.
+    /// The orthographic volume around the box with the picture's aspect ratio.
+    ///
+    /// The window is grown along the shorter direction and by the margin, h / (1 − 2 padding); near
+    /// and far get 1 % of the depth, so that no vertex lies on a plane. Flat boxes fall back to
+    /// their depth or to 1.
     fn view_volume(self, aspect: f64, padding: f64) -> Result<Orthographic, ProjectionError> {
         let (size, middle) = (self.high - self.low, (self.high + self.low) * 0.5);
         let height = size.y.max(size.x / aspect);

@@ -20,19 +20,23 @@ impl Color {
 
     /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is
     /// none of them.
+    ///
+    /// Three digits are doubled, `#1af` is `#11aaff`. There is no alpha channel: opacity is a field
+    /// of its own where it exists.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         parse_hex_srgb(text).or_else(|| parse_color_name(text)).map(Self)
     }
 
-    /// Red, green and blue as linear light from 0 to 1.
+    /// Red, green and blue as linear light from 0 to 1, by the sRGB transfer function (IEC
+    /// 61966-2-1) from a table of 256 entries.
     #[must_use]
     pub fn to_linear(self) -> [f32; 3] {
         self.0.map(|code| srgb_to_linear_table()[usize::from(code)])
     }
 }
 
-/// The color of a CSS name (CSS Color 4, § 6.1).
+/// The color of a CSS name (CSS Color 4, § 6.1), by binary search in the sorted table.
 fn parse_color_name(text: &str) -> Option<[u8; 3]> {
     let name = text.to_ascii_lowercase();
     let index = CSS_COLORS.binary_search_by_key(&name.as_str(), |(name, _)| name).ok()?;
@@ -76,7 +80,7 @@ impl SceneValue for Color {
     }
 }
 
-/// A string that is a color.
+/// Reads a string that is a color; a misspelt name gets the closest one as a hint.
 fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color> {
     let text = String::from_node(node, checker)?;
     let color = Color::parse(&text);
@@ -91,13 +95,14 @@ fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color
     }
     color
 }
-/// How colors are written.
 
+/// The help on the notation of colors.
 fn hex_help() -> String {
     "write #rgb, #rrggbb, such as #1a1f26, or a CSS color name".to_owned()
 }
 
-/// Eight-bit channels of three or four numbers from 0 to 1.
+/// The 8-bit color of a tuple of three or four numbers from 0 to 1, for the hint in a message;
+/// alpha is ignored.
 fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
     let items = &unnamed_group(node)?.items;
     let number = |index: usize| match items.get(index)?.value.kind {
@@ -115,7 +120,7 @@ fn color_of_numbers(node: &Node<'_>) -> Option<[u8; 3]> {
 pub struct LightColor(pub [f64; 3]);
 
 impl LightColor {
-    /// (1, 1, 1).
+    /// White, (1, 1, 1): the intensity of the light is unchanged.
     pub const WHITE: Self = Self([1.0; 3]);
 }
 

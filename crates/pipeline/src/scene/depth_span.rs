@@ -6,7 +6,9 @@ use homog::{Point, World};
 /// The least and the greatest depth of the vertices, along the line of sight from the eye.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct DepthSpan {
+    /// The least depth in world units, negative behind the eye.
     pub(super) nearest_depth: f64,
+    /// The greatest depth in world units.
     pub(super) farthest_depth: f64,
 }
 
@@ -27,9 +29,11 @@ impl DepthSpan {
         }
     }
 
-    /// Near and far planes of a perspective: tight around the vertices with a margin of 1 %. The near
-    /// plane is at least 1e-5 of the far distance away from the eye, because depth resolution falls
-    /// with the ratio of the two (ZP-1).
+    /// Near and far planes of a perspective: tight around the vertices with a margin of 1 %.
+    ///
+    /// The near plane is at least 1e-5 of the far distance away from the eye, because depth
+    /// resolution falls with the ratio of the two (PE-6). Given planes are used unchanged; the
+    /// result always has near < far unless both are given.
     pub(crate) fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =
             far.unwrap_or(if self.farthest_depth > 0.0 { self.farthest_depth * 1.01 } else { 1.0 });
@@ -38,7 +42,10 @@ impl DepthSpan {
         (near, far)
     }
 
-    /// Near and far planes for a parallel projection; they may lie behind the eye.
+    /// Near and far planes of a parallel projection; they may lie behind the eye.
+    ///
+    /// The margin is 1 % of the depth range, with a lower bound for flat scenes relative to their
+    /// distance, so that the planes stay apart in floating point.
     pub(crate) fn parallel_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let size = self.nearest_depth.abs().max(self.farthest_depth.abs());
         let room = (self.farthest_depth - self.nearest_depth).max(size * 1e-6).max(1e-9) * 0.01;

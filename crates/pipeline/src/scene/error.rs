@@ -81,7 +81,8 @@ impl std::error::Error for SceneError {}
 /// Its `Display` shows the first [`SHOWN`](Self::SHOWN), and how many more there are.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SceneErrors {
-    first: SceneError,
+    /// Boxed, so that a `Result` with these errors stays small.
+    first: Box<SceneError>,
     others: Vec<SceneError>,
 }
 
@@ -93,18 +94,18 @@ impl SceneErrors {
     #[must_use]
     pub fn from_list(errors: Vec<SceneError>) -> Option<Self> {
         let mut errors = errors.into_iter();
-        Some(Self { first: errors.next()?, others: errors.collect() })
+        Some(Self { first: Box::new(errors.next()?), others: errors.collect() })
     }
 
     /// The first mistake.
     #[must_use]
-    pub const fn first(&self) -> &SceneError {
+    pub fn first(&self) -> &SceneError {
         &self.first
     }
 
     /// All mistakes.
     pub fn iter(&self) -> impl Iterator<Item = &SceneError> {
-        std::iter::once(&self.first).chain(&self.others)
+        std::iter::once(&*self.first).chain(&self.others)
     }
 
     /// The messages of the first few mistakes, each but the first with `error: ` before it, and the
@@ -128,13 +129,13 @@ impl SceneErrors {
 
 impl From<SceneError> for SceneErrors {
     fn from(error: SceneError) -> Self {
-        Self { first: error, others: Vec::new() }
+        Self { first: Box::new(error), others: Vec::new() }
     }
 }
 
 impl From<SceneErrors> for Vec<SceneError> {
     fn from(errors: SceneErrors) -> Self {
-        std::iter::once(errors.first).chain(errors.others).collect()
+        std::iter::once(*errors.first).chain(errors.others).collect()
     }
 }
 

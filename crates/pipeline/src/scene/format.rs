@@ -34,6 +34,9 @@ const INDENT_WIDTH: usize = 4;
 /// # Errors
 /// The mistakes in the text, if it is not a scene file; or if formatting would change what it
 /// means.
+///
+/// The result is parsed again and compared with the scene of the input: a defect of the formatter
+/// cannot damage a file. Formatting is idempotent, and comments are never lost.
 pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     let text = replace_legacy_words(text);
     let scene = parse_scene(file, &text)?;
@@ -50,6 +53,10 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
 }
 
 /// Writes the items of a group, each on lines of its own; `comma` stands behind each element.
+///
+/// `indent` is in columns. At the top level `comma` is empty: a file holds one value and
+/// attributes. Several blank lines become one, and blank lines at the beginning of a group are
+/// dropped.
 fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &str) {
     for (number, item) in items.iter().enumerate() {
         if item.blank_before && number > 0 {
@@ -73,6 +80,10 @@ fn write_items(page: &mut String, items: &[FormatItem], indent: usize, comma: &s
 
 /// Writes an element that begins on the line at byte `line` of the page, with `behind` columns
 /// after it.
+///
+/// Width is counted in characters and not in bytes. Groups are tried from the outside to the
+/// inside: the outermost group that does not fit is broken, and its items get a chance of their
+/// own.
 fn write_element(page: &mut String, element: &Element, indent: usize, line: usize, behind: usize) {
     for part in &element.parts {
         match part {
@@ -95,7 +106,11 @@ fn write_element(page: &mut String, element: &Element, indent: usize, line: usiz
     }
 }
 
-/// A group on one line, if it can be.
+/// The group on one line; `None` if it is open in the source, or a comment or an open group is
+/// inside.
+///
+/// Each level of nesting formats its groups again, so the cost is O(length × depth); the parser
+/// bounds the depth.
 fn single_line(group: &FormatGroup) -> Option<String> {
     if group.multiline {
         return None;

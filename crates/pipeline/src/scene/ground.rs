@@ -7,18 +7,23 @@ use model::ModelInstance;
 use model::world_points;
 use shade::Light;
 
-/// A level rectangle that shows nothing but shadows.
+/// A horizontal rectangle that shows only shadows (shadow catcher).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ground {
-    /// Its corners in the world, counter-clockwise from above.
+    /// The corners in world space, counterclockwise seen from above.
     pub corners: [[f32; 3]; 4],
 }
 
-/// How many times the scene's diagonal shadows are followed: low suns cast longer ones, but who
-/// sees them?
+/// The longest shadow in diagonals of the models' bounding box. A sun at the horizon casts shadows
+/// without end; beyond this length they leave any picture that shows the models.
 const MAX_SHADOW_DIAGONALS: f64 = 20.0;
 
-/// The ground of a scene, if it asks for one and there is something above it.
+/// The ground of a scene; `None` if it asks for none or has no models.
+///
+/// The rectangle is the bounding box of the models seen from above, extended by the shadows of its
+/// eight corners under each light, and by 5 % on each side. A convex box has its shadow within the
+/// hull of its corners' shadows, so no vertex of the models needs to be projected. The default
+/// height is the lowest point of the models.
 pub(super) fn resolve_ground(
     file: &SceneFile,
     models: &[ModelInstance],
@@ -42,8 +47,11 @@ pub(super) fn resolve_ground(
     Some(Ground { corners: [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]] })
 }
 
-/// Where the shadow of a place falls on a level plane, no farther away than `reach`; `None` if it
-/// casts none on it.
+/// The shadow of a world point on the plane y = `height`, at most `reach` away horizontally.
+///
+/// p' = p + d_xz (p_y − height) / (−d_y), where d is the direction in which light travels. `None`
+/// for lights without shadows and for point and ambient lights. Upward or level light has d_y ≥ 0;
+/// the divisor is then bounded, and `reach` limits the length.
 fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
     light.shadow()?;
     let travel = match light {

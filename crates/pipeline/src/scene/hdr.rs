@@ -4,25 +4,36 @@
 //! manual. Both encodings of scanlines are read, flat with old-style runs and run-length encoded
 //! channels; only the orientation `-Y … +X …`. Sizes are checked against the length of the file
 //! before anything is allocated.
+//!
+//! ```text
+//!  value = (mantissa + ½) · 2^(exponent − 136)     0 if the exponent is 0
+//! ```
 
-/// The most texels along a side of an image.
+/// The most texels along one side of an image.
 const MAX_HDR_SIDE: usize = 16384;
 /// The most texels of an image.
 const MAX_HDR_TEXELS: usize = 64 << 20;
 
-/// An equirectangular image: longitude along the rows, latitude from above to below. Linear.
+/// An equirectangular environment image, linear RGB: longitude along the rows, latitude from the
+/// zenith down.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Panorama {
+    /// Texels of a row, 360° of longitude.
     width: usize,
+    /// Rows, 180° of latitude.
     height: usize,
+    /// Linear red, green and blue, row by row from the top.
     texels: Vec<[f32; 3]>,
 }
 
 impl Panorama {
-    /// Reads a file.
+    /// Decodes a Radiance file, and halves the image until it is at most 1024 texels wide.
     ///
-    /// # Errors
-    /// A description of the first error in the file.
+    /// Environment lighting is filtered to far lower resolution, so nothing visible is lost. Memory
+    /// grows with the rows that are really in the file: a short file with a large header cannot
+    /// demand more.
+    ///
+    /// # Errors A description of the first error in the file.
     pub(crate) fn decode_hdr(bytes: &[u8]) -> Result<Self, String> {
         let (width, height, data) = parse_hdr_header(bytes)?;
         let fits = |side: usize| (1..=MAX_HDR_SIDE).contains(&side);
@@ -50,8 +61,10 @@ impl Panorama {
         Ok(panorama)
     }
 
-    /// The light from a direction, a unit vector: the middle of the picture is +x, its right
-    /// quarter +z.
+    /// Bilinear lookup of the radiance from a direction, a unit vector.
+    ///
+    /// u = ½ + atan2(z, x)/2π and v = acos(y)/π: +x is the center of the image, +z lies a quarter
+    /// to its right. Columns wrap around, rows are clamped at the poles.
     pub(crate) fn sample_direction(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         use std::f32::consts::PI;
         let u = 0.5 + libm::atan2f(z, x) / (2.0 * PI);
@@ -70,7 +83,7 @@ impl Panorama {
         })
     }
 
-    /// Half as many rows and columns, each texel the mean of four.
+    /// The next mip level by a 2 × 2 box filter; an odd last row or column is dropped.
     fn downsample_by_two(&self) -> Self {
         let (width, height) = (self.width / 2, self.height / 2);
         let texel = |n: usize| {
@@ -81,13 +94,16 @@ impl Panorama {
         Self { width, height, texels: (0..width * height).map(texel).collect() }
     }
 }
-/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
 
+/// The integer part below a coordinate, and the fraction above it, for bilinear interpolation.
 fn split_floor(place: f32) -> (i64, f32) {
     (place.floor() as i64, place - place.floor())
 }
 
-/// Red, green and blue of a texel: mantissas of eight bits and the exponent, of which 128 is 0.
+/// Linear RGB of an RGBE texel: three 8-bit mantissas and an exponent with bias 128.
+///
+/// The value is in the middle of the mantissa's step, as Ward's own decoder has it, and clamped to
+/// 65504, the largest half-precision number: the sun in an unclipped image would turn into noise.
 fn decode_rgbe([r, g, b, exponent]: [u8; 4]) -> [f32; 3] {
     if exponent == 0 {
         return [0.0; 3];
@@ -97,7 +113,10 @@ fn decode_rgbe([r, g, b, exponent]: [u8; 4]) -> [f32; 3] {
     [r, g, b].map(|mantissa| ((f32::from(mantissa) + 0.5) * unit).min(65504.0))
 }
 
-/// Width, height and what follows the header.
+/// Parses the header: width, height, and the bytes after it.
+///
+/// `#?` in the first line, then variables up to an empty line, then the resolution. Lines are at
+/// most 4096 bytes, and at most 1000 of them are read. Exposure is ignored.
 fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     let mut rest = bytes;
     let mut next = || -> Option<&[u8]> {
@@ -130,8 +149,15 @@ fn parse_hdr_header(bytes: &[u8]) -> Result<(usize, usize, &[u8]), String> {
     }
 }
 
-/// Reads a row, and returns what follows it; `None` if the bytes end or a run is longer than the
+/// Decodes a scanline and returns the bytes after it; `None` if they end early or a run exceeds the
 /// row.
+///
+/// ```text
+///  2 2 hi lo   width < 32768, then the four channels one after the other:
+///    128 + n, v      n copies of v
+///    n, v₁ … vₙ      n values
+/// ```
+/// Anything else is a flat scanline.
 fn read_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     let width = row.len();
     let (&start, rest) = bytes.split_first_chunk::<4>()?;
@@ -166,7 +192,10 @@ fn read_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     Some(rest)
 }
 
-/// Reads a row of plain texels; one of (1, 1, 1, n) repeats the last n times.
+/// Decodes a flat scanline of RGBE texels; a texel (1, 1, 1, n) repeats the last one n times (old
+/// run-length encoding).
+///
+/// Consecutive repeat texels form a number in base 256, least digit first.
 fn read_flat_scanline<'a>(bytes: &'a [u8], row: &mut [[u8; 4]]) -> Option<&'a [u8]> {
     let mut rest = bytes;
     let (mut x, mut shift) = (0, 0);

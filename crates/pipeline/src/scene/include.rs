@@ -38,13 +38,14 @@ const REPLACED_FIELDS: [&str; 11] = [
     "stereo",
 ];
 
-/// For each element of a list of the scene the included file it is from, and its index there.
+/// For each list of the scene, by field name, the source of each element: index of the included
+/// file, or `None` for the scene file, and the element's index there.
 type ElementSources = BTreeMap<&'static str, Vec<(Option<usize>, usize)>>;
 
 /// The sources of the parts of a scene. A part without an entry is in the scene file itself.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct IncludeMap {
-    /// Name and text of each included file.
+    /// Name and text of each included file, in the order of reading.
     files: Vec<(String, String)>,
     /// For each field that is replaced whole the index of the file it is from.
     fields: BTreeMap<&'static str, Option<usize>>,
@@ -54,6 +55,9 @@ pub(super) struct IncludeMap {
 impl IncludeMap {
     /// Name and text of the included file that the value at the end of `path` is written in, and
     /// its path there.
+    ///
+    /// Paths of the merged scene are what resolution works with: `models[3]` may be the first model
+    /// of an included file. `None` stands for the scene file itself.
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
@@ -70,13 +74,13 @@ impl IncludeMap {
         let source = file.and_then(|file| self.files.get(file));
         (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
     }
-    /// The names of the included files, in the order in which they were read.
 
+    /// The names of the included files, in the order in which they were read.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(name, _)| name.as_str())
     }
-    /// The texts of the included files, in the order in which they were read.
 
+    /// The texts of the included files, in the order in which they were read.
     pub(super) fn included_texts(&self) -> impl Iterator<Item = &str> {
         self.files.iter().map(|(_, text)| text.as_str())
     }
@@ -84,6 +88,7 @@ impl IncludeMap {
 
 /// A mistake in one of the files of a scene.
 pub(super) struct FileMistake {
+    /// The message, with the file's name and text.
     pub(super) error: SceneError,
     /// The bytes of the field or element that is wrong: nothing else is reported of it.
     pub(super) scope: Range<usize>,
@@ -99,7 +104,10 @@ pub(super) struct GatheredScene {
     pub(super) mistakes: Vec<FileMistake>,
 }
 
-/// Parses the text of a scene and the files that it includes.
+/// Parses a scene and the files that it includes, depth first, and merges them.
+///
+/// The scene file itself is on the stack of open files from the start, so that an include of it is
+/// found to be a cycle.
 pub(super) fn gather_includes(origin: &Origin, allowed: &[PathBuf]) -> GatheredScene {
     let mut resolver =
         IncludeResolver { origin, allowed, includes: IncludeMap::default(), mistakes: Vec::new() };
@@ -123,7 +131,7 @@ struct SourceFile<'a> {
 }
 
 impl SourceFile<'_> {
-    /// A mistake in the path of an include.
+    /// A mistake at the path of the include with this index.
     fn include_mistake(&self, index: usize, message: String, help: Option<&str>) -> FileMistake {
         let span = span_of(self.text, &[Field("include"), Index(index)]);
         let mistake = Mistake::new(span, message, help.map(str::to_owned));
@@ -138,8 +146,8 @@ struct MergedScene {
     fields: BTreeMap<&'static str, Option<usize>>,
     lists: ElementSources,
 }
-/// Reads included files depth first, and collects the mistakes in all of them.
 
+/// Reads included files depth first, and collects the mistakes in all of them.
 struct IncludeResolver<'a> {
     origin: &'a Origin,
     allowed: &'a [PathBuf],
@@ -148,8 +156,11 @@ struct IncludeResolver<'a> {
 }
 
 impl IncludeResolver<'_> {
-    /// Parses a file and merges it over what it includes. `open` are the files that are being read,
-    /// each with its name.
+    /// Parses a file and merges it over the files it includes; `open` is the stack of files being
+    /// read, by normalized path and name.
+    ///
+    /// Later includes take precedence over earlier ones, and the file itself over all of them. A
+    /// file with mistakes contributes the parts that could be read.
     fn parse_source(
         &mut self,
         source: &SourceFile<'_>,
@@ -181,7 +192,13 @@ impl IncludeResolver<'_> {
         merge_scenes(below, MergedScene { file, fields, lists })
     }
 
-    /// An included file, merged over what it includes; `path` is relative to the scene's folder.
+    /// Loads an included file, merged over what it includes; `path` is relative to the scene's
+    /// folder.
+    ///
+    /// A file may be included several times, but not by itself: the message shows the cycle.
+    ///
+    /// # Errors Message and help, if the path leaves the allowed folders, there are too many files,
+    /// the file cannot be read, or it is being read already.
     fn load_include(
         &mut self,
         path: &Path,
@@ -218,7 +235,8 @@ impl IncludeResolver<'_> {
     }
 }
 
-/// The names of the fields that a scene's text gives.
+/// The names of the fields that the text of a scene sets. The parsed scene cannot tell a default
+/// from a value that was written.
 fn top_level_fields(text: &str) -> Vec<&str> {
     let root = parse_tree(text).root;
     let group = root.as_ref().and_then(|root| root.group());
@@ -227,8 +245,10 @@ fn top_level_fields(text: &str) -> Vec<&str> {
     keys.map(|key| key.name).collect()
 }
 
-/// Makes the paths of a file in `folder` relative to the scene's own folder. Every field that holds
-/// a path belongs here.
+/// Makes the paths of a file in `folder` relative to the scene's own folder, with slashes on all
+/// systems.
+///
+/// A new field that holds a path has to be added here.
 fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     if folder.as_os_str().is_empty() {
         return;
@@ -247,7 +267,10 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
     }
 }
 
-/// Merges a scene over another.
+/// Merges a scene over another: lists are concatenated, other fields replaced whole if `above` sets
+/// them.
+///
+/// Lights are an optional list: an absent one leaves the other as it is.
 fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     // All fields by name, so that a new field of the scene has to be concatenated or replaced here.
     let SceneFile {
@@ -304,8 +327,8 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
     }
     MergedScene { file, fields, lists }
 }
-/// Both lists in one, the included one first.
 
+/// Concatenates two lists, the included one first.
 fn concat_lists<T>(below: Vec<T>, above: Vec<T>) -> Vec<T> {
     below.into_iter().chain(above).collect()
 }

@@ -1,9 +1,9 @@
-//! From the viewports and the pair of eyes of a scene file to scenes within the scene.
+//! Resolution of viewports and stereo pairs to insets: scenes within the scene.
 //!
 //! ```text
-//!   ┌───────────────┬───────┐   Each is a scene of its own with the same models: its camera, its style, its
-//!   │               │ inset │   background, and a picture of the rectangle's size.
-//!   │  the scene    ├───────┘
+//!   ┌───────────────┬───────┐   Each is a scene of its own with the models of the
+//!   │               │ inset │   main view: its camera, its style, its background,
+//!   │  the scene    ├───────┘   and an image of the rectangle's size.
 //!   └───────────────┘
 //! ```
 
@@ -20,28 +20,33 @@ use model::ModelInstance;
 use model::world_points;
 use std::path::PathBuf;
 
-/// More viewports than this are a slip.
+/// The most viewports of a scene.
 const MAX_VIEWPORTS: usize = 256;
 /// The widest border in pixels.
 const MAX_BORDER_WIDTH: u32 = 1000;
-/// How many times as far away as the eyes are apart the plane of convergence is, if nothing is
-/// said: the usual rule of stereographers.
+/// The default distance of the convergence plane in eye distances: the 1/30 rule of stereography.
 const CONVERGENCE_PER_EYE_DISTANCE: f64 = 30.0;
 
 /// A rectangle of a picture with a view of its own.
 #[derive(Clone, Debug)]
 pub struct Inset {
-    /// Its pixels in the picture.
+    /// The pixels it covers in the picture, y down.
     pub rect: PixelRect,
-    /// A border inside of it, and its width in pixels.
+    /// A border inside of the rectangle: color, and width in pixels.
     pub border: Option<(Ink, u32)>,
-    /// Whether only its green and blue are shown, over what is there.
+    /// Whether only green and blue are written, over the red of the view below: the right eye of an
+    /// anaglyph.
     pub cyan_only: bool,
-    /// The scene in it; its image has the rectangle's size.
+    /// The scene that it shows; its image has the rectangle's size.
     pub scene: Scene,
 }
 
-/// The views of a scene file in their order.
+/// The insets of a scene file: its viewports in order, or the two views of a stereo pair.
+///
+/// Models are shared with the main view, not loaded again.
+///
+/// # Errors If a rectangle is outside of the picture, or the scene of an inset cannot be resolved;
+/// the error points into the viewport.
 pub(super) fn resolve_insets(
     origin: &Origin,
     file: &SceneFile,
@@ -71,7 +76,8 @@ pub(super) fn resolve_insets(
     views.collect()
 }
 
-/// The scene as it is in a viewport of this size.
+/// The scene file as it holds within a viewport of this size: fields of the viewport replace those
+/// of the scene.
 fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)) -> SceneFile {
     let background = viewport.background.as_ref().unwrap_or(&file.image.background).clone();
     SceneFile {
@@ -85,7 +91,12 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
     }
 }
 
-/// The pixels of a viewport.
+/// The pixel rectangle of a viewport, from fractions of the picture or from pixels.
+///
+/// Fractions are rounded edge by edge and not as a size, so that adjacent viewports neither overlap
+/// nor leave a gap.
+///
+/// # Errors If both forms or neither are given, or the rectangle is empty or exceeds the picture.
 pub(super) fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
@@ -132,7 +143,7 @@ pub(super) fn resolve_viewport_rect(
     Err(origin.error_at(&place(field), message, Some(help).filter(|_| field == "at")))
 }
 
-/// The color and the width of a viewport's border.
+/// The color of a viewport's border, and its width of 1 to 1000 pixels.
 pub(super) fn resolve_border(
     origin: &Origin,
     number: usize,
@@ -148,8 +159,18 @@ pub(super) fn resolve_border(
     Ok(Some((border.color.0, border.width)))
 }
 
-/// The insets of a stereo pair: the left and the right eye's view, off-axis (zero vertical
-/// parallax).
+/// The two insets of a stereo pair, by off-axis projection (no vertical parallax, unlike toed-in
+/// cameras).
+///
+/// ```text
+///  side by side   left half, right half       the halves of an odd width share a column
+///  anaglyph       left eye in red, right eye in green and blue over it
+/// ```
+/// Each eye is half the eye distance from the camera. Points on the convergence plane have equal
+/// images in both and appear at the depth of the screen.
+///
+/// # Errors With viewports, in a picture one pixel wide, in a parallel projection, or if the models
+/// are behind the camera.
 fn resolve_stereo(
     origin: &Origin,
     file: &SceneFile,
@@ -201,7 +222,7 @@ fn resolve_stereo(
     areas.into_iter().zip([-0.5, 0.5]).map(view).collect()
 }
 
-/// How far ahead of the camera the middle of the models is; `None` if it is not.
+/// The depth of the center of the models along the gaze, in world units; `None` if it is not ahead.
 fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]) -> Option<f64> {
     let corners = Bounds::from_points(world_points(models))?.corners();
     let middle = (corners[0].raw() + corners[7].raw()) * 0.5;
@@ -210,9 +231,12 @@ fn models_center_depth(view_projection: ViewProjection, models: &[ModelInstance]
     (depth > 0.0).then_some(depth)
 }
 
-/// The shot of an eye so far to the right of the camera, through a window that agrees with the
-/// camera's at a distance of `plane`: what the eye sees at a depth is moved as far as the eye was,
-/// times that depth over the plane's.
+/// The view of an eye moved to the right by `aside`, sheared so that its window agrees with the
+/// camera's at the distance `plane`.
+///
+/// x' = x − aside · z / plane in view space: the shear moves a point at depth D = −z to the right
+/// by aside · D / plane, against the translation by −aside of the moved eye. They cancel at D =
+/// plane, the plane of zero parallax.
 fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<ViewProjection> {
     let camera = view_projection.camera.moved(view_projection.camera.u() * aside).ok()?;
     let slant =
@@ -221,7 +245,7 @@ fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<
     Some(ViewProjection { camera, view_to_clip })
 }
 
-/// Which fields of the scene a viewport has too.
+/// Whether a field of the scene exists in viewports too, so that errors in it point there.
 pub(super) fn is_viewport_field(field: &str) -> bool {
     matches!(field, "camera" | "style" | "overlays")
 }

@@ -13,16 +13,19 @@ use model::Model;
 use model::ModelInstance;
 use std::sync::Arc;
 
-/// The most copies of models in a scene.
+/// The most instances of all models in a scene.
 pub(super) const MAX_INSTANCES: usize = 100_000;
-/// The most vertices of all copies of one model: their places are kept for the framing, 24 bytes
-/// each.
+/// The most vertices of all instances of one model. Framing keeps their world positions, 24 bytes
+/// each: 800 MB at this limit.
 const MAX_INSTANCE_VERTICES: usize = 1 << 25;
-/// A transform of an instance within the space of its model.
 
+/// A transform of an instance within the space of its model.
 type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
-/// That the scene has not too many copies, each of its models counted.
+/// Checks the number of instances before anything is loaded. Products saturate, so that counts of 4
+/// billion along each axis do not wrap around to a small number.
+///
+/// # Errors If a model has no instances, or the scene more than [`MAX_INSTANCES`].
 pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
     let mut total = 0_usize;
     for (number, entry) in file.models.iter().enumerate() {
@@ -39,7 +42,7 @@ pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result
 }
 
 impl ModelFile {
-    /// How often the model is in the scene.
+    /// The number of instances of the model, at most `usize::MAX`.
     #[must_use]
     pub fn instance_count(&self) -> usize {
         match &self.instances {
@@ -53,16 +56,16 @@ impl ModelFile {
         }
     }
 }
-/// The path of a model's `instances`, and of a value in them.
 
+/// The path of a model's `instances`, and of a value in them.
 fn instances_path<'a>(number: usize, rest: &[PathStep<'a>]) -> Vec<PathStep<'a>> {
     [&[Field("models"), Index(number), Field("instances")], rest].concat()
 }
+
 /// The count of a model's instances.
 ///
 /// # Errors
 /// If there are none.
-
 fn checked_instance_count(
     origin: &Origin,
     number: usize,
@@ -81,7 +84,12 @@ fn checked_instance_count(
     Err(origin.error_at(&at, "there is not one copy of the model", help))
 }
 
-/// A model in all places that its entry names.
+/// The instances of a model, which all share its data.
+///
+/// model_to_world = T · I · R · S: the model's scale and rotation, the transform of the instance,
+/// the model's translation.
+///
+/// # Errors If the instances have too many vertices together, or the axis of a circle is 0.
 pub(super) fn instantiate_model(
     origin: &Origin,
     number: usize,
@@ -112,7 +120,7 @@ pub(super) fn instantiate_model(
     Ok(ways.into_iter().map(copy).collect())
 }
 
-/// Scale, then turns about x, y and z.
+/// Scale, then rotations about the fixed axes x, y and z in this order: R_z · R_y · R_x · S.
 fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransform {
     let [sx, sy, sz] = scale.0;
     let [rx, ry, rz] = rotation_degrees.0.map(f64::to_radians);
@@ -121,8 +129,8 @@ fn scale_then_rotate(scale: Scale, rotation_degrees: Triple) -> InstanceTransfor
         .then(InstanceTransform::rotation_y(ry))
         .then(InstanceTransform::rotation_z(rz))
 }
-/// A translation.
 
+/// A translation.
 fn translate_by(by: [f64; 3]) -> InstanceTransform {
     InstanceTransform::translation(Vector::from(by))
 }
@@ -165,7 +173,8 @@ fn instance_transforms(
     }
 }
 
-/// x runs fastest, then y.
+/// The translations of a grid, x fastest, then y, then z. Multiples of the step and not sums, so
+/// that errors do not accumulate.
 fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<InstanceTransform> {
     let mut ways = Vec::new();
     for z in 0..deep {
@@ -179,23 +188,30 @@ fn grid_transforms([across, up, deep]: [u32; 3], step: [f64; 3]) -> Vec<Instance
     ways
 }
 
-/// The angles of copies in radians. The first and the last of a whole turn would be in one place.
+/// The angles of instances on a circle in radians.
+///
+/// A full turn is divided by the count, since its two ends coincide; an arc by the count minus one,
+/// so that it has an instance at both ends.
 fn circle_angles(count: u32, start: Finite, sweep: Finite) -> impl Iterator<Item = f64> {
     let (start, sweep) = (start.value(), sweep.value());
     let is_whole = sweep.abs() >= 360.0;
     let steps = f64::from(if is_whole { count } else { count.saturating_sub(1).max(1) });
     (0..count).map(move |at| (start + sweep * (f64::from(at) / steps)).to_radians())
 }
-/// Instances on a circle around an axis through the origin.
 
+/// Instances on a circle around an axis through the origin.
 struct CircleLayout {
+    /// The axis through the model's origin, a unit vector.
     axis: [f64; 3],
+    /// The radius in world units.
     radius: f64,
+    /// Whether instances rotate with their angle, or keep the orientation of the model.
     rotate_copies: bool,
 }
 
 impl CircleLayout {
-    /// Out to the circle, then around.
+    /// The transform at an angle in radians: translation to the circle, then rotation about the
+    /// axis; or only the translation that results from both.
     fn transform_at(&self, angle: f64) -> Option<InstanceTransform> {
         let turn = InstanceTransform::rotation(Vector::from(self.axis), angle)?;
         let out = self.zero_degree_direction()?.map(|c| c * self.radius);
@@ -206,8 +222,10 @@ impl CircleLayout {
         Some(translate_by(there.to_array()))
     }
 
-    /// The direction at 0 degrees: that of x as far as it is at right angles to the axis, of y
-    /// about the axis x, of z in doubt.
+    /// The unit vector towards 0°, perpendicular to the axis.
+    ///
+    /// The projection of x onto the plane of the circle (Gram–Schmidt), or of y if the axis is
+    /// within 26° of x, where the projection of x would be short.
     fn zero_degree_direction(&self) -> Option<[f64; 3]> {
         let [x, y, z] = self.axis;
         let candidates = [([1.0, 0.0, 0.0], x), ([0.0, 1.0, 0.0], y), ([0.0, 0.0, 1.0], z)];
@@ -215,8 +233,8 @@ impl CircleLayout {
         normalize_vector([from[0] - along * x, from[1] - along * y, from[2] - along * z])
     }
 }
-/// The vector with length 1; `None` if it is 0.
 
+/// The vector with length 1; `None` if it is 0.
 fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
     // Scaled first, so that no square leaves the range of numbers.
     let largest = v.iter().fold(0.0_f64, |most, c| most.max(c.abs()));

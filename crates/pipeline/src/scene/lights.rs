@@ -1,4 +1,5 @@
-//! From the lights that a scene file asks for to those that drawing needs.
+//! Resolution of lights: units, directions and shadows of the lights of a scene file, and the
+//! default key light.
 
 use super::file::{Finite, LightColor, LightFile, SceneFile, ShadowsFile};
 use super::number::{NonNegative, Positive, Triple};
@@ -10,9 +11,9 @@ use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
 use shade::{Light, Shadow};
+
 /// The lights of a scene: those of the file, or of the models, or a default key light with ambient
 /// light where nothing else would light the models.
-
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -45,8 +46,11 @@ pub(super) fn resolve_lights(
     Ok(resolved)
 }
 
-/// The lights that the models' files have, in the world (KHR_lights_punctual). Scales do not make
-/// them brighter.
+/// The lights of the models' files in world space (KHR_lights_punctual).
+///
+/// Lights shine along −z of their node. Intensities (lux, candela) are not changed by scales, as
+/// the extension demands; a node whose transform collapses its z axis has no direction and is
+/// skipped.
 fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec<Light> {
     let mut lights = Vec::new();
     for placed in models {
@@ -71,14 +75,16 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// A key light from above the viewer's left shoulder, so that shape reads from every side, and a
-/// quarter as much ambient.
+/// The default lights: a key light of 2.5 lux from the upper left of the camera, and ambient light
+/// of 0.7 lux.
 fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
     vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
 }
+
 /// A directional light from the upper left of the camera, so that all visible sides differ in
 /// brightness.
-
+///
+/// The direction to the light is −0.45 u + 0.65 v + w in the camera's basis, normalized.
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
     let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
@@ -86,8 +92,12 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light of the file, with the scene's shadows unless it has its own; `None` for those of the
-/// models.
+/// A light of the file, with the scene's shadows unless it has its own; `None` for `FromModels`.
+///
+/// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
+/// them. Numbers become f32 here, the precision of shading.
+///
+/// # Errors If the direction is 0, the cone is impossible, or the shadow settings are.
 fn resolve_light(
     origin: &Origin,
     index: usize,
@@ -145,7 +155,7 @@ pub(super) fn check_light(origin: &Origin, index: usize, light: &LightFile) -> V
 }
 
 impl LightFile {
-    /// The distance at which no light arrives any more, if it is given.
+    /// The distance at which the light is cut off, in world units; `None` for unlimited lights.
     const fn range(&self) -> Option<Positive> {
         match self {
             Self::Point { range, .. } | Self::Spot { range, .. } => *range,
@@ -154,7 +164,9 @@ impl LightFile {
     }
 }
 
-/// The unit vector in which a light travels.
+/// The unit vector in world space in which a light travels, from the light to the scene.
+///
+/// # Errors If it is (0, 0, 0).
 fn resolve_direction(
     origin: &Origin,
     index: usize,
@@ -167,8 +179,12 @@ fn resolve_direction(
     })
 }
 
-/// The cosines of the inner and the outer cone angle of a spot; those of the defaults for other
-/// lights.
+/// The cosines of the inner and outer cone angle of a spot light, by default of 0° and 45°.
+///
+/// Intensity falls from the inner to the outer angle. The angles are half angles, as in
+/// KHR_lights_punctual.
+///
+/// # Errors Unless 0° ≤ inner < outer ≤ 90°.
 fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
     let (inner, outer) = match *light {
         LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {
@@ -198,8 +214,8 @@ fn resolve_light_shadow(
     let path = [Field("lights"), Index(index), Field("shadows")];
     own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
 }
-/// The light of a color at an intensity, in the unit of the intensity.
 
+/// The light of a color at an intensity, in the unit of the intensity.
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)
 }

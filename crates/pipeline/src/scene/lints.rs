@@ -4,6 +4,15 @@
 //! Every lint looks at the result: the points, lines and triangles of the scene go through its
 //! camera and are clipped against its view volume once (CL-1), and the counts are compared with
 //! what the file says.
+//!
+//! | code | condition |
+//! | --- | --- |
+//! | `nothing-visible`, `model-not-visible` | no primitive is left after clipping |
+//! | `camera-inside` | the eye is enclosed by a closed surface |
+//! | `cut-by-near`, `cut-by-far` | vertices within the window are outside of a depth plane |
+//! | `wasteful-depth-range` | the near plane is far nearer than anything visible |
+//! | `aspect-mismatch` | the window's aspect ratio is not the picture's |
+//! | `no-light` | a shaded style without light, environment or emission |
 
 mod depth;
 mod visibility_survey;
@@ -23,13 +32,16 @@ const ASPECT_TOLERANCE: f64 = 0.01;
 /// A warning about a valid scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lint {
-    /// A name for programs, lower case with hyphens.
+    /// A stable name for programs, lower case with hyphens.
     pub code: &'static str,
-    /// The message, its place in the file, and the remedy.
+    /// The message with its position in the file and the remedy.
     pub error: SceneError,
 }
 
 /// The lints of a scene that could be resolved, in the order of the file.
+///
+/// The cost is that of one pass over all vertices, O(vertices + primitives), without rendering.
+/// Lints never make a scene invalid.
 #[must_use]
 pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
     let viewer = scene.view_projection.viewer().divide();
@@ -52,9 +64,13 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
 
 /// The scene under inspection, in every form that the lints need.
 struct Linter<'a> {
+    /// The file and its text, for positions in messages.
     origin: &'a Origin,
+    /// The scene as written: it says which values were chosen and which are defaults.
     file: &'a SceneFile,
+    /// The resolved scene.
     scene: &'a Scene,
+    /// The visibility survey of each model, in the order of the scene.
     surveys: &'a [VisibilitySurvey],
 }
 
@@ -64,7 +80,8 @@ impl Linter<'_> {
         &self.scene.models[model].model.name
     }
 
-    /// Models that are not in the picture, or one piece of advice if none is.
+    /// Models outside of the view volume. If that holds for all of them, one warning at the camera
+    /// replaces one for each model, since the camera is the likelier cause.
     fn lint_visibility(&self) -> Vec<Lint> {
         let is_unseen = |survey: &VisibilitySurvey| survey.total > 0 && survey.inside == 0;
         if !self.surveys.is_empty() && self.surveys.iter().all(is_unseen) {
@@ -87,7 +104,8 @@ impl Linter<'_> {
         advice.collect()
     }
 
-    /// An eye inside of a closed model.
+    /// An eye inside of a closed model, of which only back faces would be visible. The first such
+    /// model is named; `eye` is in world space.
     fn lint_camera_inside(&self, eye: Point<homog::World>) -> Option<Lint> {
         let number = self.surveys.iter().position(VisibilitySurvey::encloses_eye)?;
         let [x, y, z] = eye.raw().to_array();
@@ -99,7 +117,11 @@ impl Linter<'_> {
         Some(Lint { code: "camera-inside", error: fault })
     }
 
-    /// A picture of another shape than the camera or the window.
+    /// An aspect ratio of the window, or of the model's camera, that differs from the picture's.
+    ///
+    /// A frustum with fixed sides stretches the picture; a camera of the model shows more or less
+    /// at the sides, since only its vertical angle is used. Ratios within [`ASPECT_TOLERANCE`]
+    /// pass: cameras often store 1.7778 for 16 : 9.
     fn lint_aspect_ratio(&self) -> Option<Lint> {
         let image = self.scene.image;
         let picture = f64::from(image.width) / f64::from(image.height);
@@ -136,7 +158,8 @@ impl Linter<'_> {
         Some(Lint { code: "aspect-mismatch", error: fault })
     }
 
-    /// Surfaces that wait for light in vain.
+    /// A shaded style without any light source: no light, no environment, and no unlit or emissive
+    /// material. Scenes without the field `lights` get a default key light and never meet this.
     fn lint_missing_light(&self) -> Option<Lint> {
         let scene = self.scene;
         let lit = matches!(scene.style, Style::Shaded | Style::Flat);
@@ -152,13 +175,15 @@ impl Linter<'_> {
         Some(Lint { code: "no-light", error: fault })
     }
 
-    /// Whether all of it is behind the eye of a perspective.
+    /// Whether all vertices are behind the eye of a perspective; a parallel projection has no eye
+    /// (w = 0).
     fn is_behind_eye(&self, survey: &VisibilitySurvey) -> bool {
         let perspective = self.scene.view_projection.viewer().w() != 0.0;
         perspective && survey.depth_range().is_some_and(|(_, far)| far <= 0.0)
     }
 
-    /// Which planes everything is outside of, in words.
+    /// The planes that everything is outside of, in words. Without a common plane the primitives
+    /// are counted at each of the six; one may be outside of several.
     fn describe_rejection(&self, survey: &VisibilitySurvey) -> String {
         if self.is_behind_eye(survey) {
             return "all of it is behind the eye".to_owned();
@@ -182,7 +207,8 @@ impl Linter<'_> {
         }
     }
 
-    /// How to bring the models into the view volume.
+    /// A remedy: turn the camera if the models are behind it, change the depth planes if they
+    /// reject, else aim at the models. Distances are measured along the gaze, in world units.
     fn suggest_visibility_fix(&self, survey: &VisibilitySurvey) -> String {
         let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
         let span = survey.depth_range();

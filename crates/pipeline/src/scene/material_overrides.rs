@@ -126,9 +126,9 @@ impl MaterialOverride<'_> {
             self.remove_overridden_textures(material);
         }
     }
+
     /// Replaces the emitted light: the color, its strength, or both. Their product is what shading
     /// reads.
-
     fn apply_emission(&self, material: &mut Material) {
         let strength = self.file.emissive_strength.map(|strength| strength.value() as f32);
         if let Some(color) = self.file.emissive.map(Color::to_linear) {

@@ -189,14 +189,14 @@ pub(super) fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelF
     let path = [Field("models"), Index(index), Field("path")];
     origin.error_at(&path, message, Some(help.to_owned()))
 }
-/// A scene without models.
 
+/// A scene without models.
 pub(super) fn missing_model_error(origin: &Origin) -> SceneError {
     let help = Some("add one: models: [(path: \"…\")]".to_owned());
     origin.error_at(&[Field("models")], "a scene needs a model", help)
 }
-/// Loads the models of a scene, and instantiates them.
 
+/// Loads the models of a scene, and instantiates them.
 fn load_models(
     origin: &Origin,
     file: &SceneFile,
@@ -361,8 +361,8 @@ pub fn select_animation(
         (message, suggest_name(&wanted, &names))
     })
 }
-/// The overlays, with the view-projection of each camera whose view volume is drawn.
 
+/// The overlays, with the view-projection of each camera whose view volume is drawn.
 pub(super) fn resolve_overlays(
     origin: &Origin,
     overlays: &[OverlayFile],

@@ -8,6 +8,10 @@
 //!        └─► ModelFile::ENTRY            name, fields, types, defaults and doc comments: `alberti scene doc`
 //! ```
 //! A field with `= value`, or of type `Option`, may be left out.
+//!
+//! The declarations are the only description of the language: parser, reference, formatter,
+//! suggestions and the search for misplaced fields all read the same `ENTRY` constants, so they
+//! cannot drift apart. All of it is `const` data; nothing is registered at run time.
 
 mod checker;
 mod declare;
@@ -30,21 +34,26 @@ pub(super) trait SceneValue: Sized {
     /// Whether a field of this type may be left out even if its declaration gives no default.
     const IS_OPTIONAL: bool = false;
 
-    /// The type as the reference names it.
+    /// The type as the reference names it. It is a function and not a constant, because lists and
+    /// tuples are built from the types of their elements.
     fn value_type() -> ValueType;
 
-    /// Reads a value. Reports every mistake in it, and returns `None` if there is no value without
-    /// what is wrong.
+    /// Reads a value from its syntax tree, and reports every mistake in it.
+    ///
+    /// Returns `None` if no value can be made; the mistake has been reported then, and callers
+    /// report nothing more about it.
     fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self>;
 
-    /// The value of a field that is left out, for optional types.
+    /// The value of a field that is left out. `None`, for types that are not optional, makes the
+    /// struct around it unreadable.
     fn when_absent() -> Option<Self> {
         None
     }
 }
 
-/// A type with named parts, which the reference describes under a heading of its own.
+/// A type with an entry of its own in the reference: structs, enums, bounded numbers and colors.
 pub(super) trait Declared {
+    /// The declaration, which the macros generate from the Rust type and its doc comments.
     const ENTRY: &'static TypeEntry;
 }
 
@@ -63,6 +72,8 @@ pub enum ValueType {
 
 impl ValueType {
     /// The type in words; declared types by their names.
+    ///
+    /// For example `list of Model` or `(Finite, Finite)`.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -77,6 +88,9 @@ impl ValueType {
     }
 
     /// The declared types that a value of this type is made of.
+    ///
+    /// Looks through lists and tuples, but not into the fields of the types it finds: walking the
+    /// whole language is left to the caller, which has to remember the types it has visited.
     #[must_use]
     pub fn declared(&self) -> Vec<&'static TypeEntry> {
         match self {
@@ -119,11 +133,14 @@ pub struct FieldEntry {
     pub doc: &'static str,
     /// Returns the type of its value.
     pub value_type: fn() -> ValueType,
-    /// Whether it may be left out.
+    /// Whether it may be left out: its declaration gives a default, or its type is an `Option`.
     pub is_optional: bool,
 }
 
 /// The declaration of a variant.
+///
+/// A variant has no brackets, brackets with fields, or brackets with one value: `fields` and
+/// `value_type` are never both given.
 #[derive(Clone, Copy, Debug)]
 pub struct VariantEntry {
     /// The name.

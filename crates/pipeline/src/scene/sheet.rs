@@ -63,16 +63,16 @@ fn resolve_paper(file: &SheetFile) -> (Paper, &'static str) {
     };
     (if upright { paper } else { paper.rotated() }, name)
 }
-/// The scale as a ratio of lengths on paper to lengths of the object.
 
+/// The scale as a ratio of lengths on paper to lengths of the object.
 fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingScale, SceneError> {
     DrawingScale::new(paper, thing).map_err(|error| {
         let help = "write (1, 50) for 1:50".to_owned();
         origin.error_at(&[Field("sheet"), Field("scale")], error.to_string(), Some(help))
     })
 }
-/// The length of a unit of the models in millimeters.
 
+/// The length of a unit of the models in millimeters.
 fn unit_in_millimeters(file: ModelUnit) -> f64 {
     match file {
         ModelUnit::Meter => 1000.0,
@@ -82,8 +82,8 @@ fn unit_in_millimeters(file: ModelUnit) -> f64 {
         ModelUnit::Foot => 12.0 * MILLIMETERS_PER_INCH,
     }
 }
-/// The direction of the fourth view; `None` if there is none.
 
+/// The direction of the fourth view; `None` if there is none.
 fn axonometric_view(file: AxonometricView) -> Option<NamedView> {
     match file {
         AxonometricView::None => None,

@@ -40,8 +40,8 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneEr
         face_fill: file.face_fill,
     })
 }
-/// The widths of wide and narrow lines.
 
+/// The widths of wide and narrow lines.
 fn resolve_widths(origin: &Origin, file: WidthFile) -> Result<LineWidths, SceneError> {
     match file {
         WidthFile::Px(pixels) => Ok(LineWidths::Pixels(pixels.value())),

@@ -35,8 +35,8 @@ impl SceneFile {
 
 /// The key of an environment: its kind, all its numbers, and a hash of a file's bytes.
 type EnvironmentKey = (u8, [u64; 4]);
-/// The environments that were made last. Prefiltering one takes far longer than finding it here.
 
+/// The environments that were made last. Prefiltering one takes far longer than finding it here.
 static CACHE: Mutex<Vec<(EnvironmentKey, Arc<Environment>)>> = Mutex::new(Vec::new());
 
 /// The environment with this content: one that was made before, or a new one.
@@ -106,8 +106,8 @@ pub(super) fn resolve_environment(
         }
     }))
 }
-/// An error that points at the path of the environment's file.
 
+/// An error that points at the path of the environment's file.
 fn environment_error(origin: &Origin, message: String, help: Option<String>) -> SceneError {
     origin.error_at(&[Field("environment"), Field("path")], message, help)
 }
@@ -154,8 +154,8 @@ impl EnvironmentRotation {
         let (sine, cosine) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
         Self { strength: strength as f32, degrees, cosine, sine }
     }
-    /// The key of an environment with this rotation; `content` identifies its radiance.
 
+    /// The key of an environment with this rotation; `content` identifies its radiance.
     fn cache_key(&self, kind: u8, content: u64) -> EnvironmentKey {
         (kind, [content, self.degrees.to_bits(), u64::from(self.strength.to_bits()), 0])
     }
@@ -167,8 +167,8 @@ impl EnvironmentRotation {
         of(before).map(|c| c * self.strength)
     }
 }
-/// The direction with length 1; `None` if it is 0 or too long for its square.
 
+/// The direction with length 1; `None` if it is 0 or too long for its square.
 fn normalize_direction(v: [f64; 3]) -> Option<[f32; 3]> {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     (length > 0.0 && length.is_finite()).then(|| v.map(|c| (c / length) as f32))

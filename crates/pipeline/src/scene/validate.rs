@@ -34,8 +34,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
-/// models' own files are not among them: [`check`](model::import::check) reports those. If a model
-/// cannot be loaded, what depends on the models is not validated.
+/// models' own files are not among them: [`check_file`](model::import::check_file) reports those.
+/// If a model cannot be loaded, what depends on the models is not validated.
 #[must_use]
 pub fn validate_scene(
     origin: &Origin,

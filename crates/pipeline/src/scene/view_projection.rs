@@ -21,8 +21,8 @@ use model::ModelInstance;
 use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
 use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
-/// The path of the position and direction of the camera.
 
+/// The path of the position and direction of the camera.
 pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];
 /// The path of the projection.
 pub(super) const PROJECTION_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("projection")];
@@ -120,8 +120,8 @@ impl<'a> CameraResolver<'a> {
     pub(super) fn camera_error(&self, error: &camera::CameraError) -> SceneError {
         self.view_error(error.to_string(), None)
     }
-    /// An error that points at the view.
 
+    /// An error that points at the view.
     pub(super) fn view_error(
         &self,
         message: impl Into<String>,
@@ -129,8 +129,8 @@ impl<'a> CameraResolver<'a> {
     ) -> SceneError {
         self.origin.error_at(&VIEW_PATH, message, help)
     }
-    /// An error of the projection, such as a far plane before the near plane.
 
+    /// An error of the projection, such as a far plane before the near plane.
     pub(super) fn projection_error(&self, error: &ProjectionError) -> SceneError {
         self.projection_error_with(error.to_string(), None)
     }
@@ -143,16 +143,16 @@ impl<'a> CameraResolver<'a> {
     ) -> SceneError {
         self.origin.error_at(&PROJECTION_PATH, message, help)
     }
-    /// An error of framing: nothing to frame, or no room for it.
 
+    /// An error of framing: nothing to frame, or no room for it.
     pub(super) fn framing_error(&self, error: &camera::FramingError) -> SceneError {
         if matches!(error, camera::FramingError::NoPoints) {
             return self.nothing_to_draw_error();
         }
         self.view_error(error.to_string(), None)
     }
-    /// Models without primitives: there is nothing to frame.
 
+    /// Models without primitives: there is nothing to frame.
     pub(super) fn nothing_to_draw_error(&self) -> SceneError {
         // What the importer left out is the likely reason.
         let warnings = self.models.iter().flat_map(|placed| &placed.model.warnings).next();
@@ -260,8 +260,8 @@ impl<'a> CameraResolver<'a> {
         let framed = frame_perspective(points, basis, slopes, padding).map_err(fault)?;
         self.project_from_camera(framed.camera, projection, None)
     }
-    /// The axes of a camera that looks from a named direction or a vector towards the models.
 
+    /// The axes of a camera that looks from a named direction or a vector towards the models.
     pub(super) fn view_basis(&self, from: &FromFile) -> Result<Basis, SceneError> {
         let named = match from {
             FromFile::Front => NamedView::Front,
@@ -301,9 +301,9 @@ impl<'a> CameraResolver<'a> {
             None => self.project_through_lens(camera, lens),
         }
     }
+
     /// The projection of a camera in a model. The aspect is that of the image: the vertical field
     /// of view of a perspective is kept, and the window of an orthographic camera is widened.
-
     fn project_through_lens(
         &self,
         camera: Camera,
@@ -351,8 +351,8 @@ impl<'a> CameraResolver<'a> {
         }
         Err(self.unknown_camera_error(choice, &names))
     }
-    /// A camera that no model has, with the names of those that exist.
 
+    /// A camera that no model has, with the names of those that exist.
     fn unknown_camera_error(&self, choice: &CameraChoice, names: &[String]) -> SceneError {
         let wanted = match choice {
             CameraChoice::Index(index) => index.to_string(),

@@ -138,8 +138,8 @@ fn targets_of(word: &str) -> Vec<Target> {
 fn normalize(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
-/// For a legacy word, that the formatter replaces it.
 
+/// For a legacy word, that the formatter replaces it.
 fn legacy_note(owner: &str, word: &str) -> &'static str {
     let is_legacy = LEGACY_WORDS.iter().any(|legacy| legacy.owner == owner && legacy.old == word);
     if is_legacy { " `alberti scene fmt` rewrites older scene files" } else { "" }
@@ -166,8 +166,8 @@ fn nearest_example(examples: &[String], top_level: Option<&str>) -> Option<Strin
     let is_near = |example: &&String| is_in_field(example, top_level);
     examples.iter().find(is_near).or(examples.first()).cloned()
 }
-/// Whether an example begins with a field of the scene.
 
+/// Whether an example begins with a field of the scene.
 fn is_in_field(example: &str, top_level: Option<&str>) -> bool {
     top_level.is_some_and(|field| example.starts_with(&format!("{field}: ")))
 }

@@ -375,17 +375,14 @@ fn impossible_parameters_are_refused() {
     ));
     assert!(matches!(
         NPoint::by_vanishing_points(None, None, None),
-        Err(ProjectionError::NoVanishingPoint { .. })
+        Err(ProjectionError::NoVanishingPoint)
     ));
     let plane = Plane::<View>::through(Point::ORIGIN, Normal::new(0.0, 1.0, 0.0));
     assert!(matches!(
         Projector::from_eye(Point::new(3.0, 0.0, 1.0), plane),
-        Err(ProjectionError::CenterOnPlane { .. })
+        Err(ProjectionError::CenterOnPlane)
     ));
-    assert!(matches!(
-        Projector::along(Vector::X, plane),
-        Err(ProjectionError::ParallelToPlane { .. })
-    ));
+    assert!(matches!(Projector::along(Vector::X, plane), Err(ProjectionError::ParallelToPlane)));
     assert!(matches!(
         Projector::along(Vector::ZERO, plane),
         Err(ProjectionError::ZeroVector { .. })

@@ -8,6 +8,9 @@
 //!
 //! α along the bitangent is that of the roughness; along the tangent it grows to 1 with the square
 //! of the strength.
+//!
+//! α along the tangent is αt = α + (1 − α) · strength², as KHR_materials_anisotropy defines it.
+//! With strength 0 both formulas are those of isotropic GGX.
 
 use super::microfacet::ShadingAngles;
 use crate::lanes::{Lanes, Vec3Lanes};
@@ -16,6 +19,8 @@ use crate::surface_geometry::{SurfaceGeometry, TangentLanes};
 use std::f32::consts::FRAC_1_PI;
 
 /// The anisotropy frame at some fragments, and the α along its tangent.
+///
+/// Tangent, bitangent and normal are orthonormal where the mesh has tangents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anisotropy<const N: usize> {
     /// Unit vectors along which highlights are stretched; 0 where the surface has no tangent.
@@ -43,6 +48,7 @@ impl<const N: usize> Anisotropy<N> {
         let inv_length =
             t.dot(t).map(|square| if square > 1e-12 { 1.0 / square.sqrt() } else { 0.0 });
         let t = t * inv_length;
+        // The bitangent, with the handedness that the tangent's w stores.
         let b = n.cross(t) * tangents.handedness();
         // The direction in the tangent plane: texture, then rotation.
         let (sin, cos) = (libm::sinf(rotation), libm::cosf(rotation));
@@ -60,6 +66,8 @@ impl<const N: usize> Anisotropy<N> {
 
     /// The anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V · n·l`, with
     /// `alpha` across the frame.
+    ///
+    /// The prefiltered environment stays isotropic: only lights are stretched.
     #[inline(always)]
     pub(super) fn ggx_lobe(
         &self,
@@ -72,6 +80,7 @@ impl<const N: usize> Anisotropy<N> {
         let (alpha_t, alpha_b) = (self.tangent_alpha, alpha);
         let ShadingAngles { n_dot_l, n_dot_v, n_dot_h, .. } = *angles;
         // Anisotropic GGX distribution, Burley 2012.
+        // The half vector, as its components in the frame over αt and αb.
         let sum = l + v;
         let inv_length = 1.0 / sum.dot(sum).max(1e-12).sqrt();
         let t_dot_h = t.dot(sum) * inv_length / alpha_t;

@@ -10,6 +10,10 @@
 //! [`directional_albedo`](super::directional_albedo), for the energy that a single bounce loses.
 //! Under light from all directions, diffuse reflection is what the specular albedo leaves of it, as
 //! it is what F leaves under light from one direction.
+//!
+//! The dielectric's F0 is ((n − 1) / (n + 1))² of its index of refraction n, 0.04 for the default
+//! 1.5; the metal's is the base color. F is Schlick's approximation of Fresnel's equations for
+//! both.
 
 use super::anisotropy::Anisotropy;
 use super::directional_albedo::{DirectionalAlbedo, energy_compensation};
@@ -52,6 +56,9 @@ pub(super) struct BaseBrdf<const N: usize> {
 impl<const N: usize> BaseBrdf<N> {
     /// Resolves the BRDF of a material, with the workflow (metallic-roughness or
     /// specular-glossiness) that the material is written in.
+    ///
+    /// In this order: roughness and α, F0 and F90 of the workflow, the thin film over F0, then all
+    /// that depends on the directional albedo.
     #[inline(always)]
     pub(super) fn new(
         material: &Material,
@@ -83,6 +90,7 @@ impl<const N: usize> BaseBrdf<N> {
         if let Some(film) = &extensions.iridescence {
             brdf.apply_thin_film(film.ior, inputs, geometry);
         }
+        // Split-sum table lookup, Karis 2013.
         let albedo = DirectionalAlbedo::lookup(brdf.roughness, geometry.n_dot_v);
         brdf.apply_directional_albedo(&albedo);
         brdf
@@ -90,6 +98,9 @@ impl<const N: usize> BaseBrdf<N> {
 
     /// The metallic-roughness workflow: mixes dielectric and metal by metalness
     /// (KHR_materials_ior, KHR_materials_specular).
+    ///
+    /// F0 and F90 are mixed, not two BRDFs: one lobe instead of two. F is the mix of the two
+    /// exactly, because Schlick's approximation is linear in F0 and F90.
     #[inline(always)]
     fn set_metallic_roughness(
         &mut self,
@@ -114,6 +125,8 @@ impl<const N: usize> BaseBrdf<N> {
 
     /// The specular-glossiness workflow: F0 is given as a color, and diffuse is what its largest
     /// channel leaves (KHR_materials_pbrSpecularGlossiness).
+    ///
+    /// Glossiness is 1 − roughness; the workflow has no metalness and no index of refraction.
     #[inline(always)]
     fn set_specular_glossiness(&mut self, inputs: &MaterialInputs<N>) {
         let specular = inputs.layers.specular_color;
@@ -125,6 +138,9 @@ impl<const N: usize> BaseBrdf<N> {
 
     /// Replaces a fraction of F0 by that of a thin film over the interface
     /// (KHR_materials_iridescence).
+    ///
+    /// Fresnel of a film varies with the angle in its own way: the F0 found here is that which
+    /// Schlick's approximation needs to give the film's reflectance at this view.
     #[inline(always)]
     fn apply_thin_film(
         &mut self,
@@ -133,6 +149,8 @@ impl<const N: usize> BaseBrdf<N> {
         geometry: &SurfaceGeometry<N>,
     ) {
         let LayerInputs { iridescence, iridescence_thickness, .. } = inputs.layers;
+        // Thin-film interference, Belcour and Barla 2017, lane by lane: `libm` has no vector
+        // functions.
         let film_f0 = Rgb::from_fn(|lane| {
             let cosine = geometry.n_dot_v[lane];
             thin_film_f0(self.f0.lane(lane), film_ior, iridescence_thickness[lane], cosine)
@@ -150,6 +168,8 @@ impl<const N: usize> BaseBrdf<N> {
     ///
     /// It is one number, the luminance of the tint; the colored transmittance is in
     /// [`transmission`](crate::transmission).
+    ///
+    /// Light passes only where the surface is dielectric, and only what Fresnel lets in.
     #[inline(always)]
     pub(super) fn transmit_diffuse(
         &mut self,
@@ -169,9 +189,12 @@ impl<const N: usize> BaseBrdf<N> {
     #[inline(always)]
     fn apply_directional_albedo(&mut self, albedo: &DirectionalAlbedo<N>) {
         let DirectionalAlbedo { f0_scale: a, f90_scale: b } = *albedo;
+        // The specular albedo of the interface takes its energy from the diffuse part.
         let dielectric_albedo = (self.dielectric_f0 * a + self.dielectric_f90 * b)
             * energy_compensation(self.dielectric_f0, a + b);
+        // 1 − E: the diffuse part under light from all directions.
         self.diffuse_transmittance = 1.0 - dielectric_albedo;
+        // Multiple-scattering energy compensation, Turquin 2019.
         self.energy_compensation = self.f0.map(|f0| energy_compensation(f0, a + b));
         self.specular_albedo = self.f0.map(|f0| f0 * a + self.f90 * b) * self.energy_compensation;
     }
@@ -203,6 +226,7 @@ impl<const N: usize> BaseBrdf<N> {
         let dielectric_fresnel = self.dielectric_f0.lerp(self.dielectric_f90, schlick);
         // Lambert, with the energy that Fresnel leaves.
         let diffuse = angles.n_dot_l * FRAC_1_PI * (1.0 - dielectric_fresnel);
+        // F · D V n·l, with the energy that a single bounce loses.
         let specular = fresnel * self.energy_compensation * lobe;
         *radiance += light.lux * (self.diffuse * diffuse + specular);
     }

@@ -15,9 +15,13 @@ use crate::material_inputs::LayerInputs;
 use crate::surface_geometry::SurfaceGeometry;
 
 /// F0 of an index of refraction of 1.5.
+///
+/// ((1.5 − 1) / (1.5 + 1))² = 0.04, fixed by the extension.
 const CLEARCOAT_F0: f32 = 0.04;
 
 /// The clear layer at some fragments, and the light that it has reflected so far.
+///
+/// Its lobe is isotropic GGX whatever the base is, with a normal map of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clearcoat<const N: usize> {
     /// The surface with the clearcoat's own normals.
@@ -50,6 +54,9 @@ impl<const N: usize> Clearcoat<N> {
     }
 
     /// Adds the GGX reflection of light from one direction.
+    ///
+    /// Without Fresnel: the layer's reflectance is that of the view, and is applied once in
+    /// [`composite_over`](Self::composite_over).
     #[inline(always)]
     pub(super) fn add_direct_light(&mut self, light: &IncidentLight<N>) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;
@@ -58,6 +65,9 @@ impl<const N: usize> Clearcoat<N> {
     }
 
     /// Adds the prefiltered radiance of the environment in the mirror direction.
+    ///
+    /// Split sum with a Fresnel factor in the place of the directional albedo: the layer is smooth
+    /// most often, where both agree.
     #[inline(always)]
     pub(super) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;
@@ -65,6 +75,9 @@ impl<const N: usize> Clearcoat<N> {
     }
 
     /// Composites the layer over the light from below.
+    ///
+    /// Linear interpolation conserves energy: the light that the layer reflects is taken from
+    /// below.
     #[inline(always)]
     pub(super) fn composite_over(&self, below: Rgb<N>) -> Rgb<N> {
         below.zip(self.specular_light, |below, light| below.lerp(light, self.reflectance))

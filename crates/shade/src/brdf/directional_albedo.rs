@@ -27,6 +27,8 @@ use crate::lanes::Lanes;
 use table::TABLE;
 
 /// `A` and `B` of the split sum at some fragments.
+///
+/// `A + B` is the albedo of a white mirror of the roughness.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DirectionalAlbedo<const N: usize> {
     /// `A`, the factor of F0.
@@ -59,6 +61,7 @@ impl<const N: usize> DirectionalAlbedo<N> {
             }
         }
         let [a, b, c, d] = entries;
+        // Bilinear interpolation, first between rows, then between columns.
         let mut scales = [Lanes::ZERO; 2];
         for (k, scale) in scales.iter_mut().enumerate() {
             let left = a[k].lerp(c[k], s);
@@ -72,6 +75,8 @@ impl<const N: usize> DirectionalAlbedo<N> {
 
 /// Splits positions in a table of 16 entries into the entry before and the fraction to the next;
 /// positions beyond the ends are clamped.
+///
+/// The entry before is 14 at most, so that the next one exists.
 #[inline(always)]
 pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], Lanes<N>) {
     let positions = positions.clamp(0.0, 15.0);
@@ -85,6 +90,9 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
 
 /// The factor that gives back the energy lost to multiple scattering: of a surface with the normal
 /// reflectance `f0`, whose single-bounce albedo for a white mirror is `white_albedo` = `A + B`.
+///
+/// For F0 = 1 the factor makes the albedo exactly 1 (white furnace test); for F0 = 0 it is 1. Kulla
+/// and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the lobe that is there.
 #[inline(always)]
 pub(super) fn energy_compensation<const N: usize>(
     f0: Lanes<N>,

@@ -7,6 +7,9 @@
 //!  sheen       ───┼──────────────┼───       adds its lobe, scales what goes on by its base scale
 //!  base        ───▼──────────────▼───       GGX specular and Lambert diffuse
 //! ```
+//!
+//! Each layer is attenuated by those above it with a scalar per fragment (albedo scaling), so that
+//! layers take light from each other and add none.
 
 use super::anisotropy::Anisotropy;
 use super::base::BaseBrdf;
@@ -26,14 +29,21 @@ use std::f32::consts::FRAC_1_PI;
 ///
 /// It is made once for a fragment; then lights are added one by one, the environment last, and
 /// [`finish`](Self::finish) puts the clearcoat over the sum.
+///
+/// Layers that the material does not have are `None` and cost a branch for all lanes together.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayeredBrdf<'a, const N: usize> {
+    /// The parameters of the material.
     inputs: &'a MaterialInputs<N>,
     /// The surface with the normals of the normal map.
     geometry: SurfaceGeometry<N>,
+    /// Lambert diffuse and GGX specular, dielectric or metal.
     base: BaseBrdf<N>,
+    /// The Charlie lobe of KHR_materials_sheen.
     sheen: Option<Sheen<N>>,
+    /// The frame along which the base's GGX lobe is stretched.
     anisotropy: Option<Anisotropy<N>>,
+    /// The GGX lobe of KHR_materials_clearcoat, composited last.
     clearcoat: Option<Clearcoat<N>>,
     /// The fraction of light from behind that is seen through the surface.
     pub(crate) transmittance: Lanes<N>,
@@ -43,6 +53,9 @@ pub(crate) struct LayeredBrdf<'a, const N: usize> {
 
 impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// The BRDF of a draw's material on surfaces with these smooth normals; so far they only emit.
+    ///
+    /// The normal map bends base, sheen and anisotropy; shadows and ambient occlusion keep the
+    /// smooth normals.
     #[inline(always)]
     pub(crate) fn new(
         draw: &Draw<'_>,
@@ -82,6 +95,9 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     ///
     /// `shadows` holds the shadow maps of the first lights, in their order; `receiver` is there if
     /// there are any.
+    ///
+    /// Lights have no size, so each is one evaluation of the BRDF. The sum is in the order of the
+    /// scene's lights, which fixes its bits.
     #[inline(always)]
     pub(crate) fn add_lights(
         &mut self,
@@ -109,6 +125,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
             let anisotropy = self.anisotropy.as_ref();
             self.base.add_direct_light(&self.geometry, &incident, anisotropy, &mut self.radiance);
         }
+        // Ambient light: a uniform environment without a specular part, E / π from all directions.
         if ambient != [0.0; 3] {
             self.add_diffuse(Rgb::splat(ambient.map(|lux| lux * FRAC_1_PI)));
         }
@@ -120,6 +137,9 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// The split-sum approximation: `Σ L · BRDF` becomes `prefiltered L(r, roughness)` times the
     /// specular albedo `F0 · A + F90 · B`. It is exact for a uniform environment, and else as good
     /// as light around the mirror direction is representative.
+    ///
+    /// Ambient occlusion dims the diffuse part as it is, and the specular part by a fit that
+    /// depends on the angle of view.
     #[inline(always)]
     pub(crate) fn add_environment(&mut self, environment: &Environment) {
         let SurfaceGeometry { normals, views, n_dot_v, .. } = self.geometry;
@@ -127,12 +147,14 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         self.add_diffuse(environment.irradiance_over_pi(normals));
         // Specular image-based lighting: the first sum from the environment, the second in the
         // albedo.
+        // Split-sum approximation, Karis 2013.
         let light = environment.specular_radiance(normals, views, self.base.roughness);
         // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
         // angles the mirror direction is less occluded than the hemisphere.
         let visibility = self.inputs.occlusion;
         let sum = n_dot_v + visibility;
         let occlusion = (sum * sum - 1.0 + visibility).clamp(0.0, 1.0);
+        // Albedo scaling of sheen, then the split sum's product.
         let scale = self.base_scale() * occlusion;
         self.radiance += light * (self.base.specular_albedo * scale);
         if let Some(clearcoat) = &mut self.clearcoat {
@@ -141,6 +163,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     }
 
     /// Adds diffuse light from all directions, given as the radiance of a white Lambert surface.
+    ///
+    /// Sheen has a part of its own: it reflects its albedo of light from all directions.
     #[inline(always)]
     fn add_diffuse(&mut self, white: Rgb<N>) {
         let light = white * self.inputs.occlusion;

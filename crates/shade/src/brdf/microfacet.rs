@@ -12,6 +12,10 @@
 //! ```
 //!
 //! `V` is Smith's masking-shadowing `G₂` over the `4 n·l n·v` of the Cook-Torrance denominator.
+//!
+//! All directions are in the world, on the visible side of the surface; cosines below 0 are clamped
+//! to 0. Lobes are `D · V · n·l`: without Fresnel, which differs between base and clearcoat, and
+//! with the cosine of Lambert's law for the light.
 
 use crate::lanes::{Lanes, Vec3Lanes};
 use std::f32::consts::FRAC_1_PI;
@@ -19,9 +23,13 @@ use std::ops::Mul;
 
 /// The least perceptual roughness: below it the highlight of a light without size would have no
 /// size either.
+///
+/// The GGX peak 1 / (π α²) is then about 78,000: well within `f32`.
 pub(super) const MIN_ROUGHNESS: f32 = 0.045;
 
 /// The cosines between normal, view, light and half vector that BRDF terms are functions of.
+///
+/// They are computed once for a light and shared by all terms of one normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadingAngles<const N: usize> {
     /// n·l, not below 0.
@@ -38,6 +46,8 @@ pub(super) struct ShadingAngles<const N: usize> {
 
 impl<const N: usize> ShadingAngles<N> {
     /// The angles between unit vectors: the normal, to the viewer, to the light.
+    ///
+    /// The half vector is the normal of the microfacets that mirror l to v.
     #[inline(always)]
     pub(super) fn new(n: Vec3Lanes<N>, v: Vec3Lanes<N>, l: Vec3Lanes<N>) -> Self {
         // The half vector; zero instead of NaN where light and view are opposite.
@@ -56,6 +66,7 @@ impl<const N: usize> ShadingAngles<N> {
     /// The GGX specular lobe without Fresnel, times the cosine of the light: `D · V · n·l`.
     #[inline(always)]
     pub(super) fn ggx_lobe(&self, alpha: Lanes<N>) -> Lanes<N> {
+        // GGX is a function of α² alone.
         let alpha_squared = alpha * alpha;
         // GGX distribution, with (n·h)² (α² − 1) + 1 written as sin² + (n·h)² α²: the form of the
         // specification loses all digits in the highlight of a smooth surface.
@@ -63,13 +74,17 @@ impl<const N: usize> ShadingAngles<N> {
         let distribution = FRAC_1_PI * alpha_squared / (width * width);
         // Smith height-correlated visibility, Heitz 2014.
         let one_minus = 1.0 - alpha_squared;
+        // cosθ √(1 + α² tan²θ), the root in Smith's Λ of GGX.
         let lambda = |cosine: Lanes<N>| (alpha_squared + one_minus * cosine * cosine).sqrt();
         let masking = self.n_dot_l * lambda(self.n_dot_v) + self.n_dot_v * lambda(self.n_dot_l);
+        // V = G₂ / (4 n·l n·v), bounded where both directions graze the surface.
         distribution * (0.5 * self.n_dot_l) / masking.max(1e-6)
     }
 }
 
 /// x⁵, the weight of F90 in Schlick's Fresnel approximation, at x = 1 − cosine.
+///
+/// Three multiplications, in an order that every lane and every level of instructions shares.
 #[inline(always)]
 pub(super) fn pow5<T: Copy + Mul<Output = T>>(x: T) -> T {
     let square = x * x;
@@ -77,6 +92,8 @@ pub(super) fn pow5<T: Copy + Mul<Output = T>>(x: T) -> T {
 }
 
 /// GGX α of a perceptual roughness: its square, bounded from below by [`MIN_ROUGHNESS`].
+///
+/// The square makes equal steps of the parameter look alike (Burley 2012; glTF 2.0, Appendix B).
 #[inline(always)]
 pub(super) fn roughness_to_alpha<const N: usize>(roughness: Lanes<N>) -> Lanes<N> {
     let bounded = roughness.clamp(MIN_ROUGHNESS, 1.0);

@@ -27,9 +27,13 @@ use table::TABLE;
 const MIN_SHEEN_ROUGHNESS: f32 = 0.07;
 
 /// The sheen layer at some fragments.
+///
+/// It keeps base and sheen together below the energy that arrives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheen<const N: usize> {
+    /// The reflectance of the fibers, by channel.
     color: Rgb<N>,
+    /// The perceptual roughness, not below [`MIN_SHEEN_ROUGHNESS`]; α is its square.
     roughness: Lanes<N>,
     /// The largest channel of the color: what is below is dimmed alike in all channels.
     max_color: Lanes<N>,
@@ -84,6 +88,9 @@ impl<const N: usize> Sheen<N> {
 }
 
 /// The Charlie lobe of white sheen, times the cosine of the light: `D · V · n·l`.
+///
+/// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers stand
+/// upright, and light up at silhouettes.
 #[inline(always)]
 fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) -> Lanes<N> {
     let inv_alpha = 1.0 / (roughness * roughness);
@@ -103,6 +110,8 @@ fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) 
 }
 
 /// Smith's Λ of the Charlie distribution: the fit of Estevez and Kulla 2017, table 1.
+///
+/// The fit has two branches, whose exponents are point-symmetric about the cosine 0.5.
 fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
     // Coefficients of smooth and rough fibers, interpolated by (1 − α)².
     let weight = (1.0 - alpha) * (1.0 - alpha);
@@ -116,6 +125,8 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
 
 /// The directional albedo of white sheen: the integral of the lobe over the hemisphere, at most 1.
 /// Bilinear in the table.
+///
+/// Sixteen roughnesses by sixteen roots of cosines; the root puts more entries near grazing angles.
 #[inline(always)]
 fn sheen_albedo<const N: usize>(cosine: Lanes<N>, roughness: Lanes<N>) -> Lanes<N> {
     let (rows, s) = locate_entries(roughness * 15.0);

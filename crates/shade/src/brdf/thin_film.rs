@@ -23,6 +23,9 @@ use std::f32::consts::PI;
 ///
 /// `f0` is that of the surface without the film, `ior` the film's index of refraction, `thickness`
 /// in nanometers. As the thickness goes to 0 the film's index goes to that of air.
+///
+/// Each channel of F0 gives the index of refraction of the base, so a colored metal interferes by
+/// channel. The cost is two harmonics with four Gaussians and cosines each.
 pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
     // Without a film its index of refraction is that of air.
     let start = (thickness / 0.03).clamp(0.0, 1.0);
@@ -33,6 +36,7 @@ pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) 
     // First interface, air to film.
     let r12 = schlick_fresnel(normal_reflectance(ior, 1.0), cosine);
     let t121 = 1.0 - r12;
+    // Optical path difference, 2 n d cosθ in the film.
     let path = 2.0 * ior * thickness * film_cosine;
     let mut reflectance = [0.0; 3];
     let mut harmonics = [[0.0; 3]; 2];
@@ -51,6 +55,8 @@ pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) 
         // Half a wave is lost where light is reflected by a denser medium.
         phase_shifts[channel] = PI + if base_ior < ior { PI } else { 0.0 };
     }
+    // Airy summation in Fourier space: each harmonic times the eye's response to its path
+    // difference.
     for (index, amplitudes) in harmonics.iter().enumerate() {
         let order = (index + 1) as f32;
         let sensitivity =
@@ -65,18 +71,24 @@ pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) 
 }
 
 /// Fresnel reflectance at normal incidence between media with these indices of refraction.
+///
+/// ((a − b) / (a + b))², for media that do not absorb.
 fn normal_reflectance(a: f32, b: f32) -> f32 {
     let root = (a - b) / (a + b);
     root * root
 }
 
 /// Schlick's approximation with F90 = 1.
+///
+/// Schlick 1994, for an interface that reflects everything at grazing angles.
 fn schlick_fresnel(f0: f32, cosine: f32) -> f32 {
     f0 + (1.0 - f0) * pow5(1.0 - cosine)
 }
 
 /// The response of the eye to waves with an optical path difference in nanometers, in linear sRGB:
 /// the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and Barla 2017).
+///
+/// XYZ are weighted by their own phase shifts, one per channel of the base, then converted to sRGB.
 fn spectral_sensitivity(path: f32, shifts: [f32; 3]) -> [f32; 3] {
     let phase = 2.0 * PI * path * 1e-9;
     let gaussian = |value: f32, center: f32, variance: f32, shift: f32| {

@@ -70,7 +70,9 @@ impl IrradianceHarmonics {
         }
         let coefficients = |sums: [f64; 9]| {
             std::array::from_fn(|k| {
+                // Degree 0 has one function, degree 1 three, degree 2 five.
                 let degree = usize::from(k > 0) + usize::from(k > 3);
+                // Normalize over the sphere, then convolve with the clamped cosine.
                 let projection = sums[k] * (4.0 * PI / sphere) * BASIS_NORMALIZATION[k];
                 (projection * COSINE_CONVOLUTION[degree]) as f32
             })

@@ -71,6 +71,7 @@ impl PrefilteredLevels {
     fn prefilter_level(&self, index: usize) -> OctahedralMap {
         let roughness = index as f32 / (LEVEL_COUNT - 1) as f32;
         let (mip_chain, simd_level) = (&self.mip_chain, SimdLevel::best());
+        // α = roughness², then one set of samples for all texels of the level.
         let samples = importance_sample_ggx(roughness * roughness, mip_chain);
         let color = |normal| {
             simd_level.run_kernel(PrefilterKernel { mip_chain, normal, samples: &samples })
@@ -115,6 +116,9 @@ impl SamplePacket {
 ///
 /// The level is half the logarithm of the sample's solid angle over that of a texel, and one more:
 /// a bias against noise, which costs no sharpness that the next level of roughness would show.
+///
+/// The sample set is computed once for a level, in the frame of the normal: with n = v = r the lobe
+/// has no preferred azimuth, at the price of the stretched highlights at grazing angles.
 fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SamplePacket> {
     let alpha_squared = alpha * alpha;
     let texel_solid_angle = 4.0 * PI / (mip_chain[0].side * mip_chain[0].side) as f32;

@@ -44,6 +44,7 @@ pub(super) fn apply_normal_map<const N: usize>(
     let tangent = tangents.vectors;
     let bitangent = normals.cross(tangent);
     let bitangent_square = bitangent.dot(bitangent);
+    // Red along the unit tangent, green along the unit bitangent.
     let u = tangent_normals.x / tangent.dot(tangent).sqrt();
     let v = tangents.handedness() * tangent_normals.y / bitangent_square.sqrt();
     let sum = tangent * u + bitangent * v + normals * tangent_normals.z;

@@ -32,6 +32,7 @@ impl MipChain<'_> {
         needs_alpha: bool,
         anisotropy: u32,
     ) -> TexelLanes<N> {
+        // Anisotropic filtering: the weighted mean of the taps.
         let footprint = self.addressing.footprint(uvs, anisotropy);
         let mut sum = TexelLanes::ZERO;
         for index in 0..footprint.max_tap_count() {

@@ -11,6 +11,9 @@
 //! texels are as large as the shorter one (Heckbert, *Fundamentals of texture mapping and image
 //! warping*, 1989; McCormack and others, *Feline: fast elliptical lines for anisotropic texture
 //! mapping*, 1999).
+//!
+//! Taps on a line approximate the elliptical weighted average (EWA: Greene and Heckbert 1986),
+//! which weights every texel within the ellipse by a Gaussian.
 
 use super::UvLanes;
 use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
@@ -77,6 +80,8 @@ impl<const N: usize> Footprint<N> {
 
 impl TexelAddressing {
     /// The footprints of pixels, with at most `anisotropy` taps.
+    ///
+    /// The number of taps is the ratio of the axes, rounded, and at least 1.
     #[inline(always)]
     pub(crate) fn footprint<const N: usize>(
         &self,
@@ -113,7 +118,10 @@ impl TexelAddressing {
             let (xu, xv) = (dx[0][lane] * width, dx[1][lane] * height);
             let (yu, yv) = (dy[0][lane] * width, dy[1][lane] * height);
             let (uu, vv, uv) = (xu * xu + yu * yu, xv * xv + yv * yv, xu * xv + yu * yv);
+            // Trace and determinant of the 2 × 2 matrix; the determinant of J is the product of the
+            // axes.
             let (trace, area) = (uu + vv, xu * yv - xv * yu);
+            // The longer axis: the root of the larger eigenvalue.
             let root = ((uu - vv) * (uu - vv) + 4.0 * uv * uv).sqrt();
             let longer = (0.5 * (trace + root)).sqrt();
             let shorter = area.abs() / longer;

@@ -142,6 +142,7 @@ impl SrgbAverager {
     /// The mean of four colors in linear light; alpha is linear already.
     fn average(&self, four: [[u8; 4]; 4]) -> [u8; 4] {
         let color = |k: usize| {
+            // Mean in linear light, in 16 bits, then back to the nearest sRGB code.
             let sum: u32 = four.iter().map(|texel| self.linear[usize::from(texel[k])]).sum();
             self.codes[((sum + 2) / 4) as usize]
         };

@@ -1,4 +1,7 @@
 //! The objects of core glTF 2.0 (§5, in the order of the specification).
+//!
+//! Each table is a static, so that tables may refer to each other in any order and cost no time at
+//! start-up. `extensions` and `extras` are not listed: every object may have them.
 
 use super::Collection::{
     Accessors, AnimationSamplers, BufferViews, Buffers, Cameras, Images, Materials, Meshes, Nodes,
@@ -14,7 +17,10 @@ use super::{
 };
 
 /// An integer without maximum.
+///
+/// JSON itself sets no bound on integers; the checks of ranges and the limits of the loader do.
 const MAX_INTEGER: u64 = u64::MAX;
+/// Names are optional, need not be unique, and identify nothing: references are indices.
 const NAME: super::MemberSchema = optional("name", Text);
 
 /// The schema of an object.
@@ -57,6 +63,9 @@ pub(in super::super) static ROOT: ObjectSchema = object_schema(
 );
 
 /// `accessor` (§5.1): a typed view into a buffer view, which `byteOffset` requires.
+///
+/// `componentType` is an OpenGL constant: 5120 and 5121 are signed and unsigned bytes, 5122 and
+/// 5123 shorts, 5125 is an unsigned int, 5126 a float. There is no signed 32-bit integer.
 static ACCESSOR: ObjectSchema = object_schema(
     "accessor",
     &[
@@ -85,6 +94,8 @@ static SPARSE: ObjectSchema = object_schema(
 );
 
 /// `accessor.sparse.indices` (§5.3): which elements are replaced.
+///
+/// The component types are the unsigned ones: byte, short and int.
 static SPARSE_INDICES: ObjectSchema = object_schema(
     "sparseIndices",
     &[
@@ -154,6 +165,9 @@ static BUFFER: ObjectSchema = object_schema(
 );
 
 /// `bufferView` (§5.11): a range of a buffer, with an optional stride of 4 to 252 bytes.
+///
+/// `target` is a hint for graphics APIs: 34962 is `ARRAY_BUFFER` for vertices, 34963
+/// `ELEMENT_ARRAY_BUFFER` for indices.
 static BUFFER_VIEW: ObjectSchema = object_schema(
     "bufferView",
     &[
@@ -170,7 +184,7 @@ static BUFFER_VIEW: ObjectSchema = object_schema(
 static CAMERA: ObjectSchema = object_schema(
     "camera",
     &[
-        // The one that the type names is required, which is validated with the cameras.
+        // The object that `type` names is required; that is validated with the cameras.
         excludes("orthographic", "perspective", object_kind(&ORTHOGRAPHIC)),
         optional("perspective", object_kind(&PERSPECTIVE)),
         required("type", EnumString(&["perspective", "orthographic"])),
@@ -179,6 +193,8 @@ static CAMERA: ObjectSchema = object_schema(
 );
 
 /// `camera.orthographic` (§5.13): half width and height of the view, near and far plane.
+///
+/// `xmag` and `ymag` must not be 0, and should not be negative.
 static ORTHOGRAPHIC: ObjectSchema = object_schema(
     "orthographic",
     &[
@@ -190,6 +206,8 @@ static ORTHOGRAPHIC: ObjectSchema = object_schema(
 );
 
 /// `camera.perspective` (§5.14): vertical field of view, aspect ratio, near and far plane.
+///
+/// Without `zfar` the projection is infinite; `yfov` is in radians and less than π.
 static PERSPECTIVE: ObjectSchema = object_schema(
     "perspective",
     &[
@@ -256,6 +274,8 @@ pub(super) static NORMAL_TEXTURE: ObjectSchema = object_schema(
 );
 
 /// `material.occlusionTextureInfo` (§5.21): an occlusion map with its strength.
+///
+/// The occlusion is in the red channel of the texture.
 static OCCLUSION_TEXTURE: ObjectSchema = object_schema(
     "textureInfo",
     &[
@@ -272,6 +292,9 @@ static MESH: ObjectSchema = object_schema(
 );
 
 /// `mesh.primitive` (§5.24): attributes, indices, material, mode and morph targets.
+///
+/// `mode` is the topology: 0 points, 1 lines, 2 line loop, 3 line strip, 4 triangles, 5 triangle
+/// strip, 6 triangle fan.
 static PRIMITIVE: ObjectSchema = object_schema(
     "primitive",
     &[
@@ -284,6 +307,8 @@ static PRIMITIVE: ObjectSchema = object_schema(
 );
 
 /// `node` (§5.25): a transform with children, and what hangs on it; a skin requires a mesh.
+///
+/// The matrix is in column-major order. A rotation is a unit quaternion in the order x, y, z, w.
 static NODE: ObjectSchema = object_schema(
     "node",
     &[
@@ -301,6 +326,9 @@ static NODE: ObjectSchema = object_schema(
 );
 
 /// `sampler` (§5.26): filters and wrap modes, by their OpenGL constants.
+///
+/// 9728 and 9729 are `NEAREST` and `LINEAR`; 9984 to 9987 combine both with mipmaps. 33071 is
+/// `CLAMP_TO_EDGE`, 33648 `MIRRORED_REPEAT`, 10497 `REPEAT`.
 static SAMPLER: ObjectSchema = object_schema(
     "sampler",
     &[
@@ -316,6 +344,9 @@ static SAMPLER: ObjectSchema = object_schema(
 static SCENE: ObjectSchema = object_schema("scene", &[optional("nodes", Indices(Nodes)), NAME]);
 
 /// `skin` (§5.28): joints, inverse bind matrices, and a common root.
+///
+/// `inverseBindMatrices` has one matrix for each joint, in the order of `joints`; without it all
+/// are the identity.
 static SKIN: ObjectSchema = object_schema(
     "skin",
     &[

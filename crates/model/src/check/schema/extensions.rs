@@ -2,6 +2,10 @@
 //!
 //! Other extensions are not validated. An extension without any object, such as
 //! KHR_mesh_quantization, has the parent "nothing": it is known, but may not appear anywhere.
+//!
+//! To support an extension, add a row for each object that may contain its object, and a static for
+//! each nested object. The walk finds unknown members, missing members and values out of range
+//! without further code; rules about two members belong in the check of the parent object.
 
 use super::Collection::{Accessors, BufferViews, Buffers, Images, Lights, Materials, Variants};
 use super::ValueKind::{
@@ -14,12 +18,19 @@ use super::{ANY, NOT_NEGATIVE, NumberRange, ObjectSchema, POSITIVE, UNIT, option
 /// An integer without maximum.
 const MAX_INTEGER: u64 = u64::MAX;
 /// Indices of refraction: at least 1.
+///
+/// The index of refraction of vacuum is 1, and no film or coating has a lower one.
 const ABOVE_ONE: NumberRange = NumberRange { min: 1.0, ..ANY };
 /// Cone angles of spot lights, in radians.
+///
+/// A cone with an outer angle of π/2 is a half space, the widest that KHR_lights_punctual allows.
 const QUARTER_TURN: NumberRange =
     NumberRange { min: 0.0, max: std::f64::consts::FRAC_PI_2, exclusive_min: false };
 
 /// The object of an extension: the extension's name, its parent object, and its members.
+///
+/// One extension may have several: KHR_lights_punctual has a list of lights in the root, and an
+/// index into it in nodes.
 pub(in super::super) struct ExtensionObject {
     /// The name of the extension.
     pub(in super::super) name: &'static str,
@@ -153,9 +164,14 @@ extension_objects! {
 
 /// The index of refraction is 0, for metals, or at least 1; values between are rejected with the
 /// materials.
+///
+/// An interval with a gap cannot be expressed as a [`NumberRange`].
 const IOR: NumberRange = NOT_NEGATIVE;
 
 /// A light of KHR_lights_punctual.
+///
+/// `color` is linear RGB. `intensity` is in candela for point and spot lights, and in lux for
+/// directional ones; `range`, in meters, is a hint for culling.
 static LIGHT: ObjectSchema = ObjectSchema {
     name: "light",
     members: &[
@@ -169,6 +185,9 @@ static LIGHT: ObjectSchema = ObjectSchema {
 };
 
 /// The cone of a spot light of KHR_lights_punctual.
+///
+/// Both angles are measured from the axis of the cone, in radians; the inner one is less than the
+/// outer one, which is validated with the materials.
 static SPOT: ObjectSchema = ObjectSchema {
     name: "spot",
     members: &[
@@ -181,6 +200,8 @@ static SPOT: ObjectSchema = ObjectSchema {
 static VARIANT: ObjectSchema = ObjectSchema { name: "variant", members: &[required("name", Text)] };
 
 /// The material that a primitive has in some variants (KHR_materials_variants).
+///
+/// A primitive without a mapping for the active variant has its default material.
 static MAPPING: ObjectSchema = ObjectSchema {
     name: "mapping",
     members: &[

@@ -1,10 +1,11 @@
 //! Accessors: typed views into buffers, checked once so that reading their elements cannot fail.
 //!
-//! An accessor claims: from this byte on, so many elements of such a type, one every so many bytes
-//! (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the claim in 64-bit arithmetic
-//! against the bytes there are. Arrays are made by [`AccessorReader::read_floats`] and its
-//! siblings, which charge the memory budget: an accessor without bytes (zeros, by the
-//! specification), or the same bytes used a thousand times, must not exhaust memory.
+//! An accessor declares a byte offset, a number of elements, their type and, by its buffer view,
+//! the stride between them (glTF 2.0 §3.6.2). [`AccessorReader::resolve_accessor`] checks the
+//! declaration in 64-bit arithmetic against the bytes that exist. Arrays are made by
+//! [`AccessorReader::read_floats`] and its siblings, which charge the memory budget: an accessor
+//! without bytes (zeros, by the specification), or the same bytes used a thousand times, must not
+//! exhaust memory.
 
 use super::buffers::{Buffers, checked_slice};
 use super::elements::{ResolvedAccessor, SparseElements, StridedBytes};
@@ -15,9 +16,15 @@ use gltf::json::accessor::{Accessor, ComponentType, IndexComponentType, Type, sp
 use gltf::json::validation::Checked;
 
 /// Reader of the file's accessors.
+///
+/// All readers of the import borrow it: it has no mutable state but the memory budget and the
+/// lazily loaded buffers.
 pub(super) struct AccessorReader<'a> {
+    /// The parsed document, whose indices have not been checked.
     pub(super) root: &'a Root,
+    /// Buffers and buffer views, loaded on first use.
     pub(super) buffers: &'a Buffers<'a>,
+    /// Limits on sizes and counts.
     pub(super) limits: &'a Limits,
 }
 
@@ -30,6 +37,9 @@ impl<'a> AccessorReader<'a> {
     ///
     /// # Errors
     /// The accessor does not exist, has an invalid type, or its elements are not all in the buffer.
+    ///
+    /// Nothing is converted or allocated here, apart from sparse indices. A view is resolved again
+    /// for each of its users, which costs little: the bytes are borrowed.
     pub(super) fn resolve_accessor(
         &self,
         accessor: usize,
@@ -67,6 +77,9 @@ impl<'a> AccessorReader<'a> {
     }
 
     /// Whether an accessor exists and has no bytes: neither a buffer view nor sparse values.
+    ///
+    /// Such an accessor means zeros (glTF 2.0 §3.6.2.3), or data that an extension such as Draco
+    /// supplies.
     pub(super) fn has_no_data(&self, accessor: usize) -> bool {
         let json = self.root.accessors.get(accessor);
         json.is_some_and(|json| json.buffer_view.is_none() && json.sparse.is_none())
@@ -109,6 +122,11 @@ impl<'a> AccessorReader<'a> {
     }
 
     /// Charges the memory budget for an array that is about to be made of an accessor.
+    ///
+    /// `bytes` is the size of an element in the new array, not in the file.
+    ///
+    /// # Errors
+    /// [`LIMIT_EXCEEDED`](crate::codes::LIMIT_EXCEEDED) if the budget is spent.
     pub(super) fn charge_array(
         &self,
         accessor: usize,
@@ -124,6 +142,9 @@ impl<'a> AccessorReader<'a> {
     /// The last element needs its own size only, not a whole stride (glTF 2.0 §3.6.2.4):
     /// interleaved attributes end before the stride of the last vertex is full. Overflow saturates
     /// and then exceeds any buffer, so that it is reported as missing bytes.
+    ///
+    /// A stride smaller than an element would make elements overlap, and is an error unless there
+    /// is only one element.
     fn strided_bytes(
         &self,
         view: usize,
@@ -156,6 +177,12 @@ impl<'a> AccessorReader<'a> {
     ///
     /// Every index is checked to be less than the number of elements. The rule that indices
     /// increase is left to the checker: reading does not depend on it.
+    ///
+    /// The values have the format of the accessor; both arrays are tightly packed.
+    ///
+    /// # Errors
+    /// The component type of the indices is invalid, an index is out of range, or bytes are
+    /// missing.
     fn resolve_sparse(
         &self,
         json: &sparse::Sparse,
@@ -193,14 +220,22 @@ impl<'a> AccessorReader<'a> {
 
 /// Number and size of the elements that must be present; `pointer` is the location that declares
 /// them.
+///
+/// It describes the base elements of an accessor, or the indices or values of its sparse part.
 #[derive(Clone, Copy)]
 struct ElementLayout<'a> {
+    /// JSON pointer to the declaration, for diagnostics.
     pointer: &'a str,
+    /// Number of elements.
     count: usize,
+    /// Size of an element in bytes, with the padding between the columns of matrices.
     size: usize,
 }
 
-/// Component type and element type.
+/// Component type and element type of an accessor.
+///
+/// # Errors
+/// One of them is not among the values of the specification (glTF 2.0 §3.6.2.2).
 fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Type), Diagnostic> {
     let Checked::Valid(component) = json.component_type else {
         let message = "the component type is not one of 5120, 5121, 5122, 5123, 5125 and 5126";
@@ -215,6 +250,10 @@ fn accessor_format(json: &Accessor, pointer: &str) -> Result<(ComponentType, Typ
 
 /// Size of an element in bytes. Columns of matrices begin at multiples of four (glTF 2.0 §3.6.2.4),
 /// which makes a difference for small matrices of small integers.
+///
+/// ```text
+///  MAT3 of bytes:  c0 c0 c0 ··  c1 c1 c1 ··  c2 c2 c2 ··     12 bytes, not 9
+/// ```
 fn element_size(component: ComponentType, shape: Type) -> usize {
     let column = |rows: usize| (rows * component.size()).next_multiple_of(4);
     match shape {

@@ -24,14 +24,25 @@ use gltf::json::validation::Checked;
 
 /// Objects that channels can change, and the list of texture transforms that they need.
 pub(super) struct AnimatedObjects<'a> {
+    /// Nodes, for transforms and morph weights.
     pub(super) nodes: &'a [Node],
+    /// Materials; mutable only because the property table gives mutable access.
     pub(super) materials: &'a mut [Material],
+    /// Punctual lights.
     pub(super) lights: &'a [PunctualLight],
+    /// Cameras.
     pub(super) cameras: &'a [ModelCamera],
+    /// Texture transforms that some channel animates; appended to on first use of each.
     pub(super) uv_transforms: &'a mut Vec<UvTransform>,
 }
 
 /// Reads all animations of a file.
+///
+/// Channels with a node come first, then those with a pointer. The duration is the time of the last
+/// keyframe over all channels, in seconds.
+///
+/// # Errors
+/// Exceeded limits and unreadable files; faults in channels are warnings.
 pub(super) fn import_animations(
     source: &AccessorReader<'_>,
     pointers: &[PointerChannel],
@@ -64,14 +75,22 @@ pub(super) fn import_animations(
 }
 
 /// Reader of the channels of one animation.
+///
+/// Samplers are read once for each channel that uses them: sharing is rare, and curves are small.
 struct AnimationReader<'a> {
     source: &'a AccessorReader<'a>,
+    /// The samplers of the animation, to which its channels refer.
     samplers: &'a [json::animation::Sampler],
+    /// Index of the animation.
     animation: usize,
 }
 
 impl AnimationReader<'_> {
     /// Reads a channel that targets a node.
+    ///
+    /// # Errors
+    /// The node or sampler does not exist, the path is unknown, the node has a matrix, or the curve
+    /// is invalid.
     fn read_channel(
         &self,
         nodes: &[Node],
@@ -103,6 +122,9 @@ impl AnimationReader<'_> {
     }
 
     /// Reads a channel that names its target by a JSON pointer (KHR_animation_pointer).
+    ///
+    /// # Errors
+    /// The pointer does not lead to a supported property, or the curve is invalid.
     fn read_pointer_channel(
         &self,
         targets: &mut AnimatedObjects<'_>,
@@ -121,6 +143,9 @@ impl AnimationReader<'_> {
     }
 
     /// The curve of a sampler; `pointer` is the member that refers to it.
+    ///
+    /// # Errors
+    /// The sampler does not exist or its curve is invalid.
     fn read_sampler(
         &self,
         sampler: usize,
@@ -203,6 +228,12 @@ impl AnimationReader<'_> {
     }
 
     /// Times of the keyframes: at least one, finite, strictly increasing.
+    ///
+    /// Strictly increasing times are what makes the binary search and the division by their
+    /// difference safe.
+    ///
+    /// # Errors
+    /// The accessor is not SCALAR of floats, or the times violate the rules.
     fn read_key_times(&self, accessor: usize, pointer: &str) -> Result<Vec<f32>, Diagnostic> {
         let elements = self.source.resolve_accessor(accessor, pointer)?;
         if (elements.element_type, elements.component_type) != (Type::Scalar, ComponentType::F32) {
@@ -217,6 +248,9 @@ impl AnimationReader<'_> {
     }
 
     /// Values as one flat array of finite numbers.
+    ///
+    /// # Errors
+    /// The format is not allowed, or a value is not finite.
     fn read_values<const N: usize>(
         &self,
         accessor: usize,
@@ -225,8 +259,8 @@ impl AnimationReader<'_> {
     ) -> Result<Vec<f32>, Diagnostic> {
         let mut elements = self.source.resolve_accessor(accessor, pointer)?;
         format.check_elements(&elements, pointer)?;
-        // Integers are normalised even if the file forgot to say so: there is no other way to read
-        // them.
+        // Integers are normalized even without `normalized`: keyframe values have no other integer
+        // format, and some exporters omit the flag.
         elements.normalized = true;
         let values = self.source.read_floats::<N>(&elements)?.into_flattened();
         if values.iter().all(|value| value.is_finite()) {

@@ -2,6 +2,13 @@
 //!
 //! Supported are transforms and weights of nodes, numbers of materials, lights and cameras, and
 //! texture transforms.
+//!
+//! ```text
+//!  /nodes/3/rotation                                         four numbers, a quaternion
+//!  /meshes/0/weights/1                                       one morph weight
+//!  /materials/2/pbrMetallicRoughness/baseColorFactor         four numbers
+//!  /extensions/KHR_lights_punctual/lights/0/intensity        one number
+//! ```
 
 use super::animation::AnimatedObjects;
 use super::material::texture_transform;
@@ -10,6 +17,8 @@ use crate::{AnimationTarget, NodeProperty, ObjectProperty, TextureSlot, UvTransf
 use gltf::json::Root;
 
 /// Type of a channel's values.
+///
+/// It determines the accessor format and the number of components for each keyframe.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ChannelValueKind {
     /// Three floats.
@@ -35,6 +44,9 @@ impl ChannelValueKind {
 
 /// The target of a pointer and the type of its values; `None` if nothing that can be animated is
 /// there.
+///
+/// The object must exist and must have the property: a pointer into an absent extension or texture
+/// is not a target. Escapes of JSON pointers do not occur in the supported paths.
 pub(super) fn resolve_pointer(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,
@@ -78,11 +90,15 @@ pub(super) fn resolve_pointer(
 }
 
 /// An index in a JSON pointer: digits only.
+///
+/// `+1` and an empty token are refused, which [`str::parse`] alone would not do for the former.
 fn parse_index(step: &str) -> Option<usize> {
     step.bytes().all(|byte| byte.is_ascii_digit()).then(|| step.parse().ok())?
 }
 
 /// A property or a single morph weight of a node.
+///
+/// A node with a matrix has no translation, rotation and scale to animate.
 fn node_target(
     root: &Root,
     targets: &AnimatedObjects<'_>,
@@ -111,6 +127,9 @@ fn node_target(
 }
 
 /// Morph target of `weights/N`, or `None` inside for `weights`, which means all of them.
+///
+/// The number of targets is the largest among the primitives of the mesh. `None` outside stands for
+/// a path that is neither, or for a target that does not exist.
 fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usize>> {
     let mesh = root.meshes.get(mesh)?;
     if path == "weights" {
@@ -123,6 +142,9 @@ fn morph_target_index(root: &Root, mesh: usize, path: &str) -> Option<Option<usi
 }
 
 /// A numeric property of a material.
+///
+/// Access through the table tells whether the material has the extension that the number belongs
+/// to.
 fn material_target(
     targets: &mut AnimatedObjects<'_>,
     index: usize,
@@ -139,6 +161,9 @@ fn material_target(
 
 /// A property of a texture transform. The transform is added to the list, once for all its
 /// properties.
+///
+/// The texture must exist in the material. A transform that the file gives is the initial value of
+/// the parts that are not animated.
 fn texture_transform_target(
     root: &Root,
     targets: &mut AnimatedObjects<'_>,

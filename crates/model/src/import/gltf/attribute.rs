@@ -1,4 +1,7 @@
 //! Vertex attributes: the formats each may have, and reading of those that are optional.
+//!
+//! The formats listed here are wider than those of core glTF: files use quantized formats without
+//! declaring KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
 
 use super::accessor::AccessorReader;
 use super::draco::DracoData;
@@ -11,40 +14,62 @@ use std::ops::Range;
 
 /// Element and component types that an attribute or the values of an animation may have, including
 /// those of KHR_mesh_quantization.
+///
+/// Whether integers are normalized is not restricted: the accessor says so, and conversion follows
+/// it.
 pub(super) struct AllowedFormats {
+    /// glTF's `type`.
     element_types: &'static [Type],
+    /// glTF's `componentType`.
     component_types: &'static [ComponentType],
 }
 
+/// Primitive indices, and vertices of edges.
 pub(super) const INDICES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Scalar], component_types: &[U8, U16, U32] };
+/// Positions; the integers are those of KHR_mesh_quantization.
 pub(super) const POSITION: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, U8, I16, U16] };
+/// Normals; the signed integers are those of KHR_mesh_quantization.
 pub(super) const NORMAL: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, I16] };
+/// Tangents with the handedness of the bitangent in w.
 pub(super) const TANGENT: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, I16] };
+/// Texture coordinates, also beyond [0, 1].
 pub(super) const TEXCOORD: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec2], component_types: &[F32, I8, U8, I16, U16] };
+/// Vertex colors, linear RGB with or without alpha.
 pub(super) const COLOR: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3, Type::Vec4], component_types: &[F32, U8, U16] };
+/// Joint indices, four a vertex.
 pub(super) const JOINTS: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[U8, U16] };
+/// Joint weights, four a vertex; integers are normalized.
 pub(super) const WEIGHTS: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, U8, U16] };
+/// Keyframe values of translations and scales.
 pub(super) const TRANSLATION_OR_SCALE: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32] };
+/// Keyframe values of rotations: quaternions, x, y, z, w.
 pub(super) const ROTATION: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, U8, I16, U16] };
+/// Keyframe values of single numbers, and of morph weights.
 pub(super) const SCALAR_VALUES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Scalar], component_types: &[F32, I8, U8, I16, U16] };
+/// Keyframe values of pairs, such as texture offsets.
 pub(super) const VEC2_VALUES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec2], ..SCALAR_VALUES };
+/// Keyframe values of triples, such as colors.
 pub(super) const VEC3_VALUES: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3], ..SCALAR_VALUES };
 
 impl AllowedFormats {
     /// Checks that an accessor has one of the formats.
+    ///
+    /// # Errors
+    /// The message lists the allowed types by the names and numbers of the JSON, as a reader of the
+    /// file sees them.
     pub(super) fn check_elements(
         &self,
         elements: &ResolvedAccessor<'_>,
@@ -83,6 +108,8 @@ fn type_name(shape: Type) -> &'static str {
 }
 
 /// The range of a primitive's vertices that its indices use.
+///
+/// Arrays that are read have `used.len()` elements: index 0 is the vertex `used.start` of the file.
 pub(super) struct VertexRange {
     /// Number of vertices in the file.
     pub(super) vertices: usize,
@@ -145,6 +172,12 @@ impl AttributeReader<'_, '_> {
     }
 
     /// Reads a set of texture coordinates; those that are not finite become 0.
+    ///
+    /// A single NaN would otherwise spread over the triangle and its mip level selection.
+    /// Coordinates beyond [0, 1] are valid: the sampler wraps them.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files.
     pub(super) fn read_texcoords(
         &mut self,
         accessor: Option<usize>,
@@ -167,21 +200,27 @@ impl AttributeReader<'_, '_> {
     }
 
     /// Reads colors of three or four components as four, each clamped to [0, 1].
+    ///
+    /// Three components are opaque. Only the morph targets of colors may be negative, so that
+    /// clamping here loses nothing.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files.
     pub(super) fn read_colors(
         &mut self,
         accessor: Option<usize>,
         pointer: &str,
     ) -> Result<Option<Vec<[f32; 4]>>, Diagnostic> {
         self.read_attribute(accessor, pointer, &COLOR, |source, mut elements| {
-            // Integers are normalised even if the file forgot to say so: there is no other way to
-            // read them.
+            // Integers are normalized even without `normalized`: integer colors have no other
+            // meaning, and some exporters omit the flag.
             elements.normalized = true;
             let mut colors: Vec<[f32; 4]> = source.read_floats(&elements)?;
             for color in &mut colors {
                 if elements.element_type == Type::Vec3 {
                     color[3] = 1.0;
                 }
-                // What is not a number becomes 0.
+                // The comparison is false for NaN, which becomes 0.
                 *color = color.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
             }
             Ok(colors)

@@ -1,4 +1,14 @@
 //! Buffers and buffer views: read, and decompressed by meshopt, once and on first use.
+//!
+//! ```text
+//!  uri ────────────┐
+//!                  ├─► buffer ──range──► buffer view ──meshopt──► bytes of accessors and images
+//!  binary chunk ───┘
+//! ```
+//!
+//! Each buffer and each compressed view has a [`OnceLock`], which is filled through a shared
+//! reference: slices of one buffer remain valid while another is loaded, and buffers that nothing
+//! uses are never read.
 
 use super::meshopt::CompressedView;
 use crate::diagnostic::{Diagnostic, codes};
@@ -9,7 +19,10 @@ use gltf::json::Root;
 use std::sync::OnceLock;
 
 /// The buffers of a file, loaded lazily.
+///
+/// Methods return slices that live as long as the store.
 pub(super) struct Buffers<'a> {
+    /// The document, whose indices have not been checked.
     root: &'a Root,
     /// Reads the files and data URIs of buffers.
     pub(super) resolver: &'a UriResolver<'a>,
@@ -44,12 +57,19 @@ impl<'a> Buffers<'a> {
     }
 
     /// Charges the memory budget for an array; `pointer` is the location that declares its length.
+    ///
+    /// # Errors
+    /// The budget, which is proportional to the bytes of all files, is spent.
     pub(super) fn charge_bytes(&self, pointer: &str, bytes: u64) -> Result<(), Diagnostic> {
         self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes())
     }
 
     /// The bytes of a buffer view, decompressed if need be. `user` is the pointer to the member
     /// that refers to it.
+    ///
+    /// # Errors
+    /// The view or its buffer does not exist or cannot be read, its range is not inside the buffer,
+    /// or the compressed stream is invalid.
     pub(super) fn buffer_view(
         &self,
         view: usize,
@@ -72,6 +92,9 @@ impl<'a> Buffers<'a> {
 
     /// The bytes of a compressed view. The buffer that the view itself refers to need not have any:
     /// it is the fallback for readers without the extension.
+    ///
+    /// The budget is charged with the declared length before the stream is decoded. Later uses of
+    /// the view cost nothing.
     fn decompressed_view(&self, view: usize, packed: &CompressedView) -> Result<&[u8], Diagnostic> {
         let slot = &self.decompressed[view];
         if let Some(bytes) = slot.get() {
@@ -85,6 +108,8 @@ impl<'a> Buffers<'a> {
     }
 
     /// `length` bytes of a buffer from `start` on; `user` is the location that refers to them.
+    ///
+    /// The whole range must exist: a partial view would shift the meaning of later bytes.
     fn buffer_range(
         &self,
         buffer: usize,
@@ -103,6 +128,9 @@ impl<'a> Buffers<'a> {
     }
 
     /// The bytes of a whole buffer, read on first use.
+    ///
+    /// Data beyond the declared `byteLength` is not visible; a buffer with less data than declared
+    /// is accepted, as long as no view reaches beyond it.
     fn buffer_bytes(&self, buffer: usize, view: &str) -> Result<&[u8], Diagnostic> {
         let (Some(json), Some(read)) = (self.root.buffers.get(buffer), self.loaded.get(buffer))
         else {
@@ -146,6 +174,7 @@ impl Buffers<'_> {
 
 /// A buffer view: part of a buffer.
 pub(super) struct BufferView<'a> {
+    /// The bytes of the view, decompressed.
     pub(super) bytes: &'a [u8],
     /// Stride between elements, if the view declares one.
     pub(super) stride: Option<usize>,

@@ -13,6 +13,9 @@ use gltf::json::validation::Checked;
 use std::f64::consts::PI;
 
 /// All cameras of a file, and for each whether its parameters are valid.
+///
+/// Invalid cameras remain in the list with a default projection, because nodes and animations refer
+/// to cameras by index.
 pub(super) fn import_cameras(
     root: &Root,
     warnings: &mut ImportWarnings,
@@ -32,10 +35,15 @@ pub(super) fn import_cameras(
 }
 
 /// Replaces the projection of an invalid camera.
+///
+/// It is never drawn with: references to the camera are cleared.
 const DEFAULT_PROJECTION: CameraProjection =
     CameraProjection::Perspective { fov_y: PI / 4.0, aspect: None, near: 0.1, far: f64::INFINITY };
 
 /// Reads and checks a camera.
+///
+/// # Errors
+/// The type is unknown, the object of its type is missing, or a parameter is out of range.
 fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, Diagnostic> {
     match (json.type_, &json.perspective, &json.orthographic) {
         (Checked::Valid(Type::Perspective), Some(json), _) => perspective_projection(json, pointer),
@@ -51,6 +59,9 @@ fn camera_projection(json: &Camera, pointer: &str) -> Result<CameraProjection, D
 }
 
 /// Checks the parameters of a perspective camera.
+///
+/// All comparisons are written so that NaN fails them. Depth has no upper limit of its own: `zfar`
+/// may be infinite.
 fn perspective_projection(
     json: &Perspective,
     pointer: &str,
@@ -80,6 +91,9 @@ fn perspective_projection(
 }
 
 /// Checks the parameters of an orthographic camera; negative magnifications are taken as positive.
+///
+/// `xmag` and `ymag` are half of the view's width and height, in world units. Unlike a perspective
+/// camera, the near plane may contain the camera's position.
 fn orthographic_projection(
     json: &Orthographic,
     pointer: &str,

@@ -18,18 +18,32 @@ use crate::import::warnings::ImportWarnings;
 use std::ops::Range;
 
 /// Byte ranges of the JSON and of the binary chunk.
+///
+/// The JSON range is without a byte order mark.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Container {
+    /// The JSON text, within the file.
     pub(super) json: Range<usize>,
+    /// The content of the BIN chunk, which is buffer 0 if that has no URI.
     pub(super) binary: Option<Range<usize>>,
 }
 
+/// Size of the file header in bytes: magic, version and length.
 const HEADER: usize = 12;
+/// Size of a chunk header in bytes: length and type.
 const CHUNK_HEADER: usize = 8;
+/// The advice for files that end too early, mostly interrupted downloads.
 const TRUNCATED: &str = "the file is cut off: copy or export it again";
 
 impl Container {
     /// Locates the JSON and the binary chunk, in text or GLB form.
+    ///
+    /// A file in UTF-16, which some editors write, gets an error of its own: it starts with a byte
+    /// order mark of two bytes.
+    ///
+    /// # Errors
+    /// [`NOT_GLTF`](codes::NOT_GLTF) if the file is neither JSON nor a GLB, or its container is
+    /// damaged.
     pub(super) fn from_bytes(
         bytes: &[u8],
         warnings: &mut ImportWarnings,
@@ -52,6 +66,8 @@ impl Container {
     }
 
     /// Locates the chunks of a GLB file.
+    ///
+    /// Chunks after the second are not read: the specification reserves them for extensions.
     fn from_glb(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<Self, Diagnostic> {
         let end = check_glb_header(bytes, warnings)?;
         if end < bytes.len() {
@@ -74,6 +90,10 @@ impl Container {
 }
 
 /// Checks version and length; returns the end of the file as declared.
+///
+/// # Errors
+/// The file is shorter than 12 bytes or than it declares, or has another version than 2. Reading
+/// leniently, a truncated file is read as far as it goes.
 fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize, Diagnostic> {
     let (Some(version), Some(length)) = (read_u32(bytes, 4), read_u32(bytes, 8)) else {
         return Err(format_error(&format!("the file has only {} bytes", bytes.len()), TRUNCATED));
@@ -103,13 +123,20 @@ fn check_glb_header(bytes: &[u8], warnings: &mut ImportWarnings) -> Result<usize
 type GlbChunk<'a> = (&'a [u8; 4], Range<usize>);
 
 /// Iterator over the chunks of a GLB file.
+///
+/// It is not an [`Iterator`], because each step may add a warning.
 struct GlbChunks<'a> {
+    /// The file, up to its declared end.
     bytes: &'a [u8],
+    /// Where the next chunk header starts.
     offset: usize,
 }
 
 impl<'a> GlbChunks<'a> {
     /// The next chunk; `None` at the end.
+    ///
+    /// Reading leniently, a chunk that is too long ends with the file, and an incomplete header is
+    /// ignored.
     fn next(&mut self, warnings: &mut ImportWarnings) -> Result<Option<GlbChunk<'a>>, Diagnostic> {
         let rest = &self.bytes[self.offset..];
         if rest.is_empty() {
@@ -134,11 +161,13 @@ impl<'a> GlbChunks<'a> {
     }
 }
 
+/// The little-endian 32-bit integer at an offset; `None` if the bytes end before it.
 fn read_u32(bytes: &[u8], at: usize) -> Option<usize> {
     let number = u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?);
     usize::try_from(number).ok()
 }
 
+/// The error for a damaged or foreign container, with advice.
 fn format_error(message: &str, help: &str) -> Diagnostic {
     Diagnostic::error(codes::NOT_GLTF, "", message.to_owned(), help)
 }

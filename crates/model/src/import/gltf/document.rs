@@ -4,6 +4,12 @@
 //! animation channel without a target) and accept invalid ones (an index of 2³² becomes 0). Both
 //! are corrected on the value, before the types see it. Nesting depth and number of values are
 //! limited before any value is built.
+//!
+//! ```text
+//!  bytes ─limits─► Value ─normalize─► Value ─┬─ transforms in f64
+//!                                           ├─ members without a type
+//!                                           └─ gltf::json::Root
+//! ```
 
 use super::json_repair;
 use super::node_transform::NodeTransform;
@@ -15,6 +21,8 @@ use gltf::json::Root;
 use serde_json::{Map, Number, Value};
 
 /// The parsed JSON of a file.
+///
+/// Parsing is complete before any buffer is read: a file that is not glTF costs only its JSON.
 #[derive(Debug)]
 pub(super) struct GltfDocument {
     /// Everything but the transforms of the nodes, as in the file: indices in it have not been
@@ -29,6 +37,13 @@ pub(super) struct GltfDocument {
 
 impl GltfDocument {
     /// Parses and normalizes the JSON; reading leniently, members of wrong types are left out.
+    ///
+    /// The steps depend on each other: untyped members are collected before channels without a
+    /// target node are dropped, because animation pointers are among them.
+    ///
+    /// # Errors
+    /// The text is not JSON, exceeds a limit, has an unsupported version, or has a member of a
+    /// wrong type.
     pub(super) fn parse_json(
         text: &[u8],
         limits: &Limits,
@@ -60,6 +75,9 @@ impl GltfDocument {
 ///
 /// # Errors
 /// [`LIMIT_EXCEEDED`](crate::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
+///
+/// An object counts as ten values, which is about its cost in memory next to a number. The time is
+/// linear in the text, and strings are skipped in blocks.
 pub(crate) fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
     let (mut depth, mut values) = (0usize, 1usize);
     let mut at = 0;
@@ -98,6 +116,9 @@ pub(crate) fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diag
 }
 
 /// The position after the quote that ends the string which `at` is in.
+///
+/// A backslash skips the character after it, which may be a quote. An unterminated string ends with
+/// the text; the JSON parser then reports it.
 fn end_of_string(text: &[u8], mut at: usize) -> usize {
     loop {
         // Data URIs are megabytes without a quote: whole blocks are skipped.
@@ -120,6 +141,9 @@ fn end_of_string(text: &[u8], mut at: usize) -> usize {
 ///
 /// A newer minor version is accepted, as the specification demands, unless `minVersion` says that
 /// the file needs it; reading leniently that is only a warning.
+///
+/// It runs before the types are applied, because a glTF 1.0 file would otherwise fail with a
+/// message about some member.
 fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let asset = &value["asset"];
     let Some(version) = asset["version"].as_str() else {
@@ -152,9 +176,14 @@ fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<()
 }
 
 /// Members whose numbers may exceed 32 bits.
+///
+/// Buffers may exceed 4 GiB; indices, which the `gltf` crate stores in 32 bits, may not.
 const WIDE_MEMBERS: [&str; 3] = ["byteLength", "byteOffset", "count"];
 
 /// Writes integers as integers wherever the file has `1.0`, and removes `extras`.
+///
+/// `extras` hold data of applications. They may be large and of any shape, and nothing here uses
+/// them.
 fn normalize_value(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(normalize_value),
@@ -164,6 +193,7 @@ fn normalize_value(value: &mut Value) {
     }
 }
 
+/// Normalizes the members of an object; names decide which integers may exceed 32 bits.
 fn normalize_members(members: &mut Map<String, Value>) {
     members.remove("extras");
     for (key, value) in members {
@@ -178,6 +208,8 @@ fn normalize_members(members: &mut Map<String, Value>) {
 
 /// An integral number as an integer if it fits, else as floating point: the types then reject it as
 /// an index instead of taking its lowest 32 bits.
+///
+/// `1.0` is a valid integer in JSON schema, and some exporters write all numbers with a fraction.
 fn normalize_number(number: &Number, wide: bool) -> Number {
     let limit = if wide { u64::MAX } else { u64::from(u32::MAX) };
     match (number.as_u64(), number.as_f64()) {
@@ -223,6 +255,9 @@ fn syntax_error(error: &serde_json::Error) -> Diagnostic {
 }
 
 /// The error for a member of the wrong type, with the JSON pointer to it.
+///
+/// Keys are escaped as in RFC 6901. The phrase of the `gltf` crate for an index is replaced by a
+/// plainer one.
 pub(super) fn type_error(error: &serde_path_to_error::Error<serde_json::Error>) -> Diagnostic {
     use serde_path_to_error::Segment;
     let mut pointer = String::new();

@@ -4,6 +4,15 @@
 //! in its result is trusted: counts are checked against the accessors, indices against the
 //! vertices. The accessors of a compressed primitive have no bytes of their own; [`DracoData`]
 //! supplies them.
+//!
+//! ```text
+//!  primitive.attributes  POSITION: accessor 3      count and format
+//!  extension.attributes  POSITION: id 0            the attribute in the stream
+//!  extension.bufferView  ──► stream ──decode──► bytes for accessor 3
+//! ```
+//!
+//! Readers of attributes do not see the compression: [`DracoData::attach_data`] replaces the bytes
+//! of a resolved accessor. Without the feature `draco` a compressed primitive is missing data.
 
 use super::accessor::AccessorReader;
 use super::elements::{ResolvedAccessor, StridedBytes};
@@ -12,9 +21,13 @@ use gltf::json::mesh::Primitive;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
+/// The extension's name, as in `extensionsUsed`.
 const EXTENSION: &str = "KHR_draco_mesh_compression";
 
 /// Decoded contents of a stream.
+///
+/// The bytes have the component type of the accessor, so that the common conversion applies to
+/// them.
 #[derive(Debug, Default)]
 pub(super) struct DracoData {
     /// Vertex indices of triangles.
@@ -25,6 +38,9 @@ pub(super) struct DracoData {
 
 impl DracoData {
     /// Attaches the decoded bytes to an accessor, if the stream had data for it.
+    ///
+    /// The stride is the size of an element: decoded elements are tightly packed. Columns of
+    /// matrices, which would need padding, do not occur among vertex attributes.
     pub(super) fn attach_data<'a>(
         &'a self,
         elements: ResolvedAccessor<'a>,
@@ -45,7 +61,9 @@ fn draco_extension(json: &Primitive) -> Option<&Value> {
     json.extensions.as_ref()?.others.get(EXTENSION)
 }
 
-/// A stream, and what the accessors promise to be in it.
+/// A compressed stream, with the counts that the accessors declare.
+///
+/// Everything that the decoder needs has been validated before it is built.
 #[cfg_attr(not(feature = "draco"), allow(dead_code, reason = "only the decoder reads the fields"))]
 struct DracoStream<'a> {
     source: &'a AccessorReader<'a>,
@@ -62,6 +80,10 @@ struct DracoStream<'a> {
 
 /// Decodes the stream of a primitive, its tangents only if they are needed; `pointer` is the
 /// location of the primitive. `None` if it is not compressed.
+///
+/// # Errors
+/// A member of the extension is missing, an accessor is invalid, the counts of the attributes
+/// differ, or the stream is malformed.
 pub(super) fn decode_draco(
     source: &AccessorReader<'_>,
     json: &Primitive,
@@ -103,6 +125,9 @@ pub(super) fn decode_draco(
 }
 
 /// The attributes that are read: accessor and id in the stream.
+///
+/// Attributes without an id are not in the stream: they are uncompressed, or absent. Custom
+/// attributes and unneeded tangents are skipped, which saves their decoding.
 fn stream_attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
@@ -113,7 +138,7 @@ fn stream_attributes(
     use gltf::json::validation::Checked::Valid;
     let mut attributes = Vec::new();
     for (semantic, accessor) in &json.attributes {
-        // What is not drawn is not read.
+        // Attributes without effect on the picture are not decoded.
         let Valid(semantic) = semantic else { continue };
         if matches!(semantic, Extras(_)) || matches!(semantic, Tangents) && !tangents {
             continue;
@@ -153,7 +178,7 @@ mod decoder {
         /// than they declare.
         ///
         /// # Errors
-        /// The stream is malformed, or its numbers of vertices, indices or components differ from
+        /// The stream is malformed, or its counts of vertices, indices or components differ from
         /// those of the accessors.
         pub(super) fn decode_mesh(self) -> Result<DracoData, Diagnostic> {
             for &(accessor, _) in &self.attributes {
@@ -184,7 +209,10 @@ mod decoder {
             Ok(DracoData { indices, attributes })
         }
 
-        /// Vertex indices, as many as the accessor promises.
+        /// Vertex indices, as many as the accessor declares.
+        ///
+        /// A primitive may be without an accessor for indices and still be compressed with faces;
+        /// these are used then.
         fn decode_indices(&self, mesh: &Mesh) -> Result<Vec<u32>, Diagnostic> {
             let actual = 3 * mesh.num_faces();
             if let Some((accessor, count)) = self.indices
@@ -199,6 +227,12 @@ mod decoder {
         }
 
         /// Elements of an attribute in the format of its accessor.
+        ///
+        /// The bytes are little-endian, as in a buffer.
+        ///
+        /// # Errors
+        /// The stream has no attribute with this id, its components differ in number, or a vertex
+        /// has no value.
         fn decode_attribute(
             &self,
             mesh: &Mesh,
@@ -230,6 +264,9 @@ mod decoder {
     }
 
     /// The bytes of an attribute at a vertex.
+    ///
+    /// Draco stores each distinct value once, and maps the vertices to values. All offsets are
+    /// checked: they come from the stream.
     fn attribute_value(attribute: &PointAttribute, vertex: usize) -> Option<&[u8]> {
         let vertex = PointIndex(u32::try_from(vertex).ok()?);
         let at = attribute.mapped_index(vertex).0 as usize;
@@ -240,6 +277,9 @@ mod decoder {
 
     /// Appends a value in the component type of the accessor, which nearly always is the type it
     /// has.
+    ///
+    /// Numbers are converted by value with saturation, not by scale: quantization is undone by the
+    /// decoder.
     fn append_converted(bytes: &mut Vec<u8>, value: &[u8], from: DataType, to: ComponentType) {
         let same = match to {
             ComponentType::I8 => from == DataType::Int8,
@@ -267,6 +307,8 @@ mod decoder {
     }
 
     /// A little-endian number of any of Draco's types.
+    ///
+    /// Missing high bytes are zeros; types without a case are read as unsigned integers.
     fn read_number(word: &[u8], kind: DataType) -> f64 {
         let mut bytes = [0; 8];
         for (to, &from) in bytes.iter_mut().zip(word) {

@@ -4,6 +4,12 @@
 //! line strings; the second lists pairs of vertices. Invalid data is left out with a warning:
 //! drawings then find edges from the shape. The silhouette normals of the first are not read: the
 //! triangles have normals.
+//!
+//! ```text
+//!  byte    0                 1                 2
+//!  bits    7 6 5 4 3 2 1 0   7 6 5 4 3 2 1 0   …
+//!  edge    t1e0 t0e2 t0e1 t0e0   t2e1 t2e0 t1e2 t1e1     two bits each
+//! ```
 
 use super::accessor::AccessorReader;
 use super::attribute::INDICES;
@@ -14,10 +20,14 @@ use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Primitive as Json;
 use serde_json::Value;
 
+/// Extension with visibility bits for the edges of triangles.
 const VISIBILITY_EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
+/// Older extension of Cesium with pairs of vertices.
 const OUTLINE_EXTENSION: &str = "CESIUM_primitive_outline";
 
 /// Reader of the edges of one primitive.
+///
+/// The counts are those of the file, before invalid triangles are dropped: the bits refer to them.
 pub(super) struct EdgeReader<'a, 'w> {
     pub(super) source: &'a AccessorReader<'a>,
     pub(super) json: &'a Json,
@@ -59,6 +69,8 @@ impl EdgeReader<'_, '_> {
     }
 
     /// Downgrades faults in the file's content to a warning.
+    ///
+    /// Edges are an addition to the triangles, so that a fault in them never costs the primitive.
     fn warn_if_soft(&mut self, read: Result<(), Diagnostic>) -> Result<(), Diagnostic> {
         match read {
             Err(diagnostic) if diagnostic.is_downgradable() => {
@@ -70,6 +82,9 @@ impl EdgeReader<'_, '_> {
     }
 
     /// Reads EXT_mesh_primitive_edge_visibility.
+    ///
+    /// A line string is a sequence of vertices: n vertices give n − 1 edges. Strings are separated
+    /// by the primitive restart index.
     fn read_visibility(
         &mut self,
         json: &Value,
@@ -101,6 +116,8 @@ impl EdgeReader<'_, '_> {
     }
 
     /// Reads CESIUM_primitive_outline.
+    ///
+    /// An odd vertex at the end is ignored.
     fn read_outline(&mut self, json: &Value, edges: &mut PrimitiveEdges) -> Result<(), Diagnostic> {
         let pointer = format!("{}/extensions/{OUTLINE_EXTENSION}/indices", self.pointer);
         let Some(accessor) = index_member(json, "indices") else {
@@ -117,6 +134,9 @@ impl EdgeReader<'_, '_> {
     /// Edge e of triangle t is at bits 2 (3t + e) of the byte array, lowest bits first, so that a
     /// triangle's six bits may span two bytes. The number of bytes must be exactly 6 · triangles /
     /// 8, rounded up.
+    ///
+    /// # Errors
+    /// The accessor is not SCALAR of unsigned bytes, or has another number of bytes.
     fn read_visibility_bits(
         &self,
         accessor: usize,
@@ -158,7 +178,7 @@ impl EdgeReader<'_, '_> {
             ComponentType::U16 => u32::from(u16::MAX),
             _ => u32::MAX,
         };
-        // The pairs take twice as much room again.
+        // Indices and the pairs made of them: 8 bytes an index in all.
         self.source.charge_array(accessor, elements.count, 8)?;
         Ok((self.source.read_indices(&elements)?, restart))
     }
@@ -190,6 +210,8 @@ impl EdgeReader<'_, '_> {
     }
 }
 
+/// A member that is an index; one too large for the machine becomes `usize::MAX`, which nothing
+/// has.
 fn index_member(json: &Value, member: &str) -> Option<usize> {
     json.get(member).and_then(Value::as_u64).map(|at| usize::try_from(at).unwrap_or(usize::MAX))
 }

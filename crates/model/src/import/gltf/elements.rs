@@ -8,6 +8,8 @@ use gltf::json::accessor::{ComponentType, Type};
 use std::ops::Range;
 
 /// The elements of an accessor, or a range of them, whose bytes are known to exist.
+///
+/// All checks are done when it is built, so that conversion cannot fail.
 #[derive(Debug)]
 pub(super) struct ResolvedAccessor<'a> {
     /// Index of the accessor.
@@ -33,7 +35,9 @@ pub(super) struct ResolvedAccessor<'a> {
 /// Every element has at least its size, and only the last one may be shorter than the stride.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StridedBytes<'a> {
+    /// The bytes, from the first element on.
     pub(super) bytes: &'a [u8],
+    /// Distance between the starts of two elements in bytes; at least the size of one.
     pub(super) stride: usize,
 }
 
@@ -56,7 +60,10 @@ impl ResolvedAccessor<'_> {
     }
 
     /// The first `N` components of every element as floats. Normalized integers become numbers in
-    /// [0, 1] or [−1, 1] (glTF 2.0 §3.11), other integers keep their value.
+    /// [0, 1] or [−1, 1] (glTF 2.0 §3.11), other integers are converted by value.
+    ///
+    /// Signed integers have two codes for −1 (−128 and −127, say), hence the maximum with −1.
+    /// Unnormalized 32-bit integers above 2²⁴ are rounded.
     pub(super) fn to_floats<const N: usize>(&self) -> Vec<[f32; N]> {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
         match (self.component_type, self.normalized) {
@@ -74,6 +81,9 @@ impl ResolvedAccessor<'_> {
     }
 
     /// The first `N` components of every element, of unsigned bytes or shorts; others saturate.
+    ///
+    /// Joint indices have these types; the others are refused before, by the table of allowed
+    /// formats.
     pub(super) fn to_u16s<const N: usize>(&self) -> Vec<[u16; N]> {
         match self.component_type {
             ComponentType::U8 => self.convert_components(|x: u8| u16::from(x)),
@@ -94,6 +104,10 @@ impl ResolvedAccessor<'_> {
     }
 
     /// Converts the first `N` components of every element; missing components are 0.
+    ///
+    /// Elements without data are zeros. The case of tightly packed components is one loop without
+    /// bounds checks inside, which for floats is a copy. Sparse elements are written last, and
+    /// those outside of the range are skipped.
     fn convert_components<const N: usize, C: Component, T: Copy + Default>(
         &self,
         convert: impl Fn(C) -> T,
@@ -144,6 +158,7 @@ trait Component: Copy {
     fn read(word: &Self::Word) -> Self;
 }
 
+/// Implements [`Component`] for number types by their `from_le_bytes`.
 macro_rules! component {
     ($($number:ty)*) => {$(
         impl Component for $number {

@@ -1,6 +1,6 @@
 //! Extension support: the extensions that are drawn, ignored or refused.
 //!
-//! To support another one, read it where it belongs (materials in `material`, nodes in
+//! To support another one, read it in the module of its object (materials in `material`, nodes in
 //! `scene_graph`) and change its row in the table. The table is what the program prints about a
 //! file's extensions.
 
@@ -10,6 +10,8 @@ use gltf::json::Root;
 use std::collections::BTreeSet;
 
 /// Support for an extension.
+///
+/// The texts complete warnings, and are shown to users.
 enum ExtensionSupport {
     /// It is fully supported.
     Full,
@@ -34,6 +36,9 @@ const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
 
 /// All known extensions, sorted by name.
+///
+/// An extension that is not listed is ignored if a file merely uses it, without a warning, and
+/// refused if a file requires it.
 const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
     ("EXT_mesh_features", Harmless),
@@ -78,6 +83,11 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
 
 /// Checks `extensionsRequired`: unsupported ones are an error, or a warning when reading leniently.
 /// Warns of extensions that are ignored or supported in part.
+///
+/// Each extension is reported once, at its first mention.
+///
+/// # Errors
+/// [`UNSUPPORTED_REQUIRED_EXTENSION`](codes::UNSUPPORTED_REQUIRED_EXTENSION), with the reason.
 pub(super) fn check_extensions(
     root: &Root,
     warnings: &mut ImportWarnings,
@@ -142,6 +152,7 @@ pub fn extension_use(name: &str) -> ExtensionUse {
     }
 }
 
+/// Looks up an extension in the table; `None` if it is unknown.
 fn find_support(name: &str) -> Option<&'static ExtensionSupport> {
     KNOWN_EXTENSIONS.iter().find(|known| known.0 == name).map(|known| &known.1)
 }

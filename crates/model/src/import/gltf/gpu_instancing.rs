@@ -12,6 +12,7 @@ use crate::import::warnings::ImportWarnings;
 use homog::{Affine, Model as ModelSpace, Vector};
 use serde_json::{Map, Value};
 
+/// The extension's name, as in `extensionsUsed`.
 const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
 /// Transform of an instance relative to its node.
@@ -19,6 +20,12 @@ type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 
 /// Reads the instance transforms of all nodes. Where they are invalid the mesh is drawn once, at
 /// its node.
+///
+/// The extension is ignored on a node with a skin, whose vertices follow the joints and not the
+/// node. Single instances whose transform is not finite are dropped.
+///
+/// # Errors
+/// Exceeded limits and unreadable files; faults in the content are warnings.
 pub(super) fn import_instances(
     source: &AccessorReader<'_>,
     nodes: &mut [Node],
@@ -65,6 +72,11 @@ pub(super) fn import_instances(
 }
 
 /// Composes the transforms from translation, rotation and scale; `None` for those that are invalid.
+///
+/// An invalid transform has a quaternion of length 0, or numbers that are not finite.
+///
+/// # Errors
+/// An attribute is invalid, the counts differ, or the memory budget is spent.
 fn instance_transforms(
     source: &AccessorReader<'_>,
     attributes: &Map<String, Value>,
@@ -105,12 +117,17 @@ fn instance_transforms(
 /// Reader of the attributes of the instances of one node.
 struct InstanceAttributes<'a> {
     source: &'a AccessorReader<'a>,
+    /// Accessor indices by attribute name.
     attributes: &'a Map<String, Value>,
+    /// JSON pointer to the attributes.
     pointer: &'a str,
 }
 
 impl InstanceAttributes<'_> {
     /// An attribute, if the file has it.
+    ///
+    /// # Errors
+    /// The member is not an index, or the accessor is invalid or of another format.
     fn read_attribute<const N: usize>(
         &self,
         name: &str,

@@ -18,6 +18,8 @@ use gltf::json::image::Image as JsonImage;
 use std::borrow::Cow;
 
 /// Images of a file that have been read but not decoded.
+///
+/// Bytes are borrowed from buffers where the image is in a buffer view.
 #[derive(Default)]
 pub(super) struct EncodedImages<'a> {
     /// For each image of the file, whether it was to be read.
@@ -40,6 +42,9 @@ impl<'a> EncodedImages<'a> {
 /// Images that the surfaces of the active scene will use, according to the JSON.
 ///
 /// Used before meshes are read, so that images can be decoded meanwhile.
+///
+/// Materials of the active variant replace the default ones. The result may differ from
+/// [`needed_images`], which knows the primitives: one without items needs no images.
 pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize>) -> Vec<bool> {
     let mut needed = vec![false; root.images.len()];
     for (mesh, _) in
@@ -56,6 +61,8 @@ pub(super) fn announced_images(root: &Root, model: &Model, variant: Option<usize
 }
 
 /// Images that visible surfaces use.
+///
+/// `images` is the number of images in the file; the result has a flag for each.
 fn needed_images(model: &Model, images: usize) -> Vec<bool> {
     let mut needed = vec![false; images];
     let is_visible = visible_meshes(model, model.meshes.len());
@@ -67,6 +74,8 @@ fn needed_images(model: &Model, images: usize) -> Vec<bool> {
 }
 
 /// For each mesh, whether the active scene draws it.
+///
+/// A mesh without an instance in the active scene is imported, but its images are not decoded.
 fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
     let mut is_visible = vec![false; meshes];
     for instance in model.node_instances() {
@@ -80,6 +89,9 @@ fn visible_meshes(model: &Model, meshes: usize) -> Vec<bool> {
 }
 
 /// Marks the images of a material.
+///
+/// Only textures that affect the picture count, which excludes those of unlit materials beyond the
+/// base color.
 fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bool]) {
     let material = material.and_then(|at| model.materials.get(at));
     for (_, info) in material.into_iter().flat_map(Material::visible_textures) {
@@ -113,7 +125,7 @@ pub(super) fn import_images(
             store_decoded(model, encoded_images, decoded, warnings);
         }
         ImageLoading::Headers => {
-            // Nobody sees the others, so that nobody needs to be warned of them.
+            // The others are not visible, and need no warnings.
             let others = needed.iter().map(|needed| !needed).collect();
             store_headers(
                 &EncodedImages::read_needed(source, others).encoded,
@@ -125,6 +137,8 @@ pub(super) fn import_images(
 }
 
 /// Stores decoded images in the model, and adds a warning for each failure.
+///
+/// A failed image costs its texture: the surface is drawn without it.
 fn store_decoded(
     model: &mut Model,
     encoded_images: EncodedImages<'_>,
@@ -154,6 +168,8 @@ fn image_info(json: &JsonImage) -> ImageInfo {
 }
 
 /// Stores format and size of the images that were read.
+///
+/// Images that could not be read have no header.
 fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
     for EncodedImage { index: number, bytes, size: (width, height) } in encoded {
         let (format, bytes) = (image_decoder::format_name(bytes), bytes.len());
@@ -165,6 +181,8 @@ fn store_headers(encoded: &[EncodedImage<'_>], files: &mut [ImageInfo]) {
 ///
 /// The limit on texels is spent here, by the sizes in the headers, so that no decoder starts on an
 /// image that would exceed it.
+///
+/// All image bytes are in memory before decoding starts, because decoding runs on other threads.
 fn read_encoded<'a>(
     needed: &[bool],
     source: &'a AccessorReader<'_>,
@@ -189,9 +207,13 @@ fn read_encoded<'a>(
     encoded_images
 }
 
+/// The consequence that all warnings about images have.
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
 /// The encoded bytes, from a file, a data URI or a buffer view.
+///
+/// # Errors
+/// The file or view cannot be read, or the image has neither.
 fn image_bytes<'a>(
     json: &JsonImage,
     pointer: &str,
@@ -212,6 +234,12 @@ fn image_bytes<'a>(
 }
 
 /// Checks size and number of texels against the limits.
+///
+/// `texels_left` is the rest of the limit for all images of the file, and is reduced by this one.
+///
+/// # Errors
+/// The size is 0, or [`LIMIT_EXCEEDED`](crate::codes::LIMIT_EXCEEDED) for `image_side` or
+/// `image_texels`.
 fn check_image_size(
     width: u32,
     height: u32,

@@ -19,6 +19,12 @@ const REPAIR_BYTE_BUDGET: usize = 64 << 20;
 const MAX_REPAIRS: usize = 500;
 
 /// Deserializes a document, leaving out what does not fit; `length` is that of its text.
+///
+/// Each pass finds one fault, so that the cost is the number of faults times the length of the
+/// text; the budget bounds it for hostile files.
+///
+/// # Errors
+/// A fault cannot be repaired, or the budget is spent.
 pub(super) fn deserialize_leniently(
     value: &mut Value,
     length: usize,
@@ -39,6 +45,9 @@ pub(super) fn deserialize_leniently(
 
 /// Removes the member at a pointer, or empties the item that contains it; returns what was done,
 /// `None` if nothing can be.
+///
+/// The depth of the pointer decides: a fault in a whole collection removes it, one in an item
+/// empties the item, and one below removes the member, or empties the item if that does not help.
 fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let steps: Vec<&str> = pointer.split('/').skip(1).collect();
     match *steps.as_slice() {
@@ -58,6 +67,9 @@ fn repair_at(document: &mut Value, pointer: &str) -> Option<&'static str> {
 const UNREFERENCED_LISTS: [&str; 4] = ["primitives", "channels", "children", "nodes"];
 
 /// Removes a member of an object or an item of a list; other arrays are removed as a whole.
+///
+/// Items of other lists are referred to by index or position, as in `joints`, so that the whole
+/// list is removed instead.
 fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
     let (parent, last) = pointer.rsplit_once('/')?;
     let name = parent.rsplit('/').next()?;
@@ -77,6 +89,9 @@ fn remove_member(document: &mut Value, pointer: &str) -> Option<&'static str> {
 }
 
 /// Replaces an item of a top-level collection by an empty one.
+///
+/// The empty items are the smallest that deserialize; using one is an error that is reported where
+/// it is used. `None` if the item is empty already, which ends the repair.
 fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Option<&'static str> {
     let nothing = match collection {
         "accessors" => json!({"componentType": 5126, "count": 0, "type": "SCALAR"}),
@@ -88,7 +103,7 @@ fn replace_with_empty(document: &mut Value, collection: &str, at: &str) -> Optio
         "meshes" => json!({"primitives": []}),
         "scenes" => json!({"nodes": []}),
         "skins" => json!({"joints": []}),
-        // No collection of things with numbers: the whole member goes.
+        // Not a collection whose items are referred to by index: the whole member is removed.
         _ => {
             let members = document.as_object_mut()?;
             return members.remove(collection).map(|_| "all of it is left out");

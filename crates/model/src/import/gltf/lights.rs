@@ -11,9 +11,13 @@ use gltf::json::Root;
 use serde_json::{Map, Value};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
+/// The extension's name, in the root and in nodes.
 const EXTENSION: &str = "KHR_lights_punctual";
 
 /// Reads all lights of a file and attaches them to nodes.
+///
+/// An invalid light remains in the list as a black one, so that the indices of all others are
+/// unchanged, and no node refers to it.
 pub(super) fn import_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -42,6 +46,8 @@ pub(super) fn import_lights(
 }
 
 /// Sets the lights of nodes.
+///
+/// A node without the extension is unchanged; an index out of range is a warning.
 fn attach_lights(
     root: &Root,
     nodes: &mut [Node],
@@ -66,6 +72,9 @@ fn attach_lights(
 }
 
 /// Reads and checks a light; numbers out of bounds are clamped with a warning.
+///
+/// # Errors
+/// The light is not an object, or its type is unknown: without a type the numbers have no meaning.
 fn parse_light(
     json: &Value,
     pointer: &str,
@@ -76,7 +85,7 @@ fn parse_light(
     };
     let mut numbers = LightNumbers { json, pointer, warnings };
     let intensity = numbers.read_number("intensity", 1.0, [0.0, f32::MAX]);
-    // Without a range light goes on for ever.
+    // Without `range` the light has an infinite one.
     let range = numbers.read_number("range", f32::INFINITY, [f32::MIN_POSITIVE, f32::INFINITY]);
     let kind = match json.get("type").and_then(Value::as_str) {
         Some("directional") => LightKind::Directional,
@@ -113,14 +122,19 @@ fn parse_light(
 }
 
 /// Reader of the numbers in a JSON object.
+///
+/// It serves the light itself, and its `spot` object with a pointer of its own.
 struct LightNumbers<'a, 'w> {
     json: &'a Map<String, Value>,
+    /// JSON pointer to the object.
     pointer: &'a str,
     warnings: &'w mut ImportWarnings,
 }
 
 impl LightNumbers<'_, '_> {
     /// A number clamped to bounds; `default` if it is absent.
+    ///
+    /// A member that is not a number is replaced by the default, with a warning.
     fn read_number(&mut self, member: &str, default: f32, [min, max]: [f32; 2]) -> f32 {
         let Some(value) = self.json.get(member) else { return default };
         let given = value.as_f64().map(|x| x as f32);

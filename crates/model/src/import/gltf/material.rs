@@ -3,6 +3,15 @@
 //! Numbers of extensions are found by the table of [animatable
 //! properties](crate::animation::object_model), which has their JSON pointers and bounds; textures
 //! by the table of [`TextureSlot`]s.
+//!
+//! ```text
+//!  core members ──────────────────────────► Material
+//!  extensions ──┬─ textures by slot ──────► MaterialExtensions
+//!               └─ numbers by pointer ────► clamped to their bounds
+//! ```
+//!
+//! A material is never refused: it only affects the appearance, and a value out of range has an
+//! obvious replacement.
 
 use crate::animation::object_model::{MATERIAL_PROPERTIES, PropertyRow};
 use crate::diagnostic::Diagnostic;
@@ -24,6 +33,9 @@ pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Ve
 }
 
 /// The texture transform (KHR_texture_transform) in a slot; `None` if the file gives none.
+///
+/// The default is the identity: offset 0, rotation 0, scale 1. The rotation is in radians,
+/// counter-clockwise around the origin of the texture coordinates.
 pub(super) fn texture_transform(
     root: &Root,
     material: usize,
@@ -41,8 +53,11 @@ pub(super) fn texture_transform(
 }
 
 /// Reader of one material.
+///
+/// JSON pointers for warnings are composed on demand, as valid materials need none.
 struct MaterialReader<'a, 'w> {
     root: &'a Root,
+    /// Index of the material.
     at: usize,
     warnings: &'w mut ImportWarnings,
 }
@@ -53,6 +68,9 @@ impl<'a> MaterialReader<'a, '_> {
     /// Factors out of range are clamped with a warning. Textures of specular-glossiness replace
     /// those of the metallic-roughness workflow, which files have beside it for readers without the
     /// extension.
+    ///
+    /// Fields that depend on several others are derived at the end, by `update_derived`, which
+    /// animations call as well.
     fn read_material(mut self) -> Material {
         let json = &self.root.materials[self.at];
         let pbr = &json.pbr_metallic_roughness;
@@ -106,6 +124,9 @@ impl<'a> MaterialReader<'a, '_> {
     /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
     ///
     /// The comparison is written so that NaN fails it.
+    ///
+    /// The warning lists the numbers before and after the correction. A maximum of `f32::MAX`
+    /// stands for no maximum.
     fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
         let given = numbers.to_vec();
         for number in &mut *numbers {
@@ -122,6 +143,8 @@ impl<'a> MaterialReader<'a, '_> {
     }
 
     /// The alpha mode with its cutoff (0.5 by default); an unknown one is opaque, with a warning.
+    ///
+    /// The cutoff is not clamped: above 1 nothing is visible, which is valid (glTF 2.0 §3.9.4).
     fn read_alpha_mode(&mut self) -> AlphaMode {
         let json = &self.root.materials[self.at];
         match json.alpha_mode {
@@ -140,6 +163,10 @@ impl<'a> MaterialReader<'a, '_> {
 
     /// Reads the extensions: first the records with their textures, then the numbers by their
     /// table.
+    ///
+    /// The table of animatable properties lists each number of each extension with its bounds, so
+    /// that no number is handled here by name. A value of a wrong type or length leaves the default
+    /// in effect, with a warning.
     fn read_extensions(&mut self, material: &mut Material) {
         self.create_extensions(material);
         for PropertyRow { path, bounds, numbers_mut: numbers, .. } in &MATERIAL_PROPERTIES {
@@ -176,6 +203,10 @@ impl<'a> MaterialReader<'a, '_> {
     }
 
     /// Creates the record of each extension that is present, with its textures and default numbers.
+    ///
+    /// A record exists if the extension's object does, even an empty one: KHR_materials_clearcoat
+    /// without members, for instance, is a coating of factor 0. With specular-glossiness the base
+    /// color factor is reset first, because the core factor next to it belongs to the fallback.
     fn create_extensions(&mut self, material: &mut Material) {
         use TextureSlot as Slot;
         let extensions = &mut material.extensions;
@@ -226,6 +257,10 @@ impl<'a> MaterialReader<'a, '_> {
         }
     }
 
+    /// The normal map in a slot, with the scale of its x and y components.
+    ///
+    /// The scale may be negative, which inverts the relief; one that is not finite is replaced by
+    /// 1.
     fn read_normal_texture(&mut self, slot: TextureSlot) -> Option<NormalTexture> {
         let texture = self.read_texture(slot)?;
         let scale = JsonTextureInfo::from_slot(self.root, self.at, slot)?.scale;
@@ -234,6 +269,9 @@ impl<'a> MaterialReader<'a, '_> {
     }
 
     /// The texture in a slot; a reference to a texture that does not exist is a warning.
+    ///
+    /// The `texCoord` of KHR_texture_transform, if present, overrides that of the texture
+    /// reference.
     fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
         let JsonTextureInfo { texture, uv_set, transform, .. } =
             JsonTextureInfo::from_slot(self.root, self.at, slot)?;
@@ -261,9 +299,11 @@ impl<'a> MaterialReader<'a, '_> {
 
 /// A texture reference as in the file.
 struct JsonTextureInfo<'a> {
+    /// Index of the texture, `usize::MAX` if the file has none or a negative one.
     texture: usize,
+    /// Set of texture coordinates: `n` of `TEXCOORD_n`.
     uv_set: usize,
-    /// Scale of a normal map.
+    /// Scale of a normal map's x and y components; 1 for other textures.
     scale: f32,
     /// The object of KHR_texture_transform.
     transform: Option<&'a Value>,
@@ -271,6 +311,9 @@ struct JsonTextureInfo<'a> {
 
 impl<'a> JsonTextureInfo<'a> {
     /// The reference in a slot of a material; its texture may not exist.
+    ///
+    /// The core types of the `gltf` crate differ for normal, occlusion and other textures, so that
+    /// each has a branch; extensions are read from raw JSON by the path of the slot.
     fn from_slot(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let json = root.materials.get(material)?;
         let pbr = &json.pbr_metallic_roughness;
@@ -308,6 +351,9 @@ impl<'a> JsonTextureInfo<'a> {
     }
 
     /// The reference in a slot of an extension.
+    ///
+    /// A member that is not an object of the expected form becomes a reference to a texture that
+    /// does not exist, for which the caller adds a warning.
     fn from_extension(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
         let (name, member) = slot.json_path().strip_prefix("extensions/")?.split_once('/')?;
         let json = root.materials[material].extensions.as_ref()?.others.get(name)?.get(member)?;
@@ -321,9 +367,14 @@ impl<'a> JsonTextureInfo<'a> {
     }
 }
 
+/// Extension with the affine transform of texture coordinates; it may occur in any texture
+/// reference.
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
 /// Warns of primitives that lack the texture coordinates which their material uses.
+///
+/// It runs when both materials and meshes are complete. Only the first missing set of a primitive
+/// is reported; a primitive without items is skipped, because nothing of it is drawn.
 pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
     for (at, mesh) in model.meshes.iter().enumerate() {
         for (primitive_index, primitive) in mesh.primitives.iter().enumerate() {
@@ -342,6 +393,7 @@ pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarn
     }
 }
 
+/// An array of exactly `N` numbers, rounded to single precision; `None` for anything else.
 fn float_array<const N: usize>(value: &Value) -> Option<[f32; N]> {
     let numbers: Option<Vec<f32>> =
         value.as_array()?.iter().map(|item| item.as_f64().map(|x| x as f32)).collect();

@@ -25,6 +25,11 @@ use crate::import::{ImageLoading, ImportOptions};
 use crate::{Model, Node};
 
 /// Builds the model of a document. Images are decoded while the meshes are read.
+///
+/// The time of each step is added to the stopwatch of the options, as `geometry` or `images`.
+///
+/// # Errors
+/// The first fault that prevents drawing.
 pub(super) fn build_model(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -64,6 +69,9 @@ fn collect_announced_images<'a>(
 ///
 /// References to skins and cameras that turned out to be invalid are cleared, so that every index
 /// in the nodes is valid.
+///
+/// The order follows the dependencies: lights are attached to nodes, animations check their targets
+/// against nodes, materials, lights and cameras.
 fn build_scene_graph(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -98,6 +106,9 @@ fn build_scene_graph(
 }
 
 /// Reads the animations; pointers of KHR_animation_pointer may add texture transforms to materials.
+///
+/// Disjoint fields of the model are borrowed, some of them mutably, which a method of the model
+/// could not do.
 fn build_animations(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -117,6 +128,8 @@ fn build_animations(
 }
 
 /// Reads the meshes with the materials of the active variant, and their instances.
+///
+/// The limit on scene items is checked at the end, when the number of instances is known.
 fn build_meshes(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
@@ -138,6 +151,8 @@ fn build_meshes(
 }
 
 /// Clears references of nodes to skins and cameras that have been left out.
+///
+/// Lights need no such step: they are attached only if they are valid.
 fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {
     let Model { nodes, skins, .. } = model;
     for Node { skin, camera, .. } in nodes {
@@ -146,6 +161,7 @@ fn drop_dangling_references(model: &mut Model, usable_cameras: &[bool]) {
     }
 }
 
+/// Extension names in alphabetical order, without duplicates.
 fn sorted_names(names: &[String]) -> Vec<String> {
     let mut names = names.to_vec();
     names.sort();

@@ -11,6 +11,7 @@ use gltf::json;
 
 /// Reader of one morph target.
 pub(super) struct MorphTargetReader<'r, 'a, 'w> {
+    /// The reader of the primitive's attributes: deltas cover the same range of vertices.
     pub(super) attributes: &'r mut AttributeReader<'a, 'w>,
     /// Location of the morph target.
     pub(super) pointer: String,
@@ -20,6 +21,9 @@ pub(super) struct MorphTargetReader<'r, 'a, 'w> {
 
 impl MorphTargetReader<'_, '_, '_> {
     /// Reads the deltas; `further` are attributes that the JSON type lacks, by name.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files; an invalid delta is dropped with a warning.
     pub(super) fn read_target(
         &mut self,
         json: &json::mesh::MorphTarget,
@@ -36,7 +40,7 @@ impl MorphTargetReader<'_, '_, '_> {
         }
         for (name, accessor) in further {
             if name == "COLOR_0" {
-                // Differences of three components leave alpha as it is.
+                // Deltas of three components do not change alpha.
                 target.colors = self.read_deltas(Some(*accessor), name, &COLOR)?;
             }
             let set = name.strip_prefix("TEXCOORD_").and_then(|set| set.parse::<usize>().ok());
@@ -48,6 +52,7 @@ impl MorphTargetReader<'_, '_, '_> {
         Ok(target)
     }
 
+    /// The deltas of one attribute, if the target has it and it is valid.
     fn read_deltas<const N: usize>(
         &mut self,
         accessor: Option<usize>,

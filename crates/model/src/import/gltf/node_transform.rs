@@ -1,8 +1,7 @@
 //! Node transforms, in the double precision of JSON numbers.
 //!
 //! The `gltf` crate stores them in single precision. Models far from the origin, as CAD and map
-//! data often are, lose millimeters that way, so the transforms are taken out of the JSON
-//! beforehand.
+//! data often are, would lose millimeters, so the transforms are taken out of the JSON beforehand.
 
 use crate::Trs;
 use crate::diagnostic::Diagnostic;
@@ -12,6 +11,8 @@ use homog::{Affine, Model};
 use serde_json::{Map, Value};
 
 /// A node's local transform as the file gives it; all numbers are finite.
+///
+/// A matrix takes precedence over translation, rotation and scale in files that have both.
 #[derive(Clone, Debug)]
 pub(super) enum NodeTransform {
     /// A matrix in column-major order.
@@ -22,6 +23,11 @@ pub(super) enum NodeTransform {
 
 impl NodeTransform {
     /// Removes the transforms from the nodes of a document and returns them.
+    ///
+    /// The result has an entry for each node, in order.
+    ///
+    /// # Errors
+    /// A transform is not an array of the right length; reading leniently, it becomes the identity.
     pub(super) fn take_transforms(
         document: &mut Value,
         warnings: &mut ImportWarnings,
@@ -41,6 +47,9 @@ impl NodeTransform {
     }
 
     /// Removes the transform from a node.
+    ///
+    /// # Errors
+    /// A member is present and not an array of the right number of numbers.
     fn take_transform(
         node: &mut Map<String, Value>,
         node_index: usize,
@@ -67,7 +76,10 @@ impl NodeTransform {
         }
     }
 
-    /// The transform as an affine map, or the reason why it is none.
+    /// The transform as an affine map.
+    ///
+    /// # Errors
+    /// The matrix is not affine, or the rotation is a quaternion of length 0.
     pub(super) fn to_affine(&self, pointer: &str) -> Result<Affine<Model, Model>, Diagnostic> {
         match self {
             Self::Matrix(columns) => affine_from_columns(columns).ok_or_else(|| {
@@ -87,6 +99,9 @@ impl NodeTransform {
 /// 0, 1).
 ///
 /// Exporters that invert a matrix in single precision leave rounding errors in the last row.
+///
+/// A deviation of up to 0.001 is accepted and corrected to an exact last row, because later
+/// products rely on it.
 pub(super) fn affine_from_columns(columns: &[f64; 16]) -> Option<Affine<Model, Model>> {
     let mut matrix = DMat4::from_cols_array(columns);
     let deviation = (matrix.row(3) - DVec4::W).abs().max_element();

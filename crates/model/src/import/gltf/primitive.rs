@@ -11,8 +11,8 @@
 //! ```
 //!
 //! Only the range of vertices between the lowest and the highest index is read: exporters that
-//! share one array of vertices between all primitives would otherwise cost memory in the square of
-//! their number.
+//! share one array of vertices between all primitives would otherwise cost memory in proportion to
+//! the square of their number.
 
 use super::accessor::AccessorReader;
 use super::attribute::{
@@ -33,19 +33,34 @@ use gltf::json::validation::Checked;
 use std::ops::Range;
 
 /// Sets of texture coordinates that are read.
+///
+/// Materials seldom use more than two; the specification sets no maximum.
 pub(super) const UV_SETS: u32 = 8;
 /// Sets of joints that are read.
+///
+/// Each set has four influences, so that a vertex may follow 64 joints.
 const JOINT_SETS: u32 = 16;
 
 /// Context of primitives: other parts of the file that they refer to.
 #[derive(Clone, Copy)]
 pub(super) struct PrimitiveContext<'a> {
+    /// The imported materials, which determine whether tangents are needed.
     pub(super) materials: &'a [Material],
+    /// The number of material variants that the file declares (KHR_materials_variants).
     pub(super) variants: usize,
+    /// Members that the `gltf` crate's types do not have, such as further attributes of morph
+    /// targets.
     pub(super) untyped: &'a UntypedMembers,
 }
 
 /// Reads all meshes of a file.
+///
+/// A primitive that cannot be read becomes an empty one, because indices of primitives are part of
+/// JSON pointers and of the public interface: they must not shift.
+///
+/// # Errors
+/// Exceeded limits, unreadable files, and invalid positions or indices; reading leniently, the last
+/// two are warnings.
 pub(super) fn import_meshes(
     source: &AccessorReader<'_>,
     context: PrimitiveContext<'_>,
@@ -84,6 +99,8 @@ pub(super) fn import_meshes(
 }
 
 /// Reader of one primitive.
+///
+/// It lives for one primitive; `warnings` is shared by the whole import.
 struct PrimitiveReader<'a, 'w> {
     source: &'a AccessorReader<'a>,
     json: &'a json::mesh::Primitive,
@@ -97,6 +114,13 @@ struct PrimitiveReader<'a, 'w> {
 impl<'a> PrimitiveReader<'a, '_> {
     /// Reads the primitive: decompresses it, expands strips and fans, removes invalid items, then
     /// reads the attributes of the vertices that are used.
+    ///
+    /// The order of the steps matters. Invalid indices are removed before the range of used
+    /// vertices is determined, because one wrong index would widen that range to the whole array;
+    /// attributes are read last, for that range only.
+    ///
+    /// # Errors
+    /// The mode, the positions or the indices are invalid, or a limit is exceeded.
     fn read_primitive(mut self) -> Result<Primitive, Diagnostic> {
         let Checked::Valid(mode) = self.json.mode else {
             let pointer = format!("{}/mode", self.pointer);
@@ -141,19 +165,29 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 
     /// Whether some material of the primitive needs a tangent frame; tangents are read only then.
+    ///
+    /// Tangents are 16 bytes for each vertex, and have no effect without a normal map or
+    /// anisotropy. All material variants count: they can be selected after the import.
     fn needs_tangents(&self, material: Option<usize>, variants: &[VariantMaterial]) -> bool {
         let others = variants.iter().map(|variant| variant.material);
         let mut all = material.into_iter().chain(others);
         all.any(|at| self.context.materials.get(at).is_some_and(Material::needs_tangents))
     }
 
+    /// The materials of the primitive in the variants of the file (KHR_materials_variants).
+    ///
+    /// An invalid mapping is dropped with a warning.
     fn read_variants(&mut self) -> Vec<VariantMaterial> {
         let PrimitiveContext { variants, .. } = self.context;
         let root = self.source.root;
         selection::variant_materials(root, self.json, &self.pointer, variants, self.warnings)
     }
 
-    /// Edges for line drawings.
+    /// Edges for line drawings, from the extensions that mark them; `None` without such an
+    /// extension.
+    ///
+    /// They must be read before any triangle is dropped: the extension has bits for each triangle
+    /// of the file, in order.
     fn read_edges(
         &mut self,
         primitive: &Primitive,
@@ -187,6 +221,12 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 
     /// The positions; `None` if the primitive has none.
+    ///
+    /// The specification allows a primitive without positions, for extensions that supply them
+    /// otherwise (glTF 2.0 §3.7.2.1); no such extension is supported.
+    ///
+    /// # Errors
+    /// The accessor is invalid, or has another format than three floats or quantized integers.
     fn position_elements<'e>(
         &mut self,
         decoded: Option<&'e DracoData>,
@@ -209,6 +249,9 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 
     /// The vertices in drawing order: the indices, or without them the order of the file.
+    ///
+    /// A primitive without indices gets them here: `0, 1, 2, …`. All later steps then have a single
+    /// case.
     fn read_vertex_order(&self, vertices: usize) -> Result<Vec<u32>, Diagnostic> {
         let Some(accessor) = self.json.indices else {
             let accessor = self.attribute_accessor(Semantic::Positions).unwrap_or(0);
@@ -225,6 +268,9 @@ impl<'a> PrimitiveReader<'a, '_> {
     ///
     /// Whole points, lines or triangles are removed, never single indices, which would shift all
     /// others.
+    ///
+    /// The test of the highest index comes first: it is one pass that the compiler vectorizes, and
+    /// nearly all files end there.
     fn drop_items_without_vertices(&mut self, primitive: &mut Primitive, vertices: usize) {
         if used_range(&primitive.indices).end <= vertices {
             return;
@@ -238,8 +284,11 @@ impl<'a> PrimitiveReader<'a, '_> {
 
     /// Removes items with a vertex at a position that is not finite: all remaining positions are
     /// finite.
+    ///
+    /// The positions themselves are set to 0, so that bounding boxes over all positions are finite
+    /// too.
     fn drop_nonfinite_items(&mut self, primitive: &mut Primitive) {
-        // Without a way out of the loop the compiler takes many numbers at a time.
+        // A fold without an early exit is vectorized by the compiler.
         let all = primitive.positions.as_flattened();
         if all.iter().fold(true, |finite, x| finite & x.is_finite()) {
             return;
@@ -256,6 +305,12 @@ impl<'a> PrimitiveReader<'a, '_> {
     }
 
     /// Reads all attributes but the positions.
+    ///
+    /// Texture coordinates are read by set, up to the last set that the primitive has. A missing
+    /// set between two others becomes zeros, because materials refer to sets by number.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files. An invalid attribute is dropped with a warning.
     fn read_attributes(
         &mut self,
         primitive: &mut Primitive,
@@ -285,7 +340,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         for set in 0..UV_SETS {
             let (texcoord, pointer) = named(Semantic::TexCoords(set));
             if let Some(uvs) = attributes.read_texcoords(texcoord, &pointer)? {
-                // A set that is lacking between others is zeros.
+                // A set that is missing between others is filled with zeros.
                 primitive.uvs.resize(set as usize, vec![[0.0; 2]; primitive.positions.len()]);
                 primitive.uvs.push(uvs);
             }
@@ -308,11 +363,15 @@ impl<'a> PrimitiveReader<'a, '_> {
         Ok(())
     }
 
+    /// The accessor of an attribute, if the primitive has it; the index may be out of range.
     fn attribute_accessor(&self, semantic: Semantic) -> Option<usize> {
         self.json.attributes.get(&Checked::Valid(semantic)).map(json::Index::value)
     }
 
     /// Normalizes the normals, with warnings.
+    ///
+    /// Quantized normals are rarely of unit length; the warnings have counts and appear once for
+    /// each primitive.
     fn repair_normals(&mut self, primitive: &mut Primitive) {
         let normals::NormalRepairs { lengths, replaced } = normals::normalize_normals(primitive);
         let pointer = format!("{}/attributes/NORMAL", self.pointer);
@@ -344,6 +403,9 @@ impl<'a> PrimitiveReader<'a, '_> {
 ///
 /// `named` gives the accessor of an attribute, if the primitive has it, and its location. A set of
 /// joints without weights means nothing, nor do weights without joints: both are dropped.
+///
+/// Four influences are one set: `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1`, and so on
+/// (glTF 2.0 §3.7.3.3).
 fn read_joints(
     primitive: &mut Primitive,
     attributes: &mut AttributeReader<'_, '_>,
@@ -365,7 +427,7 @@ fn read_joints(
 
 /// Renumbers indices from the lowest one on; returns the range they came from.
 ///
-/// Primitives often share one long array of vertices, of which each uses a range.
+/// Exporters often store the vertices of all primitives in one array, of which each uses a range.
 fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
     let used = used_range(indices);
     let low = used.start as u32;
@@ -376,13 +438,17 @@ fn rebase_indices(indices: &mut [u32]) -> Range<usize> {
 }
 
 /// The range from the lowest to the highest index.
+///
+/// It is empty if there are no indices. The time is linear in the number of indices.
 fn used_range(indices: &[u32]) -> Range<usize> {
     let (low, high) =
         indices.iter().fold((u32::MAX, 0), |(low, high), &i| (low.min(i), high.max(i)));
     if indices.is_empty() { 0..0 } else { low as usize..high as usize + 1 }
 }
 
-/// Keeps the points, lines or triangles that `keep` accepts; returns the number of the others.
+/// Retains the points, lines or triangles that `keep` accepts; returns the number of the others.
+///
+/// The visibility bits of edges are stored for each triangle and are filtered along with them.
 fn retain_items(primitive: &mut Primitive, keep: impl Fn(&[u32]) -> bool) -> usize {
     let Primitive { topology, indices, edges, .. } = primitive;
     let before = indices.len();

@@ -17,6 +17,12 @@ use homog::Affine;
 
 /// Reads all nodes of a file. They form a forest of bounded depth, and every index in them is
 /// valid.
+///
+/// The time is linear in the number of nodes and children.
+///
+/// # Errors
+/// There are too many nodes, or they are nested too deeply; an index is out of range, a node has
+/// two parents or is its own ancestor. Reading leniently, the last three are warnings.
 pub(super) fn import_nodes(
     document: &GltfDocument,
     limits: &Limits,
@@ -37,6 +43,9 @@ pub(super) fn import_nodes(
 /// Reads a node without its position in the hierarchy.
 ///
 /// Its mesh, skin and camera are checked to exist; a skin without a mesh is dropped with a warning.
+///
+/// A node whose matrix is not finite is placed at its parent when reading leniently. A node with a
+/// matrix has no `trs`, and cannot be animated.
 fn read_node(
     document: &GltfDocument,
     at: usize,
@@ -80,6 +89,11 @@ fn read_node(
 }
 
 /// An index that refers to one of `count` items.
+///
+/// `what` is the member's name and, in messages, the kind of object that it refers to.
+///
+/// # Errors
+/// The index is out of range; reading leniently, the node is then without the object.
 fn checked_index<T>(
     index: Option<Index<T>>,
     what: &str,
@@ -100,7 +114,10 @@ fn checked_index<T>(
 /// Sets the parent of every node; each may have only one.
 ///
 /// # Errors
-/// A child does not exist or has a parent already. Reading leniently, the first parent is kept.
+/// A child does not exist or has a parent already. Reading leniently, the first parent counts.
+///
+/// The children lists are rebuilt from the accepted links, so that parents and children agree
+/// afterwards whatever the file says.
 fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
     let count = nodes.len();
     for parent in 0..count {
@@ -129,6 +146,13 @@ fn link_parents(nodes: &mut [Node], warnings: &mut ImportWarnings) -> Result<(),
 
 /// Computes global transforms. With one parent each, the nodes form a forest if a traversal from
 /// the roots visits them all; what it misses are cycles.
+///
+/// Reading leniently, the first node that no root leads to becomes a root itself, which cuts the
+/// cycle above or around it.
+///
+/// # Errors
+/// A node is its own ancestor, a product of transforms overflows, or the limit of depth is
+/// exceeded.
 fn update_global_transforms(
     nodes: &mut [Node],
     limits: &Limits,
@@ -159,6 +183,8 @@ fn update_global_transforms(
 ///
 /// # Errors
 /// A product of transforms overflows, or the hierarchy is deeper than the limit.
+///
+/// Transforms are composed in double precision from the root down: each node costs one product.
 fn update_transforms_below(
     nodes: &mut [Node],
     root: usize,
@@ -206,6 +232,11 @@ pub(super) fn import_scenes(root: &Root) -> Vec<SceneRoots> {
 ///
 /// A node that is listed twice is drawn once, with a warning. One that has a parent is drawn too,
 /// unless an ancestor is listed as well; the specification forbids both.
+///
+/// `scene` is the index of the active scene, which has been checked or defaulted by the caller.
+///
+/// # Errors
+/// A listed node does not exist; reading leniently, it is skipped.
 pub(super) fn scene_roots(
     root: &Root,
     scene: usize,

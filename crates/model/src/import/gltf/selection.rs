@@ -12,6 +12,11 @@ use gltf::json::{Root, mesh};
 use serde_json::Value;
 
 /// The active scene: the requested one, else the default scene, else the first.
+///
+/// The index is 0 for a file without scenes, whose root nodes are drawn then.
+///
+/// # Errors
+/// The requested scene does not exist; the default scene does not exist, unless reading leniently.
 pub(super) fn select_scene(
     root: &Root,
     selector: Option<&NameOrIndex>,
@@ -31,9 +36,12 @@ pub(super) fn select_scene(
     }
 }
 
+/// The extension's name, in the root and in primitives.
 const VARIANTS_EXTENSION: &str = "KHR_materials_variants";
 
 /// Names of the variants of a file.
+///
+/// A variant without a name has an empty one: variants are identified by index.
 pub(super) fn variant_names(root: &Root) -> Vec<String> {
     let extension =
         root.extensions.as_ref().and_then(|extensions| extensions.others.get(VARIANTS_EXTENSION));
@@ -43,6 +51,9 @@ pub(super) fn variant_names(root: &Root) -> Vec<String> {
 }
 
 /// Index of the requested variant.
+///
+/// # Errors
+/// The name is unknown or the index out of range; the error lists the names that exist.
 pub(super) fn select_variant(
     names: &[String],
     selector: &NameOrIndex,
@@ -52,6 +63,8 @@ pub(super) fn select_variant(
 }
 
 /// Materials of a primitive in the variants. References to nothing are left out with a warning.
+///
+/// One mapping assigns a material to several variants; the result has an entry for each pair.
 pub(super) fn variant_materials(
     root: &Root,
     json: &mesh::Primitive,
@@ -89,6 +102,9 @@ pub(super) fn variant_materials(
 }
 
 /// Material of a primitive in a variant, if the variant changes it.
+///
+/// It serves the prediction of images, before primitives are imported, and discards warnings: the
+/// import adds them.
 pub(super) fn variant_material(
     root: &Root,
     json: &mesh::Primitive,
@@ -101,6 +117,8 @@ pub(super) fn variant_material(
 }
 
 /// Replaces the materials of primitives by those of a variant, where it changes them.
+///
+/// The time is linear in the number of primitives and their mappings.
 pub(super) fn apply_variant(meshes: &mut [Mesh], variant: usize) {
     for primitive in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
         if let Some(assignments) =

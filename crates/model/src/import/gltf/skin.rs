@@ -12,6 +12,9 @@ use gltf::json::accessor::{ComponentType, Type};
 use homog::Affine;
 
 /// Reads all skins of a file.
+///
+/// An invalid skin remains in the list without joints, so that indices stay valid; the references
+/// of nodes to it are cleared later.
 pub(super) fn import_skins(
     source: &AccessorReader<'_>,
     warnings: &mut ImportWarnings,
@@ -30,6 +33,12 @@ pub(super) fn import_skins(
 }
 
 /// Reads and checks one skin. Missing matrices are identities (glTF 2.0 §3.7.3.1).
+///
+/// More matrices than joints are accepted, and the rest is ignored.
+///
+/// # Errors
+/// A joint does not exist, there is none, or the matrices have another format, are too few or are
+/// not affine.
 fn read_skin(source: &AccessorReader<'_>, at: usize) -> Result<Skin, Diagnostic> {
     let json = &source.root.skins[at];
     let count = source.root.nodes.len();

@@ -12,9 +12,13 @@ use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 
 /// Value of `Texture::source` in the JSON type where the file has none.
+///
+/// The `gltf` crate stores indices in 32 bits, and uses the largest as a marker.
 const NO_SOURCE: usize = u32::MAX as usize;
 
 /// Reads all textures of a file. Faults in them are warnings.
+///
+/// A sampler that does not exist is replaced by the default one, with a warning.
 pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec<Texture> {
     let mut textures = Vec::with_capacity(root.textures.len());
     for (at, json) in root.textures.iter().enumerate() {
@@ -39,6 +43,8 @@ pub(super) fn import_textures(root: &Root, warnings: &mut ImportWarnings) -> Vec
 
 /// The image of a texture. That of a supported extension (KHR_texture_basisu, EXT_texture_webp)
 /// takes precedence over the fallback for readers without it.
+///
+/// An index out of range leaves the texture without image, and the surface is drawn untextured.
 fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Option<usize> {
     let json = &root.textures[at];
     let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);
@@ -58,6 +64,16 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
 }
 
 /// The sampler; missing or unknown states take their defaults.
+///
+/// ```text
+///  minFilter                 min_filter   mipmap_mode
+///  NEAREST                   Nearest      None
+///  LINEAR                    Linear       None
+///  NEAREST_MIPMAP_NEAREST    Nearest      Nearest
+///  LINEAR_MIPMAP_NEAREST     Linear       Nearest
+///  NEAREST_MIPMAP_LINEAR     Nearest      Linear
+///  LINEAR_MIPMAP_LINEAR      Linear       Linear        the default
+/// ```
 fn convert_sampler(json: &gltf::json::texture::Sampler) -> Sampler {
     let wrap = |mode: Checked<WrappingMode>| match mode {
         Checked::Valid(WrappingMode::ClampToEdge) => WrapMode::ClampToEdge,

@@ -15,6 +15,9 @@ use crate::Topology;
 use gltf::json::mesh::Mode;
 
 /// Expands a sequence of vertices to a list. Vertices too few for another item are dropped.
+///
+/// Lists cost up to three times the indices of a strip, and leave a single case for everything that
+/// follows. Degenerate triangles, which stitch strips together, remain: they cover no pixel.
 pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, Vec<u32>) {
     let topology = match mode {
         Mode::Points => Topology::Points,
@@ -34,10 +37,12 @@ pub(super) fn expand_to_list(mode: Mode, mut vertices: Vec<u32>) -> (Topology, V
     (topology, list)
 }
 
+/// Lines between consecutive vertices: n vertices give n − 1 lines.
 fn line_strip(vertices: &[u32]) -> Vec<u32> {
     vertices.array_windows().flat_map(|&[a, b]: &[u32; 2]| [a, b]).collect()
 }
 
+/// A line strip that is closed by a line from the last vertex to the first.
 fn line_loop(vertices: &[u32]) -> Vec<u32> {
     let mut lines = line_strip(vertices);
     if let [first, .., last] = vertices {
@@ -46,6 +51,7 @@ fn line_loop(vertices: &[u32]) -> Vec<u32> {
     lines
 }
 
+/// Triangles of three consecutive vertices each; odd ones are flipped to preserve the winding.
 fn triangle_strip(vertices: &[u32]) -> Vec<u32> {
     let triangle = |(at, &[a, b, c]): (usize, &[u32; 3])| match at % 2 {
         0 => [a, b, c],
@@ -54,6 +60,10 @@ fn triangle_strip(vertices: &[u32]) -> Vec<u32> {
     vertices.array_windows().enumerate().flat_map(triangle).collect()
 }
 
+/// Triangles around the first vertex, each with two consecutive vertices of the rim.
+///
+/// The order `a b hub` is that of the specification; a cyclic permutation would have the same
+/// winding, but its edges would be numbered differently.
 fn triangle_fan(vertices: &[u32]) -> Vec<u32> {
     let Some((&hub, rim)) = vertices.split_first() else { return Vec::new() };
     rim.array_windows().flat_map(|&[a, b]: &[u32; 2]| [a, b, hub]).collect()

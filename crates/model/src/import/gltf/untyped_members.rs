@@ -45,7 +45,7 @@ fn indexed_items<'a>(json: &'a Value, key: &str) -> impl Iterator<Item = (usize,
     json.get(key).and_then(Value::as_array).into_iter().flatten().enumerate()
 }
 
-/// The index in a JSON number; `usize::MAX`, which is out of range everywhere, if there is none.
+/// The index in a JSON number; `usize::MAX`, which is out of every range, if it is absent.
 fn index_or_max(value: Option<&Value>) -> usize {
     value.and_then(Value::as_u64).and_then(|at| usize::try_from(at).ok()).unwrap_or(usize::MAX)
 }

@@ -40,6 +40,9 @@ fn is_frame_marker(mark: &[u8]) -> bool {
 
 /// Components of a frame header (id, sampling factors, table), if its length agrees with their
 /// number.
+///
+/// `header` starts at the length, after the marker. Bytes that merely look like a marker rarely
+/// have a length that agrees with the number of components.
 fn component_samplings(header: &[u8]) -> Option<&[[u8; 3]]> {
     let &[high, low, _, _, _, _, _, count] = header.first_chunk()?;
     let length = usize::from(u16::from_be_bytes([high, low]));

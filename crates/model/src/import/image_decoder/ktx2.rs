@@ -51,9 +51,9 @@ mod tests {
         let mut words = |all: &[u32]| all.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
         // Format, type size, width, height, depth, layers, faces, levels, supercompression.
         words(&[ASTC_4X4_SRGB, 1, 4, 4, 0, 0, 1, 1, 0]);
-        // Data format descriptor, key/value data, supercompression data: place and length.
+        // Data format descriptor, key/value data, supercompression data: offset and length.
         words(&[HEADER, DESCRIPTOR, 0, 0, 0, 0, 0, 0]);
-        // The level: place, length, length before compression, 64 bits each.
+        // The level: offset, length, length before compression, 64 bits each.
         let offset = (HEADER + DESCRIPTOR).next_multiple_of(16);
         words(&[offset, 0, 16, 0, 16, 0]);
         // One block of descriptor: ASTC, BT.709, sRGB, straight alpha, 4 x 4 texels in 16 bytes,

@@ -27,6 +27,11 @@ pub(super) fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), Str
 }
 
 /// Checks one chunk; all but `VP8 ` are accepted.
+///
+/// The 14-bit width and height of a key frame follow its start code `9D 01 2A`.
+///
+/// # Errors
+/// A message with both sizes.
 fn check_frame_size(
     name: [u8; 4],
     bytes: &[u8],
@@ -38,7 +43,7 @@ fn check_frame_size(
     let Some(&[_, _, _, 0x9D, 0x01, 0x2A, w0, w1, h0, h1]) = bytes.first_chunk() else {
         return Ok(());
     };
-    // The upper two bits say how to enlarge the frame for showing.
+    // The upper two bits are an upscaling hint, without effect on the decoded size.
     let side = |low, high| u32::from(u16::from_le_bytes([low, high]) & 0x3FFF);
     let (w, h) = (side(w0, w1), side(h0, h1));
     if w <= width && h <= height {
@@ -48,6 +53,9 @@ fn check_frame_size(
 }
 
 /// Iterator over RIFF chunks: their ids and data; the last one may be truncated.
+///
+/// Chunks are padded to an even length. The data of an `ANMF` chunk, a frame of an animation, has
+/// chunks inside.
 struct RiffChunks<'a>(&'a [u8]);
 
 impl<'a> Iterator for RiffChunks<'a> {

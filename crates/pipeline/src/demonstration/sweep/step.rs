@@ -16,12 +16,14 @@ use projection::{
 };
 
 /// The scene's view, decomposed into camera and parameters.
+///
+/// Computed once for a sweep: the vertices of all models are collected here and not in each step.
 pub(super) struct SweepBase {
     /// The scene's camera.
     camera: Camera,
     /// The scene's projection.
     projection: BaseProjection,
-    /// All vertices, to fit near and far plane.
+    /// The vertices of all models in world space, to fit near and far plane where the camera moves.
     points: Vec<Point<World>>,
     /// The center of the models' bounding box.
     center: Point<World>,
@@ -29,7 +31,8 @@ pub(super) struct SweepBase {
     distance: f64,
 }
 
-/// The scene's projection as parameters.
+/// The scene's projection as parameters. Only these two kinds have a near plane, a far plane and a
+/// window that can be replaced one at a time.
 #[derive(Clone, Copy)]
 enum BaseProjection {
     Perspective(Frustum),
@@ -38,6 +41,9 @@ enum BaseProjection {
 
 impl BaseProjection {
     /// The reason why the projection lacks a parameter; `None` if it has it.
+    ///
+    /// An eye at infinity has no angle and no distance; the height of a perspective's window
+    /// depends on the plane it is measured on.
     fn reason_unsupported(self, vary: SweepParameter) -> Option<&'static str> {
         let is_of_perspective = matches!(
             vary,
@@ -88,6 +94,18 @@ impl SweepBase {
     }
 
     /// Camera and projection with the parameter at a value, and a note on them.
+    ///
+    /// Every step starts from the base and not from the step before, so that errors do not
+    /// accumulate and a single step equals that of a longer sweep.
+    ///
+    /// | parameter | replaces | planes |
+    /// | --- | --- | --- |
+    /// | fov, aspect, shift | the slopes | as in the scene |
+    /// | near, far | one plane | that one |
+    /// | lens | near and slopes | near |
+    /// | distance, dolly, angle | the camera | fitted to the models |
+    ///
+    /// # Errors If the value is out of range, or camera or frustum refuse it, such as near ≥ far.
     pub(super) fn view_at(
         &self,
         vary: SweepParameter,
@@ -128,6 +146,9 @@ impl SweepBase {
     }
 
     /// The requirement that a value violates, if it does.
+    ///
+    /// The planes of a parallel projection may be negative: they can lie behind the eye. Values
+    /// that are not finite are refused for every parameter.
     fn unmet_requirement(&self, vary: SweepParameter, value: f64) -> Option<&'static str> {
         let is_parallel = matches!(self.projection, BaseProjection::Parallel(_));
         let (is_allowed, allowed) = match vary {
@@ -144,6 +165,9 @@ impl SweepBase {
     }
 
     /// The camera at a value of a parameter that moves it.
+    ///
+    /// A distance moves the eye along the gaze, e' = e + (d₀ − d) g, where d₀ is the distance in
+    /// the scene and g has unit length. The orientation stays.
     fn camera_for_value(&self, vary: SweepParameter, value: f64) -> Result<Camera, String> {
         match vary {
             SweepParameter::Distance | SweepParameter::Dolly => {
@@ -156,6 +180,9 @@ impl SweepBase {
     }
 
     /// The camera rotated about the vertical axis through the center.
+    ///
+    /// T(c) · R_y(φ) · T(−c) applied to the camera's frame, so position and orientation rotate
+    /// together and the center stays where it is in the picture.
     fn orbit_camera(&self, degrees: f64) -> Result<Camera, String> {
         let center: Vector<World> = self.center - Point::ORIGIN;
         let rotation = Affine::<World, World>::translation(-center)
@@ -166,6 +193,9 @@ impl SweepBase {
     }
 
     /// Camera and parallel projection with the parameter at a value, and a note.
+    ///
+    /// A height keeps the aspect ratio, an aspect ratio keeps the height; both scale about the line
+    /// of sight. Only the angle moves the camera here, so only it fits the planes again.
     fn parallel_view_at(
         &self,
         vary: SweepParameter,
@@ -207,6 +237,15 @@ impl SweepBase {
     }
 
     /// The window one unit ahead of the eye at a value.
+    ///
+    /// Factors by which the slopes are multiplied:
+    ///
+    /// ```text
+    ///  fov    tan(φ / 2) / (h / 2)      h: height of the window one unit ahead
+    ///  lens   n₀ / n                    the window on the near plane stays
+    ///  dolly  d₀ / d                    the window at the center stays
+    /// ```
+    /// The Lens formula is that of `glFrustum` with fixed sides.
     fn slopes_for_value(
         &self,
         vary: SweepParameter,
@@ -232,6 +271,8 @@ impl SweepBase {
     }
 
     /// The note of a perspective step: angle, distance, planes.
+    ///
+    /// Vertical angle in degrees, distances in world units, four significant digits each.
     fn describe_frustum(&self, frustum: Frustum, camera: Camera) -> String {
         let slopes = frustum.slopes();
         let degrees = (libm::atan(slopes.top()) - libm::atan(slopes.bottom())).to_degrees();
@@ -243,12 +284,17 @@ impl SweepBase {
 }
 
 /// A window moved to the right by halves of its width.
+///
+/// A shift of 1 moves the left border onto the former center.
 fn shift_window(window: Window, halves: f64) -> Result<Window, ProjectionError> {
     let by = halves * 0.5 * window.width();
     Window::new(window.left() + by, window.right() + by, window.bottom(), window.top())
 }
 
 /// A window with its sides scaled about the line of sight.
+///
+/// Scaling about (0, 0) and not about the center of the window keeps the relative shift of an
+/// off-center window.
 fn scale_window(window: Window, x: f64, y: f64) -> Result<Window, ProjectionError> {
     Window::new(window.left() * x, window.right() * x, window.bottom() * y, window.top() * y)
 }

@@ -113,7 +113,7 @@ impl PassBuffer {
     pub(super) fn copy_tile(&mut self, patch: &Self, part: TileRegion, region: PixelRect) {
         match (&mut self.values, &patch.values) {
             (PassValues::Integers(all), PassValues::Integers(patch)) => {
-                part.copy_into_region(patch, region, all)
+                part.copy_into_region(patch, region, all);
             }
             (PassValues::Floats(all), PassValues::Floats(patch)) => match self.pass.channels() {
                 3 => part.copy_into_region(

@@ -30,7 +30,7 @@ impl PassBuffer {
         match &self.values {
             PassValues::Floats(values) => bytes.extend(values.iter().flat_map(|v| v.to_le_bytes())),
             PassValues::Integers(values) => {
-                bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()))
+                bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
             }
         }
         bytes

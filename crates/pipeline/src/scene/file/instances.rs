@@ -40,7 +40,6 @@ scene_enum! {
     }
 }
 /// 360 degrees.
-
 const FULL_CIRCLE: Finite = Finite::constant(360.0);
 
 scene_struct! {

@@ -178,7 +178,6 @@ impl ProjectionFile {
     }
 }
 /// 45 degrees, the direction of depth in most oblique drawings.
-
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 
 /// A point of the picture.

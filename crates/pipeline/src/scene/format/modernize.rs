@@ -1,4 +1,12 @@
-//! Replacement of the words of older scene files, by their place in the declarations.
+//! Replacement of legacy words: fields and variants that earlier versions of the language named
+//! otherwise.
+//!
+//! ```text
+//!  syntax tree + declarations ─► edits (span, new word) ─► applied from the end of the text
+//! ```
+//! A word is replaced only where its owner is, found by walking the tree along the declared types:
+//! `translate` means something else in a model than it would in a camera. The text is edited by
+//! spans, so comments and layout survive.
 
 use crate::scene::SceneFile;
 use crate::scene::schema::{Declared as _, FieldEntry, Shape, TypeEntry, ValueType};
@@ -8,6 +16,9 @@ use core::ops::Range;
 
 /// The text with each legacy word replaced by that of today. Words are only replaced where their
 /// struct or enum stands; everything else, mistakes included, is left as it is.
+///
+/// Applying the edits from the last to the first keeps earlier spans valid. A tree that had to be
+/// guessed, because brackets do not match, is not touched.
 pub(super) fn replace_legacy_words(source: &str) -> String {
     let tree = parse_tree(source);
     let mut edits = Vec::new();
@@ -22,13 +33,17 @@ pub(super) fn replace_legacy_words(source: &str) -> String {
     text
 }
 
-/// A word to replace.
+/// The replacement of one word.
 struct Edit {
+    /// The bytes of the old word in the source.
     span: Range<usize>,
+    /// The word that replaces it.
     new: &'static str,
 }
 
-/// The word of today for `key` in `owner`; notes the edit if it is a legacy word.
+/// The current name for `key` in `owner`; records the edit if it is a legacy word.
+///
+/// Returning the current name lets the walk continue below a renamed field in the same pass.
 fn modern_name<'a>(key: &Key<'a>, owner: &str, edits: &mut Vec<Edit>) -> &'a str {
     let is_same = |legacy: &&crate::scene::vocabulary::LegacyWord| {
         legacy.owner == owner && legacy.old == key.name
@@ -41,8 +56,8 @@ fn modern_name<'a>(key: &Key<'a>, owner: &str, edits: &mut Vec<Edit>) -> &'a str
         None => key.name,
     }
 }
-/// Collects the edits in a value of this type. Values of another form are left to the parser.
 
+/// Collects the edits in a value of this type. Values of another form are left to the parser.
 fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>) {
     let items = node.group().map_or(&[][..], |group| &group.items);
     match value_type {
@@ -59,9 +74,9 @@ fn collect_edits(node: &Node<'_>, value_type: &ValueType, edits: &mut Vec<Edit>)
         ValueType::Declared(entry) => collect_declared(node, entry, edits),
     }
 }
-/// Collects the edits in a value of a declared type: its fields, or the name and content of its
-/// variant.
 
+/// Collects the edits in a value of a declared type: its fields, or the name and content of its
+/// variant. Names before the brackets of a struct are not edited.
 fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<Edit>) {
     match (entry.shape, &node.kind) {
         // An optional value may be written `Some(value)`.
@@ -90,7 +105,11 @@ fn collect_declared(node: &Node<'_>, entry: &'static TypeEntry, edits: &mut Vec<
     }
 }
 
-/// The value in the brackets of a variant, which may also be the brackets of the struct inside.
+/// Collects the edits in the value of a variant, whose brackets may also be those of the struct
+/// inside.
+///
+/// Mirrors `Variant::read_inner` of the checker: one item without a name is the value itself,
+/// otherwise the brackets are read once more without the variant's name.
 fn collect_inner(
     node: &Node<'_>,
     group: &Group<'_>,
@@ -106,8 +125,8 @@ fn collect_inner(
     let node = Node { span: node.span.clone(), kind: NodeKind::Group(unnamed) };
     collect_edits(&node, value_type, edits);
 }
-/// Collects the edits in the fields of `owner`, a struct or a variant.
 
+/// Collects the edits in the fields of `owner`, a struct or a variant.
 fn collect_fields(
     group: &Group<'_>,
     owner: &str,

@@ -1,18 +1,25 @@
-//! Tokens put together: brackets with their items, each with its comment.
+//! The formatter's tree: tokens grouped into brackets and items, each with its comment.
+//!
+//! Unlike the syntax tree of the parser it keeps comments, blank lines and the spelling of
+//! literals, and it knows nothing about fields or types. An item is everything between two commas.
 
 use crate::scene::syntax::{Token, TokenKind};
 
 /// An element, a comment, or an element with a comment behind it on its line.
 #[derive(Debug, Default)]
 pub(super) struct FormatItem {
+    /// The element; `None` for a comment on a line of its own.
     pub(super) element: Option<Element>,
+    /// The comment with its slashes, behind the element or alone.
     pub(super) comment: Option<String>,
+    /// Whether a blank line separates it from the item before.
     pub(super) blank_before: bool,
 }
 
 /// A value, perhaps with the name of its field.
 #[derive(Debug, Default)]
 pub(super) struct Element {
+    /// Text and groups in turn: `path: "a.glb"` is one text, `view: LookAt(…)` a text and a group.
     pub(super) parts: Vec<Part>,
 }
 
@@ -21,16 +28,20 @@ pub(super) struct Element {
 pub(super) enum Part {
     /// Words with the blanks between them.
     Text(String),
+    /// Brackets with their items.
     Group(FormatGroup),
 }
 
 /// A pair of brackets.
 #[derive(Debug)]
 pub(super) struct FormatGroup {
+    /// The opening bracket: `(`, `[` or `{`.
     pub(super) open: char,
+    /// The closing bracket, as written.
     pub(super) close: char,
     /// Whether a line break follows the opening bracket.
     pub(super) multiline: bool,
+    /// The items between the brackets.
     pub(super) items: Vec<FormatItem>,
 }
 
@@ -38,10 +49,12 @@ pub(super) struct FormatGroup {
 pub(super) fn group_tokens(tokens: &[Token<'_>]) -> Vec<FormatItem> {
     ItemReader { tokens, at: 0 }.read_items()
 }
-/// Recursive-descent reader of items; comments are items too.
 
+/// Recursive-descent reader of items; comments are items too.
 struct ItemReader<'a> {
+    /// The tokens of the whole text.
     tokens: &'a [Token<'a>],
+    /// Index of the next token.
     at: usize,
 }
 
@@ -52,13 +65,16 @@ impl<'a> ItemReader<'a> {
         self.at += 1;
         Some(token)
     }
-    /// The next token.
 
+    /// The next token.
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
 
     /// The items up to the closing bracket, or to the end.
+    ///
+    /// Comments inside of an element become items before it, and the first of them takes over the
+    /// blank line. Commas are dropped; the writer sets them again, one behind each element.
     fn read_items(&mut self) -> Vec<FormatItem> {
         let mut items: Vec<FormatItem> = Vec::new();
         while let Some(token) = self.peek() {
@@ -91,11 +107,13 @@ impl<'a> ItemReader<'a> {
     }
 
     /// A comment on the line of the item before it belongs to that; any other is an item.
+    ///
+    /// Only one comment can stand behind an element; a second one on the line begins an item.
     fn attach_comment(&self, items: &mut Vec<FormatItem>, token: Token<'_>) {
         let text = token.text.to_owned();
         match items.last_mut() {
             Some(last) if token.line_breaks_before == 0 && last.comment.is_none() => {
-                last.comment = Some(text)
+                last.comment = Some(text);
             }
             _ => {
                 let blank_before = token.line_breaks_before > 1;
@@ -111,6 +129,9 @@ impl<'a> ItemReader<'a> {
     }
 
     /// An element, and the line comments inside of it.
+    ///
+    /// Line comments inside cannot stay where they are, since the element may end up on one line;
+    /// they are returned to be put before it. Block comments stay among the words.
     fn read_element(&mut self) -> (Element, Vec<&'a str>) {
         let (mut parts, mut comments) = (Vec::new(), Vec::new());
         let mut text = String::new();
@@ -148,6 +169,9 @@ impl<'a> ItemReader<'a> {
     }
 
     /// The group behind an opening bracket.
+    ///
+    /// The first token behind the bracket decides whether the group stays open: if a line break
+    /// precedes it, every item gets a line. An empty group is always closed.
     fn read_group(&mut self, open: Token<'_>) -> FormatGroup {
         let broken = self.peek().is_some_and(|first| first.line_breaks_before > 0);
         let items = self.read_items();

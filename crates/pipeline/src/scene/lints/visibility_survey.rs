@@ -1,4 +1,7 @@
 //! Visibility survey of a model: how many of its primitives the view volume clips or rejects.
+//!
+//! Ray casting in the course of the survey decides whether the eye is inside of the model: for a
+//! closed surface, each ray from an inner point leaves once more than it enters.
 
 use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
@@ -7,7 +10,9 @@ use homog::{Clip, HPoint, Point, World};
 use model::ModelInstance;
 use model::{MeshInstance, Primitive};
 
-/// Directions in which rays leave the eye: no edge of a model that a person made lies along one.
+/// Directions of the rays from the eye, in world space. Their components are unrelated, so that
+/// rays hardly ever meet an edge or vertex of a modeled shape, where a crossing would count twice;
+/// three rays have to agree.
 const PROBE_DIRECTIONS: [DVec3; 3] = [
     DVec3::new(0.5773, 0.6191, 0.5324),
     DVec3::new(-0.7167, 0.3291, 0.6149),
@@ -29,7 +34,7 @@ pub(super) struct VisibilitySurvey {
     pub(super) behind_far: usize,
     /// The least and the greatest distance of a vertex along the gaze.
     depth_range: Option<(f64, f64)>,
-    /// How often rays from the eye leave the model more often than they come into it.
+    /// For each ray from the eye the number of exits minus the number of entries.
     crossings: [i64; 3],
 }
 
@@ -48,7 +53,8 @@ impl VisibilitySurvey {
         survey
     }
 
-    /// Both together.
+    /// The survey of two models together. Ray crossings are not added: an eye is inside of one
+    /// model or another, not of their sum.
     pub(super) fn merge(mut self, other: &Self) -> Self {
         self.total += other.total;
         self.inside += other.inside;
@@ -61,9 +67,9 @@ impl VisibilitySurvey {
         }
         self
     }
+
     /// The least and the greatest distance of a vertex along the line of sight; `None` without
     /// vertices.
-
     pub(super) fn depth_range(&self) -> Option<(f64, f64)> {
         self.depth_range
     }
@@ -73,14 +79,18 @@ impl VisibilitySurvey {
     pub(super) fn encloses_eye(&self) -> bool {
         self.crossings.iter().all(|count| *count >= 1)
     }
-    /// Extends the depth range to a distance.
 
+    /// Extends the depth range to a distance.
     fn extend_depth_range(&mut self, distance: f64) {
         let (near, far) = self.depth_range.unwrap_or((distance, distance));
         self.depth_range = Some((near.min(distance), far.max(distance)));
     }
-    /// Adds the vertices and the points, lines or triangles of a mesh primitive.
 
+    /// Adds the vertices and the points, lines or triangles of a mesh primitive.
+    ///
+    /// Vertices are skinned and transformed once; every primitive then uses their positions and
+    /// outcodes by index. A transform with a negative determinant exchanges front and back faces,
+    /// which `sign` undoes.
     fn survey_primitive(
         &mut self,
         view_projection: &ViewProjection,
@@ -118,6 +128,9 @@ impl VisibilitySurvey {
     }
 
     /// Counts a vertex with its distance along the gaze.
+    ///
+    /// A vertex counts as cut only if a depth plane is the one plane that it is outside of.
+    /// Vertices shared by several primitives are counted for each of them.
     fn count_vertex(&mut self, code: Outcode, distance: f64) {
         self.extend_depth_range(distance);
         if code == Outcode::INSIDE.with_plane(PlaneIndex::NEAR) && distance > 0.0 {
@@ -129,6 +142,9 @@ impl VisibilitySurvey {
     }
 
     /// Counts a point, line or triangle.
+    ///
+    /// Exact clipping decides, not the outcodes alone: a large triangle can pass every trivial test
+    /// beside a corner of the volume and still have nothing inside.
     fn count_primitive(&mut self, item: &[usize], clip: &[HPoint<Clip>], codes: &[Outcode]) {
         self.total += 1;
         let corner_codes: Vec<Outcode> = item.iter().map(|&at| codes[at]).collect();
@@ -150,6 +166,9 @@ impl VisibilitySurvey {
 
 /// 1 if a ray from the origin goes out through the triangle, -1 if it comes in, 0 if it does not
 /// meet it (Möller and Trumbore, 1997, with the triangle seen from the ray's begin).
+///
+/// Solves t d = (1 − u − v) a + u b + v c by Cramer's rule. The triangle is relative to the eye;
+/// rays parallel to its plane have the determinant 0 and miss. Borders are inclusive on both sides.
 fn ray_crossing(ray: DVec3, [a, b, c]: [DVec3; 3]) -> i64 {
     let (along, across) = (b - a, c - a);
     let normal = ray.cross(across);

@@ -2,6 +2,13 @@
 //!
 //! Every mistake is reported once, where it is. What follows from it is not: a value that could not
 //! be read has no other mistakes, and a field that was meant by a misspelt one is not missing.
+//!
+//! ```text
+//!  node ─► open_struct ─► Fields ──► read(field) ─► T::from_node ─► value or mistakes
+//!       └► open_variant ─► Variant ─► open_fields / read_inner / expect_empty
+//! ```
+//! The checker holds the path to the value, for messages, and the scope, which is the innermost
+//! field or element around it: a later resolution skips errors in a scope that already has one.
 
 use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
@@ -11,19 +18,24 @@ use core::fmt::Write as _;
 use core::ops::Range;
 use std::collections::BTreeMap;
 
-/// A part of the path to the value that is being read.
+/// A step of the path to the value that is being read: `camera`, `.LookAt`, `[2]`.
 #[derive(Clone, Copy, Debug)]
 enum Segment {
+    /// A field of a struct or variant.
     Field(&'static str),
+    /// A variant of an enum, which is part of the path in messages only.
     Variant(&'static str),
+    /// An element of a list or tuple, counted from 0.
     Index(usize),
 }
 
 /// Reads values and collects the mistakes in them.
 #[derive(Debug, Default)]
 pub(in crate::scene) struct Checker<'a> {
+    /// The text of the file, which spans of nodes index into.
     source: &'a str,
     mistakes: Vec<Mistake>,
+    /// The path from the scene to the value that is being read.
     path: Vec<Segment>,
     /// The fields and elements around the value that is being read.
     scopes: Vec<Range<usize>>,
@@ -33,6 +45,7 @@ pub(in crate::scene) struct Checker<'a> {
 
 /// The results of a check besides the value.
 pub(in crate::scene) struct Checked {
+    /// The mistakes in the order in which they were found.
     pub(in crate::scene) mistakes: Vec<Mistake>,
     /// For each list of the whole scene the indices of the elements that could be read.
     pub(in crate::scene) retained: BTreeMap<&'static str, Vec<usize>>,
@@ -44,12 +57,14 @@ impl<'a> Checker<'a> {
         Self { source, ..Self::default() }
     }
     /// The mistakes, in the order in which they were found.
-
     pub(in crate::scene) fn finish(self) -> Checked {
         Checked { mistakes: self.mistakes, retained: self.retained }
     }
 
     /// Reports a mistake at `span`.
+    ///
+    /// `span` is underlined in the message. The scope of the mistake is the innermost field or
+    /// element, or the span itself outside of all fields.
     pub(in crate::scene) fn report(
         &mut self,
         span: Range<usize>,
@@ -60,8 +75,9 @@ impl<'a> Checker<'a> {
         self.mistakes.push(Mistake { scope, ..Mistake::new(span, message, help) });
     }
 
-    /// Reports that a value is not of the type that its field has; what `expected` says follows the
-    /// path of the field.
+    /// Reports that a value is not of its field's type: `camera.view: expected …, found …`.
+    ///
+    /// Nodes that the parser could not read are skipped, since it has reported them already.
     pub(in crate::scene) fn report_type(
         &mut self,
         node: &Node<'_>,
@@ -88,6 +104,8 @@ impl<'a> Checker<'a> {
 
     /// The path of the value that is being read, such as `camera.view.LookAt.eye[1]`; empty for the
     /// whole scene.
+    ///
+    /// Indices have no point before them, names have one except for the first.
     fn path_text(&self) -> String {
         let mut text = String::new();
         for segment in &self.path {
@@ -100,7 +118,6 @@ impl<'a> Checker<'a> {
         text
     }
     /// The path of the value, quoted, as a message begins; empty for the whole scene.
-
     fn path_prefix(&self) -> String {
         let path = self.path_text();
         if path.is_empty() { path } else { format!("`{path}`: ") }
@@ -114,7 +131,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A value as a message names it.
+    /// A value as a message names it: quoted up to 40 bytes, its kind in words beyond that.
     fn describe(&self, node: &Node<'_>) -> String {
         let text = &self.source[node.span.clone()];
         match &node.kind {
@@ -129,7 +146,10 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The fields of a struct; `None` if the node is none.
+    /// Opens the brackets of a struct and finds its fields; `None` if the node is not a struct.
+    ///
+    /// The type's name before the bracket is optional: `Camera(…)` and `(…)` are the same. A word
+    /// that is a variant of another type gets the hint where it belongs.
     pub(in crate::scene) fn open_struct<'n>(
         &mut self,
         node: &'n Node<'n>,
@@ -142,7 +162,7 @@ impl<'a> Checker<'a> {
                 if let Some(name) = group.name.as_ref().filter(|name| name.name != entry.name) {
                     self.report_struct_name(name, entry)?;
                 }
-                self.read_fields(group, node.span.clone(), owner, fields)
+                self.read_fields(group, &node.span, &owner, fields)
             }
             NodeKind::Invalid => None,
             NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
@@ -162,6 +182,9 @@ impl<'a> Checker<'a> {
 
     /// Reports that a struct has another name than its type. Returns whether it is likely to be
     /// that type all the same.
+    ///
+    /// `Some` for an unknown name, such as a misspelling: its fields are then checked too. `None`
+    /// for a name that the language knows elsewhere, whose fields would all be wrong.
     fn report_struct_name(&mut self, name: &Key<'_>, entry: &'static TypeEntry) -> Option<()> {
         let message = format!("expected `{}`, found `{}`", entry.name, name.name);
         let suggestion = suggest_variant(entry, name.name, self.top_level_field());
@@ -177,11 +200,16 @@ impl<'a> Checker<'a> {
 
     /// Finds the declared fields among the items of a group, and reports those that are unknown,
     /// doubled or missing.
+    ///
+    /// A missing field is reported only if every unknown field could be explained as something
+    /// else: `modles: […]` is reported as a misspelling of `models`, and `models` not as missing
+    /// besides. If no item has a name, the brackets hold a tuple or a list, and one message says
+    /// so. Linear in items × declared fields, which are at most a few dozen.
     fn read_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
-        span: Range<usize>,
-        owner: Owner,
+        span: &Range<usize>,
+        owner: &Owner,
         declared: &'static [FieldEntry],
     ) -> Option<Fields<'n>> {
         let mut found: Vec<(&'static str, &'n Item<'n>)> = Vec::new();
@@ -200,7 +228,7 @@ impl<'a> Checker<'a> {
                 Some(key) => match declared.iter().find(|field| field.name == key.name) {
                     None => {
                         unknown += 1;
-                        meant.extend(self.report_unknown_field(key, &owner, declared));
+                        meant.extend(self.report_unknown_field(key, owner, declared));
                     }
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
@@ -228,7 +256,6 @@ impl<'a> Checker<'a> {
         Some(Fields { items: found })
     }
     /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
-
     fn report_keyless_item(&mut self, item: &Item<'_>) {
         if item.value.kind == NodeKind::Invalid {
             return;
@@ -241,6 +268,9 @@ impl<'a> Checker<'a> {
 
     /// Reports a field that is not declared. Returns the field of the same struct that is probably
     /// meant.
+    ///
+    /// The suggestion compares with the fields of this struct, of the whole language, of other
+    /// programs and of older versions of this one.
     fn report_unknown_field(
         &mut self,
         key: &Key<'_>,
@@ -256,6 +286,9 @@ impl<'a> Checker<'a> {
     }
 
     /// The variant that a node names; `None` if there is no such variant.
+    ///
+    /// It is part of the path until [`close_variant`](Self::close_variant), which has to follow if
+    /// and only if a variant is returned.
     pub(in crate::scene) fn open_variant<'n>(
         &mut self,
         node: &'n Node<'n>,
@@ -283,13 +316,15 @@ impl<'a> Checker<'a> {
         Some(Variant { entry, variant, group, span: node.span.clone() })
     }
     /// Ends the variant that [`open_variant`](Self::open_variant) began.
-
     pub(in crate::scene) fn close_variant(&mut self) {
         self.path.pop();
     }
 
     /// Reports a value that names no variant, with the variant that holds such values, if there is
     /// one.
+    ///
+    /// A string where a color's variant is expected gets `Color("…")` as its hint, a number the
+    /// variant with a number inside.
     fn report_no_variant(
         &mut self,
         node: &Node<'_>,
@@ -317,8 +352,11 @@ impl<'a> Checker<'a> {
         self.report_type(node, &expected, Some(help));
     }
 
-    /// Reads the elements of a list. Of a list of the whole scene those that cannot be read are
-    /// left out; any other list is read whole or not at all.
+    /// Reads the elements of a list.
+    ///
+    /// In lists of the whole scene, such as `models`, elements that cannot be read are left out and
+    /// the indices of the others recorded, so that the rest of the scene can be checked in the same
+    /// run. Any other list is read whole or not at all.
     pub(in crate::scene) fn read_list<T: SceneValue>(
         &mut self,
         items: &[Item<'_>],
@@ -339,6 +377,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Reads an element of a list or a tuple.
+    ///
+    /// The element is a scope of its own: a mistake in it does not hide those of its neighbors.
     pub(in crate::scene) fn read_element<T: SceneValue>(
         &mut self,
         index: usize,
@@ -365,7 +405,7 @@ impl<'a> Checker<'a> {
 
 /// The owner of fields: a struct, or a variant of an enum.
 struct Owner {
-    /// `Model`, or `View::LookAt`.
+    /// The owner in the search: `Model`, or `View::LookAt`.
     key: String,
     /// The name in messages: `Model`, or `LookAt`.
     shown: &'static str,
@@ -373,12 +413,16 @@ struct Owner {
 
 /// The fields of a struct or a variant that are in the text.
 pub(in crate::scene) struct Fields<'n> {
+    /// The declared fields that were found, each once, in the order of the text.
     items: Vec<(&'static str, &'n Item<'n>)>,
 }
 
 impl Fields<'_> {
     /// The value of a field. A field that is left out, or that cannot be read, has the value of
     /// `default`, if it has one.
+    ///
+    /// The default also stands in for a value that cannot be read, so that one mistake does not
+    /// make the struct and everything around it unreadable.
     pub(in crate::scene) fn read<T: SceneValue>(
         &self,
         checker: &mut Checker<'_>,
@@ -400,6 +444,7 @@ impl Fields<'_> {
 /// A variant that is named in the text.
 pub(in crate::scene) struct Variant<'n> {
     entry: &'static TypeEntry,
+    /// The declaration of the variant.
     variant: &'static VariantEntry,
     /// Its brackets, if it has any.
     group: Option<&'n Group<'n>>,
@@ -430,11 +475,17 @@ impl<'n> Variant<'n> {
             shown: self.variant.name,
         };
         let group: &'n Group<'n> = self.group.unwrap_or(&EMPTY);
-        checker.read_fields(group, self.span.clone(), owner, self.variant.fields)
+        checker.read_fields(group, &self.span, &owner, self.variant.fields)
     }
 
-    /// The value in the brackets. The brackets of the variant are also those of a struct, list or
-    /// vector inside.
+    /// Reads the value in the brackets.
+    ///
+    /// ```text
+    ///  Color("#fff")               one item without a name: that item is the value
+    ///  FromModel(name: "front")    the brackets of the variant are those of the struct
+    ///  Variant((1, 2, 3))          one item, a vector in its own brackets
+    /// ```
+    /// The second form is RON's extension `unwrap_variant_newtypes`.
     pub(in crate::scene) fn read_inner<T: SceneValue>(
         &self,
         checker: &mut Checker<'_>,

@@ -1,4 +1,11 @@
 //! The macros that declare the types of scene files.
+//!
+//! ```text
+//!  scene_struct!  struct with fields           scene_enum!   variants with fields or a value
+//!  named_enum!    variants without anything    named_values! such names for an enum of another crate
+//! ```
+//! Doc comments are matched as `#[doc = "…"]` literals: rustdoc and the printed reference show one
+//! text. The macros expand to absolute `$crate` paths, since they are used in many modules.
 
 /// Joins the lines of a doc comment to paragraphs, with a blank line between them. Links to Rust's
 /// items say nothing to the author of a scene: ``[`a`](b)`` and ``[`a`]`` become `` `a` ``.
@@ -9,8 +16,11 @@ pub(super) fn join_doc_lines(doc: &str) -> String {
     let paragraphs: Vec<String> = paragraphs.filter(|paragraph| !paragraph.is_empty()).collect();
     remove_links(&paragraphs.join("\n\n"))
 }
-/// Replaces links to Rust items by the text they show.
 
+/// Replaces links to Rust items by the text they show.
+///
+/// Quadratic input is impossible: every link is passed once. A bracket that is never closed ends
+/// the search, and the rest of the text is kept without it.
 fn remove_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -29,6 +39,11 @@ fn remove_links(text: &str) -> String {
 
 /// Declares a struct of scene files. `as "Name"` is its name in scene files; a field with `= value`
 /// may be left out. If every field has a default, so has the struct.
+///
+/// The first rule matches structs whose fields all have defaults and adds `impl Default`; the
+/// second matches any other; `@declare` is the common part. Fields are read in the order of their
+/// declaration and all of them before the first `?`, so that every mistake in the struct is
+/// reported.
 macro_rules! scene_struct {
     (
         $(#[doc = $doc:literal])*
@@ -113,6 +128,9 @@ macro_rules! scene_struct {
 }
 
 /// Declares an enum of scene files, whose variants have no value, fields, or one value.
+///
+/// The generated reader calls `close_variant` on every path, whether or not the variant could be
+/// read.
 macro_rules! scene_enum {
     (
         $(#[doc = $doc:literal])*
@@ -183,7 +201,7 @@ macro_rules! scene_enum {
     };
 }
 
-/// The entry of a field.
+/// Makes the declaration of a field. With a default it is optional; without, its type decides.
 macro_rules! field_entry {
     ([$($doc:literal)*] $field:ident: $type:ty = $default:expr) => {
         $crate::scene::schema::FieldEntry {
@@ -203,7 +221,8 @@ macro_rules! field_entry {
     };
 }
 
-/// Makes the value of a field that is left out.
+/// Makes the function that returns the value of a field that is left out: the given default, or the
+/// type's own answer, which is `None` for required fields.
 macro_rules! default_value {
     ($type:ty = $default:expr) => {
         || -> Option<$type> { Some($default) }
@@ -213,6 +232,7 @@ macro_rules! default_value {
     };
 }
 
+/// Makes the optional type of the value in a variant's brackets.
 macro_rules! inner_type {
     () => {
         None
@@ -222,7 +242,10 @@ macro_rules! inner_type {
     };
 }
 
-/// Reads a variant behind its name.
+/// Reads the content of a variant: nothing, fields, or one value.
+///
+/// The labeled block replaces `?`, which would return from the whole reader before the variant is
+/// closed.
 macro_rules! scene_variant {
     ($read:ident, $checker:ident, $name:ident, $variant:ident) => {
         $read.expect_empty($checker).then_some($name::$variant)

@@ -1,15 +1,22 @@
-//! Where in a scene a field or a variant belongs, found in the declarations.
+//! Search in the declarations: the position in a scene at which a field or a variant belongs.
+//!
+//! Suggestions are written from the scene's own brackets on, such as `camera: (projection:
+//! Perspective(fov_y_degrees: …))`, so that they can be pasted. Positions are found by
+//! breadth-first search over the types: the shortest path to each type is its example.
 
 use super::{Shape, TypeEntry, ValueType};
 use std::collections::BTreeSet;
 
-/// A struct or a variant, and how a scene is written down to its brackets.
+/// A pair of brackets in the language: a struct, an enum or a variant, with the text of a scene up
+/// to it.
 struct Site {
     /// `Model`, or `View::LookAt`.
     owner: String,
-    /// The text before and behind what stands in its brackets, from the scene's own brackets on.
+    /// The text of a scene up to its brackets, such as `camera: (view: LookAt(`.
     before: String,
+    /// The closing brackets that end the scene behind it.
     after: String,
+    /// The names of its fields.
     fields: Vec<&'static str>,
     /// The words that are possible here, for an enum.
     variants: Vec<&'static str>,
@@ -17,6 +24,8 @@ struct Site {
 
 /// The fields that `is_meant` accepts, each with its owner such as `Model` or `View::LookAt`, those
 /// nearest to the scene's own brackets first.
+///
+/// Each call walks the whole language, a few hundred fields: it runs only for messages.
 pub(in crate::scene) fn fields_where(
     root: &'static TypeEntry,
     is_meant: impl Fn(&str) -> bool,
@@ -31,6 +40,8 @@ pub(in crate::scene) fn fields_where(
 
 /// How a field or a variant is written in a scene, from the scene's own brackets on: `camera:
 /// (view: LookAt(eye: …))`. `None` if the owner has none of this name.
+///
+/// A variant that has fields or a value is shown with brackets, `Frame(…)`, another one without.
 pub(in crate::scene) fn example_of(
     root: &'static TypeEntry,
     owner: &str,
@@ -51,6 +62,9 @@ pub(in crate::scene) fn example_of(
 }
 
 /// Every struct and variant with brackets, each at its shortest path from the root.
+///
+/// Breadth first, one queue for each depth. A type is entered once, at its first and therefore
+/// shortest path; this also ends cycles, if types should ever refer to each other.
 fn sites(root: &'static TypeEntry) -> Vec<Site> {
     let mut sites: Vec<Site> = Vec::new();
     let mut seen = BTreeSet::new();
@@ -67,8 +81,11 @@ fn sites(root: &'static TypeEntry) -> Vec<Site> {
     }
     sites
 }
-/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
 
+/// Adds the struct or enum of an entry with its variants, and queues the types of their fields.
+///
+/// Variants come before their enum in the list. A variant without brackets has no site of its own,
+/// and is found as a word of the enum.
 fn add_sites(
     entry: &'static TypeEntry,
     before: &str,
@@ -120,6 +137,9 @@ fn add_sites(
 }
 
 /// The declared types of a field's value, each with the text around what stands in its brackets.
+///
+/// A list opens a square bracket, a struct a round one; enums open theirs behind the name of the
+/// variant. Types in tuples are not followed: they are numbers.
 fn opened(
     value_type: &ValueType,
     before: &str,

@@ -8,6 +8,9 @@ use super::{Checker, SceneValue, ValueType};
 use crate::scene::syntax::{Node, NodeKind, parse_integer, parse_number, unescape_string};
 
 /// Declares a number type that only admits some values. `"…"` names them in messages.
+///
+/// The number is finite and satisfies `$allowed`; the type is a new one for each range, so that
+/// resolution needs no checks. The doc comment is the entry in the reference.
 macro_rules! checked_number {
     ($(#[doc = $doc:literal])* $name:ident, $expected:literal, $allowed:expr) => {
         $(#[doc = $doc])*
@@ -64,6 +67,9 @@ pub(crate) use checked_number;
 
 impl Checker<'_> {
     /// A number of any value; `expected` names the numbers that are possible.
+    ///
+    /// A number in quotation marks gets a help of its own. Infinities and NaN parse here and are
+    /// refused by the range.
     pub(in crate::scene) fn read_number(&mut self, node: &Node<'_>, expected: &str) -> Option<f64> {
         if let NodeKind::Number(word) = node.kind {
             let number = parse_number(word);
@@ -82,6 +88,9 @@ impl Checker<'_> {
     }
 
     /// A whole number from 0 to `most`.
+    ///
+    /// Decimal, hexadecimal, octal and binary, with underscores, as in RON. `4.0` is refused with
+    /// the hint to leave out the decimal point.
     fn read_integer(&mut self, node: &Node<'_>, most: u64) -> Option<u64> {
         let help = || Some("such as 4".to_owned());
         let NodeKind::Number(word) = node.kind else {
@@ -211,6 +220,9 @@ impl<T: SceneValue> SceneValue for Vec<T> {
 }
 
 /// The elements of a tuple of `count` values, in brackets of either kind.
+///
+/// Round and square brackets are both accepted, since vectors are written either way by hand; a
+/// name before the bracket is not.
 fn tuple_items<'n, 'a>(
     node: &'n Node<'a>,
     count: usize,
@@ -230,6 +242,8 @@ fn tuple_items<'n, 'a>(
     Some(&group.items)
 }
 
+/// Implements [`SceneValue`] for a tuple of `$count` values. All elements are read before the first
+/// missing one ends it, so that each mistake is reported.
 macro_rules! tuple_value {
     ($count:literal: $($type:ident $value:ident $index:literal),*) => {
         impl<$($type: SceneValue),*> SceneValue for ($($type,)*) {

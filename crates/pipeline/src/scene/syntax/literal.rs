@@ -55,8 +55,8 @@ fn unescape_character(rest: &str) -> Result<(Option<char>, usize), &'static str>
         _ => Err("there is no such escape: a backslash is written \\\\"),
     }
 }
-/// Whether there are digits, and all of them are hexadecimal.
 
+/// Whether there are digits, and all of them are hexadecimal.
 fn is_hexadecimal(digits: &str) -> bool {
     !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_hexdigit())
 }

@@ -20,8 +20,8 @@ use core::ops::Range;
 
 /// Groups are nested this deep at most, so that no text overflows the stack.
 const MAX_DEPTH: usize = 128;
-/// The help for files that are no scenes at all.
 
+/// The help for files that are no scenes at all.
 pub(in crate::scene) const SAMPLE_SCENE: &str =
     "a scene looks like this: Scene(models: [(path: \"model.glb\")])";
 
@@ -37,10 +37,8 @@ pub(in crate::scene) struct SyntaxTree<'a> {
 
 /// Parses the text of a scene file.
 pub(in crate::scene) fn parse_tree(source: &str) -> SyntaxTree<'_> {
-    let is_code = |token: &Token<'_>| match token.kind {
-        TokenKind::LineComment | TokenKind::BlockComment => false,
-        _ => true,
-    };
+    let is_code =
+        |token: &Token<'_>| !matches!(token.kind, TokenKind::LineComment | TokenKind::BlockComment);
     let tokens = tokenize(source);
     let mut parser = Parser {
         source,
@@ -56,8 +54,8 @@ pub(in crate::scene) fn parse_tree(source: &str) -> SyntaxTree<'_> {
     let Parser { errors, is_unreliable, .. } = parser;
     SyntaxTree { root, errors, is_unreliable }
 }
-/// The state of the parser: a position among the tokens, and the brackets that are open.
 
+/// The state of the parser: a position among the tokens, and the brackets that are open.
 struct Parser<'a> {
     source: &'a str,
     /// The tokens without comments and attributes.
@@ -77,8 +75,8 @@ impl<'a> Parser<'a> {
     fn peek(&self) -> Option<Token<'a>> {
         self.tokens.get(self.at).copied()
     }
-    /// The kind of the next token.
 
+    /// The kind of the next token.
     fn peek_kind(&self) -> Option<TokenKind> {
         self.peek().map(|token| token.kind)
     }
@@ -89,8 +87,8 @@ impl<'a> Parser<'a> {
         self.at += usize::from(found);
         found
     }
-    /// Reports an error of grammar.
 
+    /// Reports an error of grammar.
     fn report(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(Mistake::new(span, message, Some(help.into())));
     }
@@ -337,8 +335,8 @@ impl<'a> Parser<'a> {
         }
     }
 }
-/// Whether a word is a string literal, plain or raw.
 
+/// Whether a word is a string literal, plain or raw.
 fn is_string(word: &str) -> bool {
     word.starts_with('"')
         || (word.starts_with('r')
@@ -356,17 +354,17 @@ fn is_terminated_string(word: &str) -> bool {
     // An odd number of backslashes escapes the last quotation mark.
     body.is_some_and(|body| (body.len() - body.trim_end_matches('\\').len()) % 2 == 0)
 }
+
 /// Whether a word can be a name. Hyphens are accepted, so that `camera-position` is an unknown
 /// field and not an error of grammar.
-
 fn is_identifier(word: &str) -> bool {
     let word = word.strip_prefix("r#").unwrap_or(word);
     word.starts_with(|c: char| c.is_alphabetic() || c == '_')
         && word.chars().all(|c| c.is_alphanumeric() || "_-".contains(c))
         && !matches!(word, "inf" | "NaN")
 }
-/// The bracket that closes `open`.
 
+/// The bracket that closes `open`.
 fn closing(open: &str) -> &'static str {
     match open {
         "[" => "]",

@@ -9,8 +9,8 @@ pub(in crate::scene) struct LegacyWord {
     pub(in crate::scene) old: &'static str,
     pub(in crate::scene) new: &'static str,
 }
-/// A row of the table.
 
+/// A row of the table.
 const fn word(owner: &'static str, old: &'static str, new: &'static str) -> LegacyWord {
     LegacyWord { owner, old, new }
 }

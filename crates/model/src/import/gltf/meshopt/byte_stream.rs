@@ -1,4 +1,7 @@
 //! Byte streams of the meshopt codecs: bounds-checked reading from both ends.
+//!
+//! Streams are untrusted: every read is checked, and each error is a variant of its own, because
+//! the message is all that helps to find the faulty encoder.
 
 /// The reason why a stream is invalid.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
@@ -27,10 +30,14 @@ pub(super) enum StreamError {
 }
 
 /// The bytes of a stream that have not been read.
+///
+/// Reads from the front and from the back meet in the middle; [`ByteStream::expect_end`] requires
+/// that nothing is left between them.
 #[derive(Clone, Debug)]
 pub(super) struct ByteStream<'a>(&'a [u8]);
 
 impl<'a> ByteStream<'a> {
+    /// A stream of which nothing has been read.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self(bytes)
     }
@@ -59,6 +66,10 @@ impl<'a> ByteStream<'a> {
 
     /// A variable-length integer (LEB128): seven bits a byte, the lowest first; the highest bit of
     /// a byte says that another follows.
+    ///
+    /// # Errors
+    /// [`StreamError::Number`] if a fifth byte announces a sixth; [`StreamError::Short`] at the
+    /// end.
     pub(super) fn read_varint(&mut self) -> Result<u32, StreamError> {
         let mut number = 0;
         for shift in [0, 7, 14, 21, 28] {
@@ -83,11 +94,15 @@ impl<'a> ByteStream<'a> {
 }
 
 /// Decodes a zigzag-coded difference, whose sign is its lowest bit: 0, −1, 1, −2, 2, …
+///
+/// The result is the two's complement of a negative difference, for a wrapping addition.
 pub(super) fn decode_zigzag(number: u32) -> u32 {
     if number & 1 == 0 { number >> 1 } else { !(number >> 1) }
 }
 
 /// Appends an index of two or four bytes; two bytes hold its lower half.
+///
+/// `stride` is 2 or 4. Indices of two bytes are less than 65536 in a valid stream.
 pub(super) fn push_index(indices: &mut Vec<u8>, index: u32, stride: usize) {
     indices.extend(&index.to_le_bytes()[..stride]);
 }

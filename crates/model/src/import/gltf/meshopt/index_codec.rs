@@ -14,6 +14,13 @@
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
 /// Decodes indices of `stride` bytes, which is 2 or 4; `count` is a multiple of three.
+///
+/// The 16 bytes at the end are the table of common codes for two vertices. The time is linear in
+/// `count`.
+///
+/// # Errors
+/// The header or the table is invalid, a code refers to an edge or vertex before the first, or the
+/// stream has the wrong length.
 pub(super) fn decode_triangles(
     stream: &[u8],
     count: usize,
@@ -29,7 +36,7 @@ pub(super) fn decode_triangles(
     if table.iter().any(is_wrong) || table[14..] != [0, 0] {
         return Err(StreamError::Table);
     }
-    // Each triangle has one byte at least: what is too short is known before there is an array.
+    // A triangle takes at least one byte: short streams are rejected before allocation.
     let codes = data.take_front(count / 3)?;
     let mut triangles = TriangleDecoder {
         data,
@@ -49,6 +56,9 @@ pub(super) fn decode_triangles(
 }
 
 /// State of the decoder.
+///
+/// Encoder and decoder update both FIFOs in the same order, so that positions in them identify
+/// recent edges and vertices.
 struct TriangleDecoder<'a> {
     data: ByteStream<'a>,
     /// The next index if vertices are used in order of their first appearance.
@@ -63,6 +73,9 @@ struct TriangleDecoder<'a> {
 
 impl TriangleDecoder<'_> {
     /// Decodes the triangle of one code byte.
+    ///
+    /// The high half of the code decides between a shared edge and three vertices; see the figure
+    /// of the module.
     fn decode_triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], StreamError> {
         match (code >> 4, code & 15) {
             (15, 14) => {
@@ -94,6 +107,9 @@ impl TriangleDecoder<'_> {
     }
 
     /// A triangle on a recent edge.
+    ///
+    /// Two edges are pushed, those that the next triangle can share: the third is the shared one. A
+    /// vertex that comes from the FIFO is not pushed again.
     fn decode_edge_triangle(&mut self, edge: u8, third: u8) -> Result<[u32; 3], StreamError> {
         let (a, b) = self.edge_fifo.nth_newest(edge)?;
         let c = match third {
@@ -113,6 +129,9 @@ impl TriangleDecoder<'_> {
 
     /// A triangle without a shared edge; the two halves of `corners` encode its second and third
     /// vertex.
+    ///
+    /// All three edges are pushed, in the opposite direction, in which a neighbouring triangle has
+    /// them.
     fn decode_free_triangle(&mut self, a: u32, corners: u8) -> Result<[u32; 3], StreamError> {
         let (second, third) = (corners >> 4, corners & 15);
         let b = self.decode_corner(second)?;
@@ -159,9 +178,13 @@ impl TriangleDecoder<'_> {
 }
 
 /// FIFO of the last sixteen items of a sequence.
+///
+/// A ring buffer: index `newest` is the last item, and older ones precede it, modulo 16.
 #[derive(Default)]
 struct RecentFifo<T> {
+    /// The items; `None` for those not yet written.
     items: [Option<T>; 16],
+    /// Index of the newest item.
     newest: usize,
 }
 
@@ -173,6 +196,9 @@ impl<T: Copy> RecentFifo<T> {
     }
 
     /// The item that was pushed `steps` before the newest.
+    ///
+    /// # Errors
+    /// [`StreamError::Unwritten`] if fewer items have been pushed.
     fn nth_newest(&self, steps: u8) -> Result<T, StreamError> {
         let at = (self.newest + 16 - usize::from(steps % 16)) % 16;
         self.items[at].ok_or(StreamError::Unwritten)

@@ -1,8 +1,20 @@
 //! meshopt mode INDICES: each index is the difference to one of two baselines.
+//!
+//! Line lists and strips alternate between distant vertices; two baselines follow one each. A
+//! number has the baseline in its lowest bit and a zigzag-coded difference above it:
+//!
+//! ```text
+//!  varint  d d d d d s b     b: baseline 0 or 1    s: sign    d: difference
+//! ```
 
 use super::byte_stream::{ByteStream, StreamError, decode_zigzag, push_index};
 
 /// Decodes indices of `stride` bytes, which is 2 or 4.
+///
+/// The last four bytes are padding of the format, which lets other decoders read beyond an index.
+///
+/// # Errors
+/// The header is unknown, the stream ends too early, or bytes are left at its end.
 pub(super) fn decode_index_sequence(
     stream: &[u8],
     count: usize,
@@ -14,7 +26,7 @@ pub(super) fn decode_index_sequence(
         other => return Err(StreamError::Header(other)),
     }
     stream.take_back(4)?;
-    // Each index has at least one byte: what is too short is known before there is an array.
+    // An index takes at least one byte: short streams are rejected before allocation.
     if stream.len() < count {
         return Err(StreamError::Short);
     }

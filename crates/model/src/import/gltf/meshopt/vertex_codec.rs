@@ -11,16 +11,29 @@
 //! difference follows in a byte after the group. Version 1 adds channels of four bytes whose deltas
 //! are bytes, 16-bit words or 32-bit exclusive ors, and controls that store bytes uncompressed or
 //! not at all.
+//!
+//! The format is specified in KHR_meshopt_compression and EXT_meshopt_compression (version 0 of the
+//! attribute codec is EXT, version 1 is KHR). Storing by byte position instead of by element groups
+//! similar values: high bytes change rarely, so that most of their groups take 0 bits a difference.
 
 use super::byte_stream::{ByteStream, StreamError};
 
 /// Elements of one group.
+///
+/// It is fixed by the format; with four bits each, a group is one 64-bit word.
 const BYTE_GROUP_SIZE: usize = 16;
 
 /// The most elements of one block.
+///
+/// A block has at most 8192 bytes, so that long elements have fewer in a block.
 const VERTEX_BLOCK_MAX_SIZE: usize = 256;
 
 /// Decodes elements of `stride` bytes: a multiple of four up to 256.
+///
+/// The time and memory are linear in `count * stride`, which the caller has charged to the budget.
+///
+/// # Errors
+/// The header or a channel mode is unknown, the stream is too short, or bytes are left at its end.
 pub(super) fn decode_vertices(
     stream: &[u8],
     count: usize,
@@ -42,8 +55,8 @@ pub(super) fn decode_vertices(
     };
     let block_elements =
         (8192 / stride / BYTE_GROUP_SIZE * BYTE_GROUP_SIZE).min(VERTEX_BLOCK_MAX_SIZE);
-    // Each block has a byte for each channel at least: what is far too short is known before there
-    // is an array.
+    // A block takes at least one byte for each channel: streams that are far too short are
+    // rejected before allocation.
     if stream.len() < count.div_ceil(block_elements).saturating_mul(stride / 4) {
         return Err(StreamError::Short);
     }
@@ -59,6 +72,12 @@ pub(super) fn decode_vertices(
 }
 
 /// Decodes one block into `elements`; `before` is the element before it.
+///
+/// The deltas of four neighbouring bytes are decoded together, because a channel combines them.
+/// Deltas accumulate: each element is decoded from the one before it.
+///
+/// # Errors
+/// The stream ends within the block.
 fn decode_vertex_block(
     stream: &mut ByteStream<'_>,
     controls: Option<&[u8]>,
@@ -91,6 +110,10 @@ fn decode_vertex_block(
 }
 
 /// Reads the deltas of one byte of all elements of a block; `deltas` has space for whole groups.
+///
+/// `control` is the two-bit control of version 1: 0 and 1 choose between two sets of bit widths, 2
+/// means all zeros, 3 uncompressed bytes. Version 0 has none, and a set of widths of its own. The
+/// header has two bits for each group, padded to whole bytes.
 fn decode_byte_deltas(
     stream: &mut ByteStream<'_>,
     control: Option<u8>,
@@ -120,6 +143,9 @@ fn decode_byte_deltas(
 }
 
 /// Unpacks a group of sixteen deltas of 0, 1, 2, 4 or 8 bits.
+///
+/// With 1, 2 or 4 bits, the largest value is an escape: the delta is the next byte after the packed
+/// ones. With 8 bits every value is literal.
 fn decode_byte_group(
     stream: &mut ByteStream<'_>,
     bits: usize,
@@ -144,18 +170,23 @@ fn decode_byte_group(
 }
 
 /// Interpretation of a delta of four bytes.
+///
+/// Version 0 has only bytes. 16-bit words suit quantized attributes, and exclusive ors suit floats,
+/// in which neighbours share sign and exponent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum DeltaChannel {
     /// Four zigzag-coded differences of bytes.
     Bytes8,
     /// Two zigzag-coded differences of 16-bit words.
     Words16,
-    /// The exclusive or of two 32-bit words, rotated left by so many bits.
+    /// The exclusive or of two 32-bit words, rotated left by this number of bits.
     Xor32(u32),
 }
 
 impl DeltaChannel {
     /// The channel that a mode byte declares.
+    ///
+    /// The low half is the kind, the high half the rotation of an exclusive or.
     fn new(mode: u8) -> Result<Self, StreamError> {
         match (mode >> 4, mode & 15) {
             (0, 0) => Ok(Self::Bytes8),
@@ -166,6 +197,9 @@ impl DeltaChannel {
     }
 
     /// The value that a delta makes of the one before it.
+    ///
+    /// Zigzag coding maps 0, −1, 1, −2, … to 0, 1, 2, 3, …, so that small differences of either
+    /// sign have few bits. All arithmetic wraps, as in the encoder.
     fn apply_delta(self, before: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
         match self {
             Self::Bytes8 => std::array::from_fn(|at| {

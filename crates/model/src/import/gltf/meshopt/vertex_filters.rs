@@ -3,11 +3,24 @@
 //!
 //! The specification leaves open what values out of its range become; here they become some number
 //! of the type, without a panic.
+//!
+//! A filter is applied after decompression, and widens quantized values to the component type of
+//! the accessor:
+//!
+//! ```text
+//!  Octahedral   x, y, 1 in n bits, free   ──► unit vector of 8 or 16 bits, normalized integers
+//!  Quaternion   a, b, c, 1 with index     ──► quaternion of 16 bits, normalized integers
+//!  Exponential  8-bit exponent, mantissa  ──► 32-bit float
+//!  Color        Y, Co, Cg, alpha          ──► RGBA of 8 or 16 bits
+//! ```
 
 use super::MeshoptFilter;
 
 impl MeshoptFilter {
     /// Applies the filter to all elements in place.
+    ///
+    /// `stride` is the size of an element in bytes, and decides between 8 and 16 bits where a
+    /// filter has both.
     pub(super) fn apply_filter(self, bytes: &mut [u8], stride: usize) {
         match (self, stride) {
             (Self::None, _) => {}
@@ -34,12 +47,16 @@ impl MeshoptFilter {
     }
 }
 
-/// A unit vector from octahedral coordinates (Meyer et al. 2010); `one` represents 1 in full width.
+/// A unit vector from octahedral coordinates (Meyer et al. 2010); `full_scale` represents 1 in the
+/// result.
+///
+/// The octahedron |x| + |y| + |z| = 1 is unfolded into a square; `unit` is the value that stands
+/// for 1 in x and y. The fourth component passes through.
 fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4] {
     let unit_length = f32::from(unit);
     let (x, y) = (f32::from(x) / unit_length, f32::from(y) / unit_length);
     let z = 1.0 - x.abs() - y.abs();
-    // The lower half is folded out over the corners of the square.
+    // The lower half of the octahedron is unfolded over the corners of the square.
     let fold = z.min(0.0);
     let (x, y) = (x - fold.copysign(x), y - fold.copysign(y));
     let scale = full_scale / (x * x + y * y + z * z).sqrt();
@@ -48,6 +65,10 @@ fn decode_octahedral([x, y, unit, fourth]: [i16; 4], full_scale: f32) -> [i16; 4
 }
 
 /// A rotation from its three smaller components, scaled by √2, and the index of the largest.
+///
+/// The largest component follows from the unit length: √(1 − a² − b² − c²), and is positive,
+/// because q and −q are the same rotation. Its index is in the lowest two bits of the fourth
+/// number.
 fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
     let step = std::f32::consts::FRAC_1_SQRT_2 / f32::from(scale | 3);
     let [a, b, c] = [a, b, c].map(|x| f32::from(x) * step);
@@ -58,13 +79,18 @@ fn decode_quaternion([a, b, c, scale]: [i16; 4]) -> [i16; 4] {
 }
 
 /// A float from an exponent of 8 bits and a mantissa of 24, both signed.
+///
+/// The value is mantissa · 2^exponent. The power is composed from its bits in double precision,
+/// which covers all 256 exponents without rounding.
 fn decode_exponential(number: i32) -> f32 {
     let (exponent, mantissa) = (number >> 24, number << 8 >> 8);
     let power = f64::from_bits(((1023 + i64::from(exponent)).cast_unsigned()) << 52);
     (power * f64::from(mantissa)) as f32
 }
 
-/// RGBA from YCoCg and alpha; the highest bit of alpha tells how many bits all of them have.
+/// RGBA from YCoCg and alpha; the highest bit set in alpha gives the common bit depth of all four.
+///
+/// YCoCg decorrelates colors with additions alone: R = Y + Co − Cg, G = Y + Cg, B = Y − Co − Cg.
 fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
     let all = match alpha {
         ..=0 => 1,
@@ -78,6 +104,9 @@ fn decode_color([y, co, cg, alpha]: [i32; 4], full_scale: f32) -> [u16; 4] {
 }
 
 /// Replaces each `N` numbers in a slice of bytes.
+///
+/// Incomplete bytes at the end are left unchanged. Both arrays of `N` numbers have the same size in
+/// bytes.
 fn map_elements<const N: usize, A: Number, B: Number>(
     bytes: &mut [u8],
     filter: impl Fn([A; N]) -> [B; N],
@@ -94,7 +123,9 @@ fn map_elements<const N: usize, A: Number, B: Number>(
 trait Number: Copy {
     /// Its bytes.
     const SIZE: usize;
+    /// Decodes a number from the first bytes of a slice.
     fn read(bytes: &[u8]) -> Self;
+    /// Encodes the number into the first bytes of a slice.
     fn write(self, bytes: &mut [u8]);
 }
 
