@@ -191,7 +191,8 @@ impl Sequence {
     /// block, on a pipe for example: workers then stop at the limit. A poisoned lock is entered all
     /// the same, because the queue is consistent after every statement.
     ///
-    /// # Errors If a frame cannot be rendered, or the sink fails; no further frame is started then.
+    /// # Errors
+    /// If a frame cannot be rendered, or the sink fails; no further frame is started then.
     pub fn render_frames<E>(
         &self,
         threads: usize,

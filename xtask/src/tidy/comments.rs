@@ -8,12 +8,12 @@ use std::collections::BTreeSet;
 /// The width of code, and of comments, in columns.
 const MAX_COLUMNS: usize = 100;
 /// Wider comment lines that remain; this number may only fall.
-const WIDE_LINES_LEFT: usize = 1100;
+const WIDE_LINES_LEFT: usize = 700;
 
 /// Openings that say nothing before the reader has looked up another item.
 const EMPTY_OPENINGS: [&str; 2] = ["What ", "The same "];
 /// Doc lines with such an opening that remain; this number may only fall.
-const EMPTY_OPENINGS_LEFT: usize = 400;
+const EMPTY_OPENINGS_LEFT: usize = 300;
 
 /// The file that lists the formulas.
 const FORMULAS: &str = "docs/formulas.md";

@@ -6,11 +6,7 @@ use super::source::Source;
 use std::collections::BTreeMap;
 
 /// Type names that may be declared more than once in a crate, with the reason. At most eight.
-const REPEATED_TYPES: &[(&str, &str, &str)] = &[(
-    "pipeline",
-    "Item",
-    "an entry of an explanation, and a node of the tree that the formatter of scene files prints",
-)];
+const REPEATED_TYPES: &[(&str, &str, &str)] = &[];
 
 /// The most functions of all crates that may be called `of`: nobody can search for that name.
 const MAX_FUNCTIONS_NAMED_OF: usize = 15;

@@ -106,7 +106,8 @@ impl ApiConventions {
     /// The depth range of OpenGL maps −1 … +1 to 0 … 1 as `glDepthRange(0, 1)` does; conventions
     /// with NDC z in 0 … 1 pass z through unchanged.
     ///
-    /// # Errors If width or height is 0.
+    /// # Errors
+    /// If width or height is 0.
     pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
         let (pixels, depth) = match self {
             Self::Alberti => (PixelConvention::IMAGE, DepthRange::ZERO_ONE),

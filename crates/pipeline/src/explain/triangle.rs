@@ -40,12 +40,10 @@ pub fn explain_triangle(
         return Err(format!("primitive {primitive} has no triangles, but points or lines"));
     }
     let triangles = shown.indices.as_chunks::<3>().0;
-    let indices = *triangles.get(triangle_index).ok_or_else(|| {
-        let count = triangles.len();
-        format!(
-            "primitive {primitive} has {count} triangles; there is no triangle {triangle_index}"
-        )
-    })?;
+    let (triangle, count) = (triangle_index, triangles.len());
+    let missing =
+        || format!("primitive {primitive} has {count} triangles; there is no triangle {triangle}");
+    let indices = *triangles.get(triangle_index).ok_or_else(missing)?;
     let skinned = model_instance.model.skin_primitive(instance, shown);
     let mesh = indices.map(|at| model_point(skinned.positions[at as usize]));
     let to_world = skinned.to_model.then(model_instance.model_to_world);

@@ -62,7 +62,8 @@ fn background_error(
 /// shows where the image does not cover the frame, and automatic line colors are chosen to contrast
 /// with it.
 ///
-/// # Errors If the background is the environment, and the scene has none.
+/// # Errors
+/// If the background is the environment, and the scene has none.
 pub(super) fn resolve_background_color(
     origin: &Origin,
     file: &SceneFile,
@@ -92,7 +93,8 @@ pub(super) fn resolve_background_color(
 /// The linear gradient of `colors` in the direction `angle`, in radians, over an image of width ×
 /// height pixels.
 ///
-/// # Errors If there are fewer than 2 or more than 16 colors.
+/// # Errors
+/// If there are fewer than 2 or more than 16 colors.
 fn resolve_gradient(
     origin: &Origin,
     colors: &[Color],
@@ -113,7 +115,8 @@ fn resolve_gradient(
 /// The image is decoded and fitted to the frame once; renderers share it. An image file may lie in
 /// one of the `allowed` folders too.
 ///
-/// # Errors If the file is outside of the allowed folders, cannot be read, is too large or not an
+/// # Errors
+/// If the file is outside of the allowed folders, cannot be read, is too large or not an
 /// image.
 pub(super) fn resolve_backdrop(
     origin: &Origin,

@@ -36,7 +36,8 @@ pub struct CameraPath {
 impl CameraPath {
     /// The camera path of a scene file; `None` without one.
     ///
-    /// # Errors If there are fewer than 2 or more than 10 000 keys, their times do not increase, or
+    /// # Errors
+    /// If there are fewer than 2 or more than 10 000 keys, their times do not increase, or
     /// a key has a field of view and the projection has none; the error points at it.
     pub fn from_scene_file(origin: &Origin, file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(path) = &file.camera_path else { return Ok(None) };
@@ -102,7 +103,8 @@ impl CameraPath {
 
     /// The view-projection at a time in seconds, around models that are loaded and posed.
     ///
-    /// # Errors If eye and target coincide, or up is parallel to the gaze, between keys for
+    /// # Errors
+    /// If eye and target coincide, or up is parallel to the gaze, between keys for
     /// example; the message gives the time.
     pub(crate) fn view_projection_at(
         &self,

@@ -35,7 +35,8 @@ impl CameraResolver<'_> {
     /// projection by a picture plane is at the center of the models: parallel projections do not
     /// depend on where it stands.
     ///
-    /// # Errors If the parameters are impossible, there is nothing to draw, or a vertex is behind
+    /// # Errors
+    /// If the parameters are impossible, there is nothing to draw, or a vertex is behind
     /// the eye.
     pub(super) fn frame_classical(
         &self,
@@ -56,7 +57,8 @@ impl CameraResolver<'_> {
     /// A classical projection for a camera whose position is given; the window is fitted with a
     /// margin of 5 %.
     ///
-    /// # Errors For perspectives by vanishing points, whose eye follows from their points.
+    /// # Errors
+    /// For perspectives by vanishing points, whose eye follows from their points.
     pub(super) fn project_classical(
         &self,
         camera: Camera,

@@ -32,7 +32,7 @@ impl DepthSpan {
     /// Near and far planes of a perspective: tight around the vertices with a margin of 1 %.
     ///
     /// The near plane is at least 1e-5 of the far distance away from the eye, because depth
-    /// resolution falls with the ratio of the two (PE-6). Given planes are used unchanged; the
+    /// resolution falls with the ratio of the two (ZP-1). Given planes are used unchanged; the
     /// result always has near < far unless both are given.
     pub(crate) fn perspective_planes(self, near: Option<f64>, far: Option<f64>) -> (f64, f64) {
         let farthest =

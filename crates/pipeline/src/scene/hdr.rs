@@ -33,7 +33,8 @@ impl Panorama {
     /// grows with the rows that are really in the file: a short file with a large header cannot
     /// demand more.
     ///
-    /// # Errors A description of the first error in the file.
+    /// # Errors
+    /// A description of the first error in the file.
     pub(crate) fn decode_hdr(bytes: &[u8]) -> Result<Self, String> {
         let (width, height, data) = parse_hdr_header(bytes)?;
         let fits = |side: usize| (1..=MAX_HDR_SIDE).contains(&side);

@@ -197,7 +197,8 @@ impl IncludeResolver<'_> {
     ///
     /// A file may be included several times, but not by itself: the message shows the cycle.
     ///
-    /// # Errors Message and help, if the path leaves the allowed folders, there are too many files,
+    /// # Errors
+    /// Message and help, if the path leaves the allowed folders, there are too many files,
     /// the file cannot be read, or it is being read already.
     fn load_include(
         &mut self,

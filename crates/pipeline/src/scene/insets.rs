@@ -45,7 +45,8 @@ pub struct Inset {
 ///
 /// Models are shared with the main view, not loaded again.
 ///
-/// # Errors If a rectangle is outside of the picture, or the scene of an inset cannot be resolved;
+/// # Errors
+/// If a rectangle is outside of the picture, or the scene of an inset cannot be resolved;
 /// the error points into the viewport.
 pub(super) fn resolve_insets(
     origin: &Origin,
@@ -96,7 +97,8 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
 /// Fractions are rounded edge by edge and not as a size, so that adjacent viewports neither overlap
 /// nor leave a gap.
 ///
-/// # Errors If both forms or neither are given, or the rectangle is empty or exceeds the picture.
+/// # Errors
+/// If both forms or neither are given, or the rectangle is empty or exceeds the picture.
 pub(super) fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
@@ -169,7 +171,8 @@ pub(super) fn resolve_border(
 /// Each eye is half the eye distance from the camera. Points on the convergence plane have equal
 /// images in both and appear at the depth of the screen.
 ///
-/// # Errors With viewports, in a picture one pixel wide, in a parallel projection, or if the models
+/// # Errors
+/// With viewports, in a picture one pixel wide, in a parallel projection, or if the models
 /// are behind the camera.
 fn resolve_stereo(
     origin: &Origin,

@@ -25,7 +25,8 @@ type InstanceTransform = Affine<ModelSpace, ModelSpace>;
 /// Checks the number of instances before anything is loaded. Products saturate, so that counts of 4
 /// billion along each axis do not wrap around to a small number.
 ///
-/// # Errors If a model has no instances, or the scene more than [`MAX_INSTANCES`].
+/// # Errors
+/// If a model has no instances, or the scene more than [`MAX_INSTANCES`].
 pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
     let mut total = 0_usize;
     for (number, entry) in file.models.iter().enumerate() {
@@ -89,7 +90,8 @@ fn checked_instance_count(
 /// model_to_world = T · I · R · S: the model's scale and rotation, the transform of the instance,
 /// the model's translation.
 ///
-/// # Errors If the instances have too many vertices together, or the axis of a circle is 0.
+/// # Errors
+/// If the instances have too many vertices together, or the axis of a circle is 0.
 pub(super) fn instantiate_model(
     origin: &Origin,
     number: usize,

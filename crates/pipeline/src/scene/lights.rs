@@ -97,7 +97,8 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
 /// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
 /// them. Numbers become f32 here, the precision of shading.
 ///
-/// # Errors If the direction is 0, the cone is impossible, or the shadow settings are.
+/// # Errors
+/// If the direction is 0, the cone is impossible, or the shadow settings are.
 fn resolve_light(
     origin: &Origin,
     index: usize,
@@ -166,7 +167,8 @@ impl LightFile {
 
 /// The unit vector in world space in which a light travels, from the light to the scene.
 ///
-/// # Errors If it is (0, 0, 0).
+/// # Errors
+/// If it is (0, 0, 0).
 fn resolve_direction(
     origin: &Origin,
     index: usize,
@@ -184,7 +186,8 @@ fn resolve_direction(
 /// Intensity falls from the inner to the outer angle. The angles are half angles, as in
 /// KHR_lights_punctual.
 ///
-/// # Errors Unless 0° ≤ inner < outer ≤ 90°.
+/// # Errors
+/// Unless 0° ≤ inner < outer ≤ 90°.
 fn resolve_cone(origin: &Origin, index: usize, light: &LightFile) -> Result<[f32; 2], SceneError> {
     let (inner, outer) = match *light {
         LightFile::Spot { inner_cone_degrees, outer_cone_degrees, .. } => {

@@ -105,7 +105,8 @@ impl SweepBase {
     /// | lens | near and slopes | near |
     /// | distance, dolly, angle | the camera | fitted to the models |
     ///
-    /// # Errors If the value is out of range, or camera or frustum refuse it, such as near ≥ far.
+    /// # Errors
+    /// If the value is out of range, or camera or frustum refuse it, such as near ≥ far.
     pub(super) fn view_at(
         &self,
         vary: SweepParameter,

@@ -39,7 +39,7 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
 }
 
 /// A near plane of a perspective far before everything: depth is spent on empty space, for most of
-/// its steps are just behind the near plane (PE-6).
+/// its steps are just behind the near plane (ZP-1).
 ///
 /// Only one warning for the scene, with the distance of its nearest vertex. The suggested plane
 /// lies 1 % before that.

@@ -12,7 +12,7 @@
 
 use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
-use crate::scene::syntax::{Group, SyntaxItem, Key, Node, NodeKind};
+use crate::scene::syntax::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
 use core::fmt::Write as _;
 use core::ops::Range;

@@ -14,7 +14,7 @@
 
 use super::literal::looks_like_number;
 use super::tokens::{Token, TokenKind, tokenize};
-use super::tree::{Group, SyntaxItem, Key, Node, NodeKind};
+use super::tree::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::mistake::Mistake;
 use core::ops::Range;
 
