@@ -64,7 +64,7 @@ fn the_environment_comes_from_the_named_file() {
     assert!(missing.stderr.contains("none.hdr"), "{}", missing.stderr);
     let other = sandbox.run(&["render", "finishes.glb", "--environment", "beach"]);
     assert_eq!(other.code, 2);
-    assert!(other.stderr.contains("studio, sky, none and a .hdr file"), "{}", other.stderr);
+    assert!(other.stderr.contains("studio, sky, none or a .hdr file"), "{}", other.stderr);
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn names_that_meet_are_refused_before_anything_is_drawn() {
             "the pictures of crate.glb and lamp.glb would both be written to all.png",
         ),
         (&["--views", "front,top", "-o", "{stem}.png"], "would both be written to crate.png"),
-        (&["-o", "-"], "2 pictures do not go to the standard output"),
+        (&["-o", "-"], "cannot write 2 pictures to the standard output"),
         (&["-o", "{stm}.png"], "unknown field `{stm}`"),
         (&["-o", "{stem}.tiff"], "has no known extension: .png, .svg or .pdf"),
     ] {

@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn a_lib_has_less_room_than_other_files() {
-        let lines = "//! A.\n".repeat(121);
+        let lines = "//! A.\n".repeat(MAX_LIB_LINES + 1);
         assert_eq!(file_length(&Source::new("crates/a/src/lib.rs", lines.clone())).len(), 1);
         assert_eq!(file_length(&Source::new("crates/a/src/b.rs", lines)).len(), 0);
         assert!(long_file(&Source::new("crates/a/src/b.rs", "//\n".repeat(401))).is_some());
