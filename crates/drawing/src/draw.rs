@@ -138,7 +138,8 @@ impl EdgeDivider {
         })
     }
 
-    /// Pushes the visible segments of one edge, and the hidden ones if they are retained.
+    /// Cuts one edge where hidden lines begin and end: pushes its visible segments, and the hidden
+    /// ones if they are retained.
     ///
     /// Hatch lines are never drawn where they are hidden.
     fn divide_edge(

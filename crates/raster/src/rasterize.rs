@@ -221,6 +221,7 @@ impl SamplePlane {
     ) {
         let depths: &mut [f32] = &mut self.depth[first..first + BLOCK_SIDE];
         let old = f32x8::from_slice(simd, depths);
+        // Depth test. At equal depth (a tie) the comparison fails: the triangle drawn first stays.
         let nearer = depth.simd_gt(old);
         let visible = covered.map_or(nearer, |covered| covered & nearer);
         // Both stores are unconditional: lanes that fail the test write back what was there.

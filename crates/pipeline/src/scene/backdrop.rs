@@ -124,7 +124,7 @@ pub(super) fn resolve_backdrop(
     allowed: &[PathBuf],
 ) -> Result<Option<Arc<Backdrop>>, SceneError> {
     let (width, height) = file.image.size;
-    let painting = match &file.image.background {
+    let backdrop = match &file.image.background {
         BackgroundFile::Gradient { colors, angle_degrees } => {
             let angle = angle_degrees.value().to_radians();
             Backdrop::Gradient(resolve_gradient(origin, colors, angle, file.image.size)?)
@@ -140,5 +140,5 @@ pub(super) fn resolve_backdrop(
         }
         _ => return Ok(None),
     };
-    Ok(Some(Arc::new(painting)))
+    Ok(Some(Arc::new(backdrop)))
 }

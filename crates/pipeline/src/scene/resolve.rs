@@ -102,7 +102,7 @@ impl Scene {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        let develop = ToneMapper::new(
+        let tone_mapper = ToneMapper::new(
             file.image.exposure_ev.map_or(0.0, Finite::value),
             file.image.tone_mapping,
         );
@@ -113,7 +113,7 @@ impl Scene {
         let environment = if is_lit { environment()? } else { None };
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
-        let painting = resolve_backdrop(origin, file, allowed)?;
+        let backdrop = resolve_backdrop(origin, file, allowed)?;
         Ok(Self {
             models,
             view_projection,
@@ -121,11 +121,11 @@ impl Scene {
             ground,
             environment,
             occlusion_radius,
-            tone_mapper: develop,
+            tone_mapper,
             style,
             image,
             insets: Vec::new(),
-            backdrop: painting,
+            backdrop,
             overlays,
             sections,
         })

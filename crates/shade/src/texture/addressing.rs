@@ -62,8 +62,8 @@ impl TexelAddressing {
         self.last_level > 0 || self.sampler.mag_filter != self.sampler.min_filter
     }
 
-    /// Selects mip levels by the derivatives of the texture coordinates by the pixel's column and
-    /// row.
+    /// Mip level selection: the level of detail from the derivatives of the texture coordinates by
+    /// the pixel's column and row (glTF 2.0 leaves the formula to OpenGL, 8.14.1).
     #[inline(always)]
     pub(super) fn select_levels<const N: usize>(
         &self,
