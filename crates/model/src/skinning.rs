@@ -51,7 +51,7 @@ impl Model {
     ///     for (instance, primitive) in model.scene_primitives() {
     ///         let skinned = model.skin_primitive(instance, primitive);
     ///         for position in skinned.positions.iter() {
-    ///             let point = skinned.to_model.point(position.map(f64::from).into());
+    ///             let point = skinned.to_model.transform_point(position.map(f64::from).into());
     ///             positions.push(point.into());
     ///         }
     ///     }
