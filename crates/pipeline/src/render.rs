@@ -38,9 +38,10 @@
 //! 12. **Attribute interpolation.** Each visible triangle is shaded once per pixel, eight fragments
 //!     at a time (`raster/src/tile_resolve.rs`), with perspective-correct barycentric weights
 //!     (`shade/src/attributes.rs`).
-//! 13. **BRDF and lights.** `Shading` (`shade/src/shading.rs`, set up in `render/fragment_shading.rs`)
-//!     samples textures and evaluates the layered BRDF (`shade/src/brdf/layered.rs`,
-//!     `shade/src/brdf/base.rs`) for lights, shadow maps and prefiltered environment.
+//! 13. **BRDF and lights.** `Shading` (`shade/src/shading.rs`, set up in
+//!     `render/fragment_shading.rs`) samples textures and evaluates the layered BRDF
+//!     (`shade/src/brdf/layered.rs`, `shade/src/brdf/base.rs`) for lights, shadow maps and
+//!     prefiltered environment.
 //! 14. **Tone mapping.** `ToneMapper` (`shade/src/tone_mapping.rs`), for each fragment.
 //! 15. **Resolve and sRGB encoding.** Translucent layers are blended back to front
 //!     (`raster/src/layer_blending.rs`), samples averaged in linear light, and the result encoded
