@@ -21,11 +21,10 @@ use super::progress::Progress;
 use super::render::tasks::RenderTask;
 use drawing::Warning;
 use homog::PixelRect;
-use pipeline::render::{render_passes, rows_per_band};
+use pipeline::render::{BitDepth, render_passes, rows_per_band};
 use pipeline::scene::Outputs;
 use pipeline::{
-    AtomicFile, Channel, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
-    draw_lines,
+    AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings, draw_lines,
 };
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -132,8 +131,7 @@ impl RenderJob<'_> {
         self.check_combination()?;
         let reference = self.args.compare.load_reference(region)?;
         let EncodedPicture { sink, picture, warnings } = match self.task.format {
-            OutputFormat::Png if self.outputs.sixteen_bit => self.encode_picture::<u16>(region)?,
-            OutputFormat::Png => self.encode_picture::<u8>(region)?,
+            OutputFormat::Png => self.encode_picture(region)?,
             OutputFormat::Svg | OutputFormat::Pdf => self.encode_drawing()?,
         };
         let (mut drafts, mut comparison) = (Vec::new(), None);
@@ -213,15 +211,14 @@ impl RenderJob<'_> {
         }
     }
 
-    /// Renders and encodes the region as a PNG of `C` bits per channel, band by band.
+    /// Renders and encodes the region as a PNG of 8 or 16 bits per channel, band by band.
     ///
     /// The memory needed is that of one band and the encoder, whatever the height of the picture;
-    /// bands have the same pixels as the whole. `retained` collects the bands at 8 bits for
-    /// `--compare` and `--show`, because both work on 8-bit pixels.
+    /// bands have the same pixels as the whole. `--compare` and `--show` work on a copy of 8 bits.
     ///
     /// Errors of rendering and of writing arrive as one type and are separated here, so that a full
     /// disk is reported with the name of the file.
-    fn encode_picture<C: Channel>(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
+    fn encode_picture(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
         let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
         let context = RenderContext::new(self.scene, &textures, self.threads);
         let mut renderer = Renderer::default();
@@ -229,13 +226,8 @@ impl RenderJob<'_> {
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);
-        let written = prepared.write_png(&mut sink, region, rows, |band: &Picture<C>| {
-            if let Some(retained) = &mut picture {
-                let bytes = |pixel: &[C; 4]| pixel.map(C::to_byte);
-                retained.pixels.extend(band.pixels.iter().map(bytes));
-                (retained.width, retained.height) = (band.width, retained.height + band.height);
-            }
-        });
+        let depth = if self.outputs.sixteen_bit { BitDepth::Sixteen } else { BitDepth::Eight };
+        let written = prepared.write_png(&mut sink, region, rows, depth, picture.as_mut());
         written.map_err(|error| match error {
             pipeline::WritePngError::Render(error) => CliError::Render(error),
             pipeline::WritePngError::Output(cause) => self.output_error(cause),

@@ -91,7 +91,7 @@ pub use passes::{Pass, PassBuffer, render_passes};
 pub use pixel_inspection::{FragmentSource, PixelFragments, ShadedFragment, inspect_pixel};
 pub use prepared_scene::PreparedScene;
 pub use renderer::Renderer;
-pub use write_png::{WritePngError, rows_per_band};
+pub use write_png::{BitDepth, WritePngError, rows_per_band};
 
 use crate::Picture;
 use crate::scene::Scene;

@@ -98,6 +98,9 @@ impl Surface for StyledShading<'_> {
         self.shading.passes_alpha_test(fragment)
     }
 
+    // Not a part of the loops over eight fragments, of which there is one for each kind of pixel:
+    // a fragment in a style takes far longer than the call.
+    #[inline(never)]
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.shading.draws.find_draw(fragment.id);
         let is_surface = draw.primitive.topology == model::Topology::Triangles;

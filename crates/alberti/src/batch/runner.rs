@@ -8,7 +8,7 @@ use super::report::{BatchReport, DONE, DONE_BEFORE, FAILED, JobRecord};
 use super::{BatchArgs, key::content_key};
 use crate::CliError;
 use crate::progress::ProgressCounter;
-use pipeline::{Picture, RenderContext, Renderer, Textures};
+use pipeline::{RenderContext, Renderer, Textures};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -133,9 +133,8 @@ impl BatchRun<'_> {
     ) -> Result<Vec<String>, CliError> {
         let (_, _, scene) = self.args.overrides.open_scene(input, &self.args.load_options)?;
         let textures = Textures::for_scene(&scene);
-        let mut picture = Picture::<u8>::default();
-        let drawing = renderer.render(&RenderContext::new(&scene, &textures, 1), &mut picture)?;
-        let png = picture.to_png();
+        let context = RenderContext::new(&scene, &textures, 1);
+        let (png, drawing) = renderer.render_png(&context)?;
         if let Some(folder) = output.parent() {
             let fault = |cause| {
                 CliError::Usage(format!("cannot create the folder {}: {cause}", folder.display()))

@@ -27,11 +27,6 @@ impl ImportWarnings {
         Self { lenient, ..Self::default() }
     }
 
-    /// Whether the file is read leniently.
-    pub(super) fn is_lenient(&self) -> bool {
-        self.lenient
-    }
-
     /// Adds a warning about something that was replaced or corrected.
     pub(super) fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
         self.push(warning(codes::LEFT_OUT, pointer, message.into()));

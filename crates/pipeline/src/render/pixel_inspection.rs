@@ -75,10 +75,9 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let occlusion = build_full_ssao_buffer(&context)?;
     let shading = fragment_shading(scene, &memory, &shadows.maps, occlusion.as_ref());
     let (frame, offset) = (&memory.frame, pixel_region.offset_in_tile());
-    let (color, mut recorded) = match &style_shading(scene, &shading) {
-        Some(styled) => record_fragments(frame, styled, offset, image.background),
-        None => record_fragments(frame, &shading, offset, image.background),
-    };
+    let styled = style_shading(scene, &shading);
+    let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
+    let (color, mut recorded) = record_fragments(frame, surface, offset, image.background);
     // A triangle split by clipping, or several samples of one pixel, shade a fragment repeatedly.
     recorded.sort_by_key(|(id, ..)| *id);
     recorded.dedup_by_key(|(id, ..)| *id);
@@ -93,9 +92,9 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
 type RecordedFragment = (u32, [f32; 3], [f32; 4]);
 
 /// Draws a frame of one pixel, and records its shading calls.
-fn record_fragments<S: Surface>(
+fn record_fragments(
     frame: &Frame,
-    surface: &S,
+    surface: &dyn Surface,
     pixel: [u32; 2],
     background: [f32; 4],
 ) -> ([u8; 4], Vec<RecordedFragment>) {
@@ -108,16 +107,16 @@ fn record_fragments<S: Surface>(
 /// A surface that forwards to another and records the fragments shaded in one pixel.
 ///
 /// The rasterizer shades from several threads through a shared reference, hence the mutex.
-struct Recorder<'a, S> {
+struct Recorder<'a> {
     /// The surface that shades.
-    surface: &'a S,
+    surface: &'a dyn Surface,
     /// The pixel whose fragments are recorded.
     pixel: [u32; 2],
     /// The recorded shading calls, in any order.
     fragments: Mutex<Vec<RecordedFragment>>,
 }
 
-impl<S: Surface> Surface for Recorder<'_, S> {
+impl Surface for Recorder<'_> {
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         self.surface.passes_alpha_test(fragment)
     }

@@ -60,6 +60,20 @@ impl Renderer {
         Ok(prepared.into_warnings())
     }
 
+    /// Renders a whole picture of 8 bits a channel as the bytes of a PNG file, and returns them with
+    /// the warnings about what it lacks.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    pub fn render_png(
+        &mut self,
+        context: &RenderContext<'_>,
+    ) -> Result<(Vec<u8>, Vec<Warning>), RenderError> {
+        let mut picture = Picture::<u8>::default();
+        let warnings = self.render(context, &mut picture)?;
+        Ok((picture.to_png(), warnings))
+    }
+
     /// Computes what all regions of a picture share: the page of a line drawing, the layers of
     /// outlines and overlays. Shadow maps and occlusion follow with the first region that needs
     /// them.

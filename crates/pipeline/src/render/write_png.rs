@@ -23,9 +23,19 @@ pub fn rows_per_band(width: u32) -> u32 {
     (rows as u32 / 64 * 64).clamp(64, 2048)
 }
 
+/// The bits of a channel of a PNG file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum BitDepth {
+    /// 8 bits.
+    Eight,
+    /// 16 bits.
+    Sixteen,
+}
+
 impl PreparedScene<'_> {
     /// Writes a region as a PNG file, rendered in bands of `rows` rows. The bytes do not depend on
-    /// their number. `inspect_band` sees each band before it is encoded.
+    /// their number. `copy` becomes the region's picture in 8 bits; without one, only a band is in
+    /// memory.
     ///
     /// PNG declares in its header whether there is an alpha channel. A picture over a translucent
     /// background is therefore rendered up to its first translucent band before anything is
@@ -34,13 +44,31 @@ impl PreparedScene<'_> {
     /// # Errors
     /// If a band cannot be rendered (see [`render_region`](Self::render_region)), or the file
     /// cannot be written.
-    pub fn write_png<C: Channel>(
+    pub fn write_png(
         &mut self,
-        out: impl Write,
+        out: &mut dyn Write,
         region: PixelRect,
         rows: u32,
-        mut inspect_band: impl FnMut(&Picture<C>),
+        depth: BitDepth,
+        copy: Option<&mut Picture>,
     ) -> Result<(), WritePngError> {
+        match depth {
+            BitDepth::Eight => self.write_bands::<u8>(out, region, rows, copy),
+            BitDepth::Sixteen => self.write_bands::<u16>(out, region, rows, copy),
+        }
+    }
+
+    /// Writes the bands of a file with channels of this type.
+    fn write_bands<C: Channel>(
+        &mut self,
+        out: &mut dyn Write,
+        region: PixelRect,
+        rows: u32,
+        mut copy: Option<&mut Picture>,
+    ) -> Result<(), WritePngError> {
+        if let Some(copy) = &mut copy {
+            copy.resize(region.width, 0);
+        }
         let mut bands = region.bands(rows);
         let mut picture = Picture::<C>::default();
         self.render_region(bands.next().unwrap_or(region), &mut picture)?;
@@ -48,7 +76,11 @@ impl PreparedScene<'_> {
             picture.is_opaque() && self.bands_are_opaque::<C>(region.bands(rows).skip(1))?;
         encode_png(out, [region.width, region.height], is_opaque, C::BITS, |png| {
             loop {
-                inspect_band(&picture);
+                if let Some(copy) = &mut copy {
+                    let pixels = picture.pixels.iter().map(|pixel| pixel.map(C::to_byte));
+                    copy.pixels.extend(pixels);
+                    copy.height += picture.height;
+                }
                 self.context.measure("encode", || png.write_pixels(&picture.pixels))?;
                 let Some(band) = bands.next() else { return Ok(()) };
                 self.render_region(band, &mut picture)?;

@@ -3,7 +3,7 @@
 
 use super::load_scene;
 use homog::PixelRect;
-use pipeline::render::rows_per_band;
+use pipeline::render::{BitDepth, rows_per_band};
 use pipeline::scene::file::OverlayFile;
 use pipeline::scene::{ResolveOptions, parse_scene};
 use pipeline::{Channel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
@@ -51,11 +51,9 @@ fn regions_and_bands_are_parts_of_the_whole() {
         let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
         let context = RenderContext::new(&scene, &textures, 1);
         let mut prepared = renderer.prepare(&context).expect("a scene");
-        let mut pixels: Vec<[u8; 4]> = Vec::new();
-        let mut file = Vec::new();
-        let inspect_band = |band: &Picture| pixels.extend(&band.pixels);
-        prepared.write_png(&mut file, all, 50, inspect_band).expect("a file");
-        assert!(pixels == whole.pixels, "{name} in bands");
+        let (mut file, mut copy) = (Vec::new(), Picture::default());
+        prepared.write_png(&mut file, all, 50, BitDepth::Eight, Some(&mut copy)).expect("a file");
+        assert!(copy == whole, "{name} in bands");
         assert!(file == whole.to_png(), "{name} as a file");
         let deep: Picture<u16> = render_region(&scene, all);
         assert_same_as_part(&deep, &render_region(&scene, crop), crop, name);
@@ -111,7 +109,7 @@ fn files_do_not_depend_on_the_bands_they_are_written_in() {
         assert_eq!(whole.is_opaque(), covered || background == 1.0);
         for rows in [1, 64, 100] {
             let mut bytes = Vec::new();
-            prepared.write_png(&mut bytes, all, rows, |_: &Picture| ()).expect("a file");
+            prepared.write_png(&mut bytes, all, rows, BitDepth::Eight, None).expect("a file");
             assert!(bytes == whole.to_png(), "{rows} rows at a time");
         }
     }
@@ -196,7 +194,7 @@ fn shadows_and_occlusion_are_those_of_the_whole_in_every_part() {
     let mut prepared = renderer.prepare(&context).expect("a scene");
     for rows in [rows_per_band(scene.image.width), 512, 700] {
         let mut file = Vec::new();
-        prepared.write_png(&mut file, all, rows, |_: &Picture| ()).expect("a file");
+        prepared.write_png(&mut file, all, rows, BitDepth::Eight, None).expect("a file");
         assert!(file == whole.to_png(), "in bands of {rows} rows");
     }
     for part in [

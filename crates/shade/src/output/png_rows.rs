@@ -13,8 +13,8 @@ const PIXELS_PER_WRITE: usize = 1 << 13;
 /// The pixel stream of a PNG file that is being written, rows from the top.
 ///
 /// The file's bytes do not depend on how many pixels are written at a time.
-pub struct PngRows<'a, W: Write> {
-    stream: StreamWriter<'a, W>,
+pub struct PngRows<'a, 'out> {
+    stream: StreamWriter<'a, &'out mut dyn Write>,
     opaque: bool,
     /// The buffer of converted pixels.
     bytes: Vec<u8>,
@@ -27,20 +27,14 @@ pub struct PngRows<'a, W: Write> {
 ///
 /// # Errors
 /// If the file cannot be written, `draw` fails, or it has written too many pixels or too few.
-pub fn encode_png<W: Write, E: From<io::Error>>(
-    out: W,
+pub fn encode_png<E: From<io::Error>>(
+    out: &mut dyn Write,
     size: [u32; 2],
     opaque: bool,
     bits: u8,
-    draw: impl FnOnce(&mut PngRows<'_, W>) -> Result<(), E>,
+    draw: impl FnOnce(&mut PngRows<'_, '_>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut encoder = Encoder::new(out, size[0], size[1]);
-    encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
-    encoder.set_depth(if bits == 16 { BitDepth::Sixteen } else { BitDepth::Eight });
-    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // Rendered pictures gain little by the slower levels.
-    encoder.set_compression(Compression::Fast);
-    let mut writer = encoder.write_header().map_err(io::Error::from)?;
+    let mut writer = write_header(out, size, opaque, bits)?;
     {
         let stream = writer.stream_writer_with_size(CHUNK_BYTES).map_err(io::Error::from)?;
         let mut rows = PngRows { stream, opaque, bytes: Vec::new() };
@@ -50,7 +44,23 @@ pub fn encode_png<W: Write, E: From<io::Error>>(
     Ok(writer.finish().map_err(io::Error::from)?)
 }
 
-impl<W: Write> PngRows<'_, W> {
+/// Begins a file: its size, format and color space.
+fn write_header(
+    out: &mut dyn Write,
+    size: [u32; 2],
+    opaque: bool,
+    bits: u8,
+) -> io::Result<png::Writer<&mut dyn Write>> {
+    let mut encoder = Encoder::new(out, size[0], size[1]);
+    encoder.set_color(if opaque { ColorType::Rgb } else { ColorType::Rgba });
+    encoder.set_depth(if bits == 16 { BitDepth::Sixteen } else { BitDepth::Eight });
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    // Rendered pictures gain little by the slower levels.
+    encoder.set_compression(Compression::Fast);
+    encoder.write_header().map_err(io::Error::from)
+}
+
+impl PngRows<'_, '_> {
     /// Writes the next pixels, in row-major order; of an opaque picture alpha is left out.
     ///
     /// # Errors
@@ -58,21 +68,14 @@ impl<W: Write> PngRows<'_, W> {
     pub fn write_pixels<C: Channel>(&mut self, pixels: &[[C; 4]]) -> io::Result<()> {
         for pixels in pixels.chunks(PIXELS_PER_WRITE) {
             self.bytes.clear();
-            // An opaque picture has no alpha channel in the file.
-            for &[r, g, b, alpha] in pixels {
-                if self.opaque {
-                    C::append_bytes([r, g, b], &mut self.bytes);
-                } else {
-                    C::append_bytes([r, g, b, alpha], &mut self.bytes);
-                }
-            }
+            C::append_pixels(pixels, self.opaque, &mut self.bytes);
             self.stream.write_all(&self.bytes)?;
         }
         Ok(())
     }
 }
 
-impl<W: Write> std::fmt::Debug for PngRows<'_, W> {
+impl std::fmt::Debug for PngRows<'_, '_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("PngRows").field("opaque", &self.opaque).finish_non_exhaustive()
     }

@@ -4,7 +4,8 @@
 //! writes pixels exists once.
 
 use crate::color::{Srgb16Encoder, SrgbEncoder};
-use raster::Encode;
+use crate::frame_shading::FrameShading;
+use raster::Frame;
 
 /// A channel of a pixel, `u8` or `u16`. It cannot be implemented outside of this crate.
 pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static {
@@ -12,14 +13,23 @@ pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static 
     const FULL: Self;
     /// The bits of a channel, 8 or 16.
     const BITS: u8;
-    /// The encoder from linear colors multiplied by alpha to sRGB pixels with straight alpha.
-    fn encoder() -> impl Encode<[Self; 4]>;
+    /// Draws a frame over `background` (linear, premultiplied by alpha) into pixels.
+    ///
+    /// As [`Frame::draw`], but compiled in this crate for both depths: the machine code of shading
+    /// is large, and callers that are generic over channels would each have copies of it.
+    fn draw_frame(
+        frame: &Frame,
+        shading: FrameShading<'_>,
+        background: [f32; 4],
+        threads: usize,
+        pixels: &mut [[Self; 4]],
+    );
     /// The code from an 8-bit one, exact at both ends.
     fn from_byte(byte: u8) -> Self;
     /// The nearest 8-bit code.
     fn to_byte(self) -> u8;
-    /// Appends channels as PNG stores them, big-endian.
-    fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>);
+    /// Appends pixels as PNG stores them, big-endian; of an opaque picture without their alpha.
+    fn append_pixels(pixels: &[[Self; 4]], opaque: bool, bytes: &mut Vec<u8>);
     /// Composites a pixel under one of a vector drawing, which is 8-bit sRGB multiplied by alpha.
     ///
     /// Porter-Duff over, in sRGB codes as canvases do it.
@@ -37,9 +47,14 @@ impl Channel for u8 {
     const FULL: Self = Self::MAX;
     const BITS: u8 = 8;
 
-    #[inline(always)]
-    fn encoder() -> impl Encode<[Self; 4]> {
-        SrgbEncoder::shared()
+    fn draw_frame(
+        frame: &Frame,
+        shading: FrameShading<'_>,
+        background: [f32; 4],
+        threads: usize,
+        pixels: &mut [[Self; 4]],
+    ) {
+        shading.draw(frame, background, threads, pixels, SrgbEncoder::shared());
     }
 
     fn from_byte(byte: u8) -> Self {
@@ -50,9 +65,12 @@ impl Channel for u8 {
         self
     }
 
-    #[inline]
-    fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
-        bytes.extend_from_slice(&channels);
+    fn append_pixels(pixels: &[[Self; 4]], opaque: bool, bytes: &mut Vec<u8>) {
+        if opaque {
+            pixels.iter().for_each(|[color @ .., _]| bytes.extend_from_slice(color));
+        } else {
+            bytes.extend_from_slice(pixels.as_flattened());
+        }
     }
 
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {
@@ -64,9 +82,14 @@ impl Channel for u16 {
     const FULL: Self = Self::MAX;
     const BITS: u8 = 16;
 
-    #[inline(always)]
-    fn encoder() -> impl Encode<[Self; 4]> {
-        Srgb16Encoder::shared()
+    fn draw_frame(
+        frame: &Frame,
+        shading: FrameShading<'_>,
+        background: [f32; 4],
+        threads: usize,
+        pixels: &mut [[Self; 4]],
+    ) {
+        shading.draw(frame, background, threads, pixels, Srgb16Encoder::shared());
     }
 
     fn from_byte(byte: u8) -> Self {
@@ -77,9 +100,13 @@ impl Channel for u16 {
         ((u32::from(self) + 128) / 257) as u8
     }
 
-    #[inline]
-    fn append_bytes<const K: usize>(channels: [Self; K], bytes: &mut Vec<u8>) {
-        bytes.extend_from_slice(channels.map(Self::to_be_bytes).as_flattened());
+    fn append_pixels(pixels: &[[Self; 4]], opaque: bool, bytes: &mut Vec<u8>) {
+        for &[r, g, b, alpha] in pixels {
+            bytes.extend_from_slice([r, g, b].map(Self::to_be_bytes).as_flattened());
+            if !opaque {
+                bytes.extend_from_slice(&alpha.to_be_bytes());
+            }
+        }
     }
 
     fn composite_under(pixel: [Self; 4], over: [u8; 4]) -> [Self; 4] {

@@ -58,11 +58,7 @@ impl GltfDocument {
         let untyped = UntypedMembers::collect_from(&value);
         drop_untargeted_channels(&mut value);
         let placements = NodeTransform::take_transforms(&mut value, warnings)?;
-        let root = if warnings.is_lenient() {
-            json_repair::deserialize_leniently(&mut value, text.len(), warnings)?
-        } else {
-            serde_path_to_error::deserialize(value).map_err(|error| type_error(&error))?
-        };
+        let root = json_repair::deserialize_document(&mut value, text.len(), warnings)?;
         Ok(Self { root, node_transforms: placements, untyped })
     }
 }

@@ -18,14 +18,15 @@ const REPAIR_BYTE_BUDGET: usize = 64 << 20;
 /// Repairs in one file, however small it is.
 const MAX_REPAIRS: usize = 500;
 
-/// Deserializes a document, leaving out what does not fit; `length` is that of its text.
+/// Deserializes a document; reading leniently, leaves out what does not fit. `length` is that of
+/// its text.
 ///
-/// Each pass finds one fault, so that the cost is the number of faults times the length of the
+/// Reading strictly, the first fault is the error. Each pass finds one fault, so that the cost is the number of faults times the length of the
 /// text; the budget bounds it for hostile files.
 ///
 /// # Errors
-/// A fault cannot be repaired, or the budget is spent.
-pub(super) fn deserialize_leniently(
+/// A fault cannot be repaired, must not be, or the budget is spent.
+pub(super) fn deserialize_document(
     value: &mut Value,
     length: usize,
     warnings: &mut ImportWarnings,
@@ -122,7 +123,7 @@ mod tests {
 
     fn deserialize_with_warnings(mut document: Value) -> (Result<Root, Diagnostic>, Vec<String>) {
         let mut warnings = ImportWarnings::new(true);
-        let root = deserialize_leniently(&mut document, 1000, &mut warnings);
+        let root = deserialize_document(&mut document, 1000, &mut warnings);
         let messages =
             warnings.into_list().into_iter().map(|w| format!("{} {}", w.location, w.message));
         (root, messages.collect())
