@@ -7,7 +7,8 @@ use std::process::Command;
 /// Runs an example of the crate `pipeline` in the folder of a test, and gives what it prints.
 fn run_example(sandbox: &Sandbox, name: &str, arguments: &[&str]) -> String {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--quiet", "--package", "pipeline", "--example", name]);
+    // With the features of the whole workspace nothing is compiled twice.
+    cargo.args(["build", "--quiet", "--workspace", "--example", name]);
     let test = std::env::current_exe().expect("this test");
     let folder = test.ancestors().nth(2).expect("the folder of the profile");
     cargo.arg("--target-dir").arg(folder.parent().expect("the target folder"));

@@ -32,11 +32,13 @@ pub struct Program {
 impl Program {
     /// Builds the program and says where it is.
     pub fn build(build: Build) -> Result<Self, String> {
-        let mut cargo =
-            cargo_command(&["build", "--quiet", "--package", "alberti", "--bin", "alberti"]);
+        let mut cargo = cargo_command(&["build", "--quiet", "--bin", "alberti"]);
         let mut folder = target_folder();
-        if build != Build::Debug {
-            cargo.arg("--release");
+        if build == Build::Debug {
+            // As in the tests: with the features of the whole workspace nothing is compiled twice.
+            cargo.arg("--workspace");
+        } else {
+            cargo.args(["--package", "alberti", "--release"]);
         }
         if build == Build::Wide {
             folder = folder.join("wide");

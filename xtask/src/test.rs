@@ -93,7 +93,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
     });
     steps.push(Step::built_in(
         "determinism",
-        "debug and release builds render the same bytes, twice each",
+        "debug and release builds render the same bytes, with every number of threads",
         || crate::determinism::run_determinism(&[]),
     ));
     // As a process, so that its SKIPPED lines are repeated at the end.

@@ -1,4 +1,4 @@
-//! Hidden-line removal: where each edge is cut into visible and hidden parts (rule HL-1).
+//! Hidden-line removal: hidden lines are cut here, each edge into visible and hidden parts (HL-1).
 //!
 //! The algorithm works in object space, edge against face, as Roberts (1963) and Appel (*The Notion
 //! of Quantitative Invisibility and the Machine Rendering of Solids*, 1967) introduced it. Nothing

@@ -65,7 +65,7 @@ impl<S: Space> HPoint<S> {
         self.raw.w
     }
 
-    /// The place this stands for: the one divide of the pipeline.
+    /// Perspective divide: the place this stands for, (x/w, y/w, z/w).
     ///
     /// `None` where there is no finite place: w = 0, a coordinate that is not finite, or a quotient
     /// too large to represent. A point behind the eye (w < 0) divides like any other, so clip

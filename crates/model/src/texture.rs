@@ -95,7 +95,9 @@ pub enum TextureFilter {
     Linear,
 }
 
-/// Selection of mip levels for a minified texture.
+/// The mipmap mode of a sampler: how mip levels are filtered.
+///
+/// Shading chooses the levels (`select_levels` in `shade/src/texture/addressing.rs`).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum MipmapMode {
     /// No mipmapping: the full image only.

@@ -151,7 +151,7 @@ pub enum Style {
     UvChecker,
     /// A colour for each part.
     Ids,
-    /// Three steps of light, with outlines.
+    /// Toon (cel) shading: three steps of light, with outlines.
     Toon,
     /// As if of glass.
     XRay,

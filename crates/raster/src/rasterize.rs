@@ -11,7 +11,7 @@
 //!
 //! A sample is covered if none of the three edge functions is negative, and visible if it is also
 //! strictly nearer than the depth buffer. Because the comparison is strict and triangles come in
-//! submission order, the triangle that was submitted first wins ties in depth.
+//! submission order, the triangle that was submitted first wins depth ties.
 //!
 //! Eight blocks of a row are classified at once by the edge functions at their corners. For
 //! triangles of a few blocks that does not pay, and they are drawn block by block.
@@ -221,7 +221,7 @@ impl SamplePlane {
     ) {
         let depths: &mut [f32] = &mut self.depth[first..first + BLOCK_SIDE];
         let old = f32x8::from_slice(simd, depths);
-        // Depth test. At equal depth (a tie) the comparison fails: the triangle drawn first stays.
+        // Depth test. A depth tie fails the comparison: the triangle drawn first stays.
         let nearer = depth.simd_gt(old);
         let visible = covered.map_or(nearer, |covered| covered & nearer);
         // Both stores are unconditional: lanes that fail the test write back what was there.

@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 0.03;
 const SCENES: [&str; 3] = ["teapot", "floor", "panes"];
 
 /// Workloads of the crate `raster` alone, with one and with four samples per pixel: the arguments
-/// of `tests/bench/workload.rs`.
+/// of `crates/raster/examples/workload.rs`.
 const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
 
 /// Counts instructions and compares them with the table, or updates named rows.
@@ -146,7 +146,7 @@ struct Count {
 
 fn count_all() -> Result<Vec<Count>, String> {
     let program = Program::build(Build::Release)?;
-    let example = ["--package", "alberti-tests", "--example", "workload"];
+    let example = ["--package", "raster", "--example", "workload"];
     run_command(cargo_command(&["build", "--quiet", "--release"]).args(example))?;
     let workload = target_folder().join("release/examples/workload");
     create_folder(&target_folder().join("bench"))?;

@@ -81,9 +81,9 @@ pub struct SpecularGlossiness {
 /// A clear coating with an index of refraction of 1.5 (KHR_materials_clearcoat).
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Clearcoat {
-    /// Coverage of the layer, in [0, 1]. Default: 0.
+    /// Strength of the layer, in [0, 1]. Default: 0.
     pub factor: f32,
-    /// Texture of the coverage (red).
+    /// Texture of the strength (red).
     pub texture: Option<TextureInfo>,
     /// Roughness of the layer, in [0, 1]. Default: 0.
     pub roughness: f32,
@@ -134,9 +134,9 @@ pub struct Volume {
 /// Thin-film interference (KHR_materials_iridescence).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Iridescence {
-    /// Coverage of the film, in [0, 1]. Default: 0.
+    /// Strength of the film, in [0, 1]. Default: 0.
     pub factor: f32,
-    /// Texture of the coverage (red).
+    /// Texture of the strength (red).
     pub texture: Option<TextureInfo>,
     /// Index of refraction of the film, at least 1. Default: 1.3.
     pub ior: f32,

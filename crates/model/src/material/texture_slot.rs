@@ -25,7 +25,7 @@ pub enum TextureSlot {
     Diffuse,
     /// Specular color and glossiness of the specular-glossiness workflow.
     SpecularGlossiness,
-    /// Coverage of the clearcoat.
+    /// Strength of the clearcoat.
     Clearcoat,
     /// Roughness of the clearcoat.
     ClearcoatRoughness,
@@ -39,7 +39,7 @@ pub enum TextureSlot {
     Transmission,
     /// Thickness of the volume.
     Thickness,
-    /// Coverage of the thin film.
+    /// Strength of the thin film.
     Iridescence,
     /// Thickness of the thin film.
     IridescenceThickness,
@@ -50,6 +50,7 @@ pub enum TextureSlot {
 impl TextureSlot {
     /// Every slot with its location in a glTF material: a JSON pointer without the leading slash.
     ///
+    /// To add a KHR_materials extension, see "How to add" in ARCHITECTURE.md.
     /// KHR_animation_pointer uses these pointers for texture transforms as well.
     pub const PATHS: [(Self, &'static str); 19] = [
         (Self::BaseColor, "pbrMetallicRoughness/baseColorTexture"),

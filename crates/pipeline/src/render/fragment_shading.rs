@@ -29,8 +29,8 @@ pub(super) fn fragment_shading<'a>(
     }
 }
 
-/// The shading of a style that overrides the materials: clay, matcap, normals, depth, toon, X-ray
-/// …; `None` for styles that show the materials, and for line drawings.
+/// The shading of a style that overrides the materials: clay, matcap, toon (cel), X-ray … of
+/// `shade/src/shading_style.rs`; `None` for styles that show the materials, and for line drawings.
 pub(super) fn style_shading<'a>(
     scene: &Scene,
     shading: &'a Shading<'a>,

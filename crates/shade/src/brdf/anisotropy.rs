@@ -67,7 +67,8 @@ impl<const N: usize> Anisotropy<N> {
     /// The anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V · n·l`, with
     /// `alpha` across the frame.
     ///
-    /// The prefiltered environment stays isotropic: only lights are stretched.
+    /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`. The prefiltered
+    /// environment stays isotropic: only lights are stretched.
     #[inline(always)]
     pub(super) fn ggx_lobe(
         &self,

@@ -88,8 +88,8 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
     (entries, fractions)
 }
 
-/// The factor that gives back the energy lost to multiple scattering: of a surface with the normal
-/// reflectance `f0`, whose single-bounce albedo for a white mirror is `white_albedo` = `A + B`.
+/// Energy compensation: the factor that gives back what single scattering loses, for a surface with
+/// the normal reflectance `f0`, whose albedo as a white mirror is `white_albedo` = `A + B`.
 ///
 /// For F0 = 1 the factor makes the albedo exactly 1 (white furnace test); for F0 = 0 it is 1. Kulla
 /// and Conty (2017) add a lobe for the lost energy; Turquin's factor scales the lobe that is there.

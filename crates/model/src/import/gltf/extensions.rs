@@ -1,7 +1,7 @@
 //! Extension support: the extensions that are drawn, ignored or refused.
 //!
-//! To support another one, read it in the module of its object (materials in `material`, nodes in
-//! `scene_graph`) and change its row in the table. The table is what the program prints about a
+//! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md; others are
+//! read in the module of their object (nodes in `scene_graph`). Then change the row in the table. The table is what the program prints about a
 //! file's extensions.
 
 use crate::diagnostic::{Diagnostic, codes};

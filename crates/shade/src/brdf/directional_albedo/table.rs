@@ -1,4 +1,4 @@
-//! The split-sum table: `A` and `B` of the directional albedo of GGX.
+//! The split-sum table (DFG, environment BRDF): `A` and `B` of the directional albedo of GGX.
 //!
 //! A row for each sixteenth of the perceptual roughness, at its middle; in it a column for each
 //! fifteenth of the square root of the cosine n·v. A test integrates the BRDF again.
