@@ -17,7 +17,7 @@ use std::path::PathBuf;
 pub(crate) struct LightArgs {
     /// Environment light: studio, sky, none, or a .hdr file
     ///
-    /// `studio` has strength 0.6, as bare models do. A .hdr file is an equirectangular Radiance
+    /// `studio` has strength 0.45, as for models without a scene file. A .hdr file is an equirectangular Radiance
     /// map.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
@@ -80,7 +80,7 @@ impl LightArgs {
             file.image.exposure_ev = Some(exposure);
         }
         if let Some(curve) = self.tone_mapping {
-            file.image.tone_mapping = curve;
+            file.image.tone_mapping = Some(curve);
         }
         match self.ground {
             Some(GroundArg::Shadow) => file.ground = Some(GroundFile::DEFAULT),

@@ -173,12 +173,6 @@ impl Style {
     pub const fn overrides_materials(self) -> bool {
         self.draws_surfaces() && !matches!(self, Self::Shaded | Self::Flat)
     }
-
-    /// Whether lines are drawn over the surfaces.
-    #[must_use]
-    pub const fn has_outlines(self) -> bool {
-        matches!(self, Self::Toon)
-    }
 }
 
 /// The picture to make.

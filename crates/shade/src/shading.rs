@@ -224,8 +224,13 @@ impl Shading<'_> {
         } else {
             inputs.emitted + inputs.base_color
         };
-        // Display: exposure and tone curve, then premultiplied alpha.
-        let mut color = self.tone_mapper.map_colors(radiance);
+        // Display: exposure and tone curve, then premultiplied alpha. Unlit colors are those of the
+        // picture already (KHR_materials_unlit): they are only exposed.
+        let mut color = if draw.is_lit() {
+            self.tone_mapper.map_colors(radiance)
+        } else {
+            radiance * self.tone_mapper.exposure
+        };
         let mut alpha = Lanes::ONE;
         if draw.material.alpha_mode == AlphaMode::Blend {
             alpha = inputs.alpha;

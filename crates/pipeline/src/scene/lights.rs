@@ -1,7 +1,7 @@
 //! Resolution of lights: units, directions and shadows of the lights of a scene file, and the
 //! default key light.
 
-use super::file::{Finite, LightColor, LightFile, SceneFile, ShadowsFile};
+use super::file::{EnvironmentFile, Finite, LightColor, LightFile, SceneFile, ShadowsFile};
 use super::number::{NonNegative, Positive, Triple};
 use super::shadows::resolve_shadow;
 use super::syntax::PathStep::{Field, Index};
@@ -12,8 +12,22 @@ use model::LightKind;
 use model::ModelInstance;
 use shade::{Light, Shadow};
 
-/// The lights of a scene: those of the file, or of the models, or a default key light with ambient
-/// light where nothing else would light the models.
+/// The irradiance of the default key light where nothing but ambient light is beside it, in lux.
+const KEY_LUX: f32 = 2.5;
+/// The irradiance of the ambient light beside it, in lux.
+const AMBIENT_LUX: f32 = 0.7;
+/// The irradiance of the default key light in an environment, in lux. Matte white facing it has
+/// 1.45 / π = 0.46 of it, and with the studio of bare models at most 0.95 in all.
+const KEY_LUX_IN_ENVIRONMENT: f32 = 1.45;
+/// The elevation of the default key light above the horizon, in degrees.
+const KEY_ELEVATION: f64 = 50.0;
+/// The angle from the view to the default key light, seen from above, in degrees to the left.
+const KEY_AZIMUTH: f64 = 55.0;
+
+/// The lights of a scene: those of the file, or of the models, or a default key light where nothing
+/// else would light the models, or nothing would model them.
+///
+/// What counts is the light that the style shows: an environment is none where it does not.
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
@@ -26,14 +40,19 @@ pub(super) fn resolve_lights(
     let shadow = resolve_shadow(origin, asked.as_ref(), &[Field("shadows")])?;
     let Some(lights) = &file.lights else {
         let theirs = collect_model_lights(models, shadow);
-        let is_dark = file.effective_environment(origin, models).is_none();
-        return Ok(match (theirs.is_empty(), is_dark) {
-            (true, true) => default_lights(view_projection, shadow),
-            // Shadows were asked for, and somebody must cast them.
-            (true, false) if shadow.is_some() => {
-                vec![default_key_light(view_projection, 1.5, shadow)]
+        if !theirs.is_empty() {
+            return Ok(theirs);
+        }
+        let key_light = |lux| default_key_light(view_projection, lux, shadow);
+        return Ok(match file.effective_environment(origin, models) {
+            None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
+            // A bare model has the same light with shadows and without.
+            Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
+                vec![key_light(KEY_LUX_IN_ENVIRONMENT)]
             }
-            _ => theirs,
+            // Shadows were asked for, and something must cast them.
+            Some(_) if shadow.is_some() => vec![key_light(KEY_LUX_IN_ENVIRONMENT)],
+            Some(_) => Vec::new(),
         });
     };
     let mut resolved = Vec::new();
@@ -75,21 +94,24 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
     lights
 }
 
-/// The default lights: a key light of 2.5 lux from the upper left of the camera, and ambient light
-/// of 0.7 lux.
-fn default_lights(view_projection: &ViewProjection, shadow: Option<Shadow>) -> Vec<Light> {
-    vec![default_key_light(view_projection, 2.5, shadow), Light::Ambient { lux: [0.7; 3] }]
-}
-
-/// A directional light from the upper left of the camera, so that all visible sides differ in
-/// brightness.
+/// A directional light high above the ground and to the left of the view, so that visible sides
+/// differ in brightness and shadows fall to the right, where they are seen.
 ///
-/// The direction to the light is −0.45 u + 0.65 v + w in the camera's basis, normalized.
+/// It stands by the world's up, y, and not by the camera's: a camera that looks down does not take
+/// the light with it below the horizon.
 fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<Shadow>) -> Light {
     let camera = view_projection.camera;
-    let towards = camera.u() * -0.45 + camera.v() * 0.65 + camera.w();
-    let towards = towards.normalized().unwrap_or(camera.w());
-    Light::Sun { to_light: towards.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
+    let level = |axis: Vector<World>| {
+        let level = axis - Vector::Y * axis.dot(Vector::Y);
+        (level.length() > 1e-3).then(|| level.normalized()).flatten()
+    };
+    // To the viewer along the ground; from straight above that is the picture's lower border.
+    let front = level(camera.w()).or_else(|| level(-camera.v())).unwrap_or(Vector::Z);
+    let left = front.cross(Vector::Y);
+    let [azimuth, elevation] = [KEY_AZIMUTH, KEY_ELEVATION].map(f64::to_radians);
+    let along_ground = front * libm::cos(azimuth) + left * libm::sin(azimuth);
+    let to_light = along_ground * libm::cos(elevation) + Vector::Y * libm::sin(elevation);
+    Light::Sun { to_light: to_light.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
 /// A light of the file, with the scene's shadows unless it has its own; `None` for `FromModels`.

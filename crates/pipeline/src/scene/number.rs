@@ -93,8 +93,11 @@ impl NonNegative {
     /// 1.
     pub const ONE: Self = Self(1.0);
 
-    /// 0.6, the strength of the studio around a model without a scene file.
-    pub const SIX_TENTHS: Self = Self(0.6);
+    /// 0.45, the strength of the studio around a model without a scene file.
+    pub const BARE_STUDIO: Self = Self(0.45);
+
+    /// 0.2, the strength of the studio around a model with lights of its own.
+    pub const DIMMED_STUDIO: Self = Self(0.2);
 
     /// 5, the default padding in percent.
     pub const FIVE: Self = Self(5.0);

@@ -12,11 +12,11 @@ use super::number::Positive;
 use super::section::resolve_sections;
 use super::style::resolve_style;
 use super::suggest::suggest_name;
-use super::surrounding_light::resolve_environment;
+use super::surrounding_light::{has_lights, resolve_environment};
 use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::resolve_view_projection;
-use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile, Style};
+use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile};
 use drawing::Overlay;
 use homog::Bounds;
 use model::Model;
@@ -24,7 +24,7 @@ use model::ModelInstance;
 use model::import::{ImportError, ImportOptions, load, load_bytes};
 use model::world_points;
 use raster::Samples;
-use shade::ToneMapper;
+use shade::{ToneMapper, ToneMapping};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -104,13 +104,14 @@ impl Scene {
         });
         let tone_mapper = ToneMapper::new(
             file.image.exposure_ev.map_or(0.0, Finite::value),
-            file.image.tone_mapping,
+            file.image.tone_mapping.unwrap_or_else(|| {
+                // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
+                let has_model_lights = file.has_default_light(origin) && has_lights(&models);
+                if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None }
+            }),
         );
         let style = resolve_style(origin, &file.style)?;
-        // Nothing is mirrored in line drawings.
-        let is_lit = matches!(style, Style::Shaded | Style::Flat);
-        let environment = || resolve_environment(origin, file, &models, allowed);
-        let environment = if is_lit { environment()? } else { None };
+        let environment = resolve_environment(origin, file, &models, allowed)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
         let backdrop = resolve_backdrop(origin, file, allowed)?;

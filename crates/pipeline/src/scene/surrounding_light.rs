@@ -17,19 +17,38 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The most environments in the cache.
 const MAX_CACHED_ENVIRONMENTS: usize = 4;
 
+/// Whether models bring lights of their own (KHR_lights_punctual).
+pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
+    models.iter().any(|placed| placed.model.scene_lights().next().is_some())
+}
+
 impl SceneFile {
-    /// The surroundings that a scene has. A bare model without lights of its own stands in the
-    /// studio: metals show nothing but what is around them.
+    /// Whether nobody has said what light there is: a bare model, without a scene file.
+    pub(super) const fn has_default_light(&self, origin: &Origin) -> bool {
+        origin.text.is_empty() && self.lights.is_none()
+    }
+
+    /// The environment whose light the style shows; `None` without one.
+    ///
+    /// A bare model stands in the studio: metals show nothing but what is around them. With lights
+    /// of its own the studio is dimmed, so that they still matter.
     pub(super) fn effective_environment(
         &self,
         origin: &Origin,
         models: &[ModelInstance],
     ) -> Option<EnvironmentFile> {
-        let is_lit = || models.iter().any(|placed| placed.model.scene_lights().next().is_some());
-        let is_bare = origin.text.is_empty() && self.lights.is_none() && !is_lit();
-        let environment = self.environment.clone();
-        let environment = environment.or_else(|| is_bare.then_some(EnvironmentFile::STUDIO));
-        environment.filter(|environment| *environment != EnvironmentFile::Dark)
+        let default = || {
+            let studio = if has_lights(models) {
+                EnvironmentFile::DIMMED_STUDIO
+            } else {
+                EnvironmentFile::STUDIO
+            };
+            self.has_default_light(origin).then_some(studio)
+        };
+        let environment = self.environment.clone().or_else(default);
+        environment.filter(|environment| {
+            self.style.shows_environment() && *environment != EnvironmentFile::Dark
+        })
     }
 }
 

@@ -29,6 +29,8 @@ pub(super) struct Anisotropy<const N: usize> {
     bitangents: Vec3Lanes<N>,
     /// The α of GGX along the tangents, not below that of the roughness.
     tangent_alpha: Lanes<N>,
+    /// The strength of the anisotropy, from 0 to 1; 0 where the surface has no tangent.
+    strength: Lanes<N>,
 }
 
 impl<const N: usize> Anisotropy<N> {
@@ -55,20 +57,39 @@ impl<const N: usize> Anisotropy<N> {
         let Vec3Lanes { x, y, z: strength } = inputs.layers.anisotropy;
         let length = (x * x + y * y).sqrt().max(1e-6);
         let (x, y) = ((cos * x - sin * y) / length, (sin * x + cos * y) / length);
-        let strength = strength.clamp(0.0, 1.0);
-        let stretch = (strength * strength).select(&inv_length.is_above(0.0), Lanes::ZERO);
+        let strength = strength.clamp(0.0, 1.0).select(&inv_length.is_above(0.0), Lanes::ZERO);
         Self {
             tangents: t * x + b * y,
             bitangents: b * x - t * y,
-            tangent_alpha: alpha.lerp(Lanes::ONE, stretch),
+            tangent_alpha: alpha.lerp(Lanes::ONE, strength * strength),
+            strength,
         }
+    }
+
+    /// The bent normals at which an environment is mirrored, for a perceptual roughness.
+    ///
+    /// A stretched lobe mirrors a fan of directions, and the prefiltered environment has only round
+    /// lobes. So the normal is bent towards the plane of the bitangent and the view, in which the
+    /// lobe is narrow: `n' ∝ mix((b × v) × b, n, (1 − strength (1 − roughness))⁴)`
+    /// (KHR_materials_anisotropy, after Revie 2012).
+    #[inline(always)]
+    pub(super) fn bent_normals(
+        &self,
+        normals: Vec3Lanes<N>,
+        views: Vec3Lanes<N>,
+        roughness: Lanes<N>,
+    ) -> Vec3Lanes<N> {
+        let across = self.bitangents.cross(views).cross(self.bitangents);
+        let kept = 1.0 - self.strength * (1.0 - roughness);
+        let kept = kept * kept * kept * kept;
+        let bent = across + (normals - across) * kept;
+        bent * (1.0 / bent.dot(bent).max(1e-12).sqrt())
     }
 
     /// The anisotropic GGX lobe without Fresnel, times the cosine of the light: `D · V · n·l`, with
     /// `alpha` across the frame.
     ///
-    /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`. The prefiltered
-    /// environment stays isotropic: only lights are stretched.
+    /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`.
     #[inline(always)]
     pub(super) fn ggx_lobe(
         &self,

@@ -148,7 +148,11 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         // Specular image-based lighting: the first sum from the environment, the second in the
         // albedo.
         // Split-sum approximation, Karis 2013.
-        let light = environment.specular_radiance(normals, views, self.base.roughness);
+        let roughness = self.base.roughness;
+        let mirrors = self.anisotropy.as_ref();
+        let mirrors =
+            mirrors.map_or(normals, |frame| frame.bent_normals(normals, views, roughness));
+        let light = environment.specular_radiance(mirrors, views, roughness);
         // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
         // angles the mirror direction is less occluded than the hemisphere.
         let visibility = self.inputs.occlusion;

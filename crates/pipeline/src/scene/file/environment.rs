@@ -44,10 +44,13 @@ scene_enum! {
 }
 
 impl EnvironmentFile {
-    /// The studio around a model without a scene file: matte white, which reaches 1.4 in the full
-    /// one, stays below 1.
+    /// The studio around a model without a scene file: with the key light beside it, matte white
+    /// reaches 0.95 at most.
     pub const STUDIO: Self =
-        Self::Studio { strength: NonNegative::SIX_TENTHS, rotation_degrees: None };
+        Self::Studio { strength: NonNegative::BARE_STUDIO, rotation_degrees: None };
+    /// The studio around a model without a scene file that brings lights of its own.
+    pub const DIMMED_STUDIO: Self =
+        Self::Studio { strength: NonNegative::DIMMED_STUDIO, rotation_degrees: None };
     /// The sky with every default.
     pub const SKY: Self = Self::Sky { sun: Triple::ONES, strength: NonNegative::ONE };
 

@@ -43,6 +43,12 @@ scene_enum! {
 }
 
 impl StyleFile {
+    /// Whether the light of an environment arrives in pictures of this style.
+    #[must_use]
+    pub const fn shows_environment(&self) -> bool {
+        matches!(self, Self::Shaded | Self::Flat | Self::Gouraud | Self::Clay | Self::Toon)
+    }
+
     /// A line drawing with hidden lines removed.
     #[must_use]
     pub fn lines_hidden_removed() -> Self {
@@ -92,8 +98,8 @@ scene_struct! {
         /// The exposure in stops: each doubles all light. Default: 0.
         pub exposure_ev: Option<Finite> = None,
         /// The tone mapping curve, which brings bright light into the range of the picture.
-        /// Default: `None`.
-        pub tone_mapping: ToneMapping = ToneMapping::None,
+        /// Default: `None`, and `Neutral` for a model without a scene file that has lights.
+        pub tone_mapping: Option<ToneMapping> = None,
         /// The most samples of anisotropic texture filtering, from 1 to 8: with 1, surfaces at
         /// grazing angles are blurred; with more they are sharp. Default: 4.
         pub max_anisotropy: u32 = 4,
