@@ -138,3 +138,55 @@ fn settings_of_shadows_out_of_range_are_pointed_at() {
         assert!(is_reported, "{field}: {}", run.stderr);
     }
 }
+
+#[test]
+fn a_model_with_lights_of_its_own_keeps_a_dimmed_studio() {
+    let sandbox = Sandbox::new("lamps");
+    // One square metre that faces the viewer, and a lamp that shines on its back.
+    let mut document = alberti_tests::gltf::Document::single_triangle();
+    document.json["extensionsUsed"] = serde_json::json!(["KHR_lights_punctual"]);
+    document.json["extensions"]["KHR_lights_punctual"] =
+        serde_json::json!({"lights": [{"type": "directional", "intensity": 3.0}]});
+    // Turned by half a turn about y: the light travels along +z.
+    document.json["nodes"] = serde_json::json!([
+        {"mesh": 0},
+        {"rotation": [0, 1, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}}
+    ]);
+    document.json["scenes"] = serde_json::json!([{"nodes": [0, 1]}]);
+    sandbox.write_file("lamp.glb", document.to_glb());
+    let front = ["--view", "front"];
+    let lit = render_pixels(&sandbox, "lamp.glb", &front);
+    let covered = lit.iter().filter(|pixel| pixel[3] == 255).count() as u64;
+    assert!(covered > 100, "{covered}");
+    assert!(total_brightness(&lit) > 3 * 40 * covered, "the studio lights its front");
+    let dark = render_pixels(&sandbox, "lamp.glb", &["--view", "front", "--environment", "none"]);
+    assert_eq!(total_brightness(&dark), 0, "none is none");
+    // From behind, the lamp matters.
+    let back = render_pixels(&sandbox, "lamp.glb", &["--view", "back"]);
+    let none = render_pixels(&sandbox, "lamp.glb", &["--view", "back", "--environment", "none"]);
+    assert!(total_brightness(&back) >= total_brightness(&none));
+}
+
+#[test]
+fn lights_in_daylight_units_are_exposed() {
+    let sandbox = Sandbox::new("daylight");
+    let brightness = |lux: f64| {
+        let mut document = alberti_tests::gltf::Document::single_triangle();
+        document.json["extensionsUsed"] = serde_json::json!(["KHR_lights_punctual"]);
+        document.json["extensions"]["KHR_lights_punctual"] =
+            serde_json::json!({"lights": [{"type": "directional", "intensity": lux}]});
+        document.json["nodes"] = serde_json::json!([
+            {"mesh": 0},
+            {"extensions": {"KHR_lights_punctual": {"light": 0}}}
+        ]);
+        document.json["scenes"] = serde_json::json!([{"nodes": [0, 1]}]);
+        sandbox.write_file("sun.glb", document.to_glb());
+        let pixels = render_pixels(&sandbox, "sun.glb", &["--view", "front"]);
+        let white = pixels.iter().filter(|pixel| **pixel == [255; 4]).count();
+        assert_eq!(white, 0, "{lux} lux");
+        total_brightness(&pixels)
+    };
+    let [indoors, outdoors, dusk] = [5.0, 100_000.0, 0.5].map(brightness);
+    assert!(outdoors.abs_diff(indoors) < indoors / 10, "{indoors} {outdoors}");
+    assert!(dusk < indoors, "{dusk} {indoors}");
+}

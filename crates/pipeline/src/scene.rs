@@ -16,6 +16,7 @@ mod classical;
 mod color;
 pub(crate) mod depth_span;
 mod error;
+mod exposure;
 pub mod file;
 mod format;
 mod ground;

@@ -3,7 +3,10 @@
 use base64::Engine;
 use model::ModelInstance;
 use model::import::{ImportOptions, load_bytes};
-use pipeline::scene::parse_scene;
+use pipeline::scene::file::{
+    DEFAULT_PADDING, EnvironmentFile, FromFile, SceneFile, ShadowsFile, StyleFile, ViewFile,
+};
+use pipeline::scene::{ResolveOptions, parse_scene};
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -110,6 +113,63 @@ fn test_scene(parts: &[TestPart], size: f64, rest: &str) -> Scene {
     let placed = ModelInstance { model: Arc::new(loaded), model_to_world };
     let origin = Origin::from_text("made.ron", text, ".".into());
     Scene::from_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
+}
+
+/// The scene of a bare model: what the program makes of a file without a scene around it.
+fn bare_scene(parts: &[TestPart], change: impl FnOnce(&mut SceneFile)) -> Scene {
+    let (origin, mut file) = Origin::from_model_bytes("made.gltf", build_glb(parts));
+    file.image.size = (120, 120);
+    change(&mut file);
+    Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene that makes sense")
+}
+
+/// Everything framed from a direction.
+fn framed_from(from: FromFile) -> ViewFile {
+    ViewFile::Frame { from: Some(from), padding_percent: DEFAULT_PADDING }
+}
+
+/// The codes of the pixels that are wholly covered.
+fn covered_codes(picture: &Picture) -> impl Iterator<Item = [u8; 3]> {
+    let covered = picture.pixels.iter().filter(|pixel| pixel[3] == 255);
+    covered.map(|&[r, g, b, _]| [r, g, b])
+}
+
+const WHITE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"metallicFactor":0,"roughnessFactor":1}}"#;
+
+#[test]
+fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
+    let most_allowed = encode_srgb(0.95).round() as u8;
+    for view in [FromFile::Front, FromFile::Left, FromFile::Top, FromFile::Back] {
+        for shadows in [None, Some(ShadowsFile::DEFAULT)] {
+            let scene = bare_scene(&[sphere_part(WHITE)], |file| {
+                file.shadows = shadows;
+                file.camera.view = framed_from(view.clone());
+            });
+            let picture = render(&scene, 2).expect("a picture");
+            let most = covered_codes(&picture).flatten().max().expect("a pixel");
+            assert!(most <= most_allowed, "{view:?} {shadows:?}: {most}");
+            assert!(most >= 200, "{view:?} {shadows:?}: {most} is dark");
+        }
+    }
+}
+
+#[test]
+fn lit_styles_of_a_bare_sphere_are_bright_towards_the_key_light_and_dark_below() {
+    for style in [StyleFile::Shaded, StyleFile::Clay, StyleFile::Gouraud, StyleFile::Toon] {
+        for environment in [None, Some(EnvironmentFile::SKY), Some(EnvironmentFile::Dark)] {
+            let scene = bare_scene(&[sphere_part(WHITE)], |file| {
+                file.style = style.clone();
+                file.environment = environment.clone();
+                file.camera.view = framed_from(FromFile::Front);
+            });
+            let picture = render(&scene, 2).expect("a picture");
+            let at = |x, y| u32::from(picture.pixel(x, y).expect("a pixel")[1]);
+            let (towards, below) = (at(45, 30), at(70, 100));
+            assert!(towards > below + 25, "{style:?} {environment:?}: {towards}, {below}");
+            // The night is dark where no ambient light is; the studio and the sky are not.
+            assert!(below > 30, "{style:?} {environment:?}: {below}");
+        }
+    }
 }
 
 fn encode_srgb(light: f64) -> f64 {

@@ -2,6 +2,7 @@
 //! the file. Models are loaded, angles are radians, and every default is decided.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
+use super::exposure::resolve_exposure;
 use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
 use super::ground::resolve_ground;
 use super::insets::resolve_insets;
@@ -102,8 +103,9 @@ impl Scene {
             };
             file.radius.map_or_else(usual, Positive::value)
         });
+        let exposure_ev = resolve_exposure(origin, file, &models, &lights);
         let tone_mapper = ToneMapper::new(
-            file.image.exposure_ev.map_or(0.0, Finite::value),
+            exposure_ev,
             file.image.tone_mapping.unwrap_or_else(|| {
                 // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
                 let has_model_lights = file.has_default_light(origin) && has_lights(&models);
@@ -111,7 +113,7 @@ impl Scene {
             }),
         );
         let style = resolve_style(origin, &file.style)?;
-        let environment = resolve_environment(origin, file, &models, allowed)?;
+        let environment = resolve_environment(origin, file, &models, allowed, exposure_ev)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;
         let backdrop = resolve_backdrop(origin, file, allowed)?;

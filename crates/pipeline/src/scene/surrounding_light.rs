@@ -74,18 +74,25 @@ fn cached_environment(key: EnvironmentKey, make: impl FnOnce() -> Environment) -
 
 /// The environment of a scene, if it asks for one. Files may lie below the scene's folder and those
 /// that are allowed.
+///
+/// The default studio is as bright in the picture whatever the exposure in stops is: automatic
+/// exposure is for other lights.
 pub(super) fn resolve_environment(
     origin: &Origin,
     file: &SceneFile,
     models: &[ModelInstance],
     allowed: &[PathBuf],
+    exposure_ev: f64,
 ) -> Result<Option<Arc<Environment>>, SceneError> {
     let Some(environment) = file.effective_environment(origin, models) else { return Ok(None) };
     let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
     Ok(Some(match &environment {
         EnvironmentFile::Dark => return Ok(None),
         EnvironmentFile::Studio { strength, rotation_degrees } => {
-            let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
+            let is_automatic = file.environment.is_none() && file.image.exposure_ev.is_none();
+            let exposure = if is_automatic { libm::exp2(exposure_ev) } else { 1.0 };
+            let strength = strength.value() / exposure;
+            let turn = EnvironmentRotation::new(strength, degrees(*rotation_degrees));
             cached_environment(turn.cache_key(0, 0), || {
                 Environment::from_radiance(|way| turn.rotated_radiance(way, studio_radiance))
             })

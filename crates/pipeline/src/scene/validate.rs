@@ -184,7 +184,7 @@ fn errors_of_description(
         errors.extend(check_light(origin, index, light));
     }
     errors.extend(resolve_shadow(origin, file.shadows.as_ref(), &[Field("shadows")]).err());
-    errors.extend(resolve_environment(origin, file, &[], allowed).err());
+    errors.extend(resolve_environment(origin, file, &[], allowed, 0.0).err());
     errors.extend(resolve_style(origin, &file.style).err());
     for (index, section) in file.sections.iter().enumerate() {
         errors.extend(resolve_section(origin, index, section).err());

@@ -118,3 +118,45 @@ impl<const N: usize> Anisotropy<N> {
         distribution * (0.5 * n_dot_l) / masking.max(1e-6)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A frame whose lobe is stretched along x, with this strength.
+    fn frame(strength: f32) -> Anisotropy<1> {
+        Anisotropy {
+            tangents: Vec3Lanes::splat([1.0, 0.0, 0.0]),
+            bitangents: Vec3Lanes::splat([0.0, 1.0, 0.0]),
+            tangent_alpha: Lanes::ONE,
+            strength: Lanes::splat(strength),
+        }
+    }
+
+    /// The bent normal of z, seen from the side, for a perceptual roughness.
+    fn bent_normal(strength: f32, roughness: f32) -> [f32; 3] {
+        let normal = Vec3Lanes::splat([0.0, 0.0, 1.0]);
+        let view = Vec3Lanes::splat([0.6, 0.48, 0.64]);
+        frame(strength).bent_normals(normal, view, Lanes::splat(roughness)).lane(0)
+    }
+
+    #[test]
+    fn the_environment_is_mirrored_at_bent_normals() {
+        // Wholly bent: the view without its part along the bitangent, at length 1.
+        let [x, y, z] = bent_normal(1.0, 0.0);
+        let length = (0.6_f32 * 0.6 + 0.64 * 0.64).sqrt();
+        assert!((x - 0.6 / length).abs() < 1e-6 && y.abs() < 1e-6, "{x} {y} {z}");
+        assert!((z - 0.64 / length).abs() < 1e-6, "{z}");
+        // In between, always towards the view along x, and less for rougher surfaces.
+        assert!(bent_normal(0.5, 0.2)[0] > bent_normal(0.5, 0.6)[0]);
+        assert!(bent_normal(0.5, 0.2)[0] > bent_normal(0.3, 0.2)[0]);
+    }
+
+    #[test]
+    fn without_anisotropy_or_smoothness_nothing_bends() {
+        for (strength, roughness) in [(0.0, 0.0), (0.0, 0.7), (1.0, 1.0)] {
+            let [x, y, z] = bent_normal(strength, roughness);
+            assert!(x.abs() < 1e-6 && y.abs() < 1e-6 && (z - 1.0).abs() < 1e-6, "{strength}");
+        }
+    }
+}

@@ -95,7 +95,8 @@ scene_struct! {
         pub samples: u32 = 4,
         /// The bits of each channel in a PNG: 8 or 16. Default: 8.
         pub bits: u32 = 8,
-        /// The exposure in stops: each doubles all light. Default: 0.
+        /// The exposure in stops: each doubles all light. Default: 0; automatic for a model without
+        /// a scene file whose own lights are too bright.
         pub exposure_ev: Option<Finite> = None,
         /// The tone mapping curve, which brings bright light into the range of the picture.
         /// Default: `None`, and `Neutral` for a model without a scene file that has lights.
