@@ -15,7 +15,8 @@
 //! and where segments coincide on the page only that of the most important kind remains. Layers
 //! have stable ids, such as `hidden-crease`, by which style sheets and scripts can address them.
 
-use super::line_style::{EdgeSelection, HiddenLines, LineStyle};
+use super::line_density::Thinning;
+use super::line_style::{EdgeSelection, HiddenLines, LineStyle, LineWidths};
 use super::line_type::LineType;
 use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::page::{
@@ -69,6 +70,8 @@ struct LineKinds<'a> {
     kinds: Vec<LineKind>,
     /// The nearest and the farthest depth of all lines.
     depths: [f64; 2],
+    /// How much lines are thinned for their density: visible ones, then hidden ones.
+    thinning: [Thinning; 2],
 }
 
 impl LineDrawing {
@@ -108,7 +111,7 @@ impl LineDrawing {
         prefix: &str,
         ink: Ink,
     ) -> Vec<Layer> {
-        let kinds = LineKinds::new(self, style);
+        let kinds = LineKinds::new(self, style, placement);
         let mut segments = Vec::new();
         for segment in &self.segments {
             kinds.for_each_segment(segment, |kind, ends, object| {
@@ -164,7 +167,7 @@ impl Page {
 
 impl<'a> LineKinds<'a> {
     /// The kinds of lines that a style draws, and the range of depths.
-    fn new(drawing: &LineDrawing, style: &'a LineStyle) -> Self {
+    fn new(drawing: &LineDrawing, style: &'a LineStyle, placement: Placement) -> Self {
         let depths = drawing.segments.iter().flat_map(|segment| segment.depths);
         let nearest = depths.clone().fold(0.0, f64::max);
         let farthest = depths.fold(nearest, f64::min);
@@ -179,7 +182,8 @@ impl<'a> LineKinds<'a> {
         }
         // Facets are construction lines: even hidden feature edges take precedence over them.
         kinds.sort_by_key(|kind| (kind.class == EdgeClass::Facet, kind.hidden, kind.band));
-        Self { style, kinds, depths: [nearest, farthest] }
+        let thinning = thinning_for_style(drawing, style, placement);
+        Self { style, kinds, depths: [nearest, farthest], thinning }
     }
 
     /// Calls `push` with each part of a segment that is drawn, and the index of its kind.
@@ -237,15 +241,44 @@ impl<'a> LineKinds<'a> {
             kind.hidden || matches!(kind.class, EdgeClass::Tangent | EdgeClass::Hatching);
         let width = if is_narrow { narrow } else { wide };
         let line_type = if kind.hidden { LineType::Dashed } else { LineType::Continuous };
-        let ink = if kind.band == 0 { ink } else { faded_ink(ink, style.depth_cue, kind.band) };
-        line_type.to_pen(width, ink, style.cap, style.join)
+        let Thinning { width: width_factor, contrast } = self.thinning[usize::from(kind.hidden)];
+        let cue = style.depth_cue * f64::from(kind.band) / f64::from(DEPTH_BANDS - 1);
+        let faded = if contrast < 1.0 { 1.0 - (1.0 - cue) * contrast } else { cue };
+        let ink = if faded > 0.0 { faded_ink(ink, faded) } else { ink };
+        line_type.to_pen(width * width_factor, ink, style.cap, style.join)
+    }
+}
+
+/// How much the lines of a style are thinned for their density, visible ones and hidden ones.
+///
+/// Thinned are the lines that lie over each other: those of wireframes, and hidden ones. Visible
+/// lines of other styles show the drawing itself. Sheets are to scale, and have the widths and the
+/// ink that were asked for.
+fn thinning_for_style(
+    drawing: &LineDrawing,
+    style: &LineStyle,
+    placement: Placement,
+) -> [Thinning; 2] {
+    if placement != Placement::PICTURE {
+        return [Thinning::NONE; 2];
+    }
+    let [wide, narrow] = style.line_widths.wide_and_narrow().map(|mm| mm / MILLIMETERS_PER_PIXEL);
+    let keeps_width = !matches!(style.line_widths, LineWidths::Pixels(_));
+    match style.hidden_lines {
+        HiddenLines::Drawn if style.edges == EdgeSelection::Facets => {
+            [Thinning::for_lines(drawing, wide, keeps_width, |_| true), Thinning::NONE]
+        }
+        HiddenLines::Dashed => {
+            let hidden = |segment: &EdgeSegment| !segment.visible;
+            [Thinning::NONE, Thinning::for_lines(drawing, narrow, keeps_width, hidden)]
+        }
+        HiddenLines::Drawn | HiddenLines::Removed => [Thinning::NONE; 2],
     }
 }
 
 /// Ink with a part of its contrast removed, towards white, or towards black for light inks on dark
 /// paper.
-fn faded_ink(ink: Ink, most: f64, band: u32) -> Ink {
-    let part = most * f64::from(band) / f64::from(DEPTH_BANDS - 1);
+fn faded_ink(ink: Ink, part: f64) -> Ink {
     let ground = if ink.iter().map(|c| u32::from(*c)).sum::<u32>() > 384 { 0.0 } else { 255.0 };
     let mixed = |c: u8| f64::from(c) + (ground - f64::from(c)) * part;
     ink.map(|channel| libm::round(mixed(channel)) as u8)

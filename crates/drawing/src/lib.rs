@@ -35,6 +35,7 @@ mod hatching;
 mod hidden_line;
 mod label;
 mod layout;
+mod line_density;
 mod line_drawing;
 mod line_style;
 mod line_type;

@@ -1,0 +1,128 @@
+//! Line density: dense lines are drawn thinner and paler, so that many of them do not become one
+//! blot.
+//!
+//! ```text
+//!   coverage   area of the ink / area of the page, where lines are
+//!        1 ┤            ╱  of a thousand edges on the space of ten
+//!    0.6 ┤ · · · ╭─────    from here on the pen is thinned, then made paler
+//!        0 ┤    ╱
+//! ```
+//!
+//! The measure is one number for all lines that are thinned together, and so has no borders in the
+//! drawing: the mean coverage that a point of a line finds around it.
+
+use crate::{EdgeSegment, LineDrawing};
+use glam::DVec2;
+
+/// The side of the squares in which coverage is measured, in pixels.
+const CELL_SIDE: f64 = 16.0;
+/// The coverage up to which lines are drawn as they are.
+const MAX_COVERAGE: f64 = 0.6;
+/// The least part of its width that a line keeps; from there on it becomes paler.
+const MIN_WIDTH_FACTOR: f64 = 0.4;
+/// The least part of its contrast that a line keeps.
+const MIN_CONTRAST: f64 = 0.4;
+
+/// How much dense lines are thinned.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Thinning {
+    /// The factor of the width.
+    pub(crate) width: f64,
+    /// The factor of the contrast with the paper.
+    pub(crate) contrast: f64,
+}
+
+impl Thinning {
+    /// Lines as they are.
+    pub(crate) const NONE: Self = Self { width: 1.0, contrast: 1.0 };
+
+    /// The thinning of the selected segments of a drawing, drawn with this width in pixels.
+    ///
+    /// With `keeps_width` lines only become paler, for drawings whose widths are those of a
+    /// standard.
+    pub(crate) fn for_lines(
+        drawing: &LineDrawing,
+        width: f64,
+        keeps_width: bool,
+        selects: impl Fn(&EdgeSegment) -> bool,
+    ) -> Self {
+        let coverage = mean_coverage(drawing, width, selects);
+        if coverage <= MAX_COVERAGE {
+            return Self::NONE;
+        }
+        let factor = MAX_COVERAGE / coverage;
+        let width = if keeps_width { 1.0 } else { factor.max(MIN_WIDTH_FACTOR) };
+        // The root: lines over each other add up to less than their sum.
+        Self { width, contrast: (factor / width).sqrt().clamp(MIN_CONTRAST, 1.0) }
+    }
+}
+
+/// The mean coverage around the points of the selected segments: more than 1 where lines lie over
+/// each other.
+fn mean_coverage(drawing: &LineDrawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
+    let [columns, rows] =
+        [drawing.size.x, drawing.size.y].map(|side| (side / CELL_SIDE).ceil().max(1.0));
+    let mut lengths = vec![0.0; columns as usize * rows as usize];
+    for segment in drawing.segments.iter().filter(|segment| selects(segment)) {
+        let [from, to] = segment.ends;
+        let length = from.distance(to);
+        // Steps of at most half a cell; each counts where its middle is.
+        let steps = (2.0 * length / CELL_SIDE).ceil().max(1.0);
+        for step in 0..steps as usize {
+            let middle = from.lerp(to, (step as f64 + 0.5) / steps);
+            let cell = (middle / CELL_SIDE).floor();
+            let cell = cell.clamp(DVec2::ZERO, DVec2::new(columns - 1.0, rows - 1.0));
+            lengths[cell.y as usize * columns as usize + cell.x as usize] += length / steps;
+        }
+    }
+    let total: f64 = lengths.iter().sum();
+    let squares: f64 = lengths.iter().map(|length| length * length).sum();
+    if total > 0.0 { squares / total * width / (CELL_SIDE * CELL_SIDE) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::EdgeClass;
+
+    /// A drawing of 160 × 160 pixels with so many horizontal lines from side to side.
+    fn drawing_of_lines(count: usize) -> LineDrawing {
+        let segment = |line: usize| EdgeSegment {
+            ends: [0.0, 160.0].map(|x| DVec2::new(x, 160.0 * (line as f64 + 0.5) / count as f64)),
+            depths: [1.0; 2],
+            class: EdgeClass::Facet,
+            visible: true,
+            object: 0,
+            edge: 0,
+        };
+        LineDrawing {
+            size: DVec2::splat(160.0),
+            segments: (0..count).map(segment).collect(),
+            ..LineDrawing::default()
+        }
+    }
+
+    #[test]
+    fn coverage_is_the_ink_on_the_page() {
+        for (count, width, coverage) in [(10, 1.0, 10.0 / 160.0), (100, 0.5, 50.0 / 160.0)] {
+            let mean = mean_coverage(&drawing_of_lines(count), width, |_| true);
+            assert!((mean - coverage).abs() < 0.1 * coverage, "{count}: {mean}");
+        }
+        assert_eq!(mean_coverage(&drawing_of_lines(10), 1.0, |_| false), 0.0);
+        assert_eq!(mean_coverage(&drawing_of_lines(0), 1.0, |_| true), 0.0);
+    }
+
+    #[test]
+    fn only_dense_lines_are_thinned_first_in_width_then_in_contrast() {
+        let thinning = |count, keeps_width| {
+            Thinning::for_lines(&drawing_of_lines(count), 1.0, keeps_width, |_| true)
+        };
+        assert_eq!(thinning(40, false), Thinning::NONE);
+        let dense = thinning(160, false);
+        assert!((0.5..0.7).contains(&dense.width) && dense.contrast > 0.99, "{dense:?}");
+        let denser = thinning(1600, false);
+        assert!(denser.width == MIN_WIDTH_FACTOR && denser.contrast < 0.5, "{denser:?}");
+        let kept = thinning(160, true);
+        assert!(kept.width == 1.0 && kept.contrast < 0.9, "{kept:?}");
+    }
+}
