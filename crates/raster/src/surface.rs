@@ -55,6 +55,30 @@ pub trait Surface: Sync {
     }
 }
 
+/// A reference to a surface is one, so that `&dyn Surface` can be drawn: one copy of the machine
+/// code of drawing for surfaces of several types.
+impl<S: Surface + ?Sized> Surface for &S {
+    fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
+        (**self).passes_alpha_test(fragment)
+    }
+
+    fn alpha_test_eight(&self, fragments: &Fragments<'_>) -> [bool; LANES] {
+        (**self).alpha_test_eight(fragments)
+    }
+
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        (**self).shade(fragment)
+    }
+
+    fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
+        (**self).shade_eight(fragments)
+    }
+
+    fn transmittance_eight(&self, fragments: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
+        (**self).transmittance_eight(fragments, alphas)
+    }
+}
+
 /// A pixel encoder: from a linear color, premultiplied by alpha, to a pixel of the target.
 ///
 /// Any function from a color to a pixel is one.

@@ -18,7 +18,7 @@ use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::Scene;
 use model::Model;
 use raster::{F32x8, Fragment, Fragments, Frame, Surface};
-use shade::color::SrgbEncoder;
+use shade::Channel;
 use std::sync::{Mutex, PoisonError};
 
 /// One pixel of a picture and the fragments behind it.
@@ -100,7 +100,7 @@ fn record_fragments(
 ) -> ([u8; 4], Vec<RecordedFragment>) {
     let recorder = Recorder { surface, pixel, fragments: Mutex::default() };
     let mut color = [[0; 4]];
-    frame.draw(&recorder, background, 1, &mut color, SrgbEncoder::shared());
+    u8::draw_frame(frame, &recorder, background, 1, &mut color);
     (color[0], recorder.fragments.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 

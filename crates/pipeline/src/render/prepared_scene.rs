@@ -20,7 +20,8 @@ use crate::Picture;
 use crate::scene::Inset;
 use drawing::{Layer, Page, Warning, draw_layers_over};
 use homog::PixelRect;
-use shade::{AmbientOcclusion, Channel, FrameShading};
+use raster::Surface;
+use shade::{AmbientOcclusion, Channel};
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
 ///
@@ -204,10 +205,9 @@ impl<'a> PreparedScene<'a> {
         let ssao = full_ssao.as_ref().or(own_ssao.as_ref());
         let shading = fragment_shading(scene, &memory, &buffers.shadow_maps.maps, ssao);
         let styled = style_shading(scene, &shading);
-        let shading =
-            styled.as_ref().map_or(FrameShading::Materials(&shading), FrameShading::Style);
+        let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
         let (frame, background) = (&memory.frame, scene.image.background);
-        context.measure("pixels", || C::draw_frame(frame, shading, background, threads, pixels));
+        context.measure("pixels", || C::draw_frame(frame, surface, background, threads, pixels));
         buffers.nearest_surfaces = own_ssao.map(|ssao| ssao.nearest).unwrap_or_default();
         buffers.recycle_frame(memory);
         Ok(())

@@ -4,8 +4,7 @@
 //! writes pixels exists once.
 
 use crate::color::{Srgb16Encoder, SrgbEncoder};
-use crate::frame_shading::FrameShading;
-use raster::Frame;
+use raster::{Frame, Surface};
 
 /// A channel of a pixel, `u8` or `u16`. It cannot be implemented outside of this crate.
 pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static {
@@ -15,11 +14,11 @@ pub trait Channel: sealed::Sealed + Copy + Default + Eq + Send + Sync + 'static 
     const BITS: u8;
     /// Draws a frame over `background` (linear, premultiplied by alpha) into pixels.
     ///
-    /// As [`Frame::draw`], but compiled in this crate for both depths: the machine code of shading
-    /// is large, and callers that are generic over channels would each have copies of it.
+    /// As [`Frame::draw`], but compiled once for each depth, here: callers that are generic over
+    /// channels and surfaces would each have copies of it.
     fn draw_frame(
         frame: &Frame,
-        shading: FrameShading<'_>,
+        surface: &dyn Surface,
         background: [f32; 4],
         threads: usize,
         pixels: &mut [[Self; 4]],
@@ -49,12 +48,12 @@ impl Channel for u8 {
 
     fn draw_frame(
         frame: &Frame,
-        shading: FrameShading<'_>,
+        surface: &dyn Surface,
         background: [f32; 4],
         threads: usize,
         pixels: &mut [[Self; 4]],
     ) {
-        shading.draw(frame, background, threads, pixels, SrgbEncoder::shared());
+        frame.draw(&surface, background, threads, pixels, SrgbEncoder::shared());
     }
 
     fn from_byte(byte: u8) -> Self {
@@ -84,12 +83,12 @@ impl Channel for u16 {
 
     fn draw_frame(
         frame: &Frame,
-        shading: FrameShading<'_>,
+        surface: &dyn Surface,
         background: [f32; 4],
         threads: usize,
         pixels: &mut [[Self; 4]],
     ) {
-        shading.draw(frame, background, threads, pixels, Srgb16Encoder::shared());
+        frame.draw(&surface, background, threads, pixels, Srgb16Encoder::shared());
     }
 
     fn from_byte(byte: u8) -> Self {
