@@ -1,7 +1,8 @@
-//! `cargo xtask gallery`: every scene on one page, with the comment of its file below it.
+//! `cargo xtask gallery`: every scene on one page, with the comment of its file below it; with
+//! `--models DIR` every model of a folder in every style and light (`tests/gallery`).
 
 use crate::Outcome;
-use crate::program::{Build, Program};
+use crate::program::{Build, Program, cargo_command, run_visibly};
 use crate::workspace::{create_folder, list_scenes, target_folder};
 use std::fs;
 
@@ -23,8 +24,11 @@ const PAGE_HEAD: &str = "<!doctype html>
 
 /// Renders all scenes and writes the page.
 pub fn run_gallery(arguments: &[String]) -> Outcome {
-    if let Some(argument) = arguments.first() {
-        return Err(format!("unknown argument `{argument}`"));
+    match arguments {
+        [] => {}
+        [flag, models] if flag == "--models" => return run_model_gallery(models),
+        [flag] if flag == "--models" => return Err("--models needs a folder".to_owned()),
+        [argument, ..] => return Err(format!("unknown argument `{argument}`")),
     }
     let folder = target_folder().join("gallery");
     create_folder(&folder)?;
@@ -39,6 +43,13 @@ pub fn run_gallery(arguments: &[String]) -> Outcome {
     fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))?;
     println!("{}", path.display());
     Ok(())
+}
+
+/// Renders every model of a folder in all variants.
+fn run_model_gallery(models: &str) -> Outcome {
+    let folder = fs::canonicalize(models).map_err(|error| format!("{models}: {error}"))?;
+    let call = ["bench", "--quiet", "--package", "alberti-tests", "--bench", "gallery", "--"];
+    run_visibly(cargo_command(&call).arg(folder))
 }
 
 fn figure_html(name: &str, caption: &str) -> String {

@@ -62,13 +62,13 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "determinism",
         arguments: "[--threads N] [--wide]",
-        about: "Render every scene in debug and release builds, twice each, and compare the bytes",
+        about: "Render every scene in debug and release builds, and compare the bytes",
         run: determinism::run_determinism,
     },
     Command {
         name: "gallery",
-        arguments: "",
-        about: "Render every scene to one HTML page, target/gallery/index.html",
+        arguments: "[--models DIR]",
+        about: "Render every scene, or every model of a folder in every style, to one HTML page",
         run: gallery::run_gallery,
     },
     Command {
