@@ -116,10 +116,12 @@ fn every_view_style_and_projection_shows_something() {
                 let (_, _, pixels) = sandbox.read_picture("out.png");
                 let inked = pixels.iter().filter(|pixel| pixel[3] > 0).count();
                 assert!(inked > 48 * 32 / 16, "{flags:?}: {inked} pixels");
-                // Framing leaves the margin of 5 per cent free: nothing touches the border.
+                // Framing leaves the margin of 5 per cent free: nothing touches the border. Dense
+                // wireframes are hairlines, which leave a trace of 30 in 255 a pixel beyond them.
                 let border =
                     |n: usize| n.is_multiple_of(48) || n % 48 == 47 || !(48..48 * 31).contains(&n);
-                let touches = pixels.iter().enumerate().any(|(n, pixel)| border(n) && pixel[3] > 0);
+                let touches =
+                    pixels.iter().enumerate().any(|(n, pixel)| border(n) && pixel[3] > 48);
                 assert!(!touches, "{flags:?}");
             }
         }
