@@ -38,7 +38,7 @@ const SHAPED_STYLES: [(&str, StyleFile); 7] = [
 ];
 
 /// Models whose own emission, unlit colors or lines are white, and why.
-const WHITE_MODELS: [(&str, &str); 11] = [
+const WHITE_MODELS: [(&str, &str); 13] = [
     ("anisotropy-strength-test", "labels that emit light"),
     ("blender-emission-strength", "spheres that emit light"),
     ("blender-vertex-color", "unlit lines and points"),
@@ -46,7 +46,9 @@ const WHITE_MODELS: [(&str, &str); 11] = [
     ("lines", "unlit lines"),
     ("mexican_hat_lines", "unlit lines"),
     ("points", "unlit points"),
-    ("primitive-mode-0", "unlit points and lines"),
+    ("primitive-mode-00", "unlit points"),
+    ("primitive-mode-02", "unlit lines"),
+    ("primitive-mode-08", "unlit points"),
     ("primitive-mode-10", "unlit points"),
     ("primitive-mode-normals-test", "unlit labels and lines"),
     ("primitives", "unlit points and lines"),
@@ -139,10 +141,10 @@ fn render_model(model: &Path, style: &StyleFile) -> Result<PictureStatistics, Re
     Ok(PictureStatistics::of_picture(&picture))
 }
 
-/// Whether the name of a model begins like one of a list.
+/// Whether a model is in a list.
 fn is_exempt(model: &Path, list: &[(&str, &str)]) -> bool {
     let name = model_name(model);
-    list.iter().any(|(known, _)| name.starts_with(known))
+    list.iter().any(|(known, _)| name == *known)
 }
 
 /// The name of a model: that of its file, or of the folder which it is alone in.

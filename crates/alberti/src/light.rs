@@ -17,8 +17,8 @@ use std::path::PathBuf;
 pub(crate) struct LightArgs {
     /// Environment light: studio, sky, none, or a .hdr file
     ///
-    /// `studio` has strength 0.45, as for models without a scene file. A .hdr file is an equirectangular Radiance
-    /// map.
+    /// `studio` has strength 0.45, as for models without a scene file. A .hdr file is an
+    /// equirectangular Radiance map.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
     /// Exposure in stops, such as 1 or -0.5; each stop doubles the light

@@ -12,7 +12,7 @@
 //! | [`projection`] | every planar projection by name, API conventions, inverses, decomposition |
 //! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
 //! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
-//! | [`raster`] | exact coverage (`rasterize.rs`), depth test, multisampling, deterministic parallel tiles |
+//! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
 //! | [`model`] | glTF to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
 //! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG and PDF |

@@ -106,8 +106,8 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     Ok(output.matches_reference(args.json))
 }
 
-/// Compares the scene's line drawing with its z-buffer image, with hidden lines removed (they are cut
-/// in `drawing/src/hidden_line`).
+/// Compares the scene's line drawing with its z-buffer image, with hidden lines removed (they are
+/// cut in `drawing/src/hidden_line`).
 ///
 /// The drawing is made again, because dashed or drawn hidden lines would count as visible.
 ///

@@ -39,8 +39,8 @@
 //! assert!((seen.y() - 1.0 / 3.0).abs() < 1e-15);
 //! ```
 //!
-//! The perspective divide is [`HPoint::divide`], and it returns an `Option`: no place hides a division
-//! by zero. Four numbers that cannot be divided still mean something, and [`HPoint::kind`] says
+//! The perspective divide is [`HPoint::divide`], and it returns an `Option`: no place hides a
+//! division by zero. Four numbers that cannot be divided still mean something, and [`HPoint::kind`] says
 //! what; so the point in which railway tracks meet is the image of a direction,
 //! [`Projective::vanishing_point`].
 //!

@@ -14,7 +14,7 @@
 //!
 //! | file | term |
 //! | --- | --- |
-//! | `microfacet` (`ggx_lobe`) | GGX normal distribution (NDF), Smith masking-shadowing, Schlick Fresnel |
+//! | `microfacet` (`ggx_lobe`) | GGX distribution (NDF), Smith masking-shadowing, Schlick Fresnel |
 //! | `base` | dielectric and metal, energy compensation, specular-glossiness |
 //! | `directional_albedo` | the second sum of the split-sum approximation, as a table |
 //! | `anisotropy` | anisotropic GGX |

@@ -27,7 +27,7 @@ const KEY_AZIMUTH: f64 = 55.0;
 /// The lights of a scene: those of the file, or of the models, or a default key light where nothing
 /// else would light the models, or nothing would model them.
 ///
-/// What counts is the light that the style shows: an environment is none where it does not.
+/// Only light that the style shows counts: clay receives the environment, a line drawing does not.
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,

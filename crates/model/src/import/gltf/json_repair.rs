@@ -21,8 +21,8 @@ const MAX_REPAIRS: usize = 500;
 /// Deserializes a document; reading leniently, leaves out what does not fit. `length` is that of
 /// its text.
 ///
-/// Reading strictly, the first fault is the error. Each pass finds one fault, so that the cost is the number of faults times the length of the
-/// text; the budget bounds it for hostile files.
+/// Reading strictly, the first fault is the error. Each pass finds one fault, so that the cost is
+/// the number of faults times the length of the text; the budget bounds it for hostile files.
 ///
 /// # Errors
 /// A fault cannot be repaired, must not be, or the budget is spent.
