@@ -40,9 +40,9 @@
 //! ```
 //!
 //! The perspective divide is [`HPoint::divide`], and it returns an `Option`: no place hides a
-//! division by zero. Four numbers that cannot be divided still mean something, and [`HPoint::kind`] says
-//! what; so the point in which railway tracks meet is the image of a direction,
-//! [`Projective::vanishing_point`].
+//! division by zero. Four numbers that cannot be divided still mean something, and
+//! [`HPoint::kind`] says what; so the point in which railway tracks meet is the image of a
+//! direction, [`Projective::vanishing_point`].
 //!
 //! Mixing spaces does not compile:
 //!

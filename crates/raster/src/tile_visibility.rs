@@ -267,8 +267,8 @@ impl TileVisibility {
 
     /// Sorts layers by pixel, and those of a pixel back to front.
     ///
-    /// Depth ties of translucent layers: the one submitted later is drawn over the other. (Of opaque
-    /// triangles the one submitted first stays: `rasterize.rs`.)
+    /// Depth ties of translucent layers: the one submitted later is drawn over the other. (Of
+    /// opaque triangles the one submitted first stays: `rasterize.rs`.)
     fn sort_layers(&mut self) {
         // Pixel, depth, triangle: a total order, so an unstable sort gives one result.
         self.layers.sort_unstable_by(|a, b| {

@@ -1,4 +1,4 @@
-//! The studio: a procedural environment of even light over a dark floor, with rectangular softboxes.
+//! The studio: a procedural environment of even light over a dark floor, with softboxes.
 //!
 //! ```text
 //!          ▬▬▬  overhead strip
@@ -38,8 +38,8 @@ const SOFTBOX_FADE: [f32; 2] = [0.25, 0.15];
 /// The radiance of a photographer's studio from a direction, a unit vector with y up.
 ///
 /// Matte white, whose radiance is the irradiance over π, reaches 1.04 at most and 0.21 facing the
-/// floor. No direction is brighter than 2.17, so that a mirror at the strength of bare models, 0.45,
-/// does not clip.
+/// floor. No direction is brighter than 2.17, so that a mirror at the strength of bare models,
+/// 0.45, does not clip.
 #[must_use]
 pub fn studio_radiance(direction: [f32; 3]) -> [f32; 3] {
     let height = direction[1];

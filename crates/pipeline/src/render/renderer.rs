@@ -60,8 +60,8 @@ impl Renderer {
         Ok(prepared.into_warnings())
     }
 
-    /// Renders a whole picture of 8 bits a channel as the bytes of a PNG file, and returns them with
-    /// the warnings about what it lacks.
+    /// Renders a whole picture of 8 bits a channel as the bytes of a PNG file, and returns them
+    /// with the warnings about what it lacks.
     ///
     /// # Errors
     /// As [`render`](Self::render).

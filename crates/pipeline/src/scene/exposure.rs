@@ -19,8 +19,8 @@ const BRIGHTER_SHARE: usize = 10;
 /// The exposure of a scene in stops: that of the file; without one 0, or less where a bare model's
 /// own lights are too bright.
 ///
-/// The measure is the illuminance of the vertices by all lights, unshadowed and at normal incidence:
-/// nine of ten are not above it.
+/// The measure is the illuminance of the vertices by all lights, unshadowed and at normal
+/// incidence: nine of ten are not above it.
 pub(super) fn resolve_exposure(
     origin: &Origin,
     file: &SceneFile,
