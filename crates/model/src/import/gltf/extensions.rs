@@ -1,8 +1,8 @@
 //! Extension support: the extensions that are drawn, ignored or refused.
 //!
 //! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md; others
-//! are read in the module of their object (nodes in `scene_graph`). Then change the row in the table,
-//! which is what the program prints about a file's extensions.
+//! are read in the module of their object (nodes in `scene_graph`). Then change the row in the
+//! table, which is what the program prints about a file's extensions.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::warnings::ImportWarnings;
