@@ -14,7 +14,7 @@ use crate::sample_plane::NO_TRIANGLE;
 use crate::tile_grid::TILE;
 use crate::tile_resolve::{Contribution, PixelRun, TileResolve, split_before};
 use crate::tile_visibility::TranslucentLayer;
-use crate::{Encode, Surface};
+use crate::{Encode, Surface, TranslucentColors};
 
 /// The contributions to the pixels with layers in one row of a tile, and their colors.
 #[derive(Debug, Default)]
@@ -88,13 +88,14 @@ impl<S: Surface> TileResolve<'_, S> {
         colors.clear();
         transmittances.clear();
         for eight in contributions.chunks(LANES) {
-            let fragments = self.gather_fragments(y, eight);
-            let [r, g, b, alpha] = self.shade_contributions(eight, fragments.as_ref());
+            let mut shaded = TranslucentColors::default();
+            if let Some(fragments) = self.gather_fragments(y, eight) {
+                shaded = self.surface.shade_translucent_eight(&fragments);
+            }
+            self.fix_opaque_colors(eight, &mut shaded.color);
+            let [r, g, b, alpha] = shaded.color;
             colors.extend((0..eight.len()).map(|k| [r[k], g[k], b[k], alpha[k]]));
-            let [r, g, b] = match fragments {
-                Some(fragments) => self.surface.transmittance_eight(&fragments, &alpha),
-                None => [[0.0; LANES]; 3],
-            };
+            let [r, g, b] = shaded.transmittance;
             transmittances.extend((0..eight.len()).map(|k| [r[k], g[k], b[k]]));
         }
         // Blend pixel by pixel: contributions of one pixel are adjacent.

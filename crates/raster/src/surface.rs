@@ -44,15 +44,26 @@ pub trait Surface: Sync {
         colors
     }
 
-    /// The transmittances of eight translucent fragments with these alphas, for red, green and
-    /// blue: the factors of what is behind them.
+    /// The colors of eight fragments that may be translucent, and what they let through.
     ///
-    /// The default, 1 − alpha, is the "over" operator. Glass that absorbs by color overrides it.
-    /// Lanes of opaque fragments are ignored.
+    /// The default is the "over" operator: [`shade_eight`](Self::shade_eight), and a transmittance
+    /// of 1 − alpha. Glass that absorbs by color overrides it. Transmittances of opaque fragments
+    /// are ignored.
     #[inline(always)]
-    fn transmittance_eight(&self, _: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
-        [alphas.map(|alpha| 1.0 - alpha); 3]
+    fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
+        let color = self.shade_eight(fragments);
+        let transmittance = [color[3].map(|alpha| 1.0 - alpha); 3];
+        TranslucentColors { color, transmittance }
     }
+}
+
+/// The colors of eight fragments that may be translucent.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct TranslucentColors {
+    /// All reds, all greens, all blues, all alphas; linear and premultiplied.
+    pub color: [F32x8; 4],
+    /// The factors of what is behind, for red, green and blue; 0 to 1.
+    pub transmittance: [F32x8; 3],
 }
 
 /// A reference to a surface is one, so that `&dyn Surface` can be drawn: one copy of the machine
@@ -74,8 +85,8 @@ impl<S: Surface + ?Sized> Surface for &S {
         (**self).shade_eight(fragments)
     }
 
-    fn transmittance_eight(&self, fragments: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
-        (**self).transmittance_eight(fragments, alphas)
+    fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
+        (**self).shade_translucent_eight(fragments)
     }
 }
 

@@ -320,7 +320,11 @@ impl<S: Surface> TileResolve<'_, S> {
         for from in (0..edges.contributions().len()).step_by(LANES) {
             let end = edges.contributions().len().min(from + LANES);
             let eight = &edges.contributions()[from..end];
-            let colors = self.shade_contributions(eight, self.gather_fragments(y, eight).as_ref());
+            let mut colors = [[0.0; LANES]; 4];
+            if let Some(fragments) = self.gather_fragments(y, eight) {
+                colors = self.surface.shade_eight(&fragments);
+            }
+            self.fix_opaque_colors(eight, &mut colors);
             edges.add_contributions(from..end, &colors);
         }
         let (left, right) = (self.rect.left as usize, self.rect.right as usize);
@@ -356,21 +360,14 @@ impl<S: Surface> TileResolve<'_, S> {
         Some(Fragments::from_triangles(visible, source_weights, columns, self.rect.y + y))
     }
 
-    /// The colors of up to eight contributions to a row, given their
-    /// [fragments](Self::gather_fragments); those of no triangle have the background's.
-    ///
-    /// Alpha is 1 for opaque triangles and for no triangle that of the background, all
-    /// premultiplied.
+    /// Sets what shading does not decide about contributions: the color of the background where
+    /// there is no triangle, and an alpha of 1 for opaque triangles.
     #[inline(always)]
-    pub(crate) fn shade_contributions(
+    pub(crate) fn fix_opaque_colors(
         &self,
         contributions: &[Contribution],
-        fragments: Option<&Fragments<'_>>,
-    ) -> [F32x8; 4] {
-        let mut colors = [[0.0; LANES]; 4];
-        if let Some(fragments) = fragments {
-            colors = self.surface.shade_eight(fragments);
-        }
+        colors: &mut [F32x8; 4],
+    ) {
         for (lane, contribution) in contributions.iter().enumerate() {
             if contribution.triangle == NO_TRIANGLE {
                 for (color, background) in colors.iter_mut().zip(self.background) {
@@ -380,7 +377,6 @@ impl<S: Surface> TileResolve<'_, S> {
                 colors[3][lane] = 1.0;
             }
         }
-        colors
     }
 }
 

@@ -20,11 +20,11 @@ use super::lanes::{Lanes, Mask, Rgb, Vec3Lanes};
 use super::material_inputs::MaterialInputs;
 use super::shadow_receiver::ShadowReceiver;
 use super::surface_geometry::{SurfaceGeometry, find_back_faces, flip_vectors, view_directions};
-use super::transmission::TransmitEight;
+use super::transmission::tinted_transmittance;
 use super::{Backdrop, Draw, DrawKind, DrawList, Environment, Light, ShadowMap, ToneMapper};
 use homog::{HPoint, World};
 use model::{AlphaMode, Topology};
-use raster::{F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface};
+use raster::{F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface, TranslucentColors};
 
 /// The draws, lights and settings that the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -62,15 +62,15 @@ impl Surface for Shading<'_> {
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.draws.find_draw(fragment.id);
         let primitive = draw.primitive_indices(&[fragment.id], true);
-        self.shade_lanes(draw, &primitive, fragment).map(|channel| channel[0])
+        self.shade_lanes(draw, &primitive, fragment).color.map(|channel| channel[0])
     }
 
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
-        self.simd_level.run_kernel(ShadeEight { shading: self, fragments })
+        self.shade_translucent_eight(fragments).color
     }
 
-    fn transmittance_eight(&self, fragments: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
-        self.simd_level.run_kernel(TransmitEight { shading: self, fragments, alphas })
+    fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
+        self.simd_level.run_kernel(ShadeEight { shading: self, fragments })
     }
 }
 
@@ -154,50 +154,76 @@ struct ShadeEight<'a> {
 }
 
 impl Kernel for ShadeEight<'_> {
-    type Output = [F32x8; 4];
+    type Output = TranslucentColors;
 
     #[inline(always)]
-    fn run(self) -> [F32x8; 4] {
+    fn run(self) -> TranslucentColors {
         let Self { shading, fragments } = self;
         let packet = FragmentPacket::new(fragments);
         let is_single_primitive = fragments.is_single_primitive();
-        let mut colors = [Lanes::ZERO; 4];
+        let mut shaded = ShadedLanes::over([Lanes::ZERO; 4]);
         let mut is_done = [false; LANES];
         // One draw after the other: most often there is only one.
         while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
             let DrawSelection { draw, ids, mask } =
                 shading.draws.select_draw_lanes(fragments, first);
             let primitives = draw.primitive_indices(&ids, is_single_primitive);
-            let draw_colors = shading.shade_lanes(draw, &primitives, &packet);
-            for (channel, draw_channel) in colors.iter_mut().zip(draw_colors) {
-                *channel = draw_channel.select(&mask, *channel);
-            }
+            shaded = shading.shade_lanes(draw, &primitives, &packet).select(&mask, shaded);
             for (is_done, is_own) in is_done.iter_mut().zip(mask) {
                 *is_done |= is_own;
             }
         }
-        let [r, g, b, alpha] = colors;
-        [r.0, g.0, b.0, alpha.0]
+        TranslucentColors {
+            color: shaded.color.map(|channel| channel.0),
+            transmittance: shaded.transmittance.map(|channel| channel.0),
+        }
+    }
+}
+
+/// Shaded fragments: color premultiplied by alpha, alpha, and the transmittance of each channel.
+struct ShadedLanes<const N: usize> {
+    color: [Lanes<N>; 4],
+    transmittance: [Lanes<N>; 3],
+}
+
+impl<const N: usize> ShadedLanes<N> {
+    /// A color that lets through 1 − alpha in each channel: the "over" operator.
+    #[inline(always)]
+    fn over(color: [Lanes<N>; 4]) -> Self {
+        Self { color, transmittance: [1.0 - color[3]; 3] }
+    }
+
+    /// These fragments in the lanes of a mask, and others in the rest.
+    #[inline(always)]
+    fn select(self, mask: &Mask<N>, other: Self) -> Self {
+        let Self { mut color, mut transmittance } = other;
+        for (channel, own) in color.iter_mut().zip(self.color) {
+            *channel = own.select(mask, *channel);
+        }
+        for (channel, own) in transmittance.iter_mut().zip(self.transmittance) {
+            *channel = own.select(mask, *channel);
+        }
+        Self { color, transmittance }
     }
 }
 
 impl Shading<'_> {
-    /// The colors of fragments of one draw, each channel multiplied by alpha.
+    /// Shades fragments of one draw.
     #[inline(always)]
     fn shade_lanes<const N: usize>(
         &self,
         draw: &Draw<'_>,
         primitives: &PrimitiveIndices<N>,
         fragments: &impl FragmentLanes<N>,
-    ) -> [Lanes<N>; 4] {
-        match draw.kind {
-            DrawKind::Surface => self.shade_surface(draw, primitives, fragments),
+    ) -> ShadedLanes<N> {
+        ShadedLanes::over(match draw.kind {
+            DrawKind::Surface => return self.shade_surface(draw, primitives, fragments),
             DrawKind::Environment(blur) => {
                 self.shade_environment_backdrop(draw, primitives, fragments, blur)
             }
             DrawKind::Backdrop => self.shade_backdrop(draw, primitives, fragments),
             DrawKind::ShadowCatcher => self.shade_shadow_catcher(draw, primitives, fragments),
-        }
+        })
     }
 
     /// The colors of a model's surfaces: emitted and reflected light, tone mapped.
@@ -211,7 +237,7 @@ impl Shading<'_> {
         draw: &Draw<'_>,
         primitives: &PrimitiveIndices<N>,
         fragments: &impl FragmentLanes<N>,
-    ) -> [Lanes<N>; 4] {
+    ) -> ShadedLanes<N> {
         // Material: factors times textures.
         let vertices = draw.vertex_indices(primitives);
         let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
@@ -231,16 +257,19 @@ impl Shading<'_> {
         } else {
             radiance * self.tone_mapper.exposure
         };
-        let mut alpha = Lanes::ONE;
+        let mut coverage = Lanes::ONE;
         if draw.material.alpha_mode == AlphaMode::Blend {
-            alpha = inputs.alpha;
-            color = color * alpha;
+            coverage = inputs.alpha;
+            color = color * coverage;
         }
-        if draw.material.is_transmissive() {
-            // What is behind shines through, beside the light that the surface itself sends.
-            alpha *= 1.0 - transmittance;
+        let Rgb { r, g, b } = color;
+        if !draw.material.is_transmissive() {
+            return ShadedLanes::over([r, g, b, coverage]);
         }
-        [color.r, color.g, color.b, alpha]
+        // What is behind shines through, beside the light that the surface itself sends.
+        let alpha = coverage * (1.0 - transmittance);
+        let transmittance = tinted_transmittance(draw, &inputs, coverage, alpha);
+        ShadedLanes { color: [r, g, b, alpha], transmittance }
     }
 
     /// The environment behind everything, as a blurred mirror would show it.

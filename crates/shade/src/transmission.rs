@@ -13,12 +13,10 @@
 //! therefore shows that gray when it is laid over something; where what is behind is drawn with it,
 //! it has the tint.
 
-use super::Shading;
-use super::fragment_lanes::FragmentPacket;
+use super::Draw;
 use super::lanes::{Lanes, Rgb, map_to_lanes};
 use super::material_inputs::MaterialInputs;
-use model::{AlphaMode, MaterialExtensions};
-use raster::{F32x8, Fragments, Kernel, LANES};
+use model::MaterialExtensions;
 
 /// The color that white light has behind the surface: base color and absorption in the volume.
 ///
@@ -47,52 +45,27 @@ pub(super) fn luminance<const N: usize>(color: Rgb<N>) -> Lanes<N> {
     0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b
 }
 
-/// The kernel that computes the colored transmittance of eight translucent fragments with these
-/// alphas.
-pub(super) struct TransmitEight<'a> {
-    pub(super) shading: &'a Shading<'a>,
-    pub(super) fragments: &'a Fragments<'a>,
-    pub(super) alphas: &'a F32x8,
-}
-
-impl Kernel for TransmitEight<'_> {
-    type Output = [F32x8; 3];
-
-    #[inline(always)]
-    fn run(self) -> [F32x8; 3] {
-        let Self { shading, fragments, alphas } = self;
-        // Where nothing is transmitted, or alike in all channels: what alpha says.
-        let mut transmittance = [alphas.map(|alpha| 1.0 - alpha); 3];
-        let mut is_done = [false; LANES];
-        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
-            let selection = shading.draws.select_draw_lanes(fragments, first);
-            let draw = selection.draw;
-            for (is_done, is_selected) in is_done.iter_mut().zip(selection.mask) {
-                *is_done |= is_selected;
-            }
-            if !draw.material.is_transmissive() {
-                continue;
-            }
-            let primitives =
-                draw.primitive_indices(&selection.ids, fragments.is_single_primitive());
-            let vertices = draw.vertex_indices(&primitives);
-            let inputs = MaterialInputs::evaluate(draw, &vertices, &FragmentPacket::new(fragments));
-            let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
-            let coverage = if is_blended { inputs.alpha } else { Lanes::ONE };
-            let tint = transmission_tint(&draw.material.extensions, &inputs, draw.world_scale);
-            // The alpha is that of a gray as bright as the tint: undo that, then tint each channel.
-            let white = (coverage - Lanes(*alphas)) / luminance(tint);
-            for lane in (0..LANES).filter(|&lane| selection.mask[lane]) {
-                let [r, g, b] = tint.lane(lane);
-                let white = white[lane];
-                // A gray tint is what alpha says already; a black one leaves nothing to undo.
-                if white.is_finite() && (r != g || g != b) {
-                    for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
-                        channel[lane] = (1.0 - coverage[lane] + white * tint).clamp(0.0, 1.0);
-                    }
-                }
+/// The transmittance of a transmissive surface for red, green and blue, given the alpha of a gray
+/// as bright as its tint.
+#[inline(always)]
+pub(super) fn tinted_transmittance<const N: usize>(
+    draw: &Draw<'_>,
+    inputs: &MaterialInputs<N>,
+    coverage: Lanes<N>,
+    alpha: Lanes<N>,
+) -> [Lanes<N>; 3] {
+    let tint = transmission_tint(&draw.material.extensions, inputs, draw.world_scale);
+    let mut transmittance = [1.0 - alpha; 3];
+    // Undo the gray of alpha, then tint each channel.
+    let white = (coverage - alpha) / luminance(tint);
+    for lane in 0..N {
+        let [r, g, b] = tint.lane(lane);
+        // A gray tint is what alpha says already; a black one leaves nothing to undo.
+        if white[lane].is_finite() && (r != g || g != b) {
+            for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
+                channel[lane] = (1.0 - coverage[lane] + white[lane] * tint).clamp(0.0, 1.0);
             }
         }
-        transmittance
     }
+    transmittance
 }

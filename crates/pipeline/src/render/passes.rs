@@ -31,6 +31,7 @@ use geometry::{Hit, SceneGeometry};
 use homog::PixelRect;
 use model::Timings;
 use raster::{Fragment, Opacity, Samples, Surface};
+use shade::Channel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`
 /// threads, whose number does not change them.
@@ -113,8 +114,13 @@ impl TilePasses<'_> {
     fn measure_coverage(&self, coverage: &mut [f32]) -> Result<(), RenderError> {
         let RenderContext { scene, threads, .. } = self.context;
         self.with_frame(scene.image.samples, None, |frame, surface| {
-            let mask = CoverageMask(surface);
-            frame.draw(&mask, [0.0; 4], threads, coverage, |color: [f32; 4]| color[0]);
+            let mut pixels = vec![[0; 4]; coverage.len()];
+            u16::draw_frame(frame, &CoverageMask(surface), [0.0; 4], threads, &mut pixels);
+            // Alpha is the mean of the samples; rounded to a whole number of them it is exact.
+            let count = scene.image.samples.count() as f32;
+            for (coverage, [.., alpha]) in coverage.iter_mut().zip(pixels) {
+                *coverage = (f32::from(alpha) * count / f32::from(u16::MAX)).round() / count;
+            }
         })
     }
 
@@ -141,9 +147,9 @@ impl TilePasses<'_> {
 }
 
 /// A surface that is white wherever another passes its alpha test.
-struct CoverageMask<'a, S>(&'a S);
+struct CoverageMask<'a>(&'a dyn Surface);
 
-impl<S: Surface> Surface for CoverageMask<'_, S> {
+impl Surface for CoverageMask<'_> {
     fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
         self.0.passes_alpha_test(fragment)
     }

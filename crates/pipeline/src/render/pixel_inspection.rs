@@ -17,7 +17,7 @@ use super::renderer::RenderBuffers;
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::Scene;
 use model::Model;
-use raster::{F32x8, Fragment, Fragments, Frame, Surface};
+use raster::{Fragment, Fragments, Frame, Surface, TranslucentColors};
 use shade::Channel;
 use std::sync::{Mutex, PoisonError};
 
@@ -130,8 +130,10 @@ impl Surface for Recorder<'_> {
         color
     }
 
-    fn transmittance_eight(&self, fragments: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
-        self.surface.transmittance_eight(fragments, alphas)
+    fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
+        let TranslucentColors { transmittance, .. } =
+            self.surface.shade_translucent_eight(fragments);
+        TranslucentColors { color: self.shade_eight(fragments), transmittance }
     }
 }
 

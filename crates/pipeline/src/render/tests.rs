@@ -7,7 +7,7 @@ use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::RenderBuffers;
 use crate::scene::{Origin, Scene, Style, parse_scene};
-use raster::{F32x8, Fragment, Fragments, Samples, Surface};
+use raster::{Fragment, Fragments, Samples, Surface, TranslucentColors};
 use shade::Shading;
 use std::path::Path;
 
@@ -23,8 +23,9 @@ impl Surface for ScalarShading<'_> {
         self.0.shade(fragment)
     }
 
-    fn transmittance_eight(&self, fragments: &Fragments<'_>, alphas: &F32x8) -> [F32x8; 3] {
-        self.0.transmittance_eight(fragments, alphas)
+    fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
+        let TranslucentColors { transmittance, .. } = self.0.shade_translucent_eight(fragments);
+        TranslucentColors { color: self.shade_eight(fragments), transmittance }
     }
 }
 
