@@ -9,6 +9,7 @@ use super::color::ColorChoice;
 use super::compare::CompareArgs;
 use super::compare_projections::CompareProjectionsArgs;
 use super::curve::CurveArgs;
+use super::deferred::Deferred;
 use super::demo::DemoArgs;
 use super::explain::ExplainArgs;
 use super::format::OutputFormat;
@@ -72,37 +73,37 @@ with 1 if the pictures differ, and writes all of its files.";
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Render a scene or a model to a PNG, or draw it as lines to an SVG or a PDF
-    Render(RenderArgs),
+    Render(Deferred<RenderArgs>),
     /// Draw the front, top, side and isometric view of a scene or a model on paper, to scale
-    Sheet(SheetArgs),
+    Sheet(Deferred<SheetArgs>),
     /// Print what a model contains: meshes, bounds, cameras, materials, extensions
-    Info(InfoArgs),
+    Info(Deferred<InfoArgs>),
     /// Validate a scene or a model and print every error with its location and a fix
-    Check(CheckArgs),
+    Check(Deferred<CheckArgs>),
     /// Classify a 4x4 matrix: transform, projection, convention, or a known misprint
-    Matrix(MatrixArgs),
+    Matrix(Deferred<MatrixArgs>),
     /// Print every stage of the pipeline for a point, a segment, a pixel, a vertex or a triangle
-    Explain(ExplainArgs),
+    Explain(Deferred<ExplainArgs>),
     /// Draw a subject in every classical projection, side by side, with formulas and numbers
-    CompareProjections(CompareProjectionsArgs),
+    CompareProjections(Deferred<CompareProjectionsArgs>),
     /// Draw a series of pictures that differ in one parameter of the camera, side by side
-    Sweep(SweepArgs),
+    Sweep(Deferred<SweepArgs>),
     /// Plot a function of the pipeline, with its table: depth against distance
     Curve(CurveArgs),
     /// Demonstrate the artifact that appears when a stage is omitted
     Demo(DemoArgs),
     /// Render a turntable or the model's own animation as an image sequence, APNG or GIF
-    Animate(AnimateArgs),
+    Animate(Deferred<AnimateArgs>),
     /// Render many models: thumbnails, a report, a contact sheet
-    Batch(BatchArgs),
+    Batch(Deferred<BatchArgs>),
     /// Create, validate, format and look up scene files
     Scene(SceneArgs),
     /// Print the completion script of a shell
-    Completions(CompletionArgs),
+    Completions(Deferred<CompletionArgs>),
     /// Print or write manual pages
-    Man(ManArgs),
+    Man(Deferred<ManArgs>),
     /// Print the reference of all flags and scene fields
-    Reference(ReferenceArgs),
+    Reference(Deferred<ReferenceArgs>),
 }
 
 /// Arguments of `alberti render`.

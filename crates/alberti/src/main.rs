@@ -26,6 +26,7 @@ mod color;
 mod compare;
 mod compare_projections;
 mod curve;
+mod deferred;
 mod demo;
 mod error;
 mod explain;
@@ -57,6 +58,7 @@ mod terminal_image;
 
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
+use deferred::Deferred;
 use error::CliError;
 use messages::{print_message, print_stdout};
 use std::process::ExitCode;
@@ -89,22 +91,22 @@ fn main() -> ExitCode {
 pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
     color::set_color_choice(args.color);
     match args.command {
-        Command::Render(args) => return render::run(&args),
-        Command::Sheet(args) => sheet::run(&args)?,
-        Command::Info(args) => info::run(&args)?,
-        Command::Check(args) => return check::run(&args),
-        Command::Matrix(args) => matrix::run(&args)?,
-        Command::Explain(args) => explain::run(&args)?,
-        Command::CompareProjections(args) => compare_projections::run(&args)?,
-        Command::Sweep(args) => sweep::run(&args)?,
+        Command::Render(Deferred(args)) => return render::run(&args),
+        Command::Sheet(Deferred(args)) => sheet::run(&args)?,
+        Command::Info(Deferred(args)) => info::run(&args)?,
+        Command::Check(Deferred(args)) => return check::run(&args),
+        Command::Matrix(Deferred(args)) => matrix::run(&args)?,
+        Command::Explain(Deferred(args)) => explain::run(&args)?,
+        Command::CompareProjections(Deferred(args)) => compare_projections::run(&args)?,
+        Command::Sweep(Deferred(args)) => sweep::run(&args)?,
         Command::Curve(args) => curve::run(&args)?,
         Command::Demo(args) => demo::run(&args)?,
-        Command::Animate(args) => animate::run(&args)?,
-        Command::Batch(args) => return batch::run(&args),
+        Command::Animate(Deferred(args)) => animate::run(&args)?,
+        Command::Batch(Deferred(args)) => return batch::run(&args),
         Command::Scene(args) => return scene::run(&args),
-        Command::Completions(args) => manual::print_completions(&args, Args::command())?,
-        Command::Man(args) => manual::print_man_pages(&args, Args::command())?,
-        Command::Reference(args) => reference::run(&args, Args::command())?,
+        Command::Completions(Deferred(args)) => manual::print_completions(&args, Args::command())?,
+        Command::Man(Deferred(args)) => manual::print_man_pages(&args, Args::command())?,
+        Command::Reference(Deferred(args)) => reference::run(&args, Args::command())?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -66,11 +66,15 @@ impl Surface for Shading<'_> {
     }
 
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
-        self.shade_translucent_eight(fragments).color
+        self.simd_level.run_kernel(ShadeEight { shading: self, fragments, transmittance: None })
     }
 
     fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
-        self.simd_level.run_kernel(ShadeEight { shading: self, fragments })
+        let mut transmittance = Default::default();
+        let kernel =
+            ShadeEight { shading: self, fragments, transmittance: Some(&mut transmittance) };
+        let color = self.simd_level.run_kernel(kernel);
+        TranslucentColors { color, transmittance }
     }
 }
 
@@ -151,32 +155,39 @@ impl<'d> DrawList<'d> {
 struct ShadeEight<'a> {
     shading: &'a Shading<'a>,
     fragments: &'a Fragments<'a>,
+    /// The transmittances of red, green and blue, for fragments that may be translucent.
+    transmittance: Option<&'a mut [F32x8; 3]>,
 }
 
 impl Kernel for ShadeEight<'_> {
-    type Output = TranslucentColors;
+    type Output = [F32x8; 4];
 
     #[inline(always)]
-    fn run(self) -> TranslucentColors {
-        let Self { shading, fragments } = self;
+    fn run(mut self) -> [F32x8; 4] {
+        let Self { shading, fragments, .. } = self;
         let packet = FragmentPacket::new(fragments);
         let is_single_primitive = fragments.is_single_primitive();
-        let mut shaded = ShadedLanes::over([Lanes::ZERO; 4]);
+        let mut colors = [Lanes::ZERO; 4];
         let mut is_done = [false; LANES];
         // One draw after the other: most often there is only one.
         while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
             let DrawSelection { draw, ids, mask } =
                 shading.draws.select_draw_lanes(fragments, first);
             let primitives = draw.primitive_indices(&ids, is_single_primitive);
-            shaded = shading.shade_lanes(draw, &primitives, &packet).select(&mask, shaded);
+            let shaded = shading.shade_lanes(draw, &primitives, &packet);
+            for (channel, draw_channel) in colors.iter_mut().zip(shaded.color) {
+                *channel = draw_channel.select(&mask, *channel);
+            }
+            if let Some(transmittance) = &mut self.transmittance {
+                for (channel, draw_channel) in transmittance.iter_mut().zip(shaded.transmittance) {
+                    *channel = draw_channel.select(&mask, Lanes(*channel)).0;
+                }
+            }
             for (is_done, is_own) in is_done.iter_mut().zip(mask) {
                 *is_done |= is_own;
             }
         }
-        TranslucentColors {
-            color: shaded.color.map(|channel| channel.0),
-            transmittance: shaded.transmittance.map(|channel| channel.0),
-        }
+        colors.map(|channel| channel.0)
     }
 }
 
@@ -191,19 +202,6 @@ impl<const N: usize> ShadedLanes<N> {
     #[inline(always)]
     fn over(color: [Lanes<N>; 4]) -> Self {
         Self { color, transmittance: [1.0 - color[3]; 3] }
-    }
-
-    /// These fragments in the lanes of a mask, and others in the rest.
-    #[inline(always)]
-    fn select(self, mask: &Mask<N>, other: Self) -> Self {
-        let Self { mut color, mut transmittance } = other;
-        for (channel, own) in color.iter_mut().zip(self.color) {
-            *channel = own.select(mask, *channel);
-        }
-        for (channel, own) in transmittance.iter_mut().zip(self.transmittance) {
-            *channel = own.select(mask, *channel);
-        }
-        Self { color, transmittance }
     }
 }
 

@@ -1,0 +1,49 @@
+//! Deferred arguments: the flags of a command are declared when that command is asked for.
+//!
+//! Every start of the program would otherwise build the flags of all commands, which is most of
+//! what a short command costs.
+
+use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
+
+/// The arguments of a subcommand, whose declaration waits until the subcommand is parsed or its
+/// help is printed.
+#[derive(Debug)]
+pub(crate) struct Deferred<T>(pub(crate) T);
+
+impl<T: Args> Args for Deferred<T> {
+    fn augment_args(command: Command) -> Command {
+        command.defer(declare_arguments::<T>)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        command.defer(declare_arguments::<T>)
+    }
+}
+
+/// Adds the arguments to a command.
+///
+/// The command keeps its own description, where that of the type would take its place, and the
+/// global flags that it has already come last.
+fn declare_arguments<T: Args>(command: Command) -> Command {
+    let about = command.get_about().cloned().unwrap_or_default();
+    let long_about = command.get_long_about().cloned();
+    let global: Vec<Id> = command.get_arguments().map(|flag| flag.get_id().clone()).collect();
+    let mut command = T::augment_args(command).about(about).long_about(None);
+    if let Some(long_about) = long_about {
+        command = command.long_about(long_about);
+    }
+    for flag in global {
+        command = command.mut_arg(flag, |flag| flag);
+    }
+    command
+}
+
+impl<T: FromArgMatches> FromArgMatches for Deferred<T> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        T::from_arg_matches(matches).map(Self)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        self.0.update_from_arg_matches(matches)
+    }
+}
