@@ -1,5 +1,5 @@
 //! What users see first: every model, bare, in every style, has light and contrast, and its default
-//! picture neither clips nor drowns.
+//! picture neither clips nor drowns; and ambient occlusion leaves no dots.
 //!
 //! The models are those of the scenes and, if it exists, those of the folder `$ASSETS` or
 //! `shared/assets` beside the repository. Pictures of scenes do not find such faults, because
@@ -7,6 +7,8 @@
 //! name.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
+
+mod occlusion;
 
 use alberti_tests::harness::{Arguments, Tally, data_folder, map_parallel, run_program};
 use alberti_tests::project_root;
@@ -103,7 +105,7 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
 /// What is wrong with the pictures of a model; nothing if it cannot be drawn, which is the matter of
 /// other tests.
 fn judge_model(model: &Path) -> Vec<String> {
-    let mut faults = Vec::new();
+    let mut faults = occlusion::find_dots(model, &model_name(model));
     // A plane has one normal: there is nothing that light could show.
     let Ok(normals) = render_model(model, &StyleFile::Normals) else { return faults };
     let is_even = normals.contrast < MIN_CONTRAST || is_exempt(model, &EVEN_MODELS);

@@ -344,11 +344,14 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
         pairs.map(|(a, b)| a[0].abs_diff(b[0])).max() <= Some(8),
         "a ball is open but for its facets"
     );
-    // A wall on the floor: at its foot half of the light is missing, and far away nothing.
-    let wall =
-        (box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false), matte_material(0.8, 0.8, 0.8));
-    let parts = vec![floor(), wall];
-    let (without, with) = draw_both(parts.clone(), "Ambient(intensity: 3)");
+    // A dark wall on a dark floor: at its foot half of the light is missing, and far away nothing.
+    let wall_on_floor = |albedo: f32| {
+        let material = matte_material(albedo, albedo, albedo);
+        let wall = box_sides([-6.0, 0.0, -4.0], [6.0, 4.0, -0.5], false);
+        vec![(floor_quad(6.0), material.clone()), (wall, material)]
+    };
+    let parts = wall_on_floor(0.02);
+    let (without, with) = draw_both(parts.clone(), "Ambient(intensity: 120)");
     let linear = |code: u8| {
         let srgb = f64::from(code) / 255.0;
         if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
@@ -362,7 +365,8 @@ fn occlusion_darkens_corners_and_nothing_that_is_open() {
     assert!((0.35..0.62).contains(&least), "{least}");
     assert_eq!(pixel_at(&with, 150, 199), pixel_at(&without, 150, 199));
     // What a sun gives stays.
-    let (without, with) = draw_both(parts, "Directional(direction: (0, -1, -1), intensity: 3)");
+    let sun = "Directional(direction: (0, -1, -1), intensity: 3)";
+    let (without, with) = draw_both(wall_on_floor(0.8), sun);
     assert!(without == with);
 }
 
@@ -371,13 +375,13 @@ fn occlusion_has_no_stripes_beside_sharp_edges() {
     // A box in 1080 lines, whose surroundings reach far over the screen; on the ground to the left
     // of it.
     let parts = vec![
-        (floor_quad(6.0), matte_material(0.8, 0.8, 0.8)),
-        (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.8, 0.8, 0.8)),
+        (floor_quad(6.0), matte_material(0.05, 0.05, 0.05)),
+        (box_sides([-0.5, 0.0, -0.5], [0.5, 1.0, 0.5], true), matte_material(0.05, 0.05, 0.05)),
     ];
     let scene = shadow_scene(
         parts,
         "camera: (view: LookAt(eye: (2.2, 2.6, 3.6), target: (0, 0.3, 0)), projection: Perspective(fov_y_degrees: 32)),
-        lights: [Ambient(intensity: 3.14159)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
+        lights: [Ambient(intensity: 50)], ambient_occlusion: (radius: 1), image: (size: (1920, 1080), samples: 1)",
     );
     let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
     let context = RenderContext::new(&scene, &textures, 2);

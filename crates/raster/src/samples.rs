@@ -87,6 +87,13 @@ impl Samples {
         (0..self.count()).map(move |sample| self.sample_offset(sample))
     }
 
+    /// The first sample of a pixel, in pixels from the upper left corner: (½, ½) with one sample.
+    #[must_use]
+    pub fn first_offset(self) -> [f32; 2] {
+        let (x, y) = self.sample_offset(0);
+        [x, y].map(|steps| steps as f32 / SUBPIXELS as f32)
+    }
+
     /// The offset of a sample from the upper left corner of its pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {

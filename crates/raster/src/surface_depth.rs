@@ -9,7 +9,7 @@ use crate::tile_loop::FilledTile;
 use crate::triangle_setup::clamped_depth_slopes;
 use crate::{Frame, Surface};
 
-/// The depth of the nearest surface at the center of a pixel, and its change from pixel to pixel.
+/// The depth of the nearest surface in a pixel, and its change from pixel to pixel.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SurfaceDepth {
     /// Depth: 1 at the near plane, 0 at the far plane; −∞ for the background.
@@ -29,8 +29,12 @@ impl SurfaceDepth {
 }
 
 impl Frame {
-    /// Finds the nearest opaque surface at the first sample of each pixel, with its depth at the
-    /// pixel's center, and writes it to `target`: rows from the top, `width` × `height` of them.
+    /// Finds the nearest opaque surface at the first sample of each pixel, with its depth there, and
+    /// writes it to `target`: rows from the top, `width` × `height` of them.
+    ///
+    /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel, with
+    /// one sample its center. Depths are not carried to another place: beyond the edge of a steep
+    /// surface they would be far from it.
     ///
     /// Masked primitives count where they pass the alpha test, translucent ones not at all. Uses up
     /// to `threads` threads, with the same result for any number.
@@ -40,8 +44,6 @@ impl Frame {
         threads: usize,
         target: &mut [SurfaceDepth],
     ) {
-        let first = self.samples.sample_offset(0);
-        let to_center = [first.0, first.1].map(|offset| 0.5 - offset as f32 / 256.0);
         let begin = |band: &mut [SurfaceDepth]| band.fill(SurfaceDepth::EMPTY);
         self.for_each_tile(surface, threads, target, begin, |filled| {
             let FilledTile { tile, rect, band, .. } = filled;
@@ -60,9 +62,7 @@ impl Frame {
                 let target = row + (rect.x + x - self.region.x) as usize;
                 if let Some(target) = band.get_mut(target) {
                     let [dx, dy] = slopes;
-                    // From the sample to the pixel's center, along the depth plane.
-                    let depth = tile.sample_depth(0, at) + dx * to_center[0] + dy * to_center[1];
-                    *target = SurfaceDepth { depth, dx, dy };
+                    *target = SurfaceDepth { depth: tile.sample_depth(0, at), dx, dy };
                 }
             }
         });

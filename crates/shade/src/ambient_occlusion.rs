@@ -9,413 +9,181 @@
 //!   ███████●████████        real-time strategies for accurate indirect occlusion*, 2016)
 //! ```
 //!
-//! Slices and steps are the same at every pixel, so that there is no noise to be blurred away, and
-//! depths are read as planes, so that flat surfaces do not occlude themselves.
+//! Three passes over the depth buffer of the whole picture:
 //!
-//! The rule against banding: what a pixel finds must move with the pixel, without a jump. With
-//! fixed steps alone it does not, in four ways, and each has its answer.
-//! - A step lands somewhere below the upper border of a wall, elsewhere from pixel to pixel, and
-//!   draws copies of the border on the ground. The border is therefore searched around the highest
-//!   step, by bisection, until it is known to a fraction of a pixel.
-//! - A wall that is left at the last step leaves with all that it hides. Nothing is therefore cut
-//!   off on the screen: steps go as far as the radius does, however large that is in pixels, and
-//!   with the radius occlusion falls off to nothing.
-//! - Of a wall that leads away only the near end is within the radius, and steps pass it by. What
-//!   is beyond the radius or below the surface is therefore ranked too, by how far it is from
-//!   occluding something, and its border searched when nothing ranks above it.
-//! - A slice passes a wall's corner at once. Each of many slices has little weight.
+//! ```text
+//!  depths ─► horizon search ─► denoise ─► visibility of each pixel ─► lookup by fragments
+//!            few slices, turned   4 × 4 mean         from the pixels on their own surface
+//!            from pixel to pixel  on one surface
+//! ```
 //!
-//! All directions of all slices take a step at once: loops over them become vector instructions.
+//! The slices of a pixel are turned by a 4 × 4 pattern, and the mean over 4 × 4 pixels of one
+//! surface takes the pattern away again: each pixel has the horizons of sixteen times as many
+//! slices. The pattern is fixed to the picture, so that parts of it unite.
+//!
+//! Fragments do not search horizons themselves. A fragment that does not cover the center of its
+//! pixel lies beside its surface there, and would find itself below others: a dark dot. It takes
+//! the visibility of the pixels around it that show its own surface.
 
-use super::lanes::{Lanes, Vec3Lanes};
-use super::vector::{add, cross, dot, subtract};
-use glam::DMat4;
-use raster::SurfaceDepth;
-use std::f32::consts::{FRAC_PI_2, PI};
-use std::ops::{Add, Mul};
+mod denoise;
+mod horizon_search;
+mod screen_space;
 
-/// The planes through the view in which horizons are searched.
-const SLICE_COUNT: usize = 12;
-/// The directions on the screen: to both sides in each slice.
-const DIRECTION_COUNT: usize = 2 * SLICE_COUNT;
-/// The least and the most steps in a direction.
-const STEP_COUNT_RANGE: [f32; 2] = [6.0, 20.0];
-/// The mean length of a step between these limits.
-const PIXELS_PER_STEP: f32 = 8.0;
-/// A height below all others, as a cosine: nothing was found.
-const NO_HORIZON: f32 = -2.0;
-/// The depth below the surface, as a difference of cosines, within which something is the surface
-/// itself.
-const SURFACE_TOLERANCE: f32 = 0.002;
-/// The distance in radii from which on the border of something cannot be within the radius.
-const MAX_RADII: f32 = 2.0;
-/// The bisections by which the border of the horizon is refined.
-const REFINEMENT_STEPS: usize = 6;
+use super::lanes::{Lanes, Rgb, Vec3Lanes};
+use denoise::DenoiseEight;
+use horizon_search::{Pattern, SearchEight};
+use raster::{LANES, SimdLevel, SurfaceDepth, for_each_parallel};
+use screen_space::PixelGrid;
+pub use screen_space::ScreenSpace;
 
-/// The nearest surfaces of a picture, from which ambient occlusion is computed.
+/// The distance from a fragment's plane, in radii, within which a pixel shows its surface.
+const SAME_SURFACE: f32 = 0.02;
+/// The weight of full visibility in a lookup; only fragments without a pixel of their own surface
+/// near them notice it.
+const OPEN_WEIGHT: f32 = 4.0;
+
+/// The ambient visibility of the pixels of a picture.
 #[derive(Clone, Debug)]
 pub struct AmbientOcclusion {
-    /// The nearest surface of each pixel, rows from the top.
-    pub nearest: Vec<SurfaceDepth>,
-    /// Width and height in pixels.
-    size: [u32; 2],
-    /// The position that others are relative to, for precision.
-    origin: [f32; 3],
-    /// The rows of the matrix from relative positions to (x·w, y·w, depth·w, w) on the screen.
-    world_to_screen: [[f32; 4]; 4],
-    /// The rows of its inverse.
-    screen_to_world: [[f32; 4]; 4],
-    /// A vector across the view, as long as the radius.
-    radius_across_view: [f32; 3],
-    /// The distance in the world from which on nothing occludes.
-    radius: f32,
-    /// The diagonal of the picture in pixels: nothing is farther away.
-    diagonal: f32,
-    /// The directions on the screen: x and y.
-    directions: [DirectionLanes; 2],
-}
-
-/// A number for each direction: first the one side of all slices, then the other.
-type DirectionLanes = Lanes<DIRECTION_COUNT>;
-
-/// The search for the horizons around one position.
-#[derive(Clone, Copy, Debug)]
-struct HorizonSearch {
-    /// The position, relative to the origin.
-    position: [f32; 3],
-    /// The unit vector to the viewer.
-    view: [f32; 3],
-    /// The position on the screen, with its depth.
-    screen_position: [f32; 3],
-    /// The directions on the screen: x and y.
-    directions: [DirectionLanes; 2],
-    /// The fraction of a step by which each direction is ahead.
-    step_offsets: DirectionLanes,
-    /// The cosines of the angles from the view down to the surface itself.
-    surface_cosines: DirectionLanes,
+    /// The mapping between the screen and the world.
+    space: ScreenSpace,
+    /// The depth of the nearest surface at the first sample of each pixel.
+    depths: PixelGrid,
+    /// The fraction of the light from all directions that arrives there, 0 to 1.
+    visibilities: PixelGrid,
 }
 
 impl AmbientOcclusion {
-    /// Occlusion by the nearest surfaces of a picture of this size.
+    /// Computes the ambient visibility of the nearest surfaces of a picture, rows from the top.
     ///
-    /// `world_to_screen` maps the world to pixels and depth; `origin` is a position near the
-    /// surfaces; `across` is a unit vector across the view; within `radius` in the world surfaces
-    /// occlude.
-    pub fn new(
-        nearest: Vec<SurfaceDepth>,
-        size: [u32; 2],
-        world_to_screen: DMat4,
-        origin: glam::DVec3,
-        across: glam::DVec3,
-        radius: f64,
+    /// Uses up to `threads` threads, with the same result for any number.
+    pub fn compute(
+        nearest: &[SurfaceDepth],
+        space: ScreenSpace,
+        simd_level: SimdLevel,
+        threads: usize,
     ) -> Self {
-        let relative_to_screen =
-            world_to_screen * DMat4::from_translation(origin.as_vec3().as_dvec3());
-        let rows = |m: DMat4| [0, 1, 2, 3].map(|k| m.row(k).as_vec4().to_array());
-        let mut directions = [DirectionLanes::ZERO; 2];
-        for slice in 0..SLICE_COUNT {
-            let angle = std::f64::consts::PI * (slice as f64 + 0.5) / SLICE_COUNT as f64;
-            let direction = [libm::cos(angle) as f32, libm::sin(angle) as f32];
-            for (axis, component) in directions.iter_mut().zip(direction) {
-                axis[slice] = component;
-                axis[slice + SLICE_COUNT] = -component;
+        let mut depths = PixelGrid::new(space.size());
+        depths.fill_from(nearest.iter().map(|surface| surface.depth.max(0.0)));
+        let mut noisy = PixelGrid::new(space.size());
+        let pattern = Pattern::new();
+        for_each_parallel(threads, noisy.rows_mut(), |(y, row)| {
+            for (block, target) in row.as_chunks_mut().0.iter_mut().enumerate() {
+                let (space, pattern, depths, x) = (&space, &pattern, &depths, block * LANES);
+                *target = simd_level.run_kernel(SearchEight { space, pattern, depths, x, y });
             }
-        }
-        Self {
-            nearest,
-            size,
-            origin: origin.as_vec3().to_array(),
-            world_to_screen: rows(relative_to_screen),
-            screen_to_world: rows(relative_to_screen.inverse()),
-            radius_across_view: (across * radius).as_vec3().to_array(),
-            radius: radius as f32,
-            diagonal: (size[0] as f32 * size[0] as f32 + size[1] as f32 * size[1] as f32).sqrt(),
-            directions,
-        }
+        });
+        let mut visibilities = PixelGrid::new(space.size());
+        for_each_parallel(threads, visibilities.rows_mut(), |(y, row)| {
+            for (block, target) in row.as_chunks_mut().0.iter_mut().enumerate() {
+                let (space, depths, noisy, x) = (&space, &depths, &noisy, block * LANES);
+                *target = simd_level.run_kernel(DenoiseEight { space, depths, noisy, x, y });
+            }
+        });
+        Self { space, depths, visibilities }
     }
 
-    /// The ambient visibility of positions in the world, 0 to 1: the fraction of the light from all
-    /// directions that arrives there, for unit normals and unit vectors to the viewer.
+    /// The ambient visibility of positions in the world with these unit normals, 0 to 1.
+    ///
+    /// A mean over the nine pixels around each position, weighted by how near their surfaces are to
+    /// the plane of the fragment (a joint bilateral lookup).
     #[inline(always)]
     pub(super) fn visibility<const N: usize>(
         &self,
         positions: Vec3Lanes<N>,
         normals: Vec3Lanes<N>,
-        views: Vec3Lanes<N>,
     ) -> Lanes<N> {
-        Lanes::from_fn(|lane| {
-            let [position, normal, view] =
-                [positions, normals, views].map(|vectors| vectors.lane(lane));
-            self.visibility_at(position, normal, view)
-        })
+        let space = &self.space;
+        let positions = space.to_relative(positions);
+        let pixels = space.pixels_at(positions);
+        let (mut sum, mut weights) = (Lanes::splat(OPEN_WEIGHT), Lanes::splat(OPEN_WEIGHT));
+        let inv_distance = 1.0 / (SAME_SURFACE * space.radius());
+        for (dy, dx) in [-1, 0, 1].into_iter().flat_map(|dy| [-1, 0, 1].map(|dx| (dy, dx))) {
+            let depths = Lanes::from_fn(|lane| self.depths.at(pixels[lane], [dx, dy]));
+            let visibilities = Lanes::from_fn(|lane| self.visibilities.at(pixels[lane], [dx, dy]));
+            let x = Lanes::from_fn(|lane| (pixels[lane][0] + dx) as f32);
+            let y = Lanes::from_fn(|lane| (pixels[lane][1] + dy) as f32);
+            let found = space.unproject_pixels([x, y], depths);
+            let distances = (found - positions).dot(normals) * inv_distance;
+            // A tent over the pixels, times the likeness of the surfaces.
+            let tent = [4096.0, 2048.0, 1024.0][(dx.abs() + dy.abs()) as usize];
+            let weight = tent / (1.0 + distances * distances);
+            let weight = weight.select(&depths.is_above(0.0), Lanes::ZERO);
+            sum += weight * visibilities;
+            weights += weight;
+        }
+        sum / weights
+    }
+}
+
+/// The ambient visibility of a surface with this albedo, with the light that its surroundings
+/// reflect to it: a fit to multiple bounces (Jimenez et al. 2016, eq. 10).
+///
+/// Surroundings are taken to have the same albedo: white corners are brighter than black ones.
+#[inline(always)]
+pub(super) fn add_bounces<const N: usize>(visibility: Lanes<N>, albedo: Rgb<N>) -> Rgb<N> {
+    albedo.map(|albedo| {
+        let a = 2.0404 * albedo - 0.3324;
+        let b = 0.6417 - 4.7951 * albedo;
+        let c = 2.7552 * albedo + 0.6903;
+        (((visibility * a + b) * visibility + c) * visibility).max_lanes(visibility).min(1.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat4, DVec3, DVec4};
+
+    /// A camera that looks down on the ground, from far away.
+    fn distant_view() -> DMat4 {
+        let world_to_clip = DMat4::from_cols_array_2d(&[
+            [1.681_992, -0.747_552, 1.824_367, -2.0 / 3.0],
+            [0.0, 2.990_208, 0.912_184, -1.0 / 3.0],
+            [-1.681_992, -0.747_552, 1.824_367, -2.0 / 3.0],
+            [10.091_953, 218.012_44, -544.606_4, 1_499.104_128],
+        ]);
+        let clip_to_screen = DMat4::from_cols_array_2d(&[
+            [80.0, 0.0, 0.0, 0.0],
+            [0.0, -60.0, 0.0, 0.0],
+            [0.0, 0.0, 0.5, 0.0],
+            [80.0, 60.0, 0.5, 1.0],
+        ]);
+        clip_to_screen * world_to_clip
     }
 
-    /// The visibility of one position: the cosine-weighted arcs between the horizons, over all
-    /// slices.
-    ///
-    /// The normalization by the unoccluded arcs makes the visibility of an open plane 1.
-    #[inline(always)]
-    fn visibility_at(&self, position: [f32; 3], normal: [f32; 3], view: [f32; 3]) -> f32 {
-        let position = subtract(position, self.origin);
-        let beside = self.project_to_screen(add(position, self.radius_across_view));
-        let (Some(screen_position), Some(beside)) = (self.project_to_screen(position), beside)
-        else {
-            return 1.0;
-        };
-        // The radius in pixels; below one pixel nothing could be found.
-        let (dx, dy) = (beside[0] - screen_position[0], beside[1] - screen_position[1]);
-        // The projected radius, at most the diagonal of the picture.
-        let screen_radius = (dx * dx + dy * dy).sqrt().min(self.diagonal);
-        if screen_radius <= 1.0 || screen_radius.is_nan() {
-            return 1.0;
-        }
-        let mut search = HorizonSearch {
-            position,
-            view,
-            screen_position,
-            directions: self.directions,
-            step_offsets: Lanes::ZERO,
-            surface_cosines: Lanes::ZERO,
-        };
-        let (mut weights, mut tilts) = ([0.0; SLICE_COUNT], [0.0; SLICE_COUNT]);
-        for slice in 0..SLICE_COUNT {
-            // Steps of one direction lie between those of the others, so that no border is found
-            // several times side by side.
-            let offset = (0.618_034 * slice as f32) % 1.0;
-            search.step_offsets[slice] = offset;
-            search.step_offsets[slice + SLICE_COUNT] = 1.0 - offset;
-            (weights[slice], tilts[slice]) =
-                self.project_normal(&search, normal, slice, screen_radius);
-            let [up, down] = surface_horizons(tilts[slice]);
-            search.surface_cosines[slice] = libm::cosf(up);
-            search.surface_cosines[slice + SLICE_COUNT] = libm::cosf(down);
-        }
-        // Horizon search, then the visible arc of each slice, weighted by the projected normal.
-        let horizons = self.find_horizons(&search, screen_radius);
-        let (mut visible, mut all) = (0.0, 0.0);
-        for (slice, (weight, tilt)) in weights.into_iter().zip(tilts).enumerate() {
-            let mut angles = surface_horizons(tilt);
-            for (angle, direction) in angles.iter_mut().zip([slice, slice + SLICE_COUNT]) {
-                if horizons[direction] > search.surface_cosines[direction] {
-                    *angle = acos_clamped(horizons[direction]);
-                }
-            }
-            visible += weight * (integrate_arc(angles[0], tilt) + integrate_arc(-angles[1], tilt));
-            // The arc between the two sides of the surface itself.
-            all += weight * (libm::cosf(tilt) + tilt * libm::sinf(tilt));
-        }
-        if all > 0.0 { (visible / all).clamp(0.0, 1.0) } else { 1.0 }
-    }
-
-    /// Projects a normal into the plane of a slice: its length there, and its angle from the view.
-    #[inline(always)]
-    fn project_normal(
-        &self,
-        search: &HorizonSearch,
-        normal: [f32; 3],
-        slice: usize,
-        screen_radius: f32,
-    ) -> (f32, f32) {
-        let HorizonSearch { position, view, screen_position, directions, .. } = search;
-        let ahead = [
-            screen_position[0] + directions[0][slice] * screen_radius,
-            screen_position[1] + directions[1][slice] * screen_radius,
-            screen_position[2],
-        ];
-        // The slice's direction in the world, perpendicular to the view.
-        let along = subtract(self.unproject(ahead), *position);
-        let along_view = dot(along, *view);
-        let across = subtract(along, view.map(|c| c * along_view));
-        let length = dot(across, across).sqrt();
-        if !(length > 0.0 && length.is_finite()) {
-            return (0.0, 0.0);
-        }
-        let across = across.map(|c| c / length);
-        let slice_normal = cross(across, *view);
-        let out_of_plane = dot(normal, slice_normal);
-        // The projected normal: its length weights the slice, its angle tilts the arc.
-        let projected = subtract(normal, slice_normal.map(|c| c * out_of_plane));
-        let weight = dot(projected, projected).sqrt();
-        let tilt = acos_clamped(dot(projected, *view) / weight.max(1e-6));
-        (weight, if dot(projected, across) < 0.0 { -tilt } else { tilt })
-    }
-
-    /// The height of the horizon in each direction, as a cosine from the view.
-    #[inline(always)]
-    fn find_horizons(&self, search: &HorizonSearch, screen_radius: f32) -> DirectionLanes {
-        let step_count = screen_radius / PIXELS_PER_STEP;
-        let step_count = step_count.clamp(STEP_COUNT_RANGE[0], STEP_COUNT_RANGE[1]) as i32;
-        // Steps are short nearby, where they have most weight.
-        let distance = |step: f32, offset: f32| {
-            let t = (step + offset) / step_count as f32;
-            1.0 + t * t * (screen_radius - 1.0)
-        };
-        let mut horizons = DirectionLanes::splat(NO_HORIZON);
-        let mut best_steps = DirectionLanes::splat(-1.0);
-        for step in 0..step_count {
-            let step = step as f32;
-            let probes = search.step_offsets.map(|offset| distance(step, offset));
-            let heights = self.horizon_heights(search, probes);
-            for k in 0..DIRECTION_COUNT {
-                let is_higher = heights[k] > horizons[k];
-                best_steps[k] = if is_higher { step } else { best_steps[k] };
-                horizons[k] = if is_higher { heights[k] } else { horizons[k] };
-            }
-        }
-        // The best step, and its neighbors on either side.
-        let offset = |k: usize| search.step_offsets[k];
-        let before = DirectionLanes::from_fn(|k| {
-            let before = best_steps[k] - 1.0;
-            distance(if before > -offset(k) { before } else { -offset(k) }, offset(k))
+    #[test]
+    fn a_plane_is_open() {
+        let world_to_screen = distant_view();
+        let plane = world_to_screen.inverse().transpose() * DVec4::Y;
+        let nearest = (0..120).flat_map(|y| (0..160).map(move |x| [x, y])).map(|pixel| {
+            let [x, y] = pixel.map(|c| f64::from(c) + 0.5);
+            let depth = -(plane.x * x + plane.y * y + plane.w) / plane.z;
+            let is_visible = depth > 0.0 && depth < 1.0;
+            let depth = if is_visible { depth as f32 } else { 0.0 };
+            SurfaceDepth { depth, ..SurfaceDepth::EMPTY }
         });
-        let best = DirectionLanes::from_fn(|k| distance(best_steps[k], offset(k)));
-        let after = DirectionLanes::from_fn(|k| distance(best_steps[k] + 1.0, offset(k)));
-        self.refine_horizons(search, [before, best, after], &mut horizons);
-        DirectionLanes::splat(NO_HORIZON).select(&best_steps.is_below(0.0), horizons)
-    }
-
-    /// Searches for higher horizons between the ends of an interval around the best distance, by
-    /// bisection of its larger half.
-    #[inline(always)]
-    fn refine_horizons(
-        &self,
-        search: &HorizonSearch,
-        [mut from, mut best, mut to]: [DirectionLanes; 3],
-        horizons: &mut DirectionLanes,
-    ) {
-        for _ in 0..REFINEMENT_STEPS {
-            let (mut probes, mut is_before) = (DirectionLanes::ZERO, [false; DIRECTION_COUNT]);
-            for (k, is_before) in is_before.iter_mut().enumerate() {
-                *is_before = best[k] - from[k] > to[k] - best[k];
-                probes[k] = 0.5 * (best[k] + if *is_before { from[k] } else { to[k] });
-            }
-            let heights = self.horizon_heights(search, probes);
-            for (k, is_before) in is_before.into_iter().enumerate() {
-                let is_higher = heights[k] > horizons[k];
-                // The end that moves: to the old best on the one side of a new best, and otherwise
-                // to the probe on its own side.
-                let near = if is_higher { best[k] } else { probes[k] };
-                let moves_from = is_higher != is_before;
-                from[k] = if moves_from { near } else { from[k] };
-                to[k] = if moves_from { to[k] } else { near };
-                best[k] = if is_higher { probes[k] } else { best[k] };
-                horizons[k] = if is_higher { heights[k] } else { horizons[k] };
-            }
+        let nearest: Vec<SurfaceDepth> = nearest.collect();
+        let eye = [1012.6047, 434.8936, 1018.6047, 1.0];
+        let across = DVec3::new(1.0, 0.0, -1.0).normalize() * 130.0;
+        let size = [160, 120];
+        let space = ScreenSpace::new(size, [0.5; 2], world_to_screen, DVec3::ZERO, eye, across);
+        let occlusion = AmbientOcclusion::compute(&nearest, space, SimdLevel::best(), 1);
+        assert!(nearest.iter().filter(|nearest| nearest.depth > 0.0).count() > 4000);
+        for (y, x) in (0..120).flat_map(|y| (0..160).map(move |x| (y, x))) {
+            assert_eq!(occlusion.visibilities.at([x, y], [0, 0]), 1.0, "at {x}, {y}");
         }
     }
 
-    /// The heights of the surfaces at some pixels' distance in each direction, as cosines of the
-    /// angle from the view.
-    ///
-    /// A height is drawn to that of the surface itself the farther away it is: occlusion falls off
-    /// with the square of the distance. What is below the surface or beyond the radius occludes
-    /// nothing, and is ranked by how far it is from doing so: its border may, between two steps.
-    #[inline(always)]
-    fn horizon_heights(&self, search: &HorizonSearch, distances: DirectionLanes) -> DirectionLanes {
-        let HorizonSearch { position, view, screen_position, directions, .. } = search;
-        let surface = &search.surface_cosines;
-        // The surfaces there, in the world, relative to the position.
-        let x = screen_position[0] + directions[0] * distances;
-        let y = screen_position[1] + directions[1] * distances;
-        let depths = self.sample_depths(x, y);
-        let found = Vec3Lanes::from(self.unproject([x, y, depths]));
-        let offsets = found - Vec3Lanes::splat(*position);
-        let distances = offsets.dot(offsets).sqrt();
-        let radii = distances / self.radius;
-        let above = offsets.dot(Vec3Lanes::splat(*view)) / distances - *surface;
-        DirectionLanes::from_fn(|k| {
-            let (above, radii, surface) = (above[k], radii[k], surface[k]);
-            // `&` instead of `&&`: all conditions are computed, without branches.
-            let is_found = (depths[k] > 0.0) & (distances[k] > 0.0) & (radii < MAX_RADII);
-            let is_surface_itself = (-SURFACE_TOLERANCE < above) & (above <= 0.0);
-            // Falloff with the square of the distance over the radius.
-            let occluding = surface + above * (1.0 - radii * radii);
-            let below = if above < 0.0 { above } else { 0.0 };
-            let beyond = if radii > 1.0 { radii - 1.0 } else { 0.0 };
-            let ranked = surface + below - beyond;
-            let height = if (radii < 1.0) & (above > 0.0) { occluding } else { ranked };
-            if is_found & !is_surface_itself { height } else { NO_HORIZON }
-        })
-    }
-
-    /// The depths of the nearest surfaces at positions on the screen, on the surfaces' planes; not
-    /// above 0 where there are none.
-    #[inline(always)]
-    fn sample_depths(&self, x: DirectionLanes, y: DirectionLanes) -> DirectionLanes {
-        let [width, height] = self.size.map(|side| side as f32);
-        let (mut columns, mut rows) = ([0; DIRECTION_COUNT], [0; DIRECTION_COUNT]);
-        let mut is_inside = [false; DIRECTION_COUNT];
-        for k in 0..DIRECTION_COUNT {
-            is_inside[k] = (x[k] >= 0.0) & (y[k] >= 0.0) & (x[k] < width) & (y[k] < height);
-            columns[k] = if is_inside[k] { x[k] } else { 0.0 } as i32;
-            rows[k] = if is_inside[k] { y[k] } else { 0.0 } as i32;
+    #[test]
+    fn bounces_brighten_white_corners_and_not_black_ones() {
+        // The fit of the paper at visibility ½: a/8 + b/4 + c/2.
+        let half = Lanes::<1>::splat(0.5);
+        for (albedo, expected) in [(0.0, 0.464), (0.5, 0.681), (0.8, 0.811)] {
+            let fit = add_bounces(half, Rgb::splat([albedo; 3])).lane(0)[0];
+            assert!((fit - f32::max(expected, 0.5)).abs() < 2e-3, "{albedo}: {fit}");
         }
-        let mut surfaces = [SurfaceDepth::EMPTY; DIRECTION_COUNT];
-        for (surface, (column, row)) in surfaces.iter_mut().zip(columns.into_iter().zip(rows)) {
-            // A gather, from a position that is on the picture in any case.
-            let index = row as usize * self.size[0] as usize + column as usize;
-            *surface = self.nearest.get(index).copied().unwrap_or(SurfaceDepth::EMPTY);
-        }
-        DirectionLanes::from_fn(|k| {
-            let SurfaceDepth { depth, dx, dy } = surfaces[k];
-            let (right, down) = (x[k] - columns[k] as f32 - 0.5, y[k] - rows[k] as f32 - 0.5);
-            let depth = depth + dx * right + dy * down;
-            if is_inside[k] { depth } else { 0.0 }
-        })
+        let open = add_bounces(Lanes::<1>::ONE, Rgb::splat([0.3; 3])).lane(0)[0];
+        assert!((open - 1.0).abs() < 2e-3, "{open}");
     }
-
-    /// A relative position on the screen, with its depth; `None` behind the eye.
-    #[inline(always)]
-    fn project_to_screen(&self, position: [f32; 3]) -> Option<[f32; 3]> {
-        let w = transform_row(&self.world_to_screen[3], position);
-        let projected =
-            [0, 1, 2].map(|k: usize| transform_row(&self.world_to_screen[k], position) / w);
-        (w > 0.0).then_some(projected)
-    }
-
-    /// The relative position in the world of one on the screen with a depth.
-    #[inline(always)]
-    fn unproject<T>(&self, screen_position: [T; 3]) -> [T; 3]
-    where
-        T: Copy + Add<Output = T> + Add<f32, Output = T> + Mul<Output = T> + Mul<f32, Output = T>,
-        f32: std::ops::Div<T, Output = T>,
-    {
-        let inv_w = 1.0 / transform_row(&self.screen_to_world[3], screen_position);
-        let [x, y, z, _] = &self.screen_to_world;
-        [
-            transform_row(x, screen_position) * inv_w,
-            transform_row(y, screen_position) * inv_w,
-            transform_row(z, screen_position) * inv_w,
-        ]
-    }
-}
-
-/// The angles from the view down to the surface itself, to either side, in a slice where its normal
-/// is tilted by an angle.
-#[inline(always)]
-fn surface_horizons(tilt: f32) -> [f32; 2] {
-    [(FRAC_PI_2 + tilt).min(PI), (FRAC_PI_2 - tilt).min(PI)]
-}
-
-/// The light between the view and an angle in a slice where the normal is tilted by another: the
-/// integral of the cosine to the normal times the sine to the view (Jimenez et al. 2016, eq. 7).
-#[inline(always)]
-fn integrate_arc(angle: f32, tilt: f32) -> f32 {
-    let (sine, cosine) = (libm::sinf(tilt), libm::cosf(tilt));
-    0.25 * (cosine - libm::cosf(2.0 * angle - tilt) + 2.0 * angle * sine)
-}
-
-/// The angle with a cosine that rounding may have put beyond ±1.
-#[inline(always)]
-fn acos_clamped(cosine: f32) -> f32 {
-    libm::acosf(cosine.clamp(-1.0, 1.0))
-}
-
-/// A row of an affine or projective matrix times a position: of one, or of lanes.
-#[inline(always)]
-fn transform_row<T>(row: &[f32; 4], [x, y, z]: [T; 3]) -> T
-where
-    T: Copy + Add<Output = T> + Add<f32, Output = T> + Mul<f32, Output = T>,
-{
-    x * row[0] + y * row[1] + z * row[2] + row[3]
 }

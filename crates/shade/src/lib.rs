@@ -27,7 +27,7 @@ mod tone_mapping;
 mod transmission;
 mod vector;
 
-pub use ambient_occlusion::AmbientOcclusion;
+pub use ambient_occlusion::{AmbientOcclusion, ScreenSpace};
 pub use attributes::{NORMAL, POSITION, UV, Vertex};
 pub use backdrop::{Backdrop, BackdropImage, Gradient, ImageFit};
 pub use draw::{Draw, DrawKind, DrawList, Tangents};

@@ -327,10 +327,8 @@ impl Shading<'_> {
         inputs: &'i mut MaterialInputs<N>,
     ) -> LayeredBrdf<'i, N> {
         let geometry = self.surface_geometry(draw, primitives, fragments);
-        // Screen-space ambient occlusion multiplies that of the material's texture.
         if let Some(occlusion) = self.occlusion {
-            let SurfaceGeometry { positions, normals, views, .. } = geometry;
-            inputs.occlusion *= occlusion.visibility(positions, normals, views);
+            inputs.screen_visibility = occlusion.visibility(geometry.positions, geometry.normals);
         }
         // Tangent frame for normal maps and anisotropy.
         let tangents = draw.interpolate_tangents(primitives, &fragments.weights());

@@ -13,7 +13,6 @@ use super::fragment_lanes::FragmentLanes;
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use super::light::Light;
 use super::shadow_receiver::ShadowReceiver;
-use super::surface_geometry::view_directions;
 use super::{Draw, Shading};
 use std::f32::consts::PI;
 
@@ -35,8 +34,7 @@ impl Shading<'_> {
         let receiver = ShadowReceiver { positions, normals };
         let mut visibility = Lanes::ONE;
         if let Some(occlusion) = self.occlusion {
-            let views = view_directions(positions, self.viewer_position());
-            visibility = occlusion.visibility(positions, normals, views);
+            visibility = occlusion.visibility(positions, normals);
         }
         // The illuminance with and without shadows, sums of the three channels. Ambient occlusion
         // takes only light from all directions.

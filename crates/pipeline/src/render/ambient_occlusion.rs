@@ -10,44 +10,77 @@ use super::primitive_assembly::assemble_scene;
 use super::renderer::{FrameMemory, RenderBuffers};
 use super::screen_transform::ScreenTransform;
 use super::shadow_maps::DepthOnly;
+use crate::scene::Ground;
+use glam::{DMat4, DVec4};
 use raster::SurfaceDepth;
-use shade::AmbientOcclusion;
+use shade::{AmbientOcclusion, ScreenSpace};
 
-/// The depth buffer of a frame that holds the whole picture, written into `nearest`; `None` if the
-/// scene has no ambient occlusion.
+/// The ambient occlusion of a frame that holds the whole picture; `None` if the scene has none.
+///
+/// `nearest` is memory for its depth buffer.
 ///
 /// # Errors
 /// If the picture is larger than the rasterizer's grid.
-pub(super) fn build_ssao_buffer(
+pub(super) fn compute_occlusion(
     context: &RenderContext<'_>,
     memory: &FrameMemory<'_>,
-    mut nearest: Vec<SurfaceDepth>,
+    nearest: &mut Vec<SurfaceDepth>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
-    let scene = context.scene;
+    let (scene, frame) = (context.scene, &memory.frame);
     let Some(radius) = scene.occlusion_radius else { return Ok(None) };
     let size @ [width, height] = context.image_size();
     if width > raster::MAX_SIDE || height > raster::MAX_SIDE {
         return Err(RenderError::OcclusionTooLarge);
     }
     nearest.resize(width as usize * height as usize, SurfaceDepth::EMPTY);
-    memory.frame.surface_depths(&DepthOnly(&memory.draws), context.threads, &mut nearest);
+    frame.surface_depths(&DepthOnly(&memory.draws), context.threads, nearest);
     let view = &scene.view_projection;
     let world_to_screen = ScreenTransform::new(view, width, height)?.world_to_screen();
+    let offset = scene.image.samples.first_offset();
+    if let Some(ground) = scene.ground {
+        add_ground(ground, world_to_screen, offset, width as usize, nearest);
+    }
     // Positions are reconstructed from depths in f32 relative to this point. The center of the view
     // volume is near everything visible, so that few bits are lost.
-    let center = view.world_to_clip().raw().inverse() * glam::DVec4::new(0.0, 0.0, 0.0, 1.0);
+    let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
     let center = center.truncate() / center.w;
     let origin = if center.is_finite() { center } else { view.camera.eye().raw() };
-    let right = view.camera.u().raw();
-    Ok(Some(AmbientOcclusion::new(nearest, size, world_to_screen, origin, right, radius)))
+    let across = view.camera.u().raw() * radius;
+    let viewer = view.viewer().into();
+    let space = ScreenSpace::new(size, offset, world_to_screen, origin, viewer, across);
+    let simd_level = frame.simd_level();
+    Ok(Some(AmbientOcclusion::compute(nearest, space, simd_level, context.threads)))
 }
 
-/// The depth buffer of the whole picture for rendering a region of it: a frame of its own, with
-/// depths only.
+/// Adds the ground to a depth buffer, which as a translucent surface it is not in: it occludes, and
+/// is occluded.
+fn add_ground(
+    ground: Ground,
+    world_to_screen: DMat4,
+    [offset_x, offset_y]: [f32; 2],
+    width: usize,
+    nearest: &mut [SurfaceDepth],
+) {
+    let height = f64::from(ground.corners[0][1]);
+    // Planes are transformed by the inverse transpose; depth is linear on the screen.
+    let plane = world_to_screen.inverse().transpose() * DVec4::new(0.0, 1.0, 0.0, -height);
+    let screen_to_world = world_to_screen.inverse();
+    for (index, nearest) in nearest.iter_mut().enumerate() {
+        let x = (index % width) as f64 + f64::from(offset_x);
+        let y = (index / width) as f64 + f64::from(offset_y);
+        let depth = -(plane.x * x + plane.y * y + plane.w) / plane.z;
+        let is_ahead = screen_to_world.row(3).dot(DVec4::new(x, y, depth, 1.0)) > 0.0;
+        if is_ahead && depth > 0.0 && depth < 1.0 && depth as f32 > nearest.depth {
+            *nearest = SurfaceDepth { depth: depth as f32, ..SurfaceDepth::EMPTY };
+        }
+    }
+}
+
+/// The ambient occlusion of the whole picture for rendering a region of it: a frame of its own.
 ///
 /// # Errors
 /// If the picture is larger than one image tile, or the scene has too many primitives.
-pub(super) fn build_full_ssao_buffer(
+pub(super) fn compute_full_occlusion(
     context: &RenderContext<'_>,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
     let image = context.scene.image;
@@ -59,5 +92,5 @@ pub(super) fn build_full_ssao_buffer(
     };
     let memory = RenderBuffers::default().take_frame(context, whole)?;
     let memory = assemble_scene(context, memory)?;
-    build_ssao_buffer(context, &memory, Vec::new())
+    compute_occlusion(context, &memory, &mut Vec::new())
 }

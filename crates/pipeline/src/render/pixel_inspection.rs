@@ -7,7 +7,7 @@
 //! which barycentric weights, and with which linear color each contributes.
 
 use super::RenderError;
-use super::ambient_occlusion::build_full_ssao_buffer;
+use super::ambient_occlusion::compute_full_occlusion;
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::TileRegion;
@@ -72,7 +72,7 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let memory = assemble_scene(&context, memory)?;
     let mut shadows = ShadowMapRenderer::default();
     shadows.render_maps(&context)?;
-    let occlusion = build_full_ssao_buffer(&context)?;
+    let occlusion = compute_full_occlusion(&context)?;
     let shading = fragment_shading(scene, &memory, &shadows.maps, occlusion.as_ref());
     let (frame, offset) = (&memory.frame, pixel_region.offset_in_tile());
     let styled = style_shading(scene, &shading);

@@ -9,7 +9,7 @@
 //! ```
 
 use super::RenderError;
-use super::ambient_occlusion::{build_full_ssao_buffer, build_ssao_buffer};
+use super::ambient_occlusion::{compute_full_occlusion, compute_occlusion};
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
@@ -39,7 +39,7 @@ pub struct PreparedScene<'a> {
     /// Whether the buffers hold this scene's shadow maps.
     has_shadow_maps: bool,
     /// The occlusion buffer of the whole picture, for regions that are a part of it.
-    full_ssao: Option<AmbientOcclusion>,
+    full_occlusion: Option<AmbientOcclusion>,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
@@ -78,7 +78,7 @@ impl<'a> PreparedScene<'a> {
             page,
             overlay_layers,
             has_shadow_maps: false,
-            full_ssao: None,
+            full_occlusion: None,
             warnings,
             insets,
         })
@@ -147,8 +147,8 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), RenderError> {
         let image = self.context.scene.image;
         // Occlusion at a region's border depends on surfaces beyond it.
-        if region != image.pixel_rect() && self.full_ssao.is_none() {
-            self.full_ssao = build_full_ssao_buffer(&self.context)?;
+        if region != image.pixel_rect() && self.full_occlusion.is_none() {
+            self.full_occlusion = compute_full_occlusion(&self.context)?;
         }
         self.render_shadow_maps()?;
         picture.resize(region.width, region.height);
@@ -191,24 +191,22 @@ impl<'a> PreparedScene<'a> {
         region: TileRegion,
         pixels: &mut [[C; 4]],
     ) -> Result<(), RenderError> {
-        let Self { context, buffers, full_ssao, .. } = self;
+        let Self { context, buffers, full_occlusion, .. } = self;
         let RenderContext { scene, threads, .. } = *context;
         let memory = buffers.take_frame(context, region)?;
         let memory = context.measure("vertices", || assemble_scene(context, memory))?;
-        let own_ssao = match full_ssao {
+        let own_occlusion = match full_occlusion {
             Some(_) => None,
-            None => {
-                let nearest = std::mem::take(&mut buffers.nearest_surfaces);
-                build_ssao_buffer(context, &memory, nearest)?
-            }
+            None => context.measure("occlusion", || {
+                compute_occlusion(context, &memory, &mut buffers.nearest_surfaces)
+            })?,
         };
-        let ssao = full_ssao.as_ref().or(own_ssao.as_ref());
-        let shading = fragment_shading(scene, &memory, &buffers.shadow_maps.maps, ssao);
+        let occlusion = full_occlusion.as_ref().or(own_occlusion.as_ref());
+        let shading = fragment_shading(scene, &memory, &buffers.shadow_maps.maps, occlusion);
         let styled = style_shading(scene, &shading);
         let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
         let (frame, background) = (&memory.frame, scene.image.background);
         context.measure("pixels", || C::draw_frame(frame, surface, background, threads, pixels));
-        buffers.nearest_surfaces = own_ssao.map(|ssao| ssao.nearest).unwrap_or_default();
         buffers.recycle_frame(memory);
         Ok(())
     }

@@ -15,6 +15,7 @@ use super::anisotropy::Anisotropy;
 use super::base::BaseBrdf;
 use super::clearcoat::Clearcoat;
 use super::sheen::Sheen;
+use crate::ambient_occlusion::add_bounces;
 use crate::environment::Environment;
 use crate::lanes::{Lanes, Rgb};
 use crate::light::Light;
@@ -155,7 +156,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         let light = environment.specular_radiance(mirrors, views, roughness);
         // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
         // angles the mirror direction is less occluded than the hemisphere.
-        let visibility = self.inputs.occlusion;
+        let visibility = self.inputs.occlusion * self.inputs.screen_visibility;
         let sum = n_dot_v + visibility;
         let occlusion = (sum * sum - 1.0 + visibility).clamp(0.0, 1.0);
         // Albedo scaling of sheen, then the split sum's product.
@@ -171,9 +172,14 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// Sheen has a part of its own: it reflects its albedo of light from all directions.
     #[inline(always)]
     fn add_diffuse(&mut self, white: Rgb<N>) {
-        let light = white * self.inputs.occlusion;
+        let MaterialInputs { occlusion, screen_visibility, .. } = *self.inputs;
         // Lambert, below the specular interface and below sheen.
         let reflectance = self.base.diffuse * self.base.diffuse_transmittance * self.base_scale();
+        // Screen-space occlusion is geometry: light that it takes may come back from there.
+        let mut light = white * occlusion;
+        if screen_visibility != Lanes::ONE {
+            light = light * add_bounces(screen_visibility, reflectance);
+        }
         self.radiance += reflectance * light;
         if let Some(sheen) = &self.sheen {
             self.radiance += sheen.reflectance() * light;

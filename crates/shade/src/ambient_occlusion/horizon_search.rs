@@ -1,0 +1,297 @@
+//! The horizon search: the visible arcs around the surfaces of eight pixels.
+
+use super::screen_space::{PixelGrid, ScreenSpace};
+use crate::lanes::{Lanes, Vec3Lanes};
+use raster::{Kernel, LANES};
+
+/// The planes through the view in which horizons are searched at each pixel.
+const SLICE_COUNT: usize = 4;
+/// The steps to either side of a slice.
+const STEP_COUNT: usize = 6;
+/// The cosine by which something must be above the surface: what is lower is the surface itself.
+const SURFACE_TOLERANCE: f32 = 0.002;
+/// The least weight of a slice, by which others are divided.
+const LEAST_WEIGHT: f32 = 1e-3;
+/// The side of the pattern by which slices are turned.
+const PATTERN_SIDE: usize = 4;
+/// The order of the turns in the pattern: neighbors differ much (a Bayer matrix).
+const TURNS: [[u8; PATTERN_SIDE]; PATTERN_SIDE] =
+    [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
+
+type Eight = Lanes<LANES>;
+
+/// The pattern by which slices are turned and steps are moved from pixel to pixel.
+///
+/// Rows repeat after four, and so do columns: two of its periods are eight pixels.
+pub(super) struct Pattern {
+    /// The directions of the slices on the screen, x and y, for each row of the pattern.
+    directions: [[[Eight; 2]; SLICE_COUNT]; PATTERN_SIDE],
+    /// The fraction of a step by which the steps of a pixel are ahead.
+    step_offsets: [Eight; PATTERN_SIDE],
+}
+
+impl Pattern {
+    pub(super) fn new() -> Self {
+        let mut directions = [[[Eight::ZERO; 2]; SLICE_COUNT]; PATTERN_SIDE];
+        let mut step_offsets = [Eight::ZERO; PATTERN_SIDE];
+        for (row, lane) in (0..PATTERN_SIDE).flat_map(|row| (0..LANES).map(move |lane| (row, lane)))
+        {
+            let turn = TURNS[row][lane % PATTERN_SIDE];
+            for (slice, direction) in directions[row].iter_mut().enumerate() {
+                let turned = slice as f64 + (f64::from(turn) + 0.5) / 16.0;
+                let angle = std::f64::consts::PI * turned / SLICE_COUNT as f64;
+                direction[0][lane] = libm::cos(angle) as f32;
+                direction[1][lane] = libm::sin(angle) as f32;
+            }
+            // In another order than the turns, so that no direction has long steps only.
+            step_offsets[row][lane] = ((u32::from(turn) * 5 + 8) % 16) as f32 / 16.0 + 1.0 / 32.0;
+        }
+        Self { directions, step_offsets }
+    }
+}
+
+/// The kernel that computes the visibilities of eight pixels from (x, y) to the right.
+pub(super) struct SearchEight<'a> {
+    pub(super) space: &'a ScreenSpace,
+    pub(super) pattern: &'a Pattern,
+    pub(super) depths: &'a PixelGrid,
+    pub(super) x: usize,
+    pub(super) y: usize,
+}
+
+/// The surfaces of eight pixels.
+struct Surfaces {
+    /// Columns and rows.
+    pixels: [Eight; 2],
+    /// Positions relative to the origin.
+    positions: Vec3Lanes<LANES>,
+    /// The depths there.
+    depths: Eight,
+    /// Unit normals, toward the viewer.
+    normals: Vec3Lanes<LANES>,
+    /// Unit vectors to the viewer.
+    views: Vec3Lanes<LANES>,
+    /// The radius in pixels.
+    radii: Eight,
+}
+
+/// The plane of a slice at each of eight pixels.
+struct Slice {
+    /// The direction on the screen: x and y.
+    direction: [Eight; 2],
+    /// The length of the normal's projection into the slice: the slice's weight.
+    weight: Eight,
+    /// The cosine of the angle from the view to the projected normal.
+    cosine: Eight,
+    /// Its sine, positive where the normal leans along the direction.
+    sine: Eight,
+    /// The unit normal of the slice.
+    slice_normal: Vec3Lanes<LANES>,
+    /// A vector on the surface that leads out of the slice by one unit.
+    out_of_slice: Vec3Lanes<LANES>,
+}
+
+impl Slice {
+    /// The cosines from the view down to the surface itself, ahead and behind.
+    #[inline(always)]
+    fn surface_horizons(&self) -> [Eight; 2] {
+        [-self.sine, self.sine]
+    }
+
+    /// The light between two horizons, given by their cosines ahead and behind.
+    #[inline(always)]
+    fn visible_arc(&self, [ahead, behind]: [Eight; 2]) -> Eight {
+        // Behind, the normal leans the other way.
+        integrate_arc(ahead, self.cosine, self.sine)
+            + integrate_arc(behind, self.cosine, -self.sine)
+    }
+}
+
+impl Kernel for SearchEight<'_> {
+    type Output = [f32; LANES];
+
+    #[inline(always)]
+    fn run(self) -> [f32; LANES] {
+        let depths = self.depths.eight_at([self.x, self.y], [0, 0]);
+        if depths.0 == [0.0; LANES] {
+            return [1.0; LANES];
+        }
+        let surfaces = self.find_surfaces(depths);
+        let (mut visible, mut open) = (Eight::ZERO, Eight::ZERO);
+        for index in 0..SLICE_COUNT {
+            let slice = self.project_normals(&surfaces, index);
+            let [ahead, behind] = self.find_horizons(&surfaces, &slice);
+            visible += slice.weight * slice.visible_arc([ahead, behind]);
+            // By the same expression, so that what nothing occludes is exactly open.
+            open += slice.weight * slice.visible_arc(slice.surface_horizons());
+        }
+        let visibility = (visible / open).max(0.0).min(1.0);
+        // Also where a surface is seen from its edge, and nothing is known.
+        visibility.select(&open.is_above(0.0), Eight::ONE).0
+    }
+}
+
+impl SearchEight<'_> {
+    /// The surfaces at the pixels, from the depth buffer.
+    #[inline(always)]
+    fn find_surfaces(&self, depths: Eight) -> Surfaces {
+        let space = self.space;
+        let columns = Eight::from_fn(|lane| (self.x + lane) as f32);
+        let pixels = [columns, Eight::splat(self.y as f32)];
+        let positions = space.unproject_pixels(pixels, depths);
+        // The surface's plane, from the pixel beside that continues it best.
+        let [dx, dy] = depth_slopes(self.depths, [self.x, self.y], depths);
+        let right = space.unproject_pixels([pixels[0] + 1.0, pixels[1]], depths + dx) - positions;
+        let down = space.unproject_pixels([pixels[0], pixels[1] + 1.0], depths + dy) - positions;
+        let views = space.views(positions);
+        let normals = down.cross(right);
+        let normals = normals * (1.0 / normals.dot(normals).sqrt());
+        let is_away = normals.dot(views).is_below(0.0);
+        let normals = (-normals).select(&is_away, normals);
+        let screen_positions = space.project(positions);
+        let radii = space.radius_in_pixels(positions, screen_positions);
+        Surfaces { pixels, positions, depths, normals, views, radii }
+    }
+
+    /// Projects the normals into a slice: its weight, and the tilt of the surface in it.
+    #[inline(always)]
+    fn project_normals(&self, surfaces: &Surfaces, index: usize) -> Slice {
+        let Surfaces { pixels, positions, depths, normals, views, radii } = surfaces;
+        let direction = self.pattern.directions[self.y % PATTERN_SIDE][index];
+        let reach = radii.max(1.0);
+        let ahead = [pixels[0] + direction[0] * reach, pixels[1] + direction[1] * reach];
+        let along = self.space.unproject_pixels(ahead, *depths) - *positions;
+        // The slice's direction in the world, perpendicular to the view.
+        let across = along - *views * along.dot(*views);
+        let across = across * (1.0 / across.dot(across).sqrt());
+        let slice_normal = across.cross(*views);
+        // The projected normal: its length weights the slice, its angle tilts the arc.
+        let lean = normals.dot(slice_normal);
+        let projected = *normals - slice_normal * lean;
+        let weight = projected.dot(projected).sqrt();
+        let inv_weight = 1.0 / weight.max(LEAST_WEIGHT);
+        let out_of_slice = slice_normal - projected * (lean * inv_weight * inv_weight);
+        let cosine = (projected.dot(*views) * inv_weight).max(0.0).min(1.0);
+        let sine = (projected.dot(across) * inv_weight).max(-1.0).min(1.0);
+        Slice { direction, weight, cosine, sine, slice_normal, out_of_slice }
+    }
+
+    /// The cosines from the view down to the horizons, ahead and behind.
+    ///
+    /// Each surface takes the light between its height and that of those before it, less the
+    /// farther away it is: occlusion falls off with the square of the distance. Where a surface
+    /// faces the viewer, the light below a height is proportional to the height's square.
+    #[inline(always)]
+    fn find_horizons(&self, surfaces: &Surfaces, slice: &Slice) -> [Eight; 2] {
+        let inv_radius = 1.0 / self.space.radius();
+        let surface_horizons = slice.surface_horizons();
+        let mut occluded = [Eight::ZERO; 2];
+        let mut highest = [Eight::splat(SURFACE_TOLERANCE * SURFACE_TOLERANCE); 2];
+        for step in 0..STEP_COUNT {
+            // Steps are short nearby, where they have most weight.
+            let t = (step as f32 + self.pattern.step_offsets[self.y % PATTERN_SIDE])
+                * (1.0 / STEP_COUNT as f32);
+            let distance = 1.0 + t * t * (surfaces.radii - 1.0);
+            for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let (found, depths) = self.surface_at(surfaces, slice, distance * sign);
+                let squared = found.dot(found);
+                let height = found.dot(surfaces.views) / squared.sqrt() - surface_horizons[side];
+                let light = height.max(0.0) * height;
+                let radii = squared * (inv_radius * inv_radius);
+                for lane in 0..LANES {
+                    // `&` instead of `&&`: all conditions are computed, without branches.
+                    let occludes = (depths[lane] > 0.0)
+                        & (radii[lane] < 1.0)
+                        & (light[lane] > highest[side][lane]);
+                    let taken = (light[lane] - highest[side][lane]) * (1.0 - radii[lane]);
+                    occluded[side][lane] += if occludes { taken } else { 0.0 };
+                    highest[side][lane] = if occludes { light[lane] } else { highest[side][lane] };
+                }
+            }
+        }
+        [0, 1].map(|side| surface_horizons[side] + occluded[side].sqrt())
+    }
+
+    /// The surfaces at some pixels along a slice: their positions relative to those from which the
+    /// slice starts, and their depths.
+    #[inline(always)]
+    fn surface_at(
+        &self,
+        surfaces: &Surfaces,
+        slice: &Slice,
+        distance: Eight,
+    ) -> (Vec3Lanes<LANES>, Eight) {
+        let [width, height] = self.space.size();
+        let [column, row] = surfaces.pixels;
+        let x = containing_pixels(column + slice.direction[0] * distance + 0.5, width);
+        let y = containing_pixels(row + slice.direction[1] * distance + 0.5, height);
+        let depths = Eight::from_fn(|lane| self.depths.at([x[lane], y[lane]], [0, 0]));
+        let columns = Eight::from_fn(|lane| x[lane] as f32);
+        let rows = Eight::from_fn(|lane| y[lane] as f32);
+        let found = self.space.unproject_pixels([columns, rows], depths) - surfaces.positions;
+        // The pixel's center lies beside the slice. Moved into it along the surface, what is on the
+        // surface stays on it.
+        (found - slice.out_of_slice * found.dot(slice.slice_normal), depths)
+    }
+}
+
+/// The pixels that contain coordinates; those beyond the picture move to the margin.
+#[inline(always)]
+fn containing_pixels(coordinates: Eight, side: u32) -> [i32; LANES] {
+    let mut pixels = [0; LANES];
+    for (pixel, value) in pixels.iter_mut().zip(coordinates.0) {
+        let is_inside = (value >= 0.0) & (value < side as f32);
+        *pixel = if is_inside { value } else { -1.0 } as i32;
+    }
+    pixels
+}
+
+/// The change of depth per pixel to the right and down, on the surface of each pixel.
+///
+/// Depth is linear on a plane: of the two neighbors, the one is taken that lies on a line with the
+/// next beyond it. Beside a silhouette that is the neighbor on the surface, and at a crease one of
+/// the two faces.
+#[inline(always)]
+pub(super) fn depth_slopes(grid: &PixelGrid, at: [usize; 2], depths: Eight) -> [Eight; 2] {
+    [[1, 0], [0, 1]].map(|[dx, dy]: [isize; 2]| {
+        let next = grid.eight_at(at, [dx, dy]);
+        let after_next = grid.eight_at(at, [2 * dx, 2 * dy]);
+        let last = grid.eight_at(at, [-dx, -dy]);
+        let before_last = grid.eight_at(at, [-2 * dx, -2 * dy]);
+        let (forward, backward) = (next - depths, depths - last);
+        let forward_bend = (after_next - next - forward).abs();
+        let backward_bend = (backward - (last - before_last)).abs();
+        let mut slopes = Eight::ZERO;
+        for lane in 0..LANES {
+            let (has_next, has_last) = (next[lane] > 0.0, last[lane] > 0.0);
+            let takes_next = has_next & (!has_last | (forward_bend[lane] < backward_bend[lane]));
+            let slope = if has_last { backward[lane] } else { 0.0 };
+            slopes[lane] = if takes_next { forward[lane] } else { slope };
+        }
+        slopes
+    })
+}
+
+/// The light between the view and a horizon: the integral of the cosine to the normal times the
+/// sine to the view, (cos n − cos(2h − n) + 2h · sin n) / 4 (Jimenez et al. 2016, eq. 7).
+#[inline(always)]
+fn integrate_arc(horizon: Eight, cosine: Eight, sine: Eight) -> Eight {
+    let horizon = horizon.max(-1.0).min(1.0);
+    let angle = arc_cosines(horizon);
+    let horizon_sine = (1.0 - horizon * horizon).sqrt();
+    // The cosine of 2h − n, from those of h and n.
+    let double_cosine = 2.0 * horizon * horizon - 1.0;
+    let double_sine = 2.0 * horizon * horizon_sine;
+    let difference = double_cosine * cosine + double_sine * sine;
+    0.25 * (cosine - difference + 2.0 * angle * sine)
+}
+
+/// Arc cosines of numbers from −1 to 1, off by at most 7 · 10⁻⁵ (Abramowitz and Stegun 1964,
+/// 4.4.45).
+#[inline(always)]
+fn arc_cosines(cosines: Eight) -> Eight {
+    let x = cosines.abs();
+    let polynomial = ((-0.018_729_3 * x + 0.074_261) * x - 0.212_114_4) * x + 1.570_728_8;
+    let angle = (1.0 - x).sqrt() * polynomial;
+    (std::f32::consts::PI - angle).select(&cosines.is_below(0.0), angle)
+}

@@ -1,0 +1,91 @@
+//! Ambient occlusion leaves no dark dots where surfaces end, whatever the number of samples.
+
+use pipeline::scene::parse_scene;
+use pipeline::{Origin, Picture, Scene, render};
+use std::path::Path;
+
+/// Models with inner silhouettes: a torus before itself, dense meshes, and a helmet full of edges.
+const MODELS: [&str; 5] =
+    ["bearing", "dense-sphere-draco-quantized", "flight-helmet", "teapot", "torus"];
+/// The numbers of samples a pixel.
+const SAMPLES: [u32; 4] = [1, 4, 8, 16];
+/// The fraction of its neighbors' light below which a pixel is a dot.
+const DOT: f64 = 0.25;
+
+/// The dots in pictures of a model in even light; nothing for other models.
+pub(super) fn find_dots(model: &Path, name: &str) -> Vec<String> {
+    let mut faults = Vec::new();
+    for samples in SAMPLES.into_iter().filter(|_| MODELS.contains(&name)) {
+        let picture = |occlusion| render_model(model, samples, occlusion).unwrap_or_default();
+        let visibility = Visibility::of_pictures(&picture("ambient_occlusion: ()"), &picture(""));
+        if visibility.mean() > 0.999 {
+            faults.push(format!("{samples} samples: nothing is occluded"));
+        }
+        for [x, y] in visibility.dots() {
+            faults.push(format!("{samples} samples: occlusion leaves a dot at {x}, {y}"));
+        }
+    }
+    faults
+}
+
+/// A picture of a model in light that arrives from everywhere.
+fn render_model(model: &Path, samples: u32, occlusion: &str) -> Option<Picture> {
+    let (folder, file) = (model.parent()?, model.file_name()?.to_str()?);
+    let text = format!(
+        r#"Scene(models: [(path: "{file}")], lights: [Ambient(intensity: 3)],
+        image: (size: (400, 300), samples: {samples}), {occlusion})"#
+    );
+    let scene = parse_scene("made.ron", &text).ok()?;
+    let origin = Origin::from_text("made.ron", text, folder.to_path_buf());
+    render(&Scene::resolve(&origin, &scene, &Default::default()).ok()?, 1).ok()
+}
+
+/// The share of the light that occlusion leaves to each pixel.
+struct Visibility {
+    width: usize,
+    /// Rows from the top; NaN where there is no surface, or a black one.
+    values: Vec<f64>,
+}
+
+impl Visibility {
+    fn of_pictures(with: &Picture, without: &Picture) -> Self {
+        let pairs = with.pixels.iter().zip(&without.pixels);
+        let values = pairs.map(|(with, without)| {
+            let is_visible = without[3] == 255 && without[1] >= 30;
+            if is_visible { linear(with[1]) / linear(without[1]) } else { f64::NAN }
+        });
+        Self { width: with.width as usize, values: values.collect() }
+    }
+
+    /// The mean over all surfaces.
+    fn mean(&self) -> f64 {
+        let known = || self.values.iter().filter(|value| !value.is_nan());
+        known().sum::<f64>() / known().count() as f64
+    }
+
+    /// The pixels that are much darker than the median of the nine around them.
+    fn dots(&self) -> Vec<[usize; 2]> {
+        let height = self.values.len() / self.width.max(1);
+        let inner =
+            (1..height.saturating_sub(1)).flat_map(|y| (1..self.width - 1).map(move |x| [x, y]));
+        inner.filter(|&pixel| self.at(pixel) < DOT * self.median_around(pixel)).collect()
+    }
+
+    fn at(&self, [x, y]: [usize; 2]) -> f64 {
+        self.values[y * self.width + x]
+    }
+
+    fn median_around(&self, [x, y]: [usize; 2]) -> f64 {
+        let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| [x, y]));
+        let mut known: Vec<f64> =
+            around.map(|pixel| self.at(pixel)).filter(|value| !value.is_nan()).collect();
+        known.sort_unstable_by(f64::total_cmp);
+        known.get(known.len() / 2).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// The linear light of an sRGB code.
+fn linear(code: u8) -> f64 {
+    let srgb = f64::from(code) / 255.0;
+    if srgb <= 0.04045 { srgb / 12.92 } else { libm::pow((srgb + 0.055) / 1.055, 2.4) }
+}
