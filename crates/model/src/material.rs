@@ -62,6 +62,19 @@ impl Material {
         transmission.is_some_and(|layer| layer.factor > 0.0) && !masked && !self.unlit
     }
 
+    /// Whether transmitted light leaves the straight line: refracted by the thickness of the
+    /// surface (KHR_materials_volume, KHR_materials_dispersion) or scattered by its roughness.
+    ///
+    /// Smooth thin sheets, and media with the index of refraction of air, leave light as it goes.
+    #[must_use]
+    pub fn bends_transmitted_light(&self) -> bool {
+        let MaterialExtensions { ior, specular_glossiness, volume, .. } = &self.extensions;
+        let has_gloss_texture = specular_glossiness.as_ref().is_some_and(|g| g.texture.is_some());
+        let is_rough = self.roughness > 0.0 || has_gloss_texture;
+        let is_thick = volume.as_ref().is_some_and(|volume| volume.thickness > 0.0);
+        self.is_transmissive() && *ior > 1.0 && (is_rough || is_thick)
+    }
+
     /// Whether shading needs a tangent frame: for a normal map or for anisotropic highlights.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {

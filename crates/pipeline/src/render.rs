@@ -56,6 +56,7 @@
 //! | pictures larger than memory | `render/write_png.rs` |
 //! | ground, environment and backdrop | `render/ground.rs`, `render/background.rs` |
 //! | screen-space ambient occlusion | `render/ambient_occlusion.rs` |
+//! | refraction and rough glass | `render/transmission_framebuffer.rs` |
 
 mod ambient_occlusion;
 mod background;
@@ -78,6 +79,7 @@ mod screen_transform;
 mod shadow_maps;
 #[cfg(test)]
 mod tests;
+mod transmission_framebuffer;
 mod vertex_inputs;
 mod vertex_processing;
 mod write_png;

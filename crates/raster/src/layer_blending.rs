@@ -92,7 +92,7 @@ impl<S: Surface> TileResolve<'_, S> {
             if let Some(fragments) = self.gather_fragments(y, eight) {
                 shaded = self.surface.shade_translucent_eight(&fragments);
             }
-            self.fix_opaque_colors(eight, &mut shaded.color);
+            self.fix_background_colors(eight, &mut shaded.color);
             let [r, g, b, alpha] = shaded.color;
             colors.extend((0..eight.len()).map(|k| [r[k], g[k], b[k], alpha[k]]));
             let [r, g, b] = shaded.transmittance;

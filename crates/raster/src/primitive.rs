@@ -6,7 +6,7 @@ use crate::screen_vertex::{GRID_RANGE, SUBPIXELS};
 /// How a primitive takes part in visibility: the alpha modes of glTF, `OPAQUE`, `MASK` and `BLEND`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Opacity {
-    /// Hides everything behind it.
+    /// Hides everything behind it: its color and alpha replace those behind.
     #[default]
     Opaque,
     /// Alpha tested: hides everything behind it where

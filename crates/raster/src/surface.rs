@@ -23,7 +23,8 @@ pub trait Surface: Sync {
 
     /// The color of a fragment: linear red, green and blue, premultiplied by alpha, and alpha.
     ///
-    /// Opaque and masked primitives are drawn as opaque, whatever alpha is returned.
+    /// Opaque and masked primitives replace what is behind them, alpha included: it is 1 unless
+    /// the color holds a background that is transparent itself, as that of refracting glass does.
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4];
 
     /// The colors of eight fragments: all reds, all greens, all blues, all alphas.

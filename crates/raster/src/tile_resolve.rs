@@ -206,9 +206,7 @@ impl<S: Surface> TileResolve<'_, S> {
         if !differs && triangles[0] == NO_TRIANGLE {
             return;
         }
-        let [r, g, b] = self.shade_neighbors(run, triangles, differs);
-        // Opaque by definition: alpha is 1, whatever the surface returned.
-        let mut pixels = encode.encode_eight(&[r, g, b, [1.0; LANES]]);
+        let mut pixels = encode.encode_eight(&self.shade_neighbors(run, triangles, differs));
         // Background lanes were shaded with a neighbor's fragment; put the background back.
         if differs {
             for (pixel, triangle) in pixels.iter_mut().zip(triangles) {
@@ -235,16 +233,14 @@ impl<S: Surface> TileResolve<'_, S> {
         run: &PixelRun<'_>,
         triangles: [u32; LANES],
         differs: bool,
-    ) -> [F32x8; 3] {
+    ) -> [F32x8; 4] {
         let (x, y) = (self.rect.x + run.block_start(), self.rect.y + run.y);
-        let [r, g, b, _] = if differs {
-            self.shade_several(triangles, x, y)
-        } else {
-            let triangle = self.triangle(triangles[0]);
-            let source_weights = &self.frame.source_weights;
-            self.surface.shade_eight(&Fragments::from_one_triangle(triangle, source_weights, x, y))
-        };
-        [r, g, b]
+        if differs {
+            return self.shade_several(triangles, x, y);
+        }
+        let triangle = self.triangle(triangles[0]);
+        let source_weights = &self.frame.source_weights;
+        self.surface.shade_eight(&Fragments::from_one_triangle(triangle, source_weights, x, y))
     }
 
     /// Shades eight pixels from (x, y) to the right that show different triangles. Background
@@ -289,12 +285,10 @@ impl<S: Surface> TileResolve<'_, S> {
         let planes = self.sample_triangles(run, &mut planes);
         let first = planes[0];
         let differs = any_differ(first);
-        let [r, g, b] = if differs || first[0] != NO_TRIANGLE {
-            self.shade_neighbors(run, first, differs)
-        } else {
-            [[0.0; LANES]; 3]
-        };
-        let mut colors = [r, g, b, [1.0; LANES]];
+        let mut colors = [[0.0; LANES]; 4];
+        if differs || first[0] != NO_TRIANGLE {
+            colors = self.shade_neighbors(run, first, differs);
+        }
         // The background's color, where the first sample sees it.
         for (color, background) in colors.iter_mut().zip(self.background) {
             for lane in 0..LANES {
@@ -324,7 +318,7 @@ impl<S: Surface> TileResolve<'_, S> {
             if let Some(fragments) = self.gather_fragments(y, eight) {
                 colors = self.surface.shade_eight(&fragments);
             }
-            self.fix_opaque_colors(eight, &mut colors);
+            self.fix_background_colors(eight, &mut colors);
             edges.add_contributions(from..end, &colors);
         }
         let (left, right) = (self.rect.left as usize, self.rect.right as usize);
@@ -360,10 +354,10 @@ impl<S: Surface> TileResolve<'_, S> {
         Some(Fragments::from_triangles(visible, source_weights, columns, self.rect.y + y))
     }
 
-    /// Sets what shading does not decide about contributions: the color of the background where
-    /// there is no triangle, and an alpha of 1 for opaque triangles.
+    /// Sets the contributions that are not shaded: the color of the background where there is no
+    /// triangle.
     #[inline(always)]
-    pub(crate) fn fix_opaque_colors(
+    pub(crate) fn fix_background_colors(
         &self,
         contributions: &[Contribution],
         colors: &mut [F32x8; 4],
@@ -373,8 +367,6 @@ impl<S: Surface> TileResolve<'_, S> {
                 for (color, background) in colors.iter_mut().zip(self.background) {
                     color[lane] = background;
                 }
-            } else if !contribution.translucent {
-                colors[3][lane] = 1.0;
             }
         }
     }

@@ -6,7 +6,8 @@
 //!  base specular      GGX, isotropic or anisotropic,     glTF 2.0, KHR_materials_specular, _ior,
 //!                     bare or under a thin film          _anisotropy, _iridescence
 //!  base diffuse       Lambert                            glTF 2.0, Appendix B
-//!  transmitted light  straight through, tinted           KHR_materials_transmission, _volume
+//!  transmitted light  straight through, or refracted     KHR_materials_transmission, _volume,
+//!                     and blurred; tinted                _ior, _dispersion
 //! ```
 //!
 //! Each layer scales what is below it by the energy that it leaves: the clearcoat by its Fresnel

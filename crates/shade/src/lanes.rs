@@ -68,6 +68,16 @@ impl<const N: usize> Lanes<N> {
         self
     }
 
+    /// A function of each lane that costs more than a branch: evaluated once where all lanes are
+    /// alike, as they are without a texture.
+    #[inline(always)]
+    pub(crate) fn map_expensive(self, function: impl Fn(f32) -> f32) -> Self {
+        if self.0.iter().all(|lane| *lane == self.0[0]) {
+            return Self::splat(function(self.0[0]));
+        }
+        self.map(function)
+    }
+
     /// The square roots; NaN of numbers below 0.
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {

@@ -43,3 +43,4 @@ pub use shadow_map::{Shadow, ShadowMap};
 pub use studio::studio_radiance;
 pub use texture::{MipChain, TexelEncoding};
 pub use tone_mapping::{ToneMapper, ToneMapping};
+pub use transmission::{ScreenProjection, TransmissionFramebuffer};

@@ -20,7 +20,7 @@ use super::lanes::{Lanes, Mask, Rgb, Vec3Lanes};
 use super::material_inputs::MaterialInputs;
 use super::shadow_receiver::ShadowReceiver;
 use super::surface_geometry::{SurfaceGeometry, find_back_faces, flip_vectors, view_directions};
-use super::transmission::tinted_transmittance;
+use super::transmission::TransmissionFramebuffer;
 use super::{Backdrop, Draw, DrawKind, DrawList, Environment, Light, ShadowMap, ToneMapper};
 use homog::{HPoint, World};
 use model::{AlphaMode, Topology};
@@ -39,6 +39,9 @@ pub struct Shading<'a> {
     pub shadows: &'a [Option<ShadowMap>],
     /// Screen-space ambient occlusion, if it is switched on.
     pub occlusion: Option<&'a AmbientOcclusion>,
+    /// What refracting and rough glass shows of the surfaces behind it. Without it such glass is
+    /// drawn like a smooth thin sheet.
+    pub transmission_framebuffer: Option<&'a TransmissionFramebuffer>,
     /// The environment for image-based lighting, if there is one.
     pub environment: Option<&'a Environment>,
     /// Exposure and tone curve.
@@ -239,11 +242,14 @@ impl Shading<'_> {
         // Material: factors times textures.
         let vertices = draw.vertex_indices(primitives);
         let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
-        // Rendering equation: emitted plus reflected radiance.
-        let mut transmittance = Lanes::ZERO;
+        // Rendering equation: emitted, reflected and transmitted radiance.
+        let (mut transmission, mut behind) = (None, None);
         let radiance = if draw.is_lit() {
-            let brdf = self.reflect_light(draw, primitives, fragments, &mut inputs);
-            transmittance = brdf.transmittance;
+            let mut brdf = self.reflect_light(draw, primitives, fragments, &mut inputs);
+            transmission = brdf.transmission;
+            if let Some(framebuffer) = self.framebuffer_behind(draw) {
+                behind = brdf.add_light_behind(draw, framebuffer);
+            }
             brdf.finish()
         } else {
             inputs.emitted + inputs.base_color
@@ -255,19 +261,33 @@ impl Shading<'_> {
         } else {
             radiance * self.tone_mapper.exposure
         };
+        if let Some((display, _)) = behind {
+            color += display;
+        }
         let mut coverage = Lanes::ONE;
         if draw.material.alpha_mode == AlphaMode::Blend {
             coverage = inputs.alpha;
             color = color * coverage;
         }
         let Rgb { r, g, b } = color;
-        if !draw.material.is_transmissive() {
+        let Some(share) = transmission else {
             return ShadedLanes::over([r, g, b, coverage]);
-        }
+        };
         // What is behind shines through, beside the light that the surface itself sends.
-        let alpha = coverage * (1.0 - transmittance);
-        let transmittance = tinted_transmittance(draw, &inputs, coverage, alpha);
+        let mut alpha = coverage * (1.0 - share.gray());
+        let mut transmittance = share.channel_transmittances(coverage, alpha);
+        if let Some((_, alpha_behind)) = behind {
+            // What is behind is in the color already, as opaque as it is.
+            alpha = coverage - (coverage - alpha) * (1.0 - alpha_behind);
+            transmittance = [1.0 - coverage; 3];
+        }
         ShadedLanes { color: [r, g, b, alpha], transmittance }
+    }
+
+    /// The framebuffer that a draw shows what is behind it from, if it does.
+    #[inline(always)]
+    fn framebuffer_behind(&self, draw: &Draw<'_>) -> Option<&TransmissionFramebuffer> {
+        self.transmission_framebuffer.filter(|_| draw.material.bends_transmitted_light())
     }
 
     /// The environment behind everything, as a blurred mirror would show it.

@@ -6,17 +6,78 @@
 //!              glass      tint = base color · attenuation color ^ (thickness / distance)
 //! ```
 //!
-//! Surfaces are thin: light is neither refracted nor blurred by roughness, and goes straight
-//! through the thickness that the material states. Red, green and blue have transmittances of their
-//! own. A fragment has one alpha all the same, for all that looks at alpha, above all a transparent
-//! background: that of a gray with the luminance of the tint. A transparent picture of tinted glass
-//! therefore shows that gray when it is laid over something; where what is behind is drawn with it,
-//! it has the tint.
+//! Smooth thin sheets let light pass straight on: they are blended over what is behind them, in any
+//! number. Where thickness refracts the light or roughness scatters it, a surface shows the
+//! [`TransmissionFramebuffer`] instead, and hides what is behind it: opaque surfaces are seen
+//! through it, other glass and blended surfaces are not.
+//!
+//! Red, green and blue have transmittances of their own. A fragment has one alpha all the same, for
+//! all that looks at alpha, above all a transparent background: that of a gray with the luminance
+//! of the tint. A transparent picture of tinted glass therefore shows that gray when it is laid
+//! over something; where what is behind is drawn with it, it has the tint.
+
+mod framebuffer;
+mod mip_levels;
+mod refraction;
+
+pub use framebuffer::{ScreenProjection, TransmissionFramebuffer};
 
 use super::Draw;
 use super::lanes::{Lanes, Rgb, map_to_lanes};
 use super::material_inputs::MaterialInputs;
 use model::MaterialExtensions;
+
+/// The light that passes through the surface of a draw, apart from where it comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TransmittedShare<const N: usize> {
+    /// The fraction that neither interface nor material keeps back.
+    fraction: Lanes<N>,
+    /// The color that white light has then.
+    tint: Rgb<N>,
+}
+
+impl<const N: usize> TransmittedShare<N> {
+    /// The share of a surface that lets through this fraction of the light, tinted by the material.
+    #[inline(always)]
+    pub(super) fn new(draw: &Draw<'_>, inputs: &MaterialInputs<N>, fraction: Lanes<N>) -> Self {
+        let tint = transmission_tint(&draw.material.extensions, inputs, draw.world_scale);
+        Self { fraction, tint }
+    }
+
+    /// The factors of light from behind, by channel.
+    #[inline(always)]
+    pub(super) fn color(&self) -> Rgb<N> {
+        self.tint * self.fraction
+    }
+
+    /// The factor of white light from behind: the luminance of the tint.
+    #[inline(always)]
+    pub(super) fn gray(&self) -> Lanes<N> {
+        (self.fraction * luminance(self.tint)).clamp(0.0, 1.0)
+    }
+
+    /// The transmittances for red, green and blue, given the alpha of a gray as bright as the tint.
+    #[inline(always)]
+    pub(super) fn channel_transmittances(
+        &self,
+        coverage: Lanes<N>,
+        alpha: Lanes<N>,
+    ) -> [Lanes<N>; 3] {
+        let mut transmittance = [1.0 - alpha; 3];
+        // Undo the gray of alpha, then tint each channel.
+        let white = (coverage - alpha) / luminance(self.tint);
+        for lane in 0..N {
+            let [r, g, b] = self.tint.lane(lane);
+            // A gray tint is what alpha says already; a black one leaves nothing to undo.
+            if white[lane].is_finite() && (r != g || g != b) {
+                for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
+                    channel[lane] = (1.0 - coverage[lane] + white[lane] * tint).clamp(0.0, 1.0);
+                }
+            }
+        }
+        transmittance
+    }
+}
 
 /// The color that white light has behind the surface: base color and absorption in the volume.
 ///
@@ -25,7 +86,7 @@ use model::MaterialExtensions;
 /// Beer-Lambert: transmittance over a length d is attenuation color ^ (d / attenuation distance),
 /// so that white light has the attenuation color after one attenuation distance.
 #[inline(always)]
-pub(super) fn transmission_tint<const N: usize>(
+fn transmission_tint<const N: usize>(
     extensions: &MaterialExtensions,
     inputs: &MaterialInputs<N>,
     world_scale: f32,
@@ -34,7 +95,7 @@ pub(super) fn transmission_tint<const N: usize>(
     let length = inputs.layers.thickness * world_scale / volume.attenuation_distance;
     // Beer's law. A surface without thickness absorbs nothing.
     let [r, g, b] = map_to_lanes(&volume.attenuation_color, |color| {
-        length.map(|length| if length > 0.0 { libm::powf(color, length) } else { 1.0 })
+        length.map_expensive(|length| if length > 0.0 { libm::powf(color, length) } else { 1.0 })
     });
     inputs.base_color * Rgb { r, g, b }
 }
@@ -43,29 +104,4 @@ pub(super) fn transmission_tint<const N: usize>(
 #[inline(always)]
 pub(super) fn luminance<const N: usize>(color: Rgb<N>) -> Lanes<N> {
     0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b
-}
-
-/// The transmittance of a transmissive surface for red, green and blue, given the alpha of a gray
-/// as bright as its tint.
-#[inline(always)]
-pub(super) fn tinted_transmittance<const N: usize>(
-    draw: &Draw<'_>,
-    inputs: &MaterialInputs<N>,
-    coverage: Lanes<N>,
-    alpha: Lanes<N>,
-) -> [Lanes<N>; 3] {
-    let tint = transmission_tint(&draw.material.extensions, inputs, draw.world_scale);
-    let mut transmittance = [1.0 - alpha; 3];
-    // Undo the gray of alpha, then tint each channel.
-    let white = (coverage - alpha) / luminance(tint);
-    for lane in 0..N {
-        let [r, g, b] = tint.lane(lane);
-        // A gray tint is what alpha says already; a black one leaves nothing to undo.
-        if white[lane].is_finite() && (r != g || g != b) {
-            for (channel, tint) in transmittance.iter_mut().zip([r, g, b]) {
-                channel[lane] = (1.0 - coverage[lane] + white[lane] * tint).clamp(0.0, 1.0);
-            }
-        }
-    }
-    transmittance
 }

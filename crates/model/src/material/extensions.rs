@@ -108,7 +108,7 @@ pub struct Sheen {
 
 /// Light that passes through the surface, tinted by the base color (KHR_materials_transmission).
 ///
-/// It is drawn as through a thin pane: neither refracted by `ior` nor blurred by roughness.
+/// Roughness scatters it; the thickness of [`Volume`] refracts it by the index of refraction.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Transmission {
     /// Fraction of the light that is not reflected and is transmitted, in [0, 1]. Default: 0.

@@ -7,7 +7,9 @@
 
 use super::renderer::FrameMemory;
 use crate::scene::{Scene, Style};
-use shade::{AmbientOcclusion, Shading, ShadingStyle, ShadowMap, StyledShading};
+use shade::{
+    AmbientOcclusion, Shading, ShadingStyle, ShadowMap, StyledShading, TransmissionFramebuffer,
+};
 
 /// Physically based shading of the fragments of an assembled frame.
 pub(super) fn fragment_shading<'a>(
@@ -15,6 +17,7 @@ pub(super) fn fragment_shading<'a>(
     memory: &'a FrameMemory<'a>,
     shadows: &'a [Option<ShadowMap>],
     occlusion: Option<&'a AmbientOcclusion>,
+    transmission_framebuffer: Option<&'a TransmissionFramebuffer>,
 ) -> Shading<'a> {
     Shading {
         draws: &memory.draws,
@@ -22,6 +25,7 @@ pub(super) fn fragment_shading<'a>(
         lights: &scene.lights,
         shadows,
         occlusion,
+        transmission_framebuffer,
         environment: scene.environment.as_deref(),
         tone_mapper: scene.tone_mapper,
         viewer: scene.view_projection.viewer(),

@@ -80,6 +80,11 @@ impl TileRegion {
         Self { tile: tile_at(image, [x / TILE_SIDE, y / TILE_SIDE]), rect }
     }
 
+    /// All of a picture that is not larger than a tile.
+    pub(super) fn for_whole(image: ImageSpec) -> Self {
+        Self { tile: tile_at(image, [0, 0]), rect: image.pixel_rect() }
+    }
+
     /// The first column and row, counted in the tile.
     pub(super) const fn offset_in_tile(&self) -> [u32; 2] {
         [self.rect.x - self.tile.rect.x, self.rect.y - self.tile.rect.y]

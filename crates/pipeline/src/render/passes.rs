@@ -141,7 +141,7 @@ impl TilePasses<'_> {
         let context = self.context.with_scene(&scene);
         let memory = RenderBuffers::default().take_frame(&context, self.tile_region)?;
         let memory = assemble_with_opacity(&context, memory, opacity)?;
-        draw(&memory.frame, &fragment_shading(&scene, &memory, &[], None));
+        draw(&memory.frame, &fragment_shading(&scene, &memory, &[], None, None));
         Ok(())
     }
 }

@@ -7,7 +7,6 @@
 //! which barycentric weights, and with which linear color each contributes.
 
 use super::RenderError;
-use super::ambient_occlusion::compute_full_occlusion;
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::TileRegion;
@@ -15,6 +14,7 @@ use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::RenderBuffers;
 use super::shadow_maps::ShadowMapRenderer;
+use super::transmission_framebuffer::{compute_whole_occlusion, render_framebuffer};
 use crate::scene::Scene;
 use model::Model;
 use raster::{Fragment, Fragments, Frame, Surface, TranslucentColors};
@@ -72,8 +72,10 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let memory = assemble_scene(&context, memory)?;
     let mut shadows = ShadowMapRenderer::default();
     shadows.render_maps(&context)?;
-    let occlusion = compute_full_occlusion(&context)?;
-    let shading = fragment_shading(scene, &memory, &shadows.maps, occlusion.as_ref());
+    let occlusion = compute_whole_occlusion(&context)?;
+    let (maps, occlusion) = (&shadows.maps, occlusion.as_ref());
+    let framebuffer = render_framebuffer(&context, maps, occlusion)?;
+    let shading = fragment_shading(scene, &memory, maps, occlusion, framebuffer.as_ref());
     let (frame, offset) = (&memory.frame, pixel_region.offset_in_tile());
     let styled = style_shading(scene, &shading);
     let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);

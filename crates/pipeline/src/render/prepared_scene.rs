@@ -9,19 +9,22 @@
 //! ```
 
 use super::RenderError;
-use super::ambient_occlusion::{compute_full_occlusion, compute_occlusion};
+use super::ambient_occlusion::compute_occlusion;
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
 use super::line_drawing;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::{RenderBuffers, Renderer};
+use super::transmission_framebuffer::{
+    compute_whole_occlusion, needs_framebuffer, render_framebuffer,
+};
 use crate::Picture;
 use crate::scene::Inset;
 use drawing::{Layer, Page, Warning, draw_layers_over};
 use homog::PixelRect;
 use raster::Surface;
-use shade::{AmbientOcclusion, Channel};
+use shade::{AmbientOcclusion, Channel, TransmissionFramebuffer};
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
 ///
@@ -38,8 +41,11 @@ pub struct PreparedScene<'a> {
     overlay_layers: Vec<Layer>,
     /// Whether the buffers hold this scene's shadow maps.
     has_shadow_maps: bool,
-    /// The occlusion buffer of the whole picture, for regions that are a part of it.
+    /// The occlusion buffer of the whole picture, for regions that are a part of it and for
+    /// pictures with a transmission framebuffer.
     full_occlusion: Option<AmbientOcclusion>,
+    /// What refracting and rough glass shows behind it, once it is needed.
+    transmission_framebuffer: Option<TransmissionFramebuffer>,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
@@ -79,6 +85,7 @@ impl<'a> PreparedScene<'a> {
             overlay_layers,
             has_shadow_maps: false,
             full_occlusion: None,
+            transmission_framebuffer: None,
             warnings,
             insets,
         })
@@ -146,11 +153,16 @@ impl<'a> PreparedScene<'a> {
         picture: &mut Picture<C>,
     ) -> Result<(), RenderError> {
         let image = self.context.scene.image;
+        let needs_framebuffer = needs_framebuffer(self.context.scene);
         // Occlusion at a region's border depends on surfaces beyond it.
-        if region != image.pixel_rect() && self.full_occlusion.is_none() {
-            self.full_occlusion = compute_full_occlusion(&self.context)?;
+        let is_part = region != image.pixel_rect();
+        if (is_part || needs_framebuffer) && self.full_occlusion.is_none() {
+            self.full_occlusion = compute_whole_occlusion(&self.context)?;
         }
         self.render_shadow_maps()?;
+        if needs_framebuffer && self.transmission_framebuffer.is_none() {
+            self.render_transmission_framebuffer()?;
+        }
         picture.resize(region.width, region.height);
         let tiles = tile_regions(image, region);
         if let [tile] = tiles[..] {
@@ -184,6 +196,15 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
+    /// Renders what glass shows behind it. Like shadow maps it is of the whole picture.
+    fn render_transmission_framebuffer(&mut self) -> Result<(), RenderError> {
+        let Self { context, buffers, full_occlusion, .. } = self;
+        self.transmission_framebuffer = context.measure("transmission", || {
+            render_framebuffer(context, &buffers.shadow_maps.maps, full_occlusion.as_ref())
+        })?;
+        Ok(())
+    }
+
     /// Renders the part of an image tile that a region needs: vertex processing and primitive
     /// assembly into a visibility buffer, then shading of its visible fragments.
     fn render_tile<C: Channel>(
@@ -191,7 +212,7 @@ impl<'a> PreparedScene<'a> {
         region: TileRegion,
         pixels: &mut [[C; 4]],
     ) -> Result<(), RenderError> {
-        let Self { context, buffers, full_occlusion, .. } = self;
+        let Self { context, buffers, full_occlusion, transmission_framebuffer, .. } = self;
         let RenderContext { scene, threads, .. } = *context;
         let memory = buffers.take_frame(context, region)?;
         let memory = context.measure("vertices", || assemble_scene(context, memory))?;
@@ -202,7 +223,9 @@ impl<'a> PreparedScene<'a> {
             })?,
         };
         let occlusion = full_occlusion.as_ref().or(own_occlusion.as_ref());
-        let shading = fragment_shading(scene, &memory, &buffers.shadow_maps.maps, occlusion);
+        let maps = &buffers.shadow_maps.maps;
+        let framebuffer = transmission_framebuffer.as_ref();
+        let shading = fragment_shading(scene, &memory, maps, occlusion, framebuffer);
         let styled = style_shading(scene, &shading);
         let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
         let (frame, background) = (&memory.frame, scene.image.background);

@@ -34,7 +34,18 @@ pub(super) fn assemble_scene<'a>(
     context: &RenderContext<'a>,
     memory: FrameMemory<'a>,
 ) -> Result<FrameMemory<'a>, RenderError> {
-    assemble_with_opacity(context, memory, None)
+    PrimitiveAssembler::new(context, memory, None)?.assemble_all(context)
+}
+
+/// [`assemble_scene`] with what refracting glass shows behind it alone: opaque surfaces, the ground
+/// with its shadows, and the environment if it is visible.
+pub(super) fn assemble_behind_glass<'a>(
+    context: &RenderContext<'a>,
+    memory: FrameMemory<'a>,
+) -> Result<FrameMemory<'a>, RenderError> {
+    let mut assembler = PrimitiveAssembler::new(context, memory, None)?;
+    assembler.only_behind_glass = true;
+    assembler.assemble_all(context)
 }
 
 /// [`assemble_scene`] with all primitives opaque, masked or translucent as `opacity` says, whatever
@@ -44,33 +55,7 @@ pub(super) fn assemble_with_opacity<'a>(
     memory: FrameMemory<'a>,
     opacity: Option<Opacity>,
 ) -> Result<FrameMemory<'a>, RenderError> {
-    let RenderContext { scene, textures, threads, .. } = *context;
-    let mut assembler = PrimitiveAssembler {
-        transform: ScreenTransform::for_tile(scene, memory.tile)?,
-        viewer: scene.view_projection.viewer(),
-        inputs: VertexInputs::for_style(scene.style, opacity),
-        anisotropy: scene.image.max_anisotropy,
-        threads,
-        memory,
-        next_id: 0,
-        next_part_id: 0,
-    };
-    for (index, model_instance) in scene.models.iter().enumerate() {
-        for (instance, primitive) in model_instance.model.scene_primitives() {
-            let texture = |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);
-            assembler.draw_primitive(model_instance, instance, primitive, texture)?;
-        }
-    }
-    if let Some(ground) = scene.ground {
-        assembler.add_ground(ground)?;
-    }
-    if let Some(blur) = scene.image.environment_blur {
-        assembler.add_environment(blur)?;
-    }
-    if let Some(backdrop) = &scene.backdrop {
-        assembler.add_backdrop(backdrop, scene.image)?;
-    }
-    Ok(assembler.memory)
+    PrimitiveAssembler::new(context, memory, opacity)?.assemble_all(context)
 }
 
 /// The state of an assembly: transform, style, the frame so far, and the next free ids.
@@ -81,6 +66,8 @@ pub(super) struct PrimitiveAssembler<'a> {
     viewer: HPoint<World>,
     /// The needs of the style.
     inputs: VertexInputs,
+    /// Whether glass, blended surfaces and the backdrop are left out.
+    only_behind_glass: bool,
     /// The most texture samples per fragment along the longer axis of its footprint.
     anisotropy: u32,
     /// The most threads for large meshes.
@@ -101,6 +88,48 @@ pub(super) static QUAD: LazyLock<Primitive> =
     LazyLock::new(|| Primitive { indices: vec![0, 1, 2, 0, 2, 3], ..Primitive::default() });
 
 impl<'a> PrimitiveAssembler<'a> {
+    /// An assembly of all primitives into an empty frame; `opacity` overrides theirs.
+    fn new(
+        context: &RenderContext<'a>,
+        memory: FrameMemory<'a>,
+        opacity: Option<Opacity>,
+    ) -> Result<Self, RenderError> {
+        let RenderContext { scene, threads, .. } = *context;
+        Ok(Self {
+            transform: ScreenTransform::for_tile(scene, memory.tile)?,
+            viewer: scene.view_projection.viewer(),
+            inputs: VertexInputs::for_style(scene.style, opacity),
+            only_behind_glass: false,
+            anisotropy: scene.image.max_anisotropy,
+            threads,
+            memory,
+            next_id: 0,
+            next_part_id: 0,
+        })
+    }
+
+    /// Issues the draw calls of a scene: models, ground, environment and backdrop.
+    fn assemble_all(mut self, context: &RenderContext<'a>) -> Result<FrameMemory<'a>, RenderError> {
+        let RenderContext { scene, textures, .. } = *context;
+        for (index, model_instance) in scene.models.iter().enumerate() {
+            for (instance, primitive) in model_instance.model.scene_primitives() {
+                let texture =
+                    |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);
+                self.draw_primitive(model_instance, instance, primitive, texture)?;
+            }
+        }
+        if let Some(ground) = scene.ground {
+            self.add_ground(ground)?;
+        }
+        if let Some(blur) = scene.image.environment_blur {
+            self.add_environment(blur)?;
+        }
+        if let Some(backdrop) = scene.backdrop.as_ref().filter(|_| !self.only_behind_glass) {
+            self.add_backdrop(backdrop, scene.image)?;
+        }
+        Ok(self.memory)
+    }
+
     /// Issues the draw call of one primitive, unless all of it is culled.
     fn draw_primitive(
         &mut self,
@@ -111,9 +140,12 @@ impl<'a> PrimitiveAssembler<'a> {
     ) -> Result<(), RenderError> {
         let model = &model_instance.model;
         let (first_id, part_id) = self.allocate_ids(primitive)?;
+        let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+        if self.only_behind_glass && !self.inputs.is_behind_glass(material) {
+            return Ok(());
+        }
         let skinned = model.skin_primitive(instance, primitive);
         let model_to_world = skinned.to_model.then(model_instance.model_to_world);
-        let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
         if !self.project_primitive(primitive, material, &skinned, model_to_world) {
             return Ok(());
         }

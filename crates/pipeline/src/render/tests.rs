@@ -6,10 +6,12 @@ use super::image_tiles::tile_regions;
 use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::RenderBuffers;
+use super::transmission_framebuffer::render_framebuffer;
 use crate::scene::{Origin, Scene, Style, parse_scene};
 use raster::{Fragment, Fragments, Samples, Surface, TranslucentColors};
 use shade::Shading;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Shades like `Shading`, but one fragment at a time: the default methods of `Surface`.
 struct ScalarShading<'a>(&'a Shading<'a>);
@@ -36,12 +38,24 @@ fn load_scene(name: &str) -> Scene {
     let mut file = parse_scene(name, &text).expect("a scene");
     file.image.size = (200, 130);
     let origin = Origin::from_text(name, text, folder);
-    Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense")
+    let mut scene =
+        Scene::resolve(&origin, &file, &Default::default()).expect("a scene that makes sense");
+    // The ball of glass becomes rough, and shows the transmission framebuffer.
+    for material in
+        scene.models.iter_mut().flat_map(|of| &mut Arc::make_mut(&mut of.model).materials)
+    {
+        if material.is_transmissive() {
+            material.roughness = 0.4;
+        }
+    }
+    scene
 }
 
 #[test]
 fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
-    for name in ["crates.ron", "lights.ron", "panes.ron", "primitives.ron", "room.ron"] {
+    for name in
+        ["crates.ron", "finishes.ron", "lights.ron", "panes.ron", "primitives.ron", "room.ron"]
+    {
         for (samples, style) in [(1, Style::Shaded), (4, Style::Shaded), (1, Style::Flat)] {
             let mut scene = load_scene(name);
             scene.style = style;
@@ -51,7 +65,8 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             let context = RenderContext::new(&scene, &textures, 1);
             let memory = RenderBuffers::default().take_frame(&context, tile_region);
             let memory = assemble_scene(&context, memory.expect("a frame")).expect("a frame");
-            let shading = fragment_shading(&scene, &memory, &[], None);
+            let framebuffer = render_framebuffer(&context, &[], None).expect("a framebuffer");
+            let shading = fragment_shading(&scene, &memory, &[], None, framebuffer.as_ref());
             let frame = &memory.frame;
             let mut pictures = [(); 2].map(|()| vec![[0; 4]; 200 * 130]);
             let bits = |color: [f32; 4]| color.map(f32::to_bits);

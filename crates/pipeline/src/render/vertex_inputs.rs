@@ -57,8 +57,17 @@ impl VertexInputs {
         match (self.opacity_rule, material.alpha_mode) {
             (OpacityRule::Force(opacity), _) => opacity,
             (OpacityRule::ForceOpaque, AlphaMode::Opaque | AlphaMode::Blend) => Opacity::Opaque,
+            // Its color holds what is behind it already: it hides that, and is shaded where it is
+            // visible alone, without the cost of layers.
+            (_, AlphaMode::Opaque) if material.bends_transmitted_light() => Opacity::Opaque,
             _ => material_opacity(material),
         }
+    }
+
+    /// Whether a material's surfaces are in the transmission framebuffer, the picture of what is
+    /// behind glass: all but glass and blended surfaces.
+    pub(super) fn is_behind_glass(&self, material: &Material) -> bool {
+        self.opacity(material) != Opacity::Translucent && !material.bends_transmitted_light()
     }
 
     /// The index of the texture coordinates that vertices carry, if any.

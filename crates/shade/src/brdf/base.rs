@@ -24,7 +24,7 @@ use crate::lanes::{Lanes, Rgb};
 use crate::light::IncidentLight;
 use crate::material_inputs::{LayerInputs, MaterialInputs};
 use crate::surface_geometry::SurfaceGeometry;
-use crate::transmission::{luminance, transmission_tint};
+use crate::transmission::TransmittedShare;
 use model::{Material, MaterialExtensions};
 use std::f32::consts::FRAC_1_PI;
 
@@ -163,11 +163,8 @@ impl<const N: usize> BaseBrdf<N> {
         self.dielectric_f0 = self.dielectric_f0.max_lanes(film.max_channel());
     }
 
-    /// Makes diffuse reflection translucent, and returns the transmittance of the surface: the
-    /// fraction of white light behind it that is seen through it (KHR_materials_transmission).
-    ///
-    /// It is one number, the luminance of the tint; the colored transmittance is in
-    /// [`transmission`](crate::transmission).
+    /// Makes diffuse reflection translucent, and returns the share of the light behind the surface
+    /// that is seen through it (KHR_materials_transmission).
     ///
     /// Light passes only where the surface is dielectric, and only what Fresnel lets in.
     #[inline(always)]
@@ -175,14 +172,12 @@ impl<const N: usize> BaseBrdf<N> {
         &mut self,
         draw: &Draw<'_>,
         inputs: &MaterialInputs<N>,
-    ) -> Lanes<N> {
+    ) -> TransmittedShare<N> {
         let transmission = inputs.layers.transmission;
         self.diffuse = self.diffuse * (1.0 - transmission);
-        let tint = transmission_tint(&draw.material.extensions, inputs, draw.world_scale);
         let dielectric = 1.0 - inputs.metallic;
-        let transmittance =
-            transmission * dielectric * self.diffuse_transmittance * luminance(tint);
-        transmittance.clamp(0.0, 1.0)
+        let fraction = transmission * dielectric * self.diffuse_transmittance;
+        TransmittedShare::new(draw, inputs, fraction)
     }
 
     /// Derives energy compensation, specular albedo and diffuse transmittance from the split sum.

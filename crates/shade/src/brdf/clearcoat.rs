@@ -74,6 +74,12 @@ impl<const N: usize> Clearcoat<N> {
         self.specular_light += environment.specular_radiance(normals, views, self.roughness);
     }
 
+    /// The fraction of the light from below that the layer lets through.
+    #[inline(always)]
+    pub(super) fn transmittance(&self) -> Lanes<N> {
+        1.0 - self.reflectance
+    }
+
     /// Composites the layer over the light from below.
     ///
     /// Linear interpolation conserves energy: the light that the layer reflects is taken from

@@ -23,6 +23,7 @@ use crate::material_inputs::MaterialInputs;
 use crate::shadow_map::ShadowMap;
 use crate::shadow_receiver::ShadowReceiver;
 use crate::surface_geometry::{SurfaceGeometry, TangentLanes};
+use crate::transmission::{TransmissionFramebuffer, TransmittedShare};
 use crate::{Draw, Tangents};
 use std::f32::consts::FRAC_1_PI;
 
@@ -46,8 +47,8 @@ pub(crate) struct LayeredBrdf<'a, const N: usize> {
     anisotropy: Option<Anisotropy<N>>,
     /// The GGX lobe of KHR_materials_clearcoat, composited last.
     clearcoat: Option<Clearcoat<N>>,
-    /// The fraction of light from behind that is seen through the surface.
-    pub(crate) transmittance: Lanes<N>,
+    /// The share of light from behind that is seen through the surface.
+    pub(crate) transmission: Option<TransmittedShare<N>>,
     /// The light sent to the viewer from below the clearcoat: emitted, then reflected.
     radiance: Rgb<N>,
 }
@@ -80,16 +81,16 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
             geometry = smooth.with_tangent_normal(tangents, inputs.tangent_normal);
         }
         let mut base = BaseBrdf::new(material, inputs, &geometry);
-        let mut transmittance = Lanes::ZERO;
+        let mut transmission = None;
         if material.is_transmissive() {
-            transmittance = base.transmit_diffuse(draw, inputs);
+            transmission = Some(base.transmit_diffuse(draw, inputs));
         }
         let sheen = extensions.sheen.as_ref().map(|_| Sheen::new(&inputs.layers, &geometry));
         let anisotropy = extensions.anisotropy.as_ref().map(|anisotropy| {
             Anisotropy::new(inputs, &geometry, tangents, anisotropy.rotation, base.alpha)
         });
         let radiance = inputs.emitted;
-        Self { inputs, geometry, base, sheen, anisotropy, clearcoat, transmittance, radiance }
+        Self { inputs, geometry, base, sheen, anisotropy, clearcoat, transmission, radiance }
     }
 
     /// Adds the light of a scene's lights, less where they are in shadow.
@@ -184,6 +185,24 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         if let Some(sheen) = &self.sheen {
             self.radiance += sheen.reflectance() * light;
         }
+    }
+
+    /// Adds the light that refracting or rough glass shows of what is behind it, and returns what
+    /// is to be added after tone mapping: background and backdrop, and the alpha behind the surface.
+    #[inline(always)]
+    pub(crate) fn add_light_behind(
+        &mut self,
+        draw: &Draw<'_>,
+        framebuffer: &TransmissionFramebuffer,
+    ) -> Option<(Rgb<N>, Lanes<N>)> {
+        let share = self.transmission?.color() * self.base_scale();
+        let light = framebuffer.light_behind(draw, self.inputs, &self.geometry);
+        self.radiance += light.radiance * share;
+        let mut display = light.display * share;
+        if let Some(clearcoat) = &self.clearcoat {
+            display = display * clearcoat.transmittance();
+        }
+        Some((display, light.alpha))
     }
 
     /// The fraction of light from all directions that sheen leaves for the base.

@@ -1,0 +1,106 @@
+//! Rendering of the transmission framebuffer: all that refracting and rough glass may show behind
+//! it, as one picture of light.
+//!
+//! It is of the whole picture, even where a region of it is rendered: rays are refracted, and rough
+//! glass looks around, beyond the borders of the region. The lookup is
+//! `shade::TransmissionFramebuffer`.
+
+use super::RenderError;
+use super::ambient_occlusion::{compute_full_occlusion, compute_occlusion};
+use super::context::RenderContext;
+use super::fragment_shading::fragment_shading;
+use super::image_tiles::{TileRegion, tile_regions};
+use super::primitive_assembly::{DEFAULT_MATERIAL, assemble_behind_glass};
+use super::renderer::RenderBuffers;
+use super::screen_transform::ScreenTransform;
+use crate::scene::{ImageSpec, Scene};
+use glam::{DVec3, DVec4};
+use raster::Surface;
+use shade::{AmbientOcclusion, ScreenProjection, ShadowMap, ToneMapper, TransmissionFramebuffer};
+
+/// The longest side of a framebuffer in texels. Behind larger pictures it is halved until it fits:
+/// it takes 21 bytes for each texel.
+const MAX_FRAMEBUFFER_SIDE: u32 = 4096;
+
+/// Whether a scene's picture needs a transmission framebuffer: some glass refracts or is rough, and
+/// the style shows materials.
+pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
+    let bends_light = |model: &model::Model| {
+        model.scene_primitives().any(|(_, primitive)| {
+            let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
+            material.bends_transmitted_light()
+        })
+    };
+    !scene.style.overrides_materials()
+        && scene.models.iter().any(|instance| bends_light(&instance.model))
+}
+
+/// The ambient occlusion of the whole picture, by all surfaces but glass and blended ones.
+///
+/// # Errors
+/// If the picture is larger than one image tile, or the scene has too many primitives.
+pub(super) fn compute_whole_occlusion(
+    context: &RenderContext<'_>,
+) -> Result<Option<AmbientOcclusion>, RenderError> {
+    let scene = context.scene;
+    if scene.occlusion_radius.is_none() || !needs_framebuffer(scene) {
+        return compute_full_occlusion(context);
+    }
+    let [whole] = tile_regions(scene.image, scene.image.pixel_rect())[..] else {
+        return Err(RenderError::OcclusionTooLarge);
+    };
+    let memory = RenderBuffers::default().take_frame(context, whole)?;
+    // Refracting glass is opaque to the rasterizer; in this depth buffer it would occlude.
+    let memory = assemble_behind_glass(context, memory)?;
+    compute_occlusion(context, &memory, &mut Vec::new())
+}
+
+/// Renders the framebuffer of a scene's whole picture; `None` if none is needed.
+///
+/// # Errors
+/// If the scene has too many primitives.
+pub(super) fn render_framebuffer(
+    context: &RenderContext<'_>,
+    shadows: &[Option<ShadowMap>],
+    occlusion: Option<&AmbientOcclusion>,
+) -> Result<Option<TransmissionFramebuffer>, RenderError> {
+    if !needs_framebuffer(context.scene) {
+        return Ok(None);
+    }
+    let mut scene = context.scene.clone();
+    [scene.image.width, scene.image.height] = framebuffer_size(scene.image);
+    // Light, not the picture's colors: glass is tone mapped together with what it shows.
+    scene.tone_mapper = ToneMapper::default();
+    let context = context.with_scene(&scene);
+    let whole = TileRegion::for_whole(scene.image);
+    let memory = RenderBuffers::default().take_frame(&context, whole)?;
+    let memory = assemble_behind_glass(&context, memory)?;
+    let shading = fragment_shading(&scene, &memory, shadows, occlusion, None);
+    let surface: &dyn Surface = &shading;
+    let mut texels = vec![[0.0; 4]; whole.pixel_count()];
+    let linear = |color: [f32; 4]| color;
+    memory.frame.draw(&surface, [0.0; 4], context.threads, &mut texels, linear);
+    let projection = screen_projection(&scene)?;
+    let (backdrop, background) = (scene.backdrop.as_deref(), scene.image.background);
+    let threads = context.threads;
+    Ok(Some(TransmissionFramebuffer::new(projection, texels, backdrop, background, threads)))
+}
+
+/// The size of the framebuffer in texels: that of the picture, or of a fraction of it.
+fn framebuffer_size(image: ImageSpec) -> [u32; 2] {
+    let longer = image.width.max(image.height);
+    let halvings = longer.div_ceil(MAX_FRAMEBUFFER_SIDE).next_power_of_two();
+    [image.width, image.height].map(|side| side.div_ceil(halvings))
+}
+
+/// The mapping from the world to the texels of a framebuffer.
+fn screen_projection(scene: &Scene) -> Result<ScreenProjection, RenderError> {
+    let ImageSpec { width, height, .. } = scene.image;
+    let view = &scene.view_projection;
+    let world_to_screen = ScreenTransform::new(view, width, height)?.world_to_screen();
+    // The center of the view volume is near everything visible, so that few bits are lost.
+    let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
+    let center = center.truncate() / center.w;
+    let origin: DVec3 = if center.is_finite() { center } else { view.camera.eye().raw() };
+    Ok(ScreenProjection::new([width, height], world_to_screen, origin))
+}

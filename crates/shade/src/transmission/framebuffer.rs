@@ -1,0 +1,181 @@
+//! The transmission framebuffer: a picture of all opaque surfaces, in which refracting and rough
+//! glass finds what is behind it (as in the Khronos sample viewer and three.js).
+//!
+//! ```text
+//!   opaque surfaces ─► linear radiance, alpha ──┐
+//!                                               ├─► mip levels ─► lookup at the exit of the ray,
+//!   backdrop, where ─► display colors, alpha ───┘                 at the level of the roughness
+//!   no surface is
+//! ```
+//!
+//! Surfaces and a visible environment are light, and are tone mapped with what the glass reflects.
+//! Backdrop and background color are colors of the picture already and take no part in tone
+//! mapping; they are kept apart. All of it is premultiplied: where nothing is drawn over a
+//! transparent background, glass is transparent too.
+
+use super::mip_levels::MipLevels;
+use super::refraction::{blur_levels, channel_iors, refracted_exits};
+use crate::lanes::{Lanes, Rgb, Vec3Lanes};
+use crate::material_inputs::MaterialInputs;
+use crate::surface_geometry::SurfaceGeometry;
+use crate::{Backdrop, Draw};
+use glam::{DMat4, DVec3};
+use raster::for_each_parallel;
+
+/// The brightest light of a texel, the greatest of half floats: one texel beyond it, of a sun or
+/// its reflection, would be infinite in all levels.
+const MAX_RADIANCE: f32 = 65_504.0;
+
+/// A picture of the opaque surfaces of a scene with its mip levels.
+#[derive(Clone, Debug)]
+pub struct TransmissionFramebuffer {
+    /// The place of positions in the picture.
+    projection: ScreenProjection,
+    /// Radiance of surfaces and of a visible environment.
+    surfaces: MipLevels,
+    /// Display colors of the backdrop over the background, less what surfaces hide.
+    backdrop: Option<MipLevels>,
+    /// The display color of the background, premultiplied.
+    background: [f32; 4],
+}
+
+/// The view of a transmission framebuffer: from positions in the world to texels.
+#[derive(Clone, Copy, Debug)]
+pub struct ScreenProjection {
+    /// Width and height of the framebuffer in texels.
+    size: [u32; 2],
+    /// The position that others are relative to.
+    origin: [f32; 3],
+    /// The rows of the matrix from relative positions to (x·w, y·w, w).
+    rows: [[f32; 4]; 3],
+}
+
+/// The light that arrives through a surface from what is behind it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightBehind<const N: usize> {
+    /// Radiance of surfaces, premultiplied.
+    pub(crate) radiance: Rgb<N>,
+    /// Colors of backdrop and background as the picture has them, premultiplied.
+    pub(crate) display: Rgb<N>,
+    /// Alpha of both together.
+    pub(crate) alpha: Lanes<N>,
+}
+
+impl ScreenProjection {
+    /// The view of a framebuffer of `size` texels.
+    ///
+    /// `world_to_screen` maps the world to texels from the upper left corner. Positions are taken
+    /// relative to `origin`, which should be near the surfaces, for precision in `f32`.
+    #[must_use]
+    pub fn new(size: [u32; 2], world_to_screen: DMat4, origin: DVec3) -> Self {
+        let origin = origin.as_vec3();
+        let to_screen = world_to_screen * DMat4::from_translation(origin.as_dvec3());
+        let rows = [0, 1, 3].map(|row| to_screen.row(row).as_vec4().to_array());
+        Self { size, origin: origin.to_array(), rows }
+    }
+
+    /// The places of positions in texels; of positions behind the eye anywhere.
+    #[inline(always)]
+    fn project<const N: usize>(&self, positions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
+        let Vec3Lanes { x, y, z } = positions - Vec3Lanes::splat(self.origin);
+        let [column, row, w] = self.rows.map(|[a, b, c, d]| x * a + y * b + z * c + d);
+        let inv_w = 1.0 / w;
+        [column * inv_w, row * inv_w]
+    }
+}
+
+impl TransmissionFramebuffer {
+    /// The framebuffer of a picture of all opaque surfaces.
+    ///
+    /// `surfaces` is linear radiance, premultiplied by alpha, rows from the top; behind it are the
+    /// backdrop and the `background`, a linear display color premultiplied by alpha. Uses up to
+    /// `threads` threads, with the same result for any number.
+    #[must_use]
+    pub fn new(
+        projection: ScreenProjection,
+        mut surfaces: Vec<[f32; 4]>,
+        backdrop: Option<&Backdrop>,
+        background: [f32; 4],
+        threads: usize,
+    ) -> Self {
+        // NaN becomes 0: one texel would otherwise spoil all levels.
+        for texel in &mut surfaces {
+            *texel = texel.map(|channel| channel.max(0.0).min(MAX_RADIANCE));
+        }
+        let backdrop = backdrop.map(|backdrop| {
+            let texels =
+                visible_backdrop(backdrop, background, &surfaces, projection.size, threads);
+            MipLevels::new(texels, projection.size, threads)
+        });
+        let surfaces = MipLevels::new(surfaces, projection.size, threads);
+        Self { projection, surfaces, backdrop, background }
+    }
+
+    /// The light behind surfaces of a draw, refracted and blurred; not yet tinted.
+    ///
+    /// Not inlined into the kernel of shading: it is a gather from memory that wider instructions
+    /// do not hasten, and most fragments have no need of it.
+    #[inline(never)]
+    pub(crate) fn light_behind<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        inputs: &MaterialInputs<N>,
+        geometry: &SurfaceGeometry<N>,
+    ) -> LightBehind<N> {
+        let [width, height] = self.projection.size;
+        let ior = draw.material.extensions.ior;
+        let levels = blur_levels(inputs.roughness, ior, width.max(height) as f32);
+        let lengths = inputs.layers.thickness * draw.world_scale;
+        let look_up = |ior| self.sample(refracted_exits(geometry, ior, lengths), levels);
+        let [red, green, blue] = channel_iors(draw);
+        let mut light = look_up(green);
+        if red != blue {
+            // Dispersion: each channel is refracted by itself; alpha is that of green.
+            let (red, blue) = (look_up(red), look_up(blue));
+            (light.radiance.r, light.display.r) = (red.radiance.r, red.display.r);
+            (light.radiance.b, light.display.b) = (blue.radiance.b, blue.display.b);
+        }
+        light
+    }
+
+    /// The mean light around positions in the world, at a mip level.
+    #[inline(always)]
+    fn sample<const N: usize>(&self, positions: Vec3Lanes<N>, levels: Lanes<N>) -> LightBehind<N> {
+        let [x, y] = self.projection.project(positions);
+        let mut light = LightBehind { radiance: Rgb::ZERO, display: Rgb::ZERO, alpha: Lanes::ZERO };
+        for lane in 0..N {
+            let (place, level) = ([x[lane], y[lane]], levels[lane]);
+            let [r, g, b, alpha] = self.surfaces.sample(place, level);
+            let behind = match &self.backdrop {
+                Some(backdrop) => backdrop.sample(place, level),
+                None => self.background.map(|channel| channel * (1.0 - alpha)),
+            };
+            [light.radiance.r[lane], light.radiance.g[lane], light.radiance.b[lane]] = [r, g, b];
+            let [r, g, b, behind_alpha] = behind;
+            [light.display.r[lane], light.display.g[lane], light.display.b[lane]] = [r, g, b];
+            light.alpha[lane] = (alpha + behind_alpha).min(1.0);
+        }
+        light
+    }
+}
+
+/// The backdrop over the background at each texel, less what surfaces hide of it.
+fn visible_backdrop(
+    backdrop: &Backdrop,
+    background: [f32; 4],
+    surfaces: &[[f32; 4]],
+    [width, height]: [u32; 2],
+    threads: usize,
+) -> Vec<[f32; 4]> {
+    let mut texels = vec![[0.0; 4]; surfaces.len()];
+    let rows = texels.chunks_mut(width as usize).zip(surfaces.chunks(width as usize));
+    for_each_parallel(threads, rows.enumerate(), |(y, (texels, surfaces))| {
+        for (x, (texel, [.., alpha])) in texels.iter_mut().zip(surfaces).enumerate() {
+            let place = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];
+            let color = backdrop.color_at(place);
+            *texel = [0, 1, 2, 3]
+                .map(|k: usize| (color[k] + background[k] * (1.0 - color[3])) * (1.0 - alpha));
+        }
+    });
+    texels
+}

@@ -1,0 +1,185 @@
+//! Mip levels of the transmission framebuffer: light of any brightness, from full size to one
+//! texel.
+//!
+//! ```text
+//!   level 0      one texel per pixel, sampled bilinearly: what is not blurred stays sharp
+//!   level 1 …    each texel the mean of 2 × 2 of the level before, sampled by a quadratic
+//!                B-spline: bilinear sampling of so few texels would show them as diamonds
+//! ```
+//!
+//! Texel (i, j) of level k covers the pixels from (i, j) · 2ᵏ on: sizes are halved upwards, so that
+//! no level is shifted against another. Alpha is premultiplied.
+
+use raster::for_each_parallel;
+
+/// A picture at full size, at half, at a quarter and so on.
+#[derive(Clone, Debug)]
+pub(super) struct MipLevels {
+    /// From the full size to a single texel.
+    levels: Vec<FramebufferLevel>,
+}
+
+/// One mip level, rows from the top.
+#[derive(Clone, Debug)]
+struct FramebufferLevel {
+    /// Width and height in texels.
+    size: [usize; 2],
+    /// Pixels of the full size per texel, along a side, inverted: a power of two.
+    scale: f32,
+    texels: Vec<[f32; 4]>,
+}
+
+impl MipLevels {
+    /// Builds the levels of a picture of this size, with up to `threads` threads.
+    pub(super) fn new(texels: Vec<[f32; 4]>, size: [u32; 2], threads: usize) -> Self {
+        let size = size.map(|side| side as usize);
+        let mut levels = vec![FramebufferLevel { size, scale: 1.0, texels }];
+        while let Some(next) = levels.last().and_then(|level| level.downsample(threads)) {
+            levels.push(next);
+        }
+        Self { levels }
+    }
+
+    /// The trilinear mean around a position in pixels of the full size.
+    ///
+    /// Positions beyond the border have the value of the border. `level` is 0 for the full size; it
+    /// is clamped to the levels there are.
+    #[inline(always)]
+    pub(super) fn sample(&self, position: [f32; 2], level: f32) -> [f32; 4] {
+        let level = level.max(0.0).min((self.levels.len() - 1) as f32);
+        let near = level as usize;
+        let fraction = level - near as f32;
+        let mut value = match near {
+            0 => self.levels[0].sample_bilinear(position),
+            _ => self.levels[near].sample_spline(position),
+        };
+        if fraction > 0.0 {
+            let far = self.levels[near + 1].sample_spline(position);
+            for (value, far) in value.iter_mut().zip(far) {
+                *value += (far - *value) * fraction;
+            }
+        }
+        value
+    }
+}
+
+impl FramebufferLevel {
+    /// The level of half the size by a box filter; `None` after a single texel. A last row or
+    /// column without a partner is its own.
+    fn downsample(&self, threads: usize) -> Option<Self> {
+        let [width, height] = self.size;
+        if self.texels.len() <= 1 {
+            return None;
+        }
+        let size = [width.div_ceil(2), height.div_ceil(2)];
+        let mut texels = vec![[0.0; 4]; size[0] * size[1]];
+        let row = |y: usize| &self.texels[y * width..(y + 1) * width];
+        for_each_parallel(threads, texels.chunks_mut(size[0]).enumerate(), |(y, target)| {
+            let (upper, lower) = (row(2 * y), row((2 * y + 1).min(height - 1)));
+            let pairs = upper.chunks(2).zip(lower.chunks(2));
+            for (texel, (upper, lower)) in target.iter_mut().zip(pairs) {
+                let last = upper.len() - 1;
+                let (a, b, c, d) = (upper[0], upper[last], lower[0], lower[last]);
+                *texel = [0, 1, 2, 3].map(|k: usize| ((a[k] + b[k]) + (c[k] + d[k])) * 0.25);
+            }
+        });
+        Some(Self { size, scale: self.scale * 0.5, texels })
+    }
+
+    /// Bilinear interpolation between the centers of texels.
+    #[inline(always)]
+    fn sample_bilinear(&self, position: [f32; 2]) -> [f32; 4] {
+        let [width, height] = self.size;
+        let (columns, s) = locate_pair(position[0] * self.scale, width);
+        let (rows, t) = locate_pair(position[1] * self.scale, height);
+        let mut sum = [0.0; 4];
+        for (row, row_weight) in rows.into_iter().zip([1.0 - t, t]) {
+            for (column, weight) in columns.into_iter().zip([1.0 - s, s]) {
+                add_scaled(&mut sum, self.texels[row * width + column], row_weight * weight);
+            }
+        }
+        sum
+    }
+
+    /// The quadratic B-spline over 3 × 3 texels: smooth, nowhere negative, with weights of sum 1.
+    #[inline(always)]
+    fn sample_spline(&self, position: [f32; 2]) -> [f32; 4] {
+        let [width, height] = self.size;
+        let (columns, column_weights) = locate_triple(position[0] * self.scale, width);
+        let (rows, row_weights) = locate_triple(position[1] * self.scale, height);
+        let mut sum = [0.0; 4];
+        for (row, row_weight) in rows.into_iter().zip(row_weights) {
+            for (column, weight) in columns.into_iter().zip(column_weights) {
+                add_scaled(&mut sum, self.texels[row * width + column], row_weight * weight);
+            }
+        }
+        sum
+    }
+}
+
+/// The two texels whose centers lie about a coordinate, and its fraction of the way between them.
+#[inline(always)]
+fn locate_pair(coordinate: f32, count: usize) -> ([usize; 2], f32) {
+    let from_center = (coordinate - 0.5).max(0.0).min((count - 1) as f32);
+    let first = from_center as usize;
+    ([first, (first + 1).min(count - 1)], from_center - first as f32)
+}
+
+/// The three texels around a coordinate, and their weights in a quadratic B-spline.
+#[inline(always)]
+fn locate_triple(coordinate: f32, count: usize) -> ([usize; 3], [f32; 3]) {
+    let inside = coordinate.max(0.0).min(count as f32);
+    let middle = (inside as usize).min(count - 1);
+    // The distance from the center of the middle texel, −½ to ½.
+    let d = inside - middle as f32 - 0.5;
+    let (before, after) = (0.5 - d, 0.5 + d);
+    let weights = [0.5 * before * before, 0.75 - d * d, 0.5 * after * after];
+    ([middle.saturating_sub(1), middle, (middle + 1).min(count - 1)], weights)
+}
+
+/// Adds a texel times a weight.
+#[inline(always)]
+fn add_scaled(sum: &mut [f32; 4], texel: [f32; 4], weight: f32) {
+    for (sum, channel) in sum.iter_mut().zip(texel) {
+        *sum += channel * weight;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_of_one_color_are_that_color_everywhere() {
+        for size in [[1, 1], [7, 5], [64, 33]] {
+            let levels = MipLevels::new(
+                vec![[0.25, 3.0, 0.0, 1.0]; size[0] * size[1]],
+                size.map(|side| side as u32),
+                2,
+            );
+            for (x, y, level) in
+                [(-3.0, 0.0, 0.0), (3.2, 2.9, 1.5), (99.0, 1.0, 9.0), (f32::NAN, 0.0, 2.0)]
+            {
+                let [r, g, b, alpha] = levels.sample([x, y], level);
+                let is_near = (r - 0.25).abs() < 1e-6 && (g - 3.0).abs() < 1e-5;
+                assert!(is_near && b == 0.0 && (alpha - 1.0).abs() < 1e-6, "{size:?} {x} {level}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_edge_is_smeared_symmetrically_and_wider_from_level_to_level() {
+        let edge = |x: usize| if x < 64 { [0.0; 4] } else { [1.0; 4] };
+        let levels = MipLevels::new((0..128 * 128).map(|n| edge(n % 128)).collect(), [128; 2], 1);
+        let mut last = f32::INFINITY;
+        for step in 0..=20 {
+            let level = step as f32 * 0.25;
+            let at = |x: f32| levels.sample([x, 50.0], level)[0];
+            assert!((at(64.0) - 0.5).abs() < 1e-6, "{level}");
+            assert!((at(64.0 + 7.0) + at(64.0 - 7.0) - 1.0).abs() < 1e-5, "{level}");
+            let slope = at(64.5) - at(63.5);
+            assert!(slope < last, "{level}: {slope} after {last}");
+            last = slope;
+        }
+    }
+}
