@@ -99,8 +99,9 @@ impl TransmissionFramebuffer {
         threads: usize,
     ) -> Self {
         // NaN becomes 0: one texel would otherwise spoil all levels.
+        let bounded = |light: f32| if light > 0.0 { light.min(MAX_RADIANCE) } else { 0.0 };
         for texel in &mut surfaces {
-            *texel = texel.map(|channel| channel.max(0.0).min(MAX_RADIANCE));
+            *texel = texel.map(bounded);
         }
         let backdrop = backdrop.map(|backdrop| {
             let texels =

@@ -63,7 +63,7 @@ pub(super) fn blur_levels<const N: usize>(
 ) -> Lanes<N> {
     let damping = (ior * 2.0 - 2.0).clamp(0.0, 1.0);
     roughness.map_expensive(|roughness| {
-        let width = libm::exp2f(REFERENCE_LEVELS * roughness.max(0.0).min(1.0) * damping);
+        let width = libm::exp2f(REFERENCE_LEVELS * roughness.clamp(0.0, 1.0) * damping);
         libm::log2f(1.0 + (width - 1.0) * (longer_side / REFERENCE_SIDE))
     })
 }
