@@ -21,6 +21,8 @@ use crate::{Encode, Surface, TranslucentColors};
 pub(crate) struct LayeredPixels {
     /// From left to right; those of a pixel back to front, opaque ones first.
     pub(crate) contributions: Vec<Contribution>,
+    /// The indices of contributions in the order in which they are shaded.
+    shading_order: Vec<u32>,
     /// The color of each contribution.
     colors: Vec<[f32; 4]>,
     /// The factor of what is behind each contribution; meaningless for opaque ones.
@@ -75,7 +77,9 @@ impl<S: Surface> TileResolve<'_, S> {
     /// Shades the gathered contributions of a row eight at a time, blends and writes their pixels.
     ///
     /// Shading by eights runs across the borders of pixels, so that no lanes are idle but in the
-    /// last eight of the row.
+    /// last eight of the row. Contributions are shaded in the order of their triangles: in the
+    /// order of pixels eight of them would alternate between a layer and what is behind it, and
+    /// surfaces shade eight of one draw call in half the time of eight of two.
     #[inline(always)]
     pub(crate) fn write_layered_pixels<P: Copy>(
         &self,
@@ -84,20 +88,8 @@ impl<S: Surface> TileResolve<'_, S> {
         encode: &impl Encode<P>,
         layered: &mut LayeredPixels,
     ) {
-        let LayeredPixels { contributions, colors, transmittances } = layered;
-        colors.clear();
-        transmittances.clear();
-        for eight in contributions.chunks(LANES) {
-            let mut shaded = TranslucentColors::default();
-            if let Some(fragments) = self.gather_fragments(y, eight) {
-                shaded = self.surface.shade_translucent_eight(&fragments);
-            }
-            self.fix_background_colors(eight, &mut shaded.color);
-            let [r, g, b, alpha] = shaded.color;
-            colors.extend((0..eight.len()).map(|k| [r[k], g[k], b[k], alpha[k]]));
-            let [r, g, b] = shaded.transmittance;
-            transmittances.extend((0..eight.len()).map(|k| [r[k], g[k], b[k]]));
-        }
+        self.shade_contributions(y, layered);
+        let LayeredPixels { contributions, colors, transmittances, .. } = layered;
         // Blend pixel by pixel: contributions of one pixel are adjacent.
         let mut from = 0;
         while let Some(first) = contributions.get(from) {
@@ -107,6 +99,37 @@ impl<S: Surface> TileResolve<'_, S> {
             from = range.end;
             let color = self.blend_pixel(contributions, colors, &transmittances[range]);
             row[(first.x - self.rect.left) as usize] = encode.encode_pixel(color);
+        }
+    }
+
+    /// Shades the contributions of a row, eight at a time.
+    #[inline(always)]
+    fn shade_contributions(&self, y: u32, layered: &mut LayeredPixels) {
+        let LayeredPixels { contributions, shading_order, colors, transmittances } = layered;
+        shading_order.clear();
+        shading_order.extend(0..contributions.len() as u32);
+        shading_order
+            .sort_unstable_by_key(|&index| (contributions[index as usize].triangle, index));
+        colors.clear();
+        colors.resize(contributions.len(), [0.0; 4]);
+        transmittances.clear();
+        transmittances.resize(contributions.len(), [0.0; 3]);
+        for indices in shading_order.chunks(LANES) {
+            let mut eight = [contributions[indices[0] as usize]; LANES];
+            for (contribution, &index) in eight.iter_mut().zip(indices) {
+                *contribution = contributions[index as usize];
+            }
+            let eight = &eight[..indices.len()];
+            let mut shaded = TranslucentColors::default();
+            if let Some(fragments) = self.gather_fragments(y, eight) {
+                shaded = self.surface.shade_translucent_eight(&fragments);
+            }
+            self.fix_background_colors(eight, &mut shaded.color);
+            let ([r, g, b, alpha], transmittance) = (shaded.color, shaded.transmittance);
+            for (lane, &index) in indices.iter().enumerate() {
+                colors[index as usize] = [r[lane], g[lane], b[lane], alpha[lane]];
+                transmittances[index as usize] = [0, 1, 2].map(|k: usize| transmittance[k][lane]);
+            }
         }
     }
 
