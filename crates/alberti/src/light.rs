@@ -27,7 +27,7 @@ pub(crate) struct LightArgs {
     /// Tone mapping: the curve that compresses bright light into the range of a picture
     #[arg(long, value_name = "CURVE", value_parser = option_parser::<ToneMapping>())]
     tone_mapping: Option<ToneMapping>,
-    /// Enable or disable the shadows of all directional and spot lights
+    /// Enable or disable the shadows of all directional, point and spot lights
     #[arg(long, value_name = "on|off")]
     shadows: Option<SwitchArg>,
     /// Ground plane below the models
@@ -121,7 +121,10 @@ fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
     };
     file.shadows = switched_shadows(file.shadows);
     for light in file.lights.iter_mut().flatten() {
-        if let LightFile::Directional { shadows, .. } | LightFile::Spot { shadows, .. } = light {
+        if let LightFile::Directional { shadows, .. }
+        | LightFile::Point { shadows, .. }
+        | LightFile::Spot { shadows, .. } = light
+        {
             *shadows = shadows.and_then(|own| switched_shadows(Some(own)));
         }
     }

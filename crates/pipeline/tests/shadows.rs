@@ -134,6 +134,8 @@ fn a_box_and_its_shadow_touch_and_its_lit_side_stays_lit() {
         "Directional(direction: (1, -1, 0.1), intensity: 3, shadows: On(softness_degrees: 0))",
         "Directional(direction: (1, -0.8, 0.1), intensity: 3, shadows: On(softness_degrees: 4))",
         "Spot(position: (-4, 4, -0.4), direction: (1, -1, 0.1), intensity: 90, shadows: On())",
+        "Point(position: (-4, 4, -0.4), intensity: 90, shadows: On())",
+        "Point(position: (-4, 4, -0.4), intensity: 90, shadows: On(softness_degrees: 3))",
     ] {
         for column in pixels_below_box(&render_box_on_floor("(5, 3, 0)", lights)) {
             // Black from the second pixel on, and light again where the shadow ends.
@@ -207,10 +209,12 @@ fn a_floor_and_a_bowl_do_not_shade_themselves() {
 #[test]
 fn no_light_comes_through_walls_without_thickness() {
     let wall = Material { double_sided: true, ..matte_material(0.8, 0.8, 0.8) };
-    for (direction, shadows) in [
-        ("(1, -1, 0.3)", "On()"),
-        ("(1, -0.2, 0.3)", "On(softness_degrees: 0)"),
-        ("(0.3, -1, -1)", "On(softness_degrees: 2)"),
+    for (light, shadows) in [
+        ("Directional(direction: (1, -1, 0.3), intensity: 3)", "On()"),
+        ("Directional(direction: (1, -0.2, 0.3), intensity: 3)", "On(softness_degrees: 0)"),
+        ("Directional(direction: (0.3, -1, -1), intensity: 3)", "On(softness_degrees: 2)"),
+        ("Point(position: (-2.7, 2.5, -1), intensity: 40)", "On()"),
+        ("Point(position: (0.3, 3, 0.2), intensity: 40)", "On(softness_degrees: 0)"),
     ] {
         let room = vec![
             (floor_quad(3.0), matte_material(0.8, 0.8, 0.8)),
@@ -218,7 +222,7 @@ fn no_light_comes_through_walls_without_thickness() {
         ];
         let rest = format!(
             "camera: (view: LookAt(eye: (1.5, 1.5, 1.7), target: (-1, 0, -1)), projection: Perspective(fov_y_degrees: 90, near: 0.01)),
-            lights: [Directional(direction: {direction}, intensity: 3)], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
+            lights: [{light}], shadows: {shadows}, image: (size: (960, 540), samples: 1)"
         );
         let picture = render_parts(room, &rest);
         // Where a wall without thickness meets another, light and shade meet too: single pixels on
@@ -232,7 +236,7 @@ fn no_light_comes_through_walls_without_thickness() {
                 (y..(y + 3).min(540)).flat_map(|y| (x..(x + 3).min(960)).map(move |x| (x, y)));
             clump = clump.max(block.map(|(x, y)| lit(x, y)).sum());
         }
-        assert!(count < 600 && clump <= 6, "{direction}: {count} {clump}");
+        assert!(count < 600 && clump <= 6, "{light}: {count} {clump}");
     }
 }
 
@@ -268,7 +272,8 @@ fn shadows_are_the_same_for_any_number_of_threads() {
     let scene = shadow_scene(
         parts,
         "lights: [Directional(direction: (1, -1, 0.3), intensity: 2, shadows: On(softness_degrees: 3)),
-            Spot(position: (2, 3, 2), direction: (-2, -3, -2), intensity: 20, shadows: On())],
+            Spot(position: (2, 3, 2), direction: (-2, -3, -2), intensity: 20, shadows: On()),
+            Point(position: (-0.8, 1.9, 0.6), intensity: 5, shadows: On(softness_degrees: 2))],
         image: (size: (320, 200))",
     );
     let one = render(&scene, 1).expect("a picture");

@@ -7,7 +7,8 @@
 //! ```
 
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
-use super::shadow_map::{Shadow, ShadowMap};
+use super::light_shadow::LightShadow;
+use super::shadow_map::Shadow;
 use super::shadow_receiver::ShadowReceiver;
 
 /// A light of the resolved scene. Colors are linear and already multiplied by the light's strength.
@@ -30,6 +31,8 @@ pub enum Light {
         candela: [f32; 3],
         /// The distance from which on nothing arrives; infinite for a light without a limit.
         range: f32,
+        /// Its shadows, if it casts any.
+        shadow: Option<Shadow>,
     },
     /// Light from a point into a cone.
     Spot {
@@ -81,8 +84,10 @@ impl Light {
     #[must_use]
     pub const fn shadow(&self) -> Option<Shadow> {
         match self {
-            Self::Sun { shadow, .. } | Self::Spot { shadow, .. } => *shadow,
-            Self::Point { .. } | Self::Ambient { .. } => None,
+            Self::Sun { shadow, .. } | Self::Point { shadow, .. } | Self::Spot { shadow, .. } => {
+                *shadow
+            }
+            Self::Ambient { .. } => None,
         }
     }
 
@@ -94,7 +99,7 @@ impl Light {
             Self::Sun { to_light, lux, .. } => {
                 IncidentLight { to_light: Vec3Lanes::splat(to_light), lux: Rgb::splat(lux) }
             }
-            Self::Point { position, candela, range } => {
+            Self::Point { position, candela, range, .. } => {
                 light_from_point(position, positions, candela, range, |_| Lanes::ONE)
             }
             Self::Spot { position, axis, candela, range, cosines: [inner, outer], .. } => {
@@ -112,15 +117,15 @@ impl Light {
 }
 
 impl<const N: usize> IncidentLight<N> {
-    /// Multiplies the light by its visibility in a shadow map.
+    /// Multiplies the light by its visibility in its shadow maps.
     #[inline(always)]
-    pub(super) fn apply_shadow(&mut self, map: &ShadowMap, receiver: &ShadowReceiver<N>) {
+    pub(super) fn apply_shadow(&mut self, shadow: &LightShadow, receiver: &ShadowReceiver<N>) {
         let n_dot_l = receiver.normals.dot(self.to_light);
         let visibility = Lanes::from_fn(|lane| {
             // No light arrives from behind, but where a normal map pretends so: no need for a
             // lookup.
             if n_dot_l[lane] > 0.0 {
-                map.visibility(receiver.positions.lane(lane), receiver.normals.lane(lane))
+                shadow.visibility(receiver.positions.lane(lane), receiver.normals.lane(lane))
             } else {
                 0.0
             }
@@ -164,8 +169,8 @@ mod tests {
 
     #[test]
     fn points_weaken_with_the_square_of_the_distance_and_end_at_their_range() {
-        let light =
-            |range| Light::Point { position: [0.0, 2.0, 0.0], candela: [8.0, 0.0, 0.0], range };
+        let (position, candela) = ([0.0, 2.0, 0.0], [8.0, 0.0, 0.0]);
+        let light = |range| Light::Point { position, candela, range, shadow: None };
         assert_eq!(lux_at(&light(f32::INFINITY), [0.0; 3]), 2.0);
         assert_eq!(lux_at(&light(f32::INFINITY), [0.0, 2.0, 4.0]), 0.5);
         // 1 − (d / range)⁴ times 1 / d².

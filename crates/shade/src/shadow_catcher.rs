@@ -45,8 +45,8 @@ impl Shading<'_> {
             let n_dot_l = normals.dot(incident.to_light).max(0.0);
             unshadowed += channel_sum(incident.lux) * n_dot_l;
             // Percentage-closer filtered visibility of the light.
-            if let Some(Some(map)) = self.shadows.get(index) {
-                incident.apply_shadow(map, &receiver);
+            if let Some(Some(shadow)) = self.shadows.get(index) {
+                incident.apply_shadow(shadow, &receiver);
             }
             shadowed += channel_sum(incident.lux) * n_dot_l;
         }

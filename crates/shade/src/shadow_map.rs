@@ -49,7 +49,7 @@ const DEPTH_BIAS: f32 = 2e-6;
 const MAX_PLANE_SLOPE: f32 = 4.0;
 
 /// Positions in a disc of radius 1, evenly spread: Vogel's spiral (1979), with the golden angle.
-static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> = LazyLock::new(|| {
+pub(super) static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> = LazyLock::new(|| {
     std::array::from_fn(|index| {
         let radius = ((index as f64 + 0.5) / 48.0).sqrt();
         let angle = index as f64 * 2.399_963_229_728_653;
@@ -88,10 +88,10 @@ pub struct ShadowMap {
 
 /// A surface on a shadow map: its position in texels and depth, and its plane.
 #[derive(Clone, Copy, Debug)]
-struct ReceiverPlane {
+pub(super) struct ReceiverPlane {
     x: f32,
     y: f32,
-    depth: f32,
+    pub(super) depth: f32,
     /// The growth of depth per texel, by column and row.
     slope: [f32; 2],
     /// The difference of depth from which on something is a blocker.
@@ -180,7 +180,11 @@ impl ShadowMap {
     /// Positions and planes transform by a matrix and by its inverse transpose; both are of `f32`
     /// relative to the middle of the scene, where rounding is least.
     #[inline(always)]
-    fn project_receiver(&self, position: [f32; 3], normal: [f32; 3]) -> Option<ReceiverPlane> {
+    pub(super) fn project_receiver(
+        &self,
+        position: [f32; 3],
+        normal: [f32; 3],
+    ) -> Option<ReceiverPlane> {
         let WorldToShadowMap { origin, rows, plane_rows } = &self.world_to_map;
         let p = subtract(position, *origin);
         let transform = |row: &[f32; 4]| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
@@ -203,9 +207,25 @@ impl ShadowMap {
         });
         // Rounding moves positions by a fraction of the scene's size; near a spot light that is a
         // larger fraction of its range of depth.
-        let nearness = self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0));
-        let bias = DEPTH_BIAS * nearness.max(0.1) + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
+        let bias = DEPTH_BIAS * self.nearness(depth).max(0.1)
+            + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
         Some(ReceiverPlane { x, y, depth, slope, bias })
+    }
+
+    /// Texel coordinates of a direction from the eye of a perspective map: x·w, y·w and w.
+    ///
+    /// Linear in the direction; positive w is ahead.
+    #[inline(always)]
+    pub(super) fn project_direction(&self, direction: [f32; 3]) -> [f32; 3] {
+        let rows = &self.world_to_map.rows;
+        [0, 1, 3].map(|k: usize| dot([rows[k][0], rows[k][1], rows[k][2]], direction))
+    }
+
+    /// A number proportional to 1 / distance along the axis of a perspective map, from a depth; 1
+    /// in parallel light.
+    #[inline(always)]
+    pub(super) fn nearness(&self, depth: f32) -> f32 {
+        self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0))
     }
 
     /// The radius in texels of the penumbra at one depth of a caster at another.
@@ -229,7 +249,7 @@ impl ShadowMap {
     /// both. Two facets of one surface that meet within the texel cross there, and one comparison
     /// fails.
     #[inline(always)]
-    fn find_blocker(&self, receiver: &ReceiverPlane, [x, y]: [f32; 2]) -> Option<f32> {
+    pub(super) fn find_blocker(&self, receiver: &ReceiverPlane, [x, y]: [f32; 2]) -> Option<f32> {
         let (column, row) = (x.floor(), y.floor());
         let texel = self.texel_at(column as i32, row as i32)?;
         let (dx, dy) = (x - column - 0.5, y - row - 0.5);
@@ -242,7 +262,7 @@ impl ShadowMap {
     /// Percentage-closer filtering over the four nearest texels, with bilinear weights; the plane
     /// of each is continued to the receiver.
     #[inline(always)]
-    fn filter_bilinear(&self, receiver: &ReceiverPlane) -> f32 {
+    pub(super) fn filter_bilinear(&self, receiver: &ReceiverPlane) -> f32 {
         let (left, top) = ((receiver.x - 0.5).floor(), (receiver.y - 0.5).floor());
         let (fx, fy) = (receiver.x - 0.5 - left, receiver.y - 0.5 - top);
         let mut visible = 0.0;

@@ -8,14 +8,14 @@
 use super::renderer::FrameMemory;
 use crate::scene::{Scene, Style};
 use shade::{
-    AmbientOcclusion, Shading, ShadingStyle, ShadowMap, StyledShading, TransmissionFramebuffer,
+    AmbientOcclusion, LightShadow, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer,
 };
 
 /// Physically based shading of the fragments of an assembled frame.
 pub(super) fn fragment_shading<'a>(
     scene: &'a Scene,
     memory: &'a FrameMemory<'a>,
-    shadows: &'a [Option<ShadowMap>],
+    shadows: &'a [Option<LightShadow>],
     occlusion: Option<&'a AmbientOcclusion>,
     transmission_framebuffer: Option<&'a TransmissionFramebuffer>,
 ) -> Shading<'a> {

@@ -3,9 +3,11 @@
 //!
 //! ```text
 //!  light ─► LightCamera fitted to the visible part ─► depth-only draws ─► shade::ShadowMap (PCF)
+//!  point light ─► six LightCameras ─► depth-only draws ─► shade::ShadowCube
 //! ```
 
 mod casters;
+mod cube_fitting;
 mod light_fitting;
 
 use super::RenderError;
@@ -14,9 +16,10 @@ use super::projected_mesh::ProjectedMesh;
 use super::screen_transform::ScreenTransform;
 use casters::CasterPass;
 pub(super) use casters::DepthOnly;
+use cube_fitting::CubeCameras;
 use light_fitting::LightCamera;
 use raster::{Frame, Samples};
-use shade::{DrawList, ShadowMap};
+use shade::{DrawList, Light, LightShadow, Shadow, ShadowMap};
 
 /// Shadow maps and the memory to render them, reused from picture to picture.
 #[derive(Debug, Default)]
@@ -25,8 +28,8 @@ pub(super) struct ShadowMapRenderer {
     frame: Option<Frame>,
     /// Vertices of one draw call.
     mesh: ProjectedMesh,
-    /// The map of each light, in their order; empty if no light casts shadows.
-    pub(super) maps: Vec<Option<ShadowMap>>,
+    /// The maps of each light, in their order; empty if no light casts shadows.
+    pub(super) maps: Vec<Option<LightShadow>>,
     /// Maps of earlier pictures, for their memory.
     map_pool: Vec<ShadowMap>,
 }
@@ -35,7 +38,8 @@ impl ShadowMapRenderer {
     /// Discards all maps and keeps their memory.
     pub(super) fn recycle_maps(&mut self) {
         // Reversed, so that the next picture's first map takes the memory of the first light's.
-        self.map_pool.extend(self.maps.drain(..).rev().flatten());
+        let maps = self.maps.drain(..).rev().flatten();
+        self.map_pool.extend(maps.flat_map(LightShadow::into_maps));
     }
 
     /// Renders the maps of a scene's lights; `None` for lights without shadows, and for those whose
@@ -47,15 +51,35 @@ impl ShadowMapRenderer {
             return Ok(());
         }
         for light in &scene.lights {
-            let camera =
-                light.shadow().and_then(|shadow| LightCamera::fit_to_light(scene, light, shadow));
-            let map = match camera {
-                Some(camera) => Some(self.render_map(context, &camera)?),
+            let maps = match light.shadow() {
+                Some(shadow) => self.render_light(context, light, shadow)?,
                 None => None,
             };
-            self.maps.push(map);
+            self.maps.push(maps);
         }
         Ok(())
+    }
+
+    /// Renders the maps of one light; `None` if its light reaches no triangle.
+    fn render_light(
+        &mut self,
+        context: &RenderContext<'_>,
+        light: &Light,
+        shadow: Shadow,
+    ) -> Result<Option<LightShadow>, RenderError> {
+        if let Some(camera) = LightCamera::fit_to_light(context.scene, light, shadow) {
+            return Ok(Some(LightShadow::Map(self.render_map(context, &camera)?)));
+        }
+        let Some(cameras) = CubeCameras::fit_to_light(context.scene, light, shadow) else {
+            return Ok(None);
+        };
+        let mut faces = [const { None }; 6];
+        for (map, camera) in faces.iter_mut().zip(&cameras.faces) {
+            if let Some(camera) = camera {
+                *map = Some(self.render_map(context, camera)?);
+            }
+        }
+        Ok(Some(LightShadow::Cube(Box::new(cameras.to_cube(faces)))))
     }
 
     /// Renders one shadow map: the nearest surfaces from the light, with alpha test.

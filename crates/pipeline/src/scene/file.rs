@@ -74,8 +74,8 @@ scene_struct! {
         /// environment either, a key light from above the viewer's left shoulder, and ambient
         /// light; with an environment the key light alone, if there are to be shadows.
         pub lights: Option<Vec<LightFile>> = None,
-        /// The shadows of all directional and spot lights without shadows of their own, those of
-        /// the models too. Default: `Off`.
+        /// The shadows of all directional, point and spot lights without shadows of their own,
+        /// those of the models too. Default: `Off`.
         pub shadows: Option<ShadowsFile> = None,
         /// The ground below the models. Default: none.
         pub ground: Option<GroundFile> = None,

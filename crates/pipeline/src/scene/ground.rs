@@ -50,14 +50,16 @@ pub(super) fn resolve_ground(
 /// The shadow of a world point on the plane y = `height`, at most `reach` away horizontally.
 ///
 /// p' = p + d_xz (p_y − height) / (−d_y), where d is the direction in which light travels. `None`
-/// for lights without shadows and for point and ambient lights. Upward or level light has d_y ≥ 0;
+/// for lights without shadows and for ambient lights. Upward or level light has d_y ≥ 0;
 /// the divisor is then bounded, and `reach` limits the length.
 fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Option<DVec3> {
     light.shadow()?;
     let travel = match light {
         Light::Sun { to_light: towards, .. } => -DVec3::from(towards.map(f64::from)),
-        Light::Spot { position, .. } => place - DVec3::from(position.map(f64::from)),
-        Light::Point { .. } | Light::Ambient { .. } => return None,
+        Light::Point { position, .. } | Light::Spot { position, .. } => {
+            place - DVec3::from(position.map(f64::from))
+        }
+        Light::Ambient { .. } => return None,
     };
     let drop = (place.y - height).max(0.0);
     let flat = DVec3::new(travel.x, 0.0, travel.z);

@@ -83,7 +83,9 @@ fn collect_model_lights(models: &[ModelInstance], shadow: Option<Shadow>) -> Vec
                 LightKind::Directional => {
                     Light::Sun { to_light: axis.map(|c| -c), lux: strength, shadow }
                 }
-                LightKind::Point { range } => Light::Point { position, candela: strength, range },
+                LightKind::Point { range } => {
+                    Light::Point { position, candela: strength, range, shadow }
+                }
                 LightKind::Spot { range, inner_cone_angle: inner, outer_cone_angle: outer } => {
                     let cosines = [inner, outer].map(libm::cosf);
                     Light::Spot { position, axis, candela: strength, range, cosines, shadow }
@@ -151,10 +153,11 @@ fn resolve_light(
                 shadow: own_shadow(shadows)?,
             }
         }
-        LightFile::Point { position, intensity, color, .. } => Light::Point {
+        LightFile::Point { position, intensity, color, shadows, .. } => Light::Point {
             position: single(position.0),
             candela: scale_color(color, intensity),
             range: range(light.range()),
+            shadow: own_shadow(shadows)?,
         },
         LightFile::Ambient { intensity, color } => {
             Light::Ambient { lux: scale_color(color, intensity) }
@@ -166,12 +169,12 @@ fn resolve_light(
 pub(super) fn check_light(origin: &Origin, index: usize, light: &LightFile) -> Vec<SceneError> {
     let (direction, shadows) = match *light {
         LightFile::Directional { direction, shadows, .. }
-        | LightFile::Spot { direction, shadows, .. } => (direction, shadows),
-        LightFile::Point { .. } | LightFile::FromModels | LightFile::Ambient { .. } => {
-            return Vec::new();
-        }
+        | LightFile::Spot { direction, shadows, .. } => (Some(direction), shadows),
+        LightFile::Point { shadows, .. } => (None, shadows),
+        LightFile::FromModels | LightFile::Ambient { .. } => return Vec::new(),
     };
-    let direction = resolve_direction(origin, index, direction).err();
+    let direction =
+        direction.and_then(|direction| resolve_direction(origin, index, direction).err());
     let cone = resolve_cone(origin, index, light).err();
     let shadow = resolve_light_shadow(origin, index, shadows, None).err();
     direction.into_iter().chain(cone).chain(shadow).collect()

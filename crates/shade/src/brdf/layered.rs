@@ -19,8 +19,8 @@ use crate::ambient_occlusion::add_bounces;
 use crate::environment::Environment;
 use crate::lanes::{Lanes, Rgb};
 use crate::light::Light;
+use crate::light_shadow::LightShadow;
 use crate::material_inputs::MaterialInputs;
-use crate::shadow_map::ShadowMap;
 use crate::shadow_receiver::ShadowReceiver;
 use crate::surface_geometry::{SurfaceGeometry, TangentLanes};
 use crate::transmission::{TransmissionFramebuffer, TransmittedShare};
@@ -104,7 +104,7 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     pub(crate) fn add_lights(
         &mut self,
         lights: &[Light],
-        shadows: &[Option<ShadowMap>],
+        shadows: &[Option<LightShadow>],
         receiver: Option<&ShadowReceiver<N>>,
     ) {
         let mut ambient = [0.0; 3];
@@ -114,8 +114,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
                 continue;
             }
             let mut incident = light.incident_at(self.geometry.positions);
-            if let (Some(Some(map)), Some(receiver)) = (shadows.get(index), receiver) {
-                incident.apply_shadow(map, receiver);
+            if let (Some(Some(shadow)), Some(receiver)) = (shadows.get(index), receiver) {
+                incident.apply_shadow(shadow, receiver);
             }
             // From the top layer down; sheen takes its part of the light before the base.
             if let Some(clearcoat) = &mut self.clearcoat {

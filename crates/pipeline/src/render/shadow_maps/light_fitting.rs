@@ -38,7 +38,7 @@ pub(super) struct LightCamera {
 /// The tangent of the widest half angle of a spot's map. Beyond it everything is lit.
 const MAX_SPOT_SLOPE: f64 = 8.0;
 /// Empty texels around the casters, for filtering across the border.
-const BORDER_TEXELS: f64 = 3.0;
+pub(super) const BORDER_TEXELS: f64 = 3.0;
 
 impl LightCamera {
     /// Fits a camera to a light that casts shadows; `None` for lights without direction, and if no
@@ -51,6 +51,7 @@ impl LightCamera {
             Light::Spot { position, axis, cosines, .. } => {
                 fit_spot(scene, position.map(f64::from), axis.map(f64::from), cosines[1], shadow)
             }
+            // A point light has six cameras, of `cube_fitting`.
             Light::Point { .. } | Light::Ambient { .. } => None,
         }
     }
@@ -58,20 +59,20 @@ impl LightCamera {
 
 /// An axis-aligned bounding box in a light's view space.
 #[derive(Clone, Copy, Debug)]
-struct ViewBounds {
+pub(super) struct ViewBounds {
     /// The least coordinates.
-    min: DVec3,
+    pub(super) min: DVec3,
     /// The greatest coordinates.
-    max: DVec3,
+    pub(super) max: DVec3,
 }
 
 impl ViewBounds {
     /// The box of no points: any point extends it.
-    const EMPTY: Self =
+    pub(super) const EMPTY: Self =
         Self { min: DVec3::splat(f64::INFINITY), max: DVec3::splat(f64::NEG_INFINITY) };
 
     /// Extends the box to a point; points at infinity are ignored.
-    fn include(&mut self, point: DVec3) {
+    pub(super) fn include(&mut self, point: DVec3) {
         if point.is_finite() {
             self.min = self.min.min(point);
             self.max = self.max.max(point);
@@ -170,19 +171,23 @@ fn fit_directional(scene: &Scene, travel: [f64; 3], shadow: Shadow) -> Option<Li
 /// The bounding box of the scene camera's view volume in a light's view space; `None` if the volume
 /// is infinite.
 fn view_volume_bounds(scene: &Scene, camera: Camera) -> Option<ViewBounds> {
-    let clip_to_world = scene.view_projection.world_to_clip().raw().inverse();
     let world_to_view = camera.world_to_view();
     let mut bounds = ViewBounds::EMPTY;
-    for corner in 0..8 {
-        let ndc = |axis: u32| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
-        let position = clip_to_world * glam::DVec4::new(ndc(0), ndc(1), ndc(2), 1.0);
-        let position = position.truncate() / position.w;
-        if !position.is_finite() {
-            return None;
-        }
-        bounds.include(world_to_view.transform_point(Point::from_raw(position)).raw());
+    for corner in view_volume_corners(scene)? {
+        bounds.include(world_to_view.transform_point(Point::from_raw(corner)).raw());
     }
     Some(bounds)
+}
+
+/// The corners of the scene camera's view volume in the world; `None` if it is infinite.
+pub(super) fn view_volume_corners(scene: &Scene) -> Option<[DVec3; 8]> {
+    let clip_to_world = scene.view_projection.world_to_clip().raw().inverse();
+    let corners = std::array::from_fn(|corner| {
+        let ndc = |axis: u32| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+        let position = clip_to_world * glam::DVec4::new(ndc(0), ndc(1), ndc(2), 1.0);
+        position.truncate() / position.w
+    });
+    corners.iter().all(|corner| corner.is_finite()).then_some(corners)
 }
 
 /// A point of a light's view space in the world.

@@ -20,8 +20,7 @@ scene_enum! {
             /// Its shadows. Default: the scene's `shadows`.
             shadows: Option<ShadowsFile>,
         },
-        /// A point light, whose light falls off with the square of the distance. It casts no
-        /// shadows; a spot does.
+        /// A point light, whose light falls off with the square of the distance.
         Point {
             /// The position.
             position: Triple,
@@ -31,6 +30,8 @@ scene_enum! {
             range: Option<Positive>,
             /// The color. Default: white.
             color: LightColor = LightColor::WHITE,
+            /// Its shadows, by six shadow maps. Default: the scene's `shadows`.
+            shadows: Option<ShadowsFile>,
         },
         /// A spot light: a point light that shines into a cone.
         Spot {

@@ -63,6 +63,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ),
     ("energy strength power brightness lux", "Light::Ambient", "intensity"),
     ("castshadow castshadows useshadow useshadows shadow", "Light::Directional", "shadows"),
+    ("castshadow castshadows useshadow useshadows shadow", "Light::Point", "shadows"),
     ("castshadow castshadows useshadow useshadows shadow", "Light::Spot", "shadows"),
     (
         "castshadow castshadows receiveshadow useshadows shadow shadowmap shadowmapping",
