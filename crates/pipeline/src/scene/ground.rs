@@ -2,7 +2,7 @@
 
 use super::file::{GroundFile, SceneFile};
 use glam::DVec3;
-use homog::{Bounds, Point};
+use homog::{Bounds, Point, World};
 use model::ModelInstance;
 use model::world_points;
 use shade::Light;
@@ -47,6 +47,28 @@ pub(super) fn resolve_ground(
     Some(Ground { corners: [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]] })
 }
 
+/// The shadows of the models' points on the ground, in the world, for a camera that frames them too.
+///
+/// Those of directional light from above. A shadow is at most as long as the diagonal of the models'
+/// bounding box: of longer ones, under a sun below 30° for a cube, the picture shows only
+/// the beginning. Lamps near the models have no such measure and do not count.
+pub(super) fn shadow_points(
+    ground: Ground,
+    models: &[ModelInstance],
+    lights: &[Light],
+) -> Vec<Point<World>> {
+    let points = world_points(models);
+    let reach = Bounds::from_points(points.iter().copied()).map_or(0.0, Bounds::diagonal);
+    let height = f64::from(ground.corners[0][1]);
+    let is_from_above =
+        |light: &&Light| matches!(light, Light::Sun { to_light: [_, y, _], .. } if *y > 0.0);
+    let shadows = lights.iter().filter(is_from_above).flat_map(|light| {
+        let above = points.iter().map(|point| point.raw()).filter(|point| point.y > height);
+        above.filter_map(|point| project_shadow(light, point, height, reach))
+    });
+    shadows.map(Point::from_raw).collect()
+}
+
 /// The shadow of a world point on the plane y = `height`, at most `reach` away horizontally.
 ///
 /// p' = p + d_xz (p_y − height) / (−d_y), where d is the direction in which light travels. `None`
@@ -68,6 +90,6 @@ fn project_shadow(light: &Light, place: DVec3, height: f64, reach: f64) -> Optio
     let way = flat * (drop / down);
     let far = way.length();
     let way = if far > reach { way * (reach / far) } else { way };
-    let place = Point::<homog::World>::new(place.x + way.x, height, place.z + way.z).raw();
+    let place = Point::<World>::new(place.x + way.x, height, place.z + way.z).raw();
     place.is_finite().then_some(place)
 }

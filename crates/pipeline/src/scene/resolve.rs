@@ -3,8 +3,8 @@
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::exposure::resolve_exposure;
-use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile};
-use super::ground::resolve_ground;
+use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ViewFile};
+use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
 use super::instances;
 use super::lights::resolve_lights;
@@ -16,7 +16,7 @@ use super::suggest::suggest_name;
 use super::surrounding_light::{has_lights, resolve_environment};
 use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
-use super::view_projection::resolve_view_projection;
+use super::view_projection::{resolve_view_of_points, resolve_view_projection};
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile};
 use drawing::Overlay;
 use homog::Bounds;
@@ -94,9 +94,17 @@ impl Scene {
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
-        let view_projection = resolve_view_projection(origin, &file.camera, &models, image)?;
+        let style = resolve_style(origin, &file.style)?;
+        let mut view_projection = resolve_view_projection(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
         let ground = resolve_ground(file, &models, &lights);
+        let is_framed = matches!(file.camera.view, ViewFile::Frame { .. });
+        if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
+            // The key light stands by the direction of view, which framing keeps.
+            let shadows = shadow_points(ground, &models, &lights);
+            let camera = &file.camera;
+            view_projection = resolve_view_of_points(origin, camera, &models, image, shadows)?;
+        }
         let occlusion_radius = file.ambient_occlusion.map(|file| {
             let usual = || {
                 Bounds::from_points(world_points(&models)).map_or(1.0, |all| all.diagonal() / 12.0)
@@ -112,7 +120,6 @@ impl Scene {
                 if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None }
             }),
         );
-        let style = resolve_style(origin, &file.style)?;
         let environment = resolve_environment(origin, file, &models, allowed, exposure_ev)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let sections = resolve_sections(origin, &file.sections)?;

@@ -32,6 +32,8 @@ pub(super) struct CameraResolver<'a> {
     pub(super) origin: &'a Origin,
     models: &'a [ModelInstance],
     pub(super) points: Vec<Point<World>>,
+    /// Points that a framed view shows beside the models: their shadows on the ground.
+    shadow_points: Vec<Point<World>>,
     pub(super) aspect: f64,
 }
 
@@ -42,9 +44,22 @@ pub(super) fn resolve_view_projection(
     models: &[ModelInstance],
     image: ImageSpec,
 ) -> Result<ViewProjection, SceneError> {
+    resolve_view_of_points(origin, file, models, image, Vec::new())
+}
+
+/// Camera and projection of a scene; a view that frames the models frames `shadow_points` too.
+///
+/// The direction of view does not depend on them, and neither do near and far plane.
+pub(super) fn resolve_view_of_points(
+    origin: &Origin,
+    file: &CameraFile,
+    models: &[ModelInstance],
+    image: ImageSpec,
+    shadow_points: Vec<Point<World>>,
+) -> Result<ViewProjection, SceneError> {
     let aspect = f64::from(image.width) / f64::from(image.height);
     let points = world_points(models);
-    let resolver = CameraResolver { origin, models, points, aspect };
+    let resolver = CameraResolver { origin, models, points, shadow_points, aspect };
     let projection = file.projection.as_ref();
     let or_usual = projection.unwrap_or(&ProjectionFile::PERSPECTIVE);
     match &file.view {
@@ -111,7 +126,8 @@ pub(super) fn select_lens<'a>(
     models: &'a [ModelInstance],
     choice: &CameraChoice,
 ) -> Option<&'a ModelCamera> {
-    let resolver = CameraResolver { origin, models, points: Vec::new(), aspect: 1.0 };
+    let (points, shadow_points) = (Vec::new(), Vec::new());
+    let resolver = CameraResolver { origin, models, points, shadow_points, aspect: 1.0 };
     Some(resolver.select_model_camera(choice).ok()?.2)
 }
 
@@ -231,7 +247,7 @@ impl<'a> CameraResolver<'a> {
         let usual =
             if projection.is_classical() { FromFile::Front } else { FromFile::ThreeQuarter };
         let basis = self.view_basis(from.unwrap_or(&usual))?;
-        let points = self.points.iter().copied();
+        let points = self.points.iter().chain(&self.shadow_points).copied();
         let fault = |error: camera::FramingError| self.framing_error(&error);
         let slopes = match *projection {
             ProjectionFile::Orthographic { .. } => {

@@ -37,7 +37,9 @@ scene_enum! {
             /// The view-up vector. Default: y.
             up: Triple = Triple::Y_AXIS,
         },
-        /// From a direction, at the distance at which everything just fits into the image.
+        /// From a direction, at the distance at which everything just fits into the image: the
+        /// models and, with `ground`, the shadows of directional lights on it, up to the length of
+        /// the models' diagonal.
         Frame {
             /// The direction. Default: `ThreeQuarter`, and `Front` for classical projections.
             from: Option<FromFile>,
