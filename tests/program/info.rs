@@ -89,6 +89,20 @@ fn glass_is_described_as_showing_opaque_surfaces() {
     assert!(text.contains(&format!("KHR_materials_transmission ({note})")), "{text}");
 }
 
+#[test]
+fn anisotropy_is_described_as_approximate_under_an_environment() {
+    let sandbox = Sandbox::new("info_anisotropy");
+    let mut document = GltfBuilder::square();
+    document.json["extensionsUsed"] = json!(["KHR_materials_anisotropy"]);
+    let info = info_json(&sandbox, &mut document);
+    let entry = &info["extensions"][0];
+    assert_eq!(entry["status"], json!("drawn in part"));
+    let note = entry["note"].as_str().expect("a note");
+    assert!(note.contains("environment") && note.contains("approximate"), "{note}");
+    let text = sandbox.run(&["info", "model.gltf"]).stdout;
+    assert!(text.contains(&format!("KHR_materials_anisotropy ({note})")), "{text}");
+}
+
 /// A material with all that a material can have, some of it out of bounds.
 fn material_with_all_extensions() -> Value {
     let transform = json!({"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 1}});

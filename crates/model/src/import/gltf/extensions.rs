@@ -51,7 +51,10 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("KHR_animation_pointer", Full),
     ("KHR_draco_mesh_compression", DRACO_SUPPORT),
     ("KHR_lights_punctual", Full),
-    ("KHR_materials_anisotropy", Full),
+    (
+        "KHR_materials_anisotropy",
+        Partly("under an environment approximate: reflections are bent, but not stretched"),
+    ),
     ("KHR_materials_clearcoat", Full),
     ("KHR_materials_diffuse_transmission", Without("light through surfaces is not shown")),
     ("KHR_materials_dispersion", Full),
