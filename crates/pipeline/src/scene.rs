@@ -54,7 +54,7 @@ pub(crate) use depth_span::DepthSpan;
 pub use error::{SceneError, SceneErrors};
 pub use file::SceneFile;
 pub use format::format_source;
-pub use ground::Ground;
+pub use ground::{Ground, OcclusionArea};
 pub use insets::Inset;
 pub use lints::{Lint, lint_scene};
 pub use origin::Origin;
@@ -111,6 +111,12 @@ impl Scene {
     #[must_use]
     pub fn world_points(&self) -> Vec<Point<World>> {
         model::world_points(&self.models)
+    }
+
+    /// Whether a light casts shadows, or the ground shows occlusion by the models.
+    pub(crate) fn casts_shadows(&self) -> bool {
+        let has_occlusion = self.ground.is_some_and(|ground| ground.occlusion.is_some());
+        has_occlusion || self.lights.iter().any(|light| light.shadow().is_some())
     }
 
     /// The names of the models, each once.

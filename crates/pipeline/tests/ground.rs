@@ -1,9 +1,13 @@
 //! The ground that shows shadows: what a framed picture shows of it.
 
 use camera::{NamedView, Slopes, frame_perspective};
-use pipeline::scene::file::GroundFile;
-use pipeline::{Origin, Scene, render};
+use homog::PixelRect;
+use pipeline::scene::file::{EnvironmentFile, GroundFile, ShadowsFile};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::PathBuf;
+
+/// The alpha from which on something at the picture's border is seen to be cut off: 3 %.
+const MAX_BORDER_ALPHA: u8 = 8;
 
 fn model_path(name: &str) -> PathBuf {
     PathBuf::from(format!("{}/../../scenes/models/{name}.glb", env!("CARGO_MANIFEST_DIR")))
@@ -28,13 +32,14 @@ fn shadows_of_bare_models_are_inside_of_the_picture() {
             let is_border = |x: u32, y: u32| x == 0 || y == 0 || x + 1 == width || y + 1 == height;
             let on_border = all.clone().filter(|&(x, y)| is_border(x, y));
             let most = on_border.map(|(x, y)| alpha(x, y)).max();
-            assert_eq!(most, Some(0), "{name} {size:?}");
+            // The shadow of the key light is not there; light from all around fades slowly.
+            assert!(most < Some(MAX_BORDER_ALPHA), "{name} {size:?}: {most:?}");
             let shadow = |&(x, y): &(u32, u32)| {
                 let [r, g, b, a] = picture.pixels[(y * width + x) as usize];
                 [r, g, b] == [0; 3] && a > 40
             };
             let count = all.filter(shadow).count();
-            assert!(count > 150, "{name} {size:?}: {count}");
+            assert!(count > 30, "{name} {size:?}: {count}");
         }
     }
 }
@@ -71,4 +76,47 @@ fn shadows_of_low_light_do_not_push_the_model_away() {
     assert!(high < low && low <= level && level < 2.2 * high, "{high} {low} {level}");
     // Light from below casts no shadow on the ground.
     assert!(distance("(1, 0.2, -0.5)") < high);
+}
+
+/// A bare model in light from all around alone.
+fn model_in_uniform_light(name: &str, size: (u32, u32), shadows: Option<ShadowsFile>) -> Scene {
+    let (origin, mut file) = Origin::from_model_path(&model_path(name));
+    (file.ground, file.image.size) = (Some(GroundFile::DEFAULT), size);
+    (file.lights, file.environment, file.shadows) =
+        (Some(Vec::new()), Some(EnvironmentFile::STUDIO), shadows);
+    Scene::resolve(&origin, &file, &Default::default()).expect("a scene")
+}
+
+#[test]
+fn models_stand_on_the_ground_in_light_from_all_around() {
+    for name in ["teapot", "crate"] {
+        let size = (240, 180);
+        let scene = model_in_uniform_light(name, size, None);
+        let picture = render(&scene, 2).expect("a picture");
+        assert!(picture == render(&scene, 1).expect("a picture"), "{name}: threads");
+        let alphas: Vec<u8> =
+            picture.pixels.iter().filter(|p| p[..3] == [0; 3]).map(|p| p[3]).collect();
+        // Dark at the foot, and without an edge anywhere else.
+        let dark = alphas.iter().filter(|&&alpha| alpha > 90).count();
+        assert!(dark > 20, "{name}: {dark}");
+        let off = model_in_uniform_light(name, size, Some(ShadowsFile::Off));
+        let bare = render(&off, 2).expect("a picture");
+        assert!(bare.pixels.iter().all(|p| p[3] == 0 || p[..3] != [0; 3]), "{name}: no shadows");
+    }
+}
+
+#[test]
+fn parts_of_a_picture_with_a_contact_shadow_unite() {
+    let scene = model_in_uniform_light("teapot", (160, 120), None);
+    let whole = render(&scene, 1).expect("a picture");
+    let (textures, mut renderer) = (Textures::for_scene(&scene), Renderer::default());
+    let context = RenderContext::new(&scene, &textures, 3);
+    let mut prepared = renderer.prepare(&context).expect("a scene");
+    let region = PixelRect { x: 31, y: 50, width: 99, height: 60 };
+    let mut part = Picture::<u8>::default();
+    prepared.render_region(region, &mut part).expect("a region");
+    for (x, y) in (0..region.height).flat_map(|y| (0..region.width).map(move |x| (x, y))) {
+        let expected = whole.pixels[((y + region.y) * 160 + x + region.x) as usize];
+        assert_eq!(part.pixels[(y * region.width + x) as usize], expected);
+    }
 }

@@ -309,7 +309,8 @@ fn pixel_of_ground_point(x: f64, z: f64) -> (u32, u32) {
 
 #[test]
 fn the_ground_shows_the_share_of_light_that_shadows_take() {
-    // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing.
+    // 3 lux from the sun, 1 from everywhere: where the sun is hidden, three quarters are missing,
+    // and of the last what the ball hides: its solid angle, weighted with the cosine.
     let lights =
         "lights: [Directional(direction: (0, -1, 0), intensity: 3), Ambient(intensity: 1)]";
     let clear = render_over_ground("Transparent", lights);
@@ -317,13 +318,23 @@ fn the_ground_shows_the_share_of_light_that_shadows_take() {
         let (x, y) = pixel_of_ground_point(x, z);
         pixel_at(picture, x, y)
     };
-    assert_eq!(at(&clear, 0.0, 0.3), [0, 0, 0, 191]);
-    assert_eq!(at(&clear, 0.0, 0.8), [0; 4]);
-    assert_eq!(at(&clear, -0.8, 0.0), [0; 4]);
-    // Over white, in linear light: a quarter is left.
+    let hidden = |distance: f64| 0.25 / libm::pow(1.0 + distance * distance, 1.5);
+    for (x, z) in [(0.0, 0.3), (0.1, 0.35), (-0.3, -0.1)] {
+        let expected = 255.0 * (1.0 - 0.25 * (1.0 - hidden(libm::hypot(x, z))));
+        let [r, g, b, alpha] = at(&clear, x, z);
+        assert!(
+            [r, g, b] == [0; 3] && (f64::from(alpha) - expected).abs() < 3.0,
+            "{x} {z} {alpha} {expected}"
+        );
+    }
+    // Beside the ball nearly all arrives, and far away all.
+    for (x, z, most) in [(0.0, 0.8, 8), (-0.8, 0.0, 8), (-1.3, 1.0, 0)] {
+        assert!(at(&clear, x, z)[3] <= most, "{x} {z}");
+    }
+    // Over white, in linear light: less than a quarter is left.
     let white = render_over_ground("Color(\"#ffffff\")", lights);
-    assert_eq!(at(&white, 0.0, 0.3), [137, 137, 137, 255]);
-    assert_eq!(at(&white, 0.0, 0.8), [255; 4]);
+    let [gray, _, _, alpha] = at(&white, 0.0, 0.3);
+    assert!((118..130).contains(&gray) && alpha == 255, "{gray}");
     let none = render_over_ground("Transparent", &format!("{lights}, shadows: Off"));
     assert_eq!(at(&none, 0.0, 0.3), [0; 4]);
 }

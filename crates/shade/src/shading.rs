@@ -21,7 +21,10 @@ use super::material_inputs::MaterialInputs;
 use super::shadow_receiver::ShadowReceiver;
 use super::surface_geometry::{SurfaceGeometry, find_back_faces, flip_vectors, view_directions};
 use super::transmission::TransmissionFramebuffer;
-use super::{Backdrop, Draw, DrawKind, DrawList, Environment, Light, LightShadow, ToneMapper};
+use super::{
+    Backdrop, Draw, DrawKind, DrawList, Environment, GroundOcclusion, Light, LightShadow,
+    ToneMapper,
+};
 use homog::{HPoint, World};
 use model::{AlphaMode, Topology};
 use raster::{F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface, TranslucentColors};
@@ -37,6 +40,8 @@ pub struct Shading<'a> {
     pub lights: &'a [Light],
     /// The shadow maps of the first lights, in their order; `None` for a light without shadows.
     pub shadows: &'a [Option<LightShadow>],
+    /// The occlusion of the ground by the models, if there is ground that shows shadows.
+    pub ground_occlusion: Option<&'a GroundOcclusion>,
     /// Screen-space ambient occlusion, if it is switched on.
     pub occlusion: Option<&'a AmbientOcclusion>,
     /// What refracting and rough glass shows of the surfaces behind it. Without it such glass is

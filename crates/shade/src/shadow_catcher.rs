@@ -1,5 +1,5 @@
-//! The shadow catcher: a ground plane that is transparent but for the shadows and the ambient
-//! occlusion on it.
+//! The shadow catcher: a ground plane that is transparent but for the shadows on it and the
+//! occlusion of light from all around.
 //!
 //! ```text
 //!   alpha = 1 − E with shadows / E without        E: illuminance of the ground, all lights summed
@@ -36,8 +36,13 @@ impl Shading<'_> {
         if let Some(occlusion) = self.occlusion {
             visibility = occlusion.visibility(positions, normals);
         }
-        // The illuminance with and without shadows, sums of the three channels. Ambient occlusion
-        // takes only light from all directions.
+        // Both see what is near; only one of them counts.
+        if let Some(occlusion) = self.ground_occlusion {
+            let contact = Lanes::from_fn(|lane| occlusion.visibility_at(positions.lane(lane)));
+            visibility = visibility.min_lanes(contact);
+        }
+        // The illuminance with and without shadows, sums of the three channels. Occlusion takes
+        // only light from all directions.
         let mut unshadowed = Lanes::splat(self.total_ambient_lux());
         let mut shadowed = unshadowed * visibility;
         for (index, light) in self.lights.iter().enumerate() {

@@ -6,16 +6,17 @@
 //! physically based shading and use only its alpha test and geometry.
 
 use super::renderer::FrameMemory;
+use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{Scene, Style};
 use shade::{
-    AmbientOcclusion, LightShadow, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer,
+    AmbientOcclusion, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer,
 };
 
 /// Physically based shading of the fragments of an assembled frame.
 pub(super) fn fragment_shading<'a>(
     scene: &'a Scene,
     memory: &'a FrameMemory<'a>,
-    shadows: &'a [Option<LightShadow>],
+    shadows: &'a ShadowMapRenderer,
     occlusion: Option<&'a AmbientOcclusion>,
     transmission_framebuffer: Option<&'a TransmissionFramebuffer>,
 ) -> Shading<'a> {
@@ -23,7 +24,8 @@ pub(super) fn fragment_shading<'a>(
         draws: &memory.draws,
         backdrop: scene.backdrop.as_deref(),
         lights: &scene.lights,
-        shadows,
+        shadows: &shadows.maps,
+        ground_occlusion: shadows.ground_occlusion.as_ref(),
         occlusion,
         transmission_framebuffer,
         environment: scene.environment.as_deref(),

@@ -26,6 +26,7 @@ use super::image_tiles::{TileRegion, tile_regions, validate_region};
 use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_with_opacity;
 use super::renderer::RenderBuffers;
+use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{Scene, Style};
 use geometry::{Hit, SceneGeometry};
 use homog::PixelRect;
@@ -141,7 +142,8 @@ impl TilePasses<'_> {
         let context = self.context.with_scene(&scene);
         let memory = RenderBuffers::default().take_frame(&context, self.tile_region)?;
         let memory = assemble_with_opacity(&context, memory, opacity)?;
-        draw(&memory.frame, &fragment_shading(&scene, &memory, &[], None, None));
+        let no_shadows = ShadowMapRenderer::default();
+        draw(&memory.frame, &fragment_shading(&scene, &memory, &no_shadows, None, None));
         Ok(())
     }
 }

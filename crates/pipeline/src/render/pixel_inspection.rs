@@ -73,9 +73,9 @@ pub fn inspect_pixel(scene: &Scene, x: u32, y: u32) -> Result<Option<PixelFragme
     let mut shadows = ShadowMapRenderer::default();
     shadows.render_maps(&context)?;
     let occlusion = compute_whole_occlusion(&context)?;
-    let (maps, occlusion) = (&shadows.maps, occlusion.as_ref());
-    let framebuffer = render_framebuffer(&context, maps, occlusion)?;
-    let shading = fragment_shading(scene, &memory, maps, occlusion, framebuffer.as_ref());
+    let occlusion = occlusion.as_ref();
+    let framebuffer = render_framebuffer(&context, &shadows, occlusion)?;
+    let shading = fragment_shading(scene, &memory, &shadows, occlusion, framebuffer.as_ref());
     let (frame, offset) = (&memory.frame, pixel_region.offset_in_tile());
     let styled = style_shading(scene, &shading);
     let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);

@@ -187,7 +187,7 @@ impl<'a> PreparedScene<'a> {
             return Ok(());
         }
         let Self { context, buffers, .. } = self;
-        if context.scene.lights.iter().any(|light| light.shadow().is_some()) {
+        if context.scene.casts_shadows() {
             context.measure("shadows", || buffers.shadow_maps.render_maps(context))?;
         } else {
             buffers.shadow_maps.recycle_maps();
@@ -200,7 +200,7 @@ impl<'a> PreparedScene<'a> {
     fn render_transmission_framebuffer(&mut self) -> Result<(), RenderError> {
         let Self { context, buffers, full_occlusion, .. } = self;
         self.transmission_framebuffer = context.measure("transmission", || {
-            render_framebuffer(context, &buffers.shadow_maps.maps, full_occlusion.as_ref())
+            render_framebuffer(context, &buffers.shadow_maps, full_occlusion.as_ref())
         })?;
         Ok(())
     }
@@ -223,9 +223,9 @@ impl<'a> PreparedScene<'a> {
             })?,
         };
         let occlusion = full_occlusion.as_ref().or(own_occlusion.as_ref());
-        let maps = &buffers.shadow_maps.maps;
+        let shadows = &buffers.shadow_maps;
         let framebuffer = transmission_framebuffer.as_ref();
-        let shading = fragment_shading(scene, &memory, maps, occlusion, framebuffer);
+        let shading = fragment_shading(scene, &memory, shadows, occlusion, framebuffer);
         let styled = style_shading(scene, &shading);
         let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
         let (frame, background) = (&memory.frame, scene.image.background);

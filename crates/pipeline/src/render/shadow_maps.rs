@@ -8,6 +8,7 @@
 
 mod casters;
 mod cube_fitting;
+mod ground_heights;
 mod light_fitting;
 
 use super::RenderError;
@@ -19,7 +20,7 @@ pub(super) use casters::DepthOnly;
 use cube_fitting::CubeCameras;
 use light_fitting::LightCamera;
 use raster::{Frame, Samples};
-use shade::{DrawList, Light, LightShadow, Shadow, ShadowMap};
+use shade::{DrawList, GroundOcclusion, Light, LightShadow, Shadow, ShadowMap};
 
 /// Shadow maps and the memory to render them, reused from picture to picture.
 #[derive(Debug, Default)]
@@ -30,6 +31,8 @@ pub(super) struct ShadowMapRenderer {
     mesh: ProjectedMesh,
     /// The maps of each light, in their order; empty if no light casts shadows.
     pub(super) maps: Vec<Option<LightShadow>>,
+    /// The occlusion of the ground in light from all around; `None` without any.
+    pub(super) ground_occlusion: Option<GroundOcclusion>,
     /// Maps of earlier pictures, for their memory.
     map_pool: Vec<ShadowMap>,
 }
@@ -38,6 +41,7 @@ impl ShadowMapRenderer {
     /// Discards all maps and keeps their memory.
     pub(super) fn recycle_maps(&mut self) {
         // Reversed, so that the next picture's first map takes the memory of the first light's.
+        self.ground_occlusion = None;
         let maps = self.maps.drain(..).rev().flatten();
         self.map_pool.extend(maps.flat_map(LightShadow::into_maps));
     }
@@ -47,9 +51,10 @@ impl ShadowMapRenderer {
     pub(super) fn render_maps(&mut self, context: &RenderContext<'_>) -> Result<(), RenderError> {
         let scene = context.scene;
         self.recycle_maps();
-        if scene.lights.iter().all(|light| light.shadow().is_none()) {
+        if !scene.casts_shadows() {
             return Ok(());
         }
+        self.ground_occlusion = self.render_ground_occlusion(context)?;
         for light in &scene.lights {
             let maps = match light.shadow() {
                 Some(shadow) => self.render_light(context, light, shadow)?,

@@ -65,7 +65,7 @@ fn eight_fragments_at_once_have_the_colours_of_one_by_one() {
             let context = RenderContext::new(&scene, &textures, 1);
             let memory = RenderBuffers::default().take_frame(&context, tile_region);
             let memory = assemble_scene(&context, memory.expect("a frame")).expect("a frame");
-            let framebuffer = render_framebuffer(&context, &[], None).expect("a framebuffer");
+            let framebuffer = render_framebuffer(&context, &Default::default(), None).expect("a framebuffer");
             let shading = fragment_shading(&scene, &memory, &[], None, framebuffer.as_ref());
             let frame = &memory.frame;
             let mut pictures = [(); 2].map(|()| vec![[0; 4]; 200 * 130]);

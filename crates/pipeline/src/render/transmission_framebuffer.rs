@@ -13,10 +13,11 @@ use super::image_tiles::{TileRegion, tile_regions};
 use super::primitive_assembly::{DEFAULT_MATERIAL, assemble_behind_glass};
 use super::renderer::RenderBuffers;
 use super::screen_transform::ScreenTransform;
+use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{ImageSpec, Scene};
 use glam::{DVec3, DVec4};
 use raster::Surface;
-use shade::{AmbientOcclusion, ScreenProjection, ShadowMap, ToneMapper, TransmissionFramebuffer};
+use shade::{AmbientOcclusion, ScreenProjection, ToneMapper, TransmissionFramebuffer};
 
 /// The longest side of a framebuffer in texels. Behind larger pictures it is halved until it fits:
 /// it takes 21 bytes for each texel.
@@ -61,7 +62,7 @@ pub(super) fn compute_whole_occlusion(
 /// If the scene has too many primitives.
 pub(super) fn render_framebuffer(
     context: &RenderContext<'_>,
-    shadows: &[Option<ShadowMap>],
+    shadows: &ShadowMapRenderer,
     occlusion: Option<&AmbientOcclusion>,
 ) -> Result<Option<TransmissionFramebuffer>, RenderError> {
     if !needs_framebuffer(context.scene) {

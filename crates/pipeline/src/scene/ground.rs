@@ -1,6 +1,6 @@
 //! The shadow catcher below the models: the smallest rectangle that their shadows need.
 
-use super::file::{GroundFile, SceneFile};
+use super::file::{GroundFile, SceneFile, ShadowsFile};
 use glam::DVec3;
 use homog::{Bounds, Point, World};
 use model::ModelInstance;
@@ -12,7 +12,26 @@ use shade::Light;
 pub struct Ground {
     /// The corners in world space, counterclockwise seen from above.
     pub corners: [[f32; 3]; 4],
+    /// The part that the models occlude from light from all around; `None` without such light.
+    pub occlusion: Option<OcclusionArea>,
 }
+
+/// The rectangle around the models within which they occlude light from the ground.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct OcclusionArea {
+    /// The least coordinates in the world: x and z of the rectangle, and the height of the ground.
+    pub low: Point<World>,
+    /// The greatest coordinates: x and z of the rectangle, and the height of the models.
+    pub high: Point<World>,
+    /// The width of its margin beside the models.
+    pub margin: f64,
+}
+
+/// The width of the margin, in heights of the models or half diagonals of their outline from above,
+/// whichever is less: what is high or wide alone hides little of the sky beside it.
+const OCCLUSION_MARGIN: f64 = 0.5;
+/// The part of the margin that a framed picture shows: beyond it, occlusion is below 3 %.
+const FRAMED_MARGIN: f64 = 0.65;
 
 /// The longest shadow in diagonals of the models' bounding box. A sun at the horizon casts shadows
 /// without end; beyond this length they leave any picture that shows the models.
@@ -28,6 +47,7 @@ pub(super) fn resolve_ground(
     file: &SceneFile,
     models: &[ModelInstance],
     lights: &[Light],
+    has_environment: bool,
 ) -> Option<Ground> {
     let Some(GroundFile::Shadow { height }) = file.ground else { return None };
     let bounds = Bounds::from_points(world_points(models))?;
@@ -40,16 +60,43 @@ pub(super) fn resolve_ground(
             (low, high) = (low.min(place), high.max(place));
         }
     }
+    let occlusion = occlusion_area(file, least.min(greatest), least.max(greatest), height);
+    let has_ambient = lights.iter().any(|light| matches!(light, Light::Ambient { .. }));
+    let occlusion = occlusion.filter(|_| has_ambient || has_environment);
+    if let Some(OcclusionArea { low: least, high: greatest, .. }) = occlusion {
+        (low, high) = (low.min(least.raw()), high.max(greatest.raw()));
+    }
     let room = 0.05 * (high - low).max_element();
     let (x0, x1) = ((low.x - room) as f32, (high.x + room) as f32);
     let (z0, z1) = ((low.z - room) as f32, (high.z + room) as f32);
     let y = height as f32;
-    Some(Ground { corners: [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]] })
+    let corners = [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]];
+    Some(Ground { corners, occlusion })
+}
+
+/// The part of the ground that models within a bounding box occlude; `None` if they are not above
+/// it, or the scene wants no shadows.
+fn occlusion_area(
+    file: &SceneFile,
+    least: DVec3,
+    greatest: DVec3,
+    height: f64,
+) -> Option<OcclusionArea> {
+    let top = greatest.y - height;
+    if file.shadows == Some(ShadowsFile::Off) || top <= 0.0 {
+        return None;
+    }
+    let outline = DVec3 { y: 0.0, ..greatest - least };
+    let margin = OCCLUSION_MARGIN * top.min(0.5 * outline.length());
+    let beside = DVec3::new(margin, 0.0, margin);
+    let low = Point::from_raw(DVec3 { y: height, ..least } - beside);
+    let high = Point::from_raw(greatest + beside);
+    (margin > 0.0).then_some(OcclusionArea { low, high, margin })
 }
 
 /// The shadows of the models' points on the ground, in the world, for a camera that frames them too.
 ///
-/// Those of directional light from above. A shadow is at most as long as the diagonal of the models'
+/// Those of directional light from above, and the darkest part of what the models occlude. A shadow is at most as long as the diagonal of the models'
 /// bounding box: of longer ones, under a sun below 30° for a cube, the picture shows only
 /// the beginning. Lamps near the models have no such measure and do not count.
 pub(super) fn shadow_points(
@@ -66,7 +113,16 @@ pub(super) fn shadow_points(
         let above = points.iter().map(|point| point.raw()).filter(|point| point.y > height);
         above.filter_map(|point| project_shadow(light, point, height, reach))
     });
-    shadows.map(Point::from_raw).collect()
+    let occlusion = ground.occlusion.iter().flat_map(|area| {
+        let hidden = (1.0 - FRAMED_MARGIN) * area.margin;
+        let (x, z) = (
+            [area.low.x() + hidden, area.high.x() - hidden],
+            [area.low.z() + hidden, area.high.z() - hidden],
+        );
+        [(x[0], z[0]), (x[0], z[1]), (x[1], z[0]), (x[1], z[1])]
+            .map(|(x, z)| Point::new(x, height, z))
+    });
+    shadows.map(Point::from_raw).chain(occlusion).collect()
 }
 
 /// The shadow of a world point on the plane y = `height`, at most `reach` away horizontally.

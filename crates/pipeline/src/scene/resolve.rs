@@ -97,7 +97,8 @@ impl Scene {
         let style = resolve_style(origin, &file.style)?;
         let mut view_projection = resolve_view_projection(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
-        let ground = resolve_ground(file, &models, &lights);
+        let has_environment = file.effective_environment(origin, &models).is_some();
+        let ground = resolve_ground(file, &models, &lights, has_environment);
         let is_framed = matches!(file.camera.view, ViewFile::Frame { .. });
         if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
             // The key light stands by the direction of view, which framing keeps.

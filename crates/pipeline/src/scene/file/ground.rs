@@ -10,7 +10,8 @@ scene_enum! {
         /// A shadow catcher: a level plane that only shows the shadows on it, as under products in
         /// a catalog. In a transparent picture its alpha is the fraction of light that the shadows
         /// take from it. It is not visible from below. If the scene has no `shadows`, they are
-        /// `On()`.
+        /// `On()`. An environment and ambient light leave a soft shadow around what stands on it,
+        /// unless `shadows` are `Off`.
         Shadow {
             /// Its height, y in the world. Default: that of the lowest vertex of the models.
             height: Option<Finite>,

@@ -1,0 +1,125 @@
+//! Height maps of the models from below and from above, for the occlusion of the ground.
+//!
+//! ```text
+//!   ▼ ▼ ▼ ▼ ▼ ▼   highest surfaces      two orthographic depth passes over one grid
+//!     ▟███▙
+//!   ▲ ▲ ▲ ▲ ▲ ▲   lowest surfaces
+//!  ───────────── ground
+//! ```
+
+use super::ShadowMapRenderer;
+use super::light_fitting::LightCamera;
+use crate::render::RenderError;
+use crate::render::context::RenderContext;
+use crate::scene::OcclusionArea;
+use camera::{Basis, Camera, ViewProjection};
+use homog::{Point, Vector};
+use projection::{Convention, Orthographic, Window};
+use raster::SurfaceDepth;
+use shade::{GroundGrid, GroundOcclusion, HeightSlab};
+
+/// The cells of the grid's longer side.
+const GRID_CELLS: f64 = 192.0;
+
+/// The depths of a height map, and the planes between which they count.
+struct HeightMap {
+    texels: Vec<SurfaceDepth>,
+    /// The heights above the ground of depth 1 and depth 0.
+    heights: [f64; 2],
+}
+
+impl HeightMap {
+    /// The height above the ground of a texel; `None` where there is nothing.
+    fn height(&self, index: usize) -> Option<f32> {
+        let depth = f64::from(self.texels[index].depth);
+        let [near, far] = self.heights;
+        depth.is_finite().then_some((far + (near - far) * depth) as f32)
+    }
+}
+
+impl ShadowMapRenderer {
+    /// The occlusion of the scene's ground in light from all around; `None` if it shows none.
+    pub(super) fn render_ground_occlusion(
+        &mut self,
+        context: &RenderContext<'_>,
+    ) -> Result<Option<GroundOcclusion>, RenderError> {
+        let area = context.scene.ground.and_then(|ground| ground.occlusion);
+        let Some((area, grid)) = area.and_then(|area| Some((area, occlusion_grid(area)?))) else {
+            return Ok(None);
+        };
+        let Some(lowest) = self.render_heights(context, area, grid, true)? else {
+            return Ok(None);
+        };
+        let Some(highest) = self.render_heights(context, area, grid, false)? else {
+            return Ok(None);
+        };
+        let [columns, rows] = grid.size;
+        // Seen from below, rows run the other way.
+        let mirrored = |index: usize| (rows - 1 - index / columns) * columns + index % columns;
+        let slab = |index: usize| {
+            let (low, high) = (lowest.height(mirrored(index))?, highest.height(index)?);
+            let low = low.max(0.0);
+            // A single sheet is thin, but not nothing.
+            Some(HeightSlab { low, high: high.max(low * (1.0 + 1e-4) + 1e-4 * grid.cell) })
+        };
+        let slabs: Vec<_> =
+            (0..columns * rows).map(|index| slab(index).unwrap_or(HeightSlab::EMPTY)).collect();
+        Ok(Some(GroundOcclusion::compute(grid, &slabs, context.threads)))
+    }
+
+    /// Renders the surfaces nearest to the ground, or those farthest from it.
+    fn render_heights(
+        &mut self,
+        context: &RenderContext<'_>,
+        area: OcclusionArea,
+        grid: GroundGrid,
+        from_below: bool,
+    ) -> Result<Option<HeightMap>, RenderError> {
+        let top = area.high.y() - area.low.y();
+        let (below, above) = (-0.01 * top, 1.01 * top);
+        let heights = if from_below { [below, above] } else { [above, below] };
+        let Some(camera) = height_camera(area, grid, heights) else { return Ok(None) };
+        let map = self.render_map(context, &camera)?;
+        let texels = map.texels.clone();
+        self.map_pool.push(map);
+        Ok(Some(HeightMap { texels, heights }))
+    }
+}
+
+/// The grid of an area, with square cells; `None` if the area is too large or small for `f32`.
+fn occlusion_grid(area: OcclusionArea) -> Option<GroundGrid> {
+    let (low, extent) = (area.low.raw(), area.high.raw() - area.low.raw());
+    let cell = extent.x.max(extent.z) / GRID_CELLS;
+    // Frames have 16 pixels a side at least.
+    let count = |side: f64| ((side / cell).ceil() as usize).clamp(16, GRID_CELLS as usize);
+    let (cell_f32, fade) = (cell as f32, area.margin as f32);
+    let corner = [low.x as f32, low.z as f32];
+    let is_usable = cell_f32.is_normal() && corner.iter().all(|c| c.is_finite());
+    let size = [count(extent.x), count(extent.z)];
+    is_usable.then_some(GroundGrid { corner, cell: cell_f32, size, fade })
+}
+
+/// The orthographic camera over a grid that looks from the first to the second height.
+fn height_camera(area: OcclusionArea, grid: GroundGrid, heights: [f64; 2]) -> Option<LightCamera> {
+    let [near, far] = heights;
+    let gaze = if near < far { Vector::Y } else { -Vector::Y };
+    // Straight up and down: x to the right, z up or down the picture.
+    let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).ok()?;
+    let cell = f64::from(grid.cell);
+    let [half_x, half_z] = grid.size.map(|count| 0.5 * count as f64 * cell);
+    let (x, z) = (f64::from(grid.corner[0]) + half_x, f64::from(grid.corner[1]) + half_z);
+    let eye = Point::new(x, area.low.y() + near, z);
+    let camera = Camera::new(eye, basis).ok()?;
+    let window = Window::new(-half_x, half_x, -half_z, half_z).ok()?;
+    let volume = Orthographic::from_window(window, 0.0, (far - near).abs()).ok()?;
+    Some(LightCamera {
+        view_projection: ViewProjection {
+            camera,
+            view_to_clip: volume.view_to_clip(Convention::CHAPTER),
+        },
+        size: grid.size.map(|count| count as u32),
+        center: eye.raw(),
+        penumbra: 0.0,
+        depth_at_infinity: None,
+    })
+}

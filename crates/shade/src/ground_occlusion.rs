@@ -1,0 +1,317 @@
+//! Occlusion of level ground by the models on it: a contact shadow in light from all around.
+//!
+//! ```text
+//!          ▂▄▆▆▄▂  slab of a cell: from the lowest to the highest surface over it
+//!   ╲   ▐▐██████▌▌
+//!    ╲  m = h² / (h² + r²): the cosine-weighted fraction of the sky of one azimuth
+//!     ╲    ▔▔▔▔     that is lower than height h at distance r
+//!  ────●─────┴──────── ground
+//! ```
+//!
+//! From each cell of the ground, rays run along 16 azimuths over the slabs of the other cells and
+//! mark what these hide in a bitmask of 64 sectors of equal cosine-weighted solid angle (after
+//! Therrien, Levesque and Gilet, *Screen space indirect lighting with visibility bitmask*, 2023).
+//! Cells of a 4 × 4 block have azimuths between each other's, and their mean takes the pattern out
+//! again (interleaved sampling, Keller and Heidrich 2001). What is between the lowest and the
+//! highest surface of a cell counts as solid.
+
+use raster::for_each_parallel;
+
+/// The space that models fill over one cell of the ground, as heights above it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HeightSlab {
+    /// The height of the lowest surface.
+    pub low: f32,
+    /// The height of the highest surface; not above `low` where nothing is over the cell.
+    pub high: f32,
+}
+
+impl HeightSlab {
+    /// Nothing over the cell.
+    pub const EMPTY: Self = Self { low: 0.0, high: 0.0 };
+}
+
+/// A grid of square cells on level ground, in rows along x, one row after the other along z.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct GroundGrid {
+    /// The least x and z in the world.
+    pub corner: [f32; 2],
+    /// The side of a cell.
+    pub cell: f32,
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// The width of the margin within which the shadow fades to nothing, so that it has no edge.
+    pub fade: f32,
+}
+
+/// The fraction of cosine-weighted light from the upper hemisphere that reaches level ground.
+#[derive(Clone, Debug)]
+pub struct GroundOcclusion {
+    /// The grid.
+    grid: GroundGrid,
+    /// The visibility, 0 to 1, at the center of each cell.
+    visibility: Vec<f32>,
+}
+
+/// The azimuths of one cell.
+const AZIMUTHS: usize = 16;
+/// The side of a block of cells with different azimuths.
+const BLOCK: usize = 4;
+/// The sectors of an azimuth.
+const SECTORS: f32 = 64.0;
+/// The growth of steps with the distance: about the width that an azimuth's wedge has there.
+const STEP_GROWTH: f32 = 0.08;
+
+impl GroundOcclusion {
+    /// Computes the visibility on a grid from the slab of each cell.
+    ///
+    /// Uses up to `threads` threads, with the same result for any number.
+    #[must_use]
+    pub fn compute(grid: GroundGrid, slabs: &[HeightSlab], threads: usize) -> Self {
+        let [columns, _] = grid.size;
+        let rays = RayCaster::new(grid, slabs);
+        let mut noisy = vec![1.0; slabs.len()];
+        for_each_parallel(threads, noisy.chunks_mut(columns.max(1)).enumerate(), |(row, cells)| {
+            for (column, cell) in cells.iter_mut().enumerate() {
+                *cell = rays.visibility_at(column, row);
+            }
+        });
+        let along_x = average_blocks(&noisy, grid.size, [1, 0]);
+        let mut visibility = average_blocks(&along_x, grid.size, [0, 1]);
+        for (index, visible) in visibility.iter_mut().enumerate() {
+            let weight = grid.fade_weight([index % columns, index / columns]);
+            *visible = 1.0 - (1.0 - *visible) * weight;
+        }
+        Self { grid, visibility }
+    }
+
+    /// The visibility at a position in the world, bilinear between the cells; 1 beside the grid.
+    #[inline(always)]
+    pub(super) fn visibility_at(&self, [x, _, z]: [f32; 3]) -> f32 {
+        let GroundGrid { corner, cell, .. } = self.grid;
+        let (x, z) = ((x - corner[0]) / cell - 0.5, (z - corner[1]) / cell - 0.5);
+        let (left, top) = (x.floor(), z.floor());
+        let (fx, fz) = (x - left, z - top);
+        let mut sum = 0.0;
+        for (column, column_weight) in [(left, 1.0 - fx), (left + 1.0, fx)] {
+            for (row, row_weight) in [(top, 1.0 - fz), (top + 1.0, fz)] {
+                sum += self.cell_at(column, row) * (column_weight * row_weight);
+            }
+        }
+        sum
+    }
+
+    /// The visibility of a cell; 1 beside the grid.
+    #[inline(always)]
+    fn cell_at(&self, column: f32, row: f32) -> f32 {
+        let [columns, rows] = self.grid.size;
+        let is_inside = column >= 0.0 && row >= 0.0 && column < columns as f32 && row < rows as f32;
+        if is_inside { self.visibility[row as usize * columns + column as usize] } else { 1.0 }
+    }
+}
+
+impl GroundGrid {
+    /// 0 at the border of the grid and 1 beyond the margin, smooth at both.
+    fn fade_weight(&self, index: [usize; 2]) -> f32 {
+        let mut weight = 1.0;
+        for axis in 0..2 {
+            let (index, count) = (index[axis] as f32 + 0.5, self.size[axis] as f32);
+            let distance = index.min(count - index) * self.cell;
+            let part = (distance / self.fade).clamp(0.0, 1.0);
+            weight *= part * part * (3.0 - 2.0 * part);
+        }
+        weight
+    }
+}
+
+/// The rays from the cells of a grid over its slabs.
+struct RayCaster<'a> {
+    grid: GroundGrid,
+    slabs: &'a [HeightSlab],
+    /// The first and the last column and row over which there is something.
+    occupied: [[f32; 2]; 2],
+    /// The azimuths of all cells of a block, as unit vectors.
+    azimuths: Vec<[f32; 2]>,
+}
+
+impl<'a> RayCaster<'a> {
+    fn new(grid: GroundGrid, slabs: &'a [HeightSlab]) -> Self {
+        let (mut least, mut most) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for (index, _) in slabs.iter().enumerate().filter(|(_, slab)| slab.high > slab.low) {
+            let cell = [(index % grid.size[0]) as f32, (index / grid.size[0]) as f32];
+            for axis in 0..2 {
+                least[axis] = least[axis].min(cell[axis] - 0.5);
+                most[axis] = most[axis].max(cell[axis] + 0.5);
+            }
+        }
+        let count = AZIMUTHS * BLOCK * BLOCK;
+        let azimuths = (0..count).map(|index| {
+            let angle = std::f64::consts::TAU * (index as f64 + 0.5) / count as f64;
+            [libm::cos(angle) as f32, libm::sin(angle) as f32]
+        });
+        Self { grid, slabs, occupied: [least, most], azimuths: azimuths.collect() }
+    }
+
+    /// The visibility from the center of a cell, along the azimuths of its place in the block.
+    fn visibility_at(&self, column: usize, row: usize) -> f32 {
+        // An order in which neighbors are far apart, as in ordered dithering.
+        const ORDER: [usize; BLOCK * BLOCK] =
+            [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
+        let place = ORDER[row % BLOCK * BLOCK + column % BLOCK];
+        let from = [column as f32, row as f32];
+        let mut hidden = 0;
+        for azimuth in 0..AZIMUTHS {
+            let along = self.azimuths[azimuth * BLOCK * BLOCK + place];
+            hidden += self.hidden_sectors(from, along).count_ones();
+        }
+        1.0 - hidden as f32 / (AZIMUTHS as f32 * SECTORS)
+    }
+
+    /// The sectors that slabs hide along an azimuth, the lowest in the lowest bit.
+    fn hidden_sectors(&self, from: [f32; 2], along: [f32; 2]) -> u64 {
+        let Some([start, end]) = self.clip_ray(from, along) else { return 0 };
+        let (mut hidden, mut near) = (0, start);
+        while near < end {
+            let step = (STEP_GROWTH * near).max(1.0);
+            // Steps begin at the border of the cell that the ray starts from.
+            let far = if near == 0.0 { 0.5 } else { near + step };
+            let middle = if near == 0.0 { 0.0 } else { near + 0.5 * step };
+            let [column, row] =
+                [0, 1].map(|axis: usize| (from[axis] + along[axis] * middle + 0.5).floor());
+            hidden |= self.slab_sectors(column, row, [near, far]);
+            near = far;
+        }
+        hidden
+    }
+
+    /// The distances in cells between which a ray runs over something.
+    fn clip_ray(&self, from: [f32; 2], along: [f32; 2]) -> Option<[f32; 2]> {
+        let [least, most] = self.occupied;
+        let (mut start, mut end) = (0.0_f32, f32::INFINITY);
+        for axis in 0..2 {
+            let (a, b) =
+                ((least[axis] - from[axis]) / along[axis], (most[axis] - from[axis]) / along[axis]);
+            (start, end) = (start.max(a.min(b)), end.min(a.max(b)));
+        }
+        (start < end).then_some([start, end])
+    }
+
+    /// The sectors that the slab of a cell hides between two distances.
+    fn slab_sectors(&self, column: f32, row: f32, [near, far]: [f32; 2]) -> u64 {
+        let [columns, rows] = self.grid.size;
+        let is_inside = column >= 0.0 && row >= 0.0 && column < columns as f32 && row < rows as f32;
+        if !is_inside {
+            return 0;
+        }
+        let HeightSlab { low, high } = self.slabs[row as usize * columns + column as usize];
+        if high <= low {
+            return 0;
+        }
+        // From the far end of the lower face to the near end of the upper one.
+        let sector = |height: f32, distance: f32| {
+            let distance = distance * self.grid.cell;
+            let measure = height * height / (height * height + distance * distance);
+            (measure * SECTORS + 0.5) as u32
+        };
+        sectors_below(sector(high, near)) & !sectors_below(sector(low, far))
+    }
+}
+
+/// The lowest sectors, up to 64 of them.
+const fn sectors_below(count: u32) -> u64 {
+    if count >= 64 { u64::MAX } else { (1 << count) - 1 }
+}
+
+/// The mean over a block along one axis: of five cells, the outer ones with half weight.
+fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2]) -> Vec<f32> {
+    let at = |column: usize, row: usize, offset: isize| {
+        let column = column.saturating_add_signed(offset * step[0] as isize).min(columns - 1);
+        let row = row.saturating_add_signed(offset * step[1] as isize).min(rows - 1);
+        values[row * columns + column]
+    };
+    let mean = |index: usize| {
+        let (column, row) = (index % columns, index / columns);
+        let outer = 0.5 * (at(column, row, -2) + at(column, row, 2));
+        (outer + at(column, row, -1) + at(column, row, 0) + at(column, row, 1)) / BLOCK as f32
+    };
+    (0..values.len()).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grid of 192 × 192 cells around the origin, with a slab wherever `slab` says.
+    fn grid_of(half: f32, slab: impl Fn(f32, f32) -> HeightSlab) -> GroundOcclusion {
+        let cell = half / 96.0;
+        let grid = GroundGrid { corner: [-half; 2], cell, size: [192; 2], fade: 0.2 * half };
+        let center = |index: usize| (index as f32 + 0.5) * cell - half;
+        let slabs: Vec<_> =
+            (0..192 * 192).map(|index| slab(center(index % 192), center(index / 192))).collect();
+        let one = GroundOcclusion::compute(grid, &slabs, 1);
+        let three = GroundOcclusion::compute(grid, &slabs, 3);
+        assert_eq!(one.visibility, three.visibility, "threads change nothing");
+        one
+    }
+
+    #[test]
+    fn below_a_disc_the_form_factor_is_missing() {
+        for height in [0.2_f32, 0.5, 1.0, 2.0] {
+            let disc = grid_of(4.0, |x, z| {
+                let is_over = x * x + z * z < 1.0;
+                if is_over {
+                    HeightSlab { low: height, high: height + 0.01 }
+                } else {
+                    HeightSlab::EMPTY
+                }
+            });
+            for distance in [0.0_f32, 0.4, 0.8, 1.3, 2.0] {
+                // From a level patch to a parallel disc of radius 1 (Howell, B-13).
+                let (h2, a2) = (height * height, distance * distance);
+                let z = 1.0 + h2 + a2;
+                let expected = 1.0 - 0.5 * (1.0 - (z - 2.0) / (z * z - 4.0 * a2).sqrt());
+                let actual = disc.visibility_at([distance, 0.0, 0.0]);
+                assert!(
+                    (actual - expected).abs() < 0.03,
+                    "{height} {distance}: {actual} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn beside_a_ball_the_form_factor_is_missing() {
+        let (radius, height) = (0.5_f32, 0.8_f32);
+        let ball = grid_of(3.0, |x, z| {
+            let square = radius * radius - x * x - z * z;
+            if square <= 0.0 {
+                return HeightSlab::EMPTY;
+            }
+            HeightSlab { low: height - square.sqrt(), high: height + square.sqrt() }
+        });
+        for distance in [0.0_f32, 0.3, 0.6, 1.0, 1.6] {
+            // The ball is wholly above the horizon: its solid angle times the cosine.
+            let far = (height * height + distance * distance).sqrt();
+            let expected = 1.0 - height * radius * radius / (far * far * far);
+            for (x, z) in [(distance, 0.0), (0.0, -distance), (0.6 * distance, 0.8 * distance)] {
+                let actual = ball.visibility_at([x, 0.0, z]);
+                assert!((actual - expected).abs() < 0.03, "{distance}: {actual} {expected}");
+            }
+        }
+        assert!(ball.visibility_at([2.999, 0.0, 0.0]) > 0.9999, "faded at the border");
+        assert_eq!(ball.visibility_at([30.0, 0.0, 0.0]), 1.0, "nothing beside the grid");
+    }
+
+    #[test]
+    fn at_the_foot_of_a_long_wall_half_of_the_light_is_missing() {
+        let wall = grid_of(4.0, |x, _| {
+            if x < -2.0 { HeightSlab { low: 0.0, high: 4.0 } } else { HeightSlab::EMPTY }
+        });
+        for distance in [0.3_f32, 0.6, 1.2] {
+            // ½ (1 − d / √(d² + h²)) for a wall without end; this one ends after 4 units.
+            let expected = 1.0 - 0.5 * (1.0 - distance / (distance * distance + 16.0).sqrt());
+            let actual = wall.visibility_at([distance - 2.0, 0.0, 0.0]);
+            assert!((actual - expected).abs() < 0.05, "{distance}: {actual} {expected}");
+        }
+    }
+}
