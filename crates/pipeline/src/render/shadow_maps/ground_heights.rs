@@ -15,15 +15,14 @@ use crate::scene::OcclusionArea;
 use camera::{Basis, Camera, ViewProjection};
 use homog::{Point, Vector};
 use projection::{Convention, Orthographic, Window};
-use raster::SurfaceDepth;
-use shade::{GroundGrid, GroundOcclusion, HeightSlab};
+use shade::{GroundGrid, GroundOcclusion, HeightSlab, ShadowMap};
 
 /// The cells of the grid's longer side.
 const GRID_CELLS: f64 = 192.0;
 
 /// The depths of a height map, and the planes between which they count.
 struct HeightMap {
-    texels: Vec<SurfaceDepth>,
+    map: ShadowMap,
     /// The heights above the ground of depth 1 and depth 0.
     heights: [f64; 2],
 }
@@ -31,7 +30,7 @@ struct HeightMap {
 impl HeightMap {
     /// The height above the ground of a texel; `None` where there is nothing.
     fn height(&self, index: usize) -> Option<f32> {
-        let depth = f64::from(self.texels[index].depth);
+        let depth = f64::from(self.map.texels[index].depth);
         let [near, far] = self.heights;
         depth.is_finite().then_some((far + (near - far) * depth) as f32)
     }
@@ -64,6 +63,8 @@ impl ShadowMapRenderer {
         };
         let slabs: Vec<_> =
             (0..columns * rows).map(|index| slab(index).unwrap_or(HeightSlab::EMPTY)).collect();
+        // Reversed, so that each map finds its memory again.
+        self.map_pool.extend([highest.map, lowest.map]);
         Ok(Some(GroundOcclusion::compute(grid, &slabs, context.threads)))
     }
 
@@ -80,9 +81,7 @@ impl ShadowMapRenderer {
         let heights = if from_below { [below, above] } else { [above, below] };
         let Some(camera) = height_camera(area, grid, heights) else { return Ok(None) };
         let map = self.render_map(context, &camera)?;
-        let texels = map.texels.clone();
-        self.map_pool.push(map);
-        Ok(Some(HeightMap { texels, heights }))
+        Ok(Some(HeightMap { map, heights }))
     }
 }
 
