@@ -8,9 +8,7 @@
 use super::renderer::FrameMemory;
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{Scene, Style};
-use shade::{
-    AmbientOcclusion, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer,
-};
+use shade::{AmbientOcclusion, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer};
 
 /// Physically based shading of the fragments of an assembled frame.
 pub(super) fn fragment_shading<'a>(
