@@ -8,7 +8,7 @@ use super::context::RenderContext;
 use super::image_tiles::tile_regions;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::{FrameMemory, RenderBuffers};
-use super::screen_transform::ScreenTransform;
+use super::screen_transform::{ScreenTransform, volume_center};
 use super::shadow_maps::DepthOnly;
 use crate::scene::Ground;
 use glam::{DMat4, DVec4};
@@ -40,11 +40,7 @@ pub(super) fn compute_occlusion(
     if let Some(ground) = scene.ground {
         add_ground(ground, world_to_screen, offset, width as usize, nearest);
     }
-    // Positions are reconstructed from depths in f32 relative to this point. The center of the view
-    // volume is near everything visible, so that few bits are lost.
-    let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
-    let center = center.truncate() / center.w;
-    let origin = if center.is_finite() { center } else { view.camera.eye().raw() };
+    let origin = volume_center(view);
     let across = view.camera.u().raw() * radius;
     let viewer = view.viewer().into();
     let space = ScreenSpace::new(size, offset, world_to_screen, origin, viewer, across);

@@ -217,10 +217,10 @@ impl<'a> PreparedScene<'a> {
         let memory = buffers.take_frame(context, region)?;
         let memory = context.measure("vertices", || assemble_scene(context, memory))?;
         let own_occlusion = match full_occlusion {
-            Some(_) => None,
-            None => context.measure("occlusion", || {
+            None if scene.occlusion_radius.is_some() => context.measure("occlusion", || {
                 compute_occlusion(context, &memory, &mut buffers.nearest_surfaces)
             })?,
+            _ => None,
         };
         let occlusion = full_occlusion.as_ref().or(own_occlusion.as_ref());
         let shadows = &buffers.shadow_maps;

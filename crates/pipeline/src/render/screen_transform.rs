@@ -13,7 +13,7 @@ use super::image_tiles::ImageTile;
 use crate::scene::Scene;
 use camera::{ViewProjection, ViewTransform};
 use clip::{Outcode, OutcodeSummary, Volume, clip_segment};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, DVec4};
 use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
 use raster::{GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
@@ -177,4 +177,13 @@ pub(super) fn all_vertices<const N: usize>(
 /// products of matrices and positions shall not lose a bit of them.
 pub(super) fn model_point(position: [f32; 3]) -> Point<Model> {
     Point::from_raw(DVec3::from_array(position.map(f64::from)))
+}
+
+/// The center of a view volume in the world; the eye if the volume is infinite.
+///
+/// It is near everything visible: positions relative to it lose few bits in `f32`.
+pub(super) fn volume_center(view: &ViewProjection) -> DVec3 {
+    let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
+    let center = center.truncate() / center.w;
+    if center.is_finite() { center } else { view.camera.eye().raw() }
 }

@@ -12,10 +12,9 @@ use super::fragment_shading::fragment_shading;
 use super::image_tiles::{TileRegion, tile_regions};
 use super::primitive_assembly::{DEFAULT_MATERIAL, assemble_behind_glass};
 use super::renderer::RenderBuffers;
-use super::screen_transform::ScreenTransform;
+use super::screen_transform::{ScreenTransform, volume_center};
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{ImageSpec, Scene};
-use glam::{DVec3, DVec4};
 use raster::Surface;
 use shade::{AmbientOcclusion, ScreenProjection, ToneMapper, TransmissionFramebuffer};
 
@@ -99,9 +98,5 @@ fn screen_projection(scene: &Scene) -> Result<ScreenProjection, RenderError> {
     let ImageSpec { width, height, .. } = scene.image;
     let view = &scene.view_projection;
     let world_to_screen = ScreenTransform::new(view, width, height)?.world_to_screen();
-    // The center of the view volume is near everything visible, so that few bits are lost.
-    let center = view.world_to_clip().raw().inverse() * DVec4::new(0.0, 0.0, 0.0, 1.0);
-    let center = center.truncate() / center.w;
-    let origin: DVec3 = if center.is_finite() { center } else { view.camera.eye().raw() };
-    Ok(ScreenProjection::new([width, height], world_to_screen, origin))
+    Ok(ScreenProjection::new([width, height], world_to_screen, volume_center(view)))
 }

@@ -27,11 +27,24 @@ pub struct OcclusionArea {
     pub margin: f64,
 }
 
+impl OcclusionArea {
+    /// The border of the part that a framed picture shows. Its corners are cut off: the shadow of a
+    /// box is rounded there.
+    fn framed_points(&self) -> [Point<World>; 8] {
+        let (low, high, height) = (self.low.raw(), self.high.raw(), self.low.y());
+        let [shown, hidden] = [self.margin, (1.0 - FRAMED_MARGIN) * self.margin];
+        let x = [low.x + hidden, low.x + shown, high.x - shown, high.x - hidden];
+        let z = [low.z + hidden, low.z + shown, high.z - shown, high.z - hidden];
+        let places = [(0, 1), (0, 2), (1, 0), (2, 0), (1, 3), (2, 3), (3, 1), (3, 2)];
+        places.map(|(column, row)| Point::new(x[column], height, z[row]))
+    }
+}
+
 /// The width of the margin, in heights of the models or half diagonals of their outline from above,
 /// whichever is less: what is high or wide alone hides little of the sky beside it.
-const OCCLUSION_MARGIN: f64 = 0.5;
-/// The part of the margin that a framed picture shows: beyond it, occlusion is below 3 %.
-const FRAMED_MARGIN: f64 = 0.65;
+const OCCLUSION_MARGIN: f64 = 0.4;
+/// The part of the margin that a framed picture shows: beyond it, occlusion is faint.
+const FRAMED_MARGIN: f64 = 0.5;
 
 /// The longest shadow in diagonals of the models' bounding box. A sun at the horizon casts shadows
 /// without end; beyond this length they leave any picture that shows the models.
@@ -96,9 +109,10 @@ fn occlusion_area(
 
 /// The shadows of the models' points on the ground, in the world, for a camera that frames them too.
 ///
-/// Those of directional light from above, and the darkest part of what the models occlude. A shadow is at most as long as the diagonal of the models'
-/// bounding box: of longer ones, under a sun below 30° for a cube, the picture shows only
-/// the beginning. Lamps near the models have no such measure and do not count.
+/// Those of directional light from above, and the darkest part of what the models occlude. A shadow
+/// is at most as long as the diagonal of the models' bounding box: of longer ones, under a sun below
+/// 30° for a cube, the picture shows only the beginning. Lamps near the models have no such measure
+/// and do not count.
 pub(super) fn shadow_points(
     ground: Ground,
     models: &[ModelInstance],
@@ -113,15 +127,7 @@ pub(super) fn shadow_points(
         let above = points.iter().map(|point| point.raw()).filter(|point| point.y > height);
         above.filter_map(|point| project_shadow(light, point, height, reach))
     });
-    let occlusion = ground.occlusion.iter().flat_map(|area| {
-        let hidden = (1.0 - FRAMED_MARGIN) * area.margin;
-        let (x, z) = (
-            [area.low.x() + hidden, area.high.x() - hidden],
-            [area.low.z() + hidden, area.high.z() - hidden],
-        );
-        [(x[0], z[0]), (x[0], z[1]), (x[1], z[0]), (x[1], z[1])]
-            .map(|(x, z)| Point::new(x, height, z))
-    });
+    let occlusion = ground.occlusion.iter().flat_map(|area| area.framed_points());
     shadows.map(Point::from_raw).chain(occlusion).collect()
 }
 
