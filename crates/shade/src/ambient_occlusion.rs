@@ -51,21 +51,28 @@ pub struct AmbientOcclusion {
     depths: PixelGrid,
     /// The fraction of the light from all directions that arrives there, 0 to 1.
     visibilities: PixelGrid,
+    /// The same before it was denoised: memory for the next picture.
+    noisy: PixelGrid,
 }
 
 impl AmbientOcclusion {
     /// Computes the ambient visibility of the nearest surfaces of a picture, rows from the top.
     ///
-    /// Uses up to `threads` threads, with the same result for any number.
+    /// Uses up to `threads` threads, with the same result for any number, and the memory of the
+    /// `last` picture.
     pub fn compute(
         nearest: &[SurfaceDepth],
         space: ScreenSpace,
         simd_level: SimdLevel,
         threads: usize,
+        last: Option<Self>,
     ) -> Self {
-        let mut depths = PixelGrid::new(space.size());
+        let [mut depths, mut noisy, mut visibilities] =
+            last.map(|last| [last.depths, last.noisy, last.visibilities]).unwrap_or_default();
+        for grid in [&mut depths, &mut noisy, &mut visibilities] {
+            grid.reset(space.size());
+        }
         depths.fill_from(nearest.iter().map(|surface| surface.depth.max(0.0)));
-        let mut noisy = PixelGrid::new(space.size());
         let pattern = Pattern::new();
         for_each_parallel(threads, noisy.rows_mut(), |(y, row)| {
             for (block, target) in row.as_chunks_mut().0.iter_mut().enumerate() {
@@ -73,14 +80,13 @@ impl AmbientOcclusion {
                 *target = simd_level.run_kernel(SearchEight { space, pattern, depths, x, y });
             }
         });
-        let mut visibilities = PixelGrid::new(space.size());
         for_each_parallel(threads, visibilities.rows_mut(), |(y, row)| {
             for (block, target) in row.as_chunks_mut().0.iter_mut().enumerate() {
                 let (space, depths, noisy, x) = (&space, &depths, &noisy, block * LANES);
                 *target = simd_level.run_kernel(DenoiseEight { space, depths, noisy, x, y });
             }
         });
-        Self { space, depths, visibilities }
+        Self { space, depths, visibilities, noisy }
     }
 
     /// The ambient visibility of positions in the world with these unit normals, 0 to 1.
@@ -168,7 +174,7 @@ mod tests {
         let across = DVec3::new(1.0, 0.0, -1.0).normalize() * 130.0;
         let size = [160, 120];
         let space = ScreenSpace::new(size, [0.5; 2], world_to_screen, DVec3::ZERO, eye, across);
-        let occlusion = AmbientOcclusion::compute(&nearest, space, SimdLevel::best(), 1);
+        let occlusion = AmbientOcclusion::compute(&nearest, space, SimdLevel::best(), 1, None);
         assert!(nearest.iter().filter(|nearest| nearest.depth > 0.0).count() > 4000);
         for (y, x) in (0..120).flat_map(|y| (0..160).map(move |x| (y, x))) {
             assert_eq!(occlusion.visibilities.at([x, y], [0, 0]), 1.0, "at {x}, {y}");

@@ -20,7 +20,7 @@ use super::lanes::{Lanes, Mask, Rgb, Vec3Lanes};
 use super::material_inputs::MaterialInputs;
 use super::shadow_receiver::ShadowReceiver;
 use super::surface_geometry::{SurfaceGeometry, find_back_faces, flip_vectors, view_directions};
-use super::transmission::TransmissionFramebuffer;
+use super::transmission::{TransmissionFramebuffer, TransmittedShare};
 use super::{
     Backdrop, Draw, DrawKind, DrawList, Environment, GroundOcclusion, Light, LightShadow,
     ToneMapper,
@@ -213,6 +213,16 @@ impl<const N: usize> ShadedLanes<N> {
     }
 }
 
+/// The light that a surface sends to the viewer.
+struct SurfaceLight<const N: usize> {
+    /// Emitted, reflected and refracted radiance.
+    radiance: Rgb<N>,
+    /// What passes through from behind, if the material transmits light.
+    transmission: Option<TransmittedShare<N>>,
+    /// What refracting or rough glass adds after tone mapping, and the alpha behind it.
+    behind: Option<(Rgb<N>, Lanes<N>)>,
+}
+
 impl Shading<'_> {
     /// Shades fragments of one draw.
     #[inline(always)]
@@ -248,16 +258,11 @@ impl Shading<'_> {
         let vertices = draw.vertex_indices(primitives);
         let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
         // Rendering equation: emitted, reflected and transmitted radiance.
-        let (mut transmission, mut behind) = (None, None);
-        let radiance = if draw.is_lit() {
-            let mut brdf = self.reflect_light(draw, primitives, fragments, &mut inputs);
-            transmission = brdf.transmission;
-            if let Some(framebuffer) = self.framebuffer_behind(draw) {
-                behind = brdf.add_light_behind(draw, framebuffer);
-            }
-            brdf.finish()
+        let SurfaceLight { radiance, transmission, behind } = if draw.is_lit() {
+            self.light_surface(draw, primitives, fragments, &mut inputs)
         } else {
-            inputs.emitted + inputs.base_color
+            let radiance = inputs.emitted + inputs.base_color;
+            SurfaceLight { radiance, transmission: None, behind: None }
         };
         // Display: exposure and tone curve, then premultiplied alpha. Unlit colors are those of the
         // picture already (KHR_materials_unlit): they are only exposed.
@@ -338,19 +343,19 @@ impl Shading<'_> {
         colors
     }
 
-    /// Reflects lights and environment by the layered BRDF of a draw; ambient occlusion darkens
-    /// `inputs`.
+    /// Reflects lights and environment by the layered BRDF of a draw, and refracts what is behind
+    /// it; ambient occlusion darkens `inputs`.
     ///
     /// Geometry is computed with smooth normals; the BRDF applies normal maps to a copy, layer by
     /// layer.
     #[inline(always)]
-    fn reflect_light<'i, const N: usize>(
+    fn light_surface<const N: usize>(
         &self,
         draw: &Draw<'_>,
         primitives: &PrimitiveIndices<N>,
         fragments: &impl FragmentLanes<N>,
-        inputs: &'i mut MaterialInputs<N>,
-    ) -> LayeredBrdf<'i, N> {
+        inputs: &mut MaterialInputs<N>,
+    ) -> SurfaceLight<N> {
         let geometry = self.surface_geometry(draw, primitives, fragments);
         if let Some(occlusion) = self.occlusion {
             inputs.screen_visibility = occlusion.visibility(geometry.positions, geometry.normals);
@@ -369,7 +374,12 @@ impl Shading<'_> {
         if let Some(environment) = self.environment {
             brdf.add_environment(environment);
         }
-        brdf
+        let mut behind = None;
+        if let Some(framebuffer) = self.framebuffer_behind(draw) {
+            behind = brdf.add_light_behind(draw, framebuffer);
+        }
+        // The BRDF is large: it is not returned, which would copy it.
+        SurfaceLight { radiance: brdf.finish(), transmission: brdf.transmission, behind }
     }
 
     /// Positions, views and smooth normals at fragments; normal maps are not applied yet.

@@ -15,16 +15,25 @@ use glam::{DMat4, DVec4};
 use raster::SurfaceDepth;
 use shade::{AmbientOcclusion, ScreenSpace};
 
+/// The memory that the occlusion of a picture leaves to the next.
+#[derive(Debug, Default)]
+pub(super) struct OcclusionBuffers {
+    /// The depth buffer.
+    nearest: Vec<SurfaceDepth>,
+    /// The occlusion of the last picture.
+    pub(super) last: Option<AmbientOcclusion>,
+}
+
 /// The ambient occlusion of a frame that holds the whole picture; `None` if the scene has none.
 ///
-/// `nearest` is memory for its depth buffer.
+/// `buffers` lends its memory: a depth buffer, and the last picture's occlusion.
 ///
 /// # Errors
 /// If the picture is larger than the rasterizer's grid.
 pub(super) fn compute_occlusion(
     context: &RenderContext<'_>,
     memory: &FrameMemory<'_>,
-    nearest: &mut Vec<SurfaceDepth>,
+    buffers: &mut OcclusionBuffers,
 ) -> Result<Option<AmbientOcclusion>, RenderError> {
     let (scene, frame) = (context.scene, &memory.frame);
     let Some(radius) = scene.occlusion_radius else { return Ok(None) };
@@ -32,6 +41,7 @@ pub(super) fn compute_occlusion(
     if width > raster::MAX_SIDE || height > raster::MAX_SIDE {
         return Err(RenderError::OcclusionTooLarge);
     }
+    let OcclusionBuffers { nearest, last } = buffers;
     nearest.resize(width as usize * height as usize, SurfaceDepth::EMPTY);
     frame.surface_depths(&DepthOnly(&memory.draws), context.threads, nearest);
     let view = &scene.view_projection;
@@ -45,7 +55,7 @@ pub(super) fn compute_occlusion(
     let viewer = view.viewer().into();
     let space = ScreenSpace::new(size, offset, world_to_screen, origin, viewer, across);
     let simd_level = frame.simd_level();
-    Ok(Some(AmbientOcclusion::compute(nearest, space, simd_level, context.threads)))
+    Ok(Some(AmbientOcclusion::compute(nearest, space, simd_level, context.threads, last.take())))
 }
 
 /// Adds the ground to a depth buffer, which as a translucent surface it is not in: it occludes, and
@@ -88,5 +98,5 @@ pub(super) fn compute_full_occlusion(
     };
     let memory = RenderBuffers::default().take_frame(context, whole)?;
     let memory = assemble_scene(context, memory)?;
-    compute_occlusion(context, &memory, &mut Vec::new())
+    compute_occlusion(context, &memory, &mut OcclusionBuffers::default())
 }

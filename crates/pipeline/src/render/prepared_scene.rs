@@ -218,7 +218,7 @@ impl<'a> PreparedScene<'a> {
         let memory = context.measure("vertices", || assemble_scene(context, memory))?;
         let own_occlusion = match full_occlusion {
             None if scene.occlusion_radius.is_some() => context.measure("occlusion", || {
-                compute_occlusion(context, &memory, &mut buffers.nearest_surfaces)
+                compute_occlusion(context, &memory, &mut buffers.occlusion)
             })?,
             _ => None,
         };
@@ -231,6 +231,7 @@ impl<'a> PreparedScene<'a> {
         let (frame, background) = (&memory.frame, scene.image.background);
         context.measure("pixels", || C::draw_frame(frame, surface, background, threads, pixels));
         buffers.recycle_frame(memory);
+        buffers.occlusion.last = own_occlusion;
         Ok(())
     }
 }

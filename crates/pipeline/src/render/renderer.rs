@@ -2,6 +2,7 @@
 //! picture.
 
 use super::RenderError;
+use super::ambient_occlusion::OcclusionBuffers;
 use super::context::RenderContext;
 use super::image_tiles::{ImageTile, TileRegion, validate_region};
 use super::prepared_scene::PreparedScene;
@@ -10,7 +11,7 @@ use super::shadow_maps::ShadowMapRenderer;
 use crate::Picture;
 use drawing::Warning;
 use homog::PixelRect;
-use raster::{Frame, SurfaceDepth};
+use raster::Frame;
 use shade::{Channel, Draw, DrawList, Vertex};
 
 /// Renders whole pictures: surfaces or lines, outlines, overlays and insets.
@@ -101,8 +102,8 @@ pub(super) struct RenderBuffers {
     vertex_pool: Vec<Vec<Vertex>>,
     /// The shadow maps of the scene at hand, and their memory.
     pub(super) shadow_maps: ShadowMapRenderer,
-    /// The depth buffer of screen-space ambient occlusion.
-    pub(super) nearest_surfaces: Vec<SurfaceDepth>,
+    /// The memory of screen-space ambient occlusion.
+    pub(super) occlusion: OcclusionBuffers,
 }
 
 /// The frame of one image tile while it is assembled: visibility buffer, draw calls, scratch space.

@@ -6,15 +6,16 @@
 //! `shade::TransmissionFramebuffer`.
 
 use super::RenderError;
-use super::ambient_occlusion::{compute_full_occlusion, compute_occlusion};
+use super::ambient_occlusion::{OcclusionBuffers, compute_full_occlusion, compute_occlusion};
 use super::context::RenderContext;
 use super::fragment_shading::fragment_shading;
 use super::image_tiles::{TileRegion, tile_regions};
-use super::primitive_assembly::{DEFAULT_MATERIAL, assemble_behind_glass};
+use super::primitive_assembly::assemble_behind_glass;
 use super::renderer::RenderBuffers;
 use super::screen_transform::{ScreenTransform, volume_center};
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{ImageSpec, Scene};
+use model::Material;
 use raster::Surface;
 use shade::{AmbientOcclusion, ScreenProjection, ToneMapper, TransmissionFramebuffer};
 
@@ -26,10 +27,12 @@ const MAX_FRAMEBUFFER_SIDE: u32 = 4096;
 /// the style shows materials.
 pub(super) fn needs_framebuffer(scene: &Scene) -> bool {
     let bends_light = |model: &model::Model| {
-        model.scene_primitives().any(|(_, primitive)| {
-            let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
-            material.bends_transmitted_light()
-        })
+        // Most models have no such material: no need to look for where it is used.
+        model.materials.iter().any(Material::bends_transmitted_light)
+            && model.scene_primitives().any(|(_, primitive)| {
+                let material = primitive.material.map(|index| &model.materials[index]);
+                material.is_some_and(Material::bends_transmitted_light)
+            })
     };
     !scene.style.overrides_materials()
         && scene.models.iter().any(|instance| bends_light(&instance.model))
@@ -52,7 +55,7 @@ pub(super) fn compute_whole_occlusion(
     let memory = RenderBuffers::default().take_frame(context, whole)?;
     // Refracting glass is opaque to the rasterizer; in this depth buffer it would occlude.
     let memory = assemble_behind_glass(context, memory)?;
-    compute_occlusion(context, &memory, &mut Vec::new())
+    compute_occlusion(context, &memory, &mut OcclusionBuffers::default())
 }
 
 /// Renders the framebuffer of a scene's whole picture; `None` if none is needed.

@@ -46,8 +46,8 @@ pub use self::sheet::{
 };
 pub use self::viewport::{BorderFile, StereoFile, ViewportFile};
 pub use super::color::{Color, LightColor};
-pub use super::number::{FieldOfView, Finite};
-use super::number::{Scale, Triple};
+use super::number::Scale;
+pub use super::number::{FieldOfView, Finite, Triple};
 use super::schema::{scene_enum, scene_struct};
 use crate::import;
 

@@ -127,7 +127,7 @@ pub(super) fn shadow_points(
         let above = points.iter().map(|point| point.raw()).filter(|point| point.y > height);
         above.filter_map(|point| project_shadow(light, point, height, reach))
     });
-    let occlusion = ground.occlusion.iter().flat_map(|area| area.framed_points());
+    let occlusion = ground.occlusion.iter().flat_map(OcclusionArea::framed_points);
     shadows.map(Point::from_raw).chain(occlusion).collect()
 }
 

@@ -7,7 +7,7 @@ use base64::Engine;
 use model::ModelInstance;
 use model::import::{ImportOptions, load_bytes};
 use pipeline::scene::file::{
-    DEFAULT_PADDING, EnvironmentFile, FromFile, SceneFile, ShadowsFile, StyleFile, ViewFile,
+    DEFAULT_PADDING, EnvironmentFile, FromFile, SceneFile, ShadowsFile, StyleFile, Triple, ViewFile,
 };
 use pipeline::scene::{ResolveOptions, parse_scene};
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
@@ -143,7 +143,14 @@ const WHITE: &str = r#"{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"met
 #[test]
 fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
     let most_allowed = encode_srgb(0.95).round() as u8;
-    for view in [FromFile::Front, FromFile::Left, FromFile::Top, FromFile::Back] {
+    let mut brightest = 0;
+    // From above and from all around: the key light moves with the view.
+    let around = (0..12).map(|twelfth| {
+        let angle = f64::from(twelfth) * PI / 6.0;
+        let [x, z] = [libm::sin(angle), libm::cos(angle)];
+        FromFile::Direction(Triple([x, 0.6, z]))
+    });
+    for view in around.chain([FromFile::Front, FromFile::Top]) {
         for shadows in [None, Some(ShadowsFile::DEFAULT)] {
             let scene = bare_scene(&[sphere_part(WHITE)], |file| {
                 file.shadows = shadows;
@@ -153,8 +160,14 @@ fn matte_white_does_not_clip_in_the_default_light_with_shadows_and_without() {
             let most = covered_codes(&picture).flatten().max().expect("a pixel");
             assert!(most <= most_allowed, "{view:?} {shadows:?}: {most}");
             assert!(most >= 200, "{view:?} {shadows:?}: {most} is dark");
+            brightest = brightest.max(most);
         }
     }
+    // The README's sentence on the studio.
+    let readme = include_str!("../../../../README.md");
+    let told = readme.split_once("matte white reaches ").expect("the sentence").1;
+    let told: f64 = told.split_once(' ').expect("a word").0.parse().expect("a number");
+    assert_eq!(brightest, encode_srgb(told).round() as u8, "the README says {told}");
 }
 
 #[test]

@@ -167,7 +167,7 @@ where
 
 /// A number for each pixel of a picture, with a margin of zeros around it, so that pixels beside
 /// its border are read without a test.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct PixelGrid {
     /// Width and height of the picture.
     size: [usize; 2],
@@ -181,11 +181,13 @@ pub(super) struct PixelGrid {
 const MARGIN: usize = LANES;
 
 impl PixelGrid {
-    /// Zeros for a picture of this size.
-    pub(super) fn new(size: [u32; 2]) -> Self {
-        let size @ [width, height] = size.map(|side| side as usize);
-        let stride = width.next_multiple_of(LANES) + 2 * MARGIN;
-        Self { size, stride, values: vec![0.0; stride * (height + 2 * MARGIN)] }
+    /// Becomes zeros for a picture of this size.
+    pub(super) fn reset(&mut self, size: [u32; 2]) {
+        self.size = size.map(|side| side as usize);
+        let [width, height] = self.size;
+        self.stride = width.next_multiple_of(LANES) + 2 * MARGIN;
+        self.values.clear();
+        self.values.resize(self.stride * (height + 2 * MARGIN), 0.0);
     }
 
     /// Sets the pixels from the numbers of the picture, row by row.
