@@ -10,7 +10,7 @@ use projection::{
     Misprint, NPoint, NdcY, Oblique, Orthographic, Perspective, Planometric, PrincipalView,
     ProjectionError, Projector, SensorSize, VanishingPoint, ViewOffset, ViewVolume, Window, api,
     chapter, decompose, misprint_of, oblique_near_plane, opening_angle_of,
-    principal_vanishing_points, readings, symptoms, third_row, vanishing_point,
+    principal_vanishing_points, readings, recognize, recognize_planar, third_row, vanishing_point,
 };
 
 pub const SUBJECTS: &[Subject] = &[
@@ -204,9 +204,15 @@ pub const SUBJECTS: &[Subject] = &[
         let mut read = readings(r.matrix4());
         Some(read.all(|(_, reading)| reading.factor.is_finite()))
     }),
-    ("projection::symptoms", |r| {
-        let mut found = symptoms(r.matrix4());
-        Some(found.all(|symptom| symptom.remedied.finite()))
+    ("projection::recognize", |r| {
+        let found = recognize(r.matrix4());
+        let factors = found.readings.iter().all(|reading| reading.factor.is_finite());
+        Some(factors && found.suspicions.iter().all(|slip| slip.remedied.finite()))
+    }),
+    ("projection::recognize_planar", |r| {
+        let rows = r.matrix4().transpose().to_cols_array_2d();
+        let (found, _) = recognize_planar([0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[i][j])));
+        Some(found.iter().all(|reading| reading.factor.is_finite()))
     }),
     ("projection::misprint_of", |r| {
         let wanted = IntendedProjection::Frustum(any_frustum(r)?);

@@ -52,6 +52,7 @@ Examples:
   alberti info model.glb                          the contents of a model
   alberti check model.glb                         validation against the glTF specification
   alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
+  alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12

@@ -224,7 +224,7 @@ fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// Parses conventions by the name that the `pipeline` crate has for them.
-fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
+pub(super) fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
     use clap::builder::{PossibleValuesParser, TypedValueParser as _};
     PossibleValuesParser::new(ApiConventions::ALL.map(ApiConventions::name))
         .try_map(|name| name.parse::<ApiConventions>())

@@ -13,7 +13,8 @@
 //! | conventions of OpenGL, Vulkan, Direct3D, WebGPU | `conventions.rs` |
 //! | points and vertices, segments, triangles | `point.rs`, `segment.rs`, `triangle.rs` |
 //! | why a node is invisible; why a pixel has its color | `node.rs`, `pixel.rs` |
-//! | the kind of an arbitrary matrix, and known misprints | `matrix.rs`, `projection_factors.rs` |
+//! | the meaning of an arbitrary matrix, and known misprints | `matrix.rs` |
+//! | factors of a projection | `projection_factors.rs` |
 //! | output | `plain_text.rs`, `json.rs`, `html.rs`, `diagrams.rs` |
 
 mod conventions;
@@ -32,7 +33,7 @@ mod triangle;
 
 pub use conventions::ApiConventions;
 pub use json::{SCHEMA_NAME, SCHEMA_VERSION};
-pub use matrix::explain_matrix;
+pub use matrix::{explain_matrix, explain_planar_matrix};
 pub use node::explain_node;
 pub use pixel::explain_pixel;
 pub use point::{VertexRef, explain_point, explain_transforms, explain_vertex};
@@ -92,6 +93,8 @@ pub struct ExplanationEntry {
 pub enum ItemValue {
     /// A matrix for column vectors, by rows.
     Matrix([[f64; 4]; 4]),
+    /// A matrix of the plane for column vectors, by rows.
+    PlanarMatrix([[f64; 3]; 3]),
     /// Coordinates, or another list of numbers: three for a Cartesian point, four for a homogeneous
     /// point (x, y, z, w).
     Numbers(Vec<f64>),

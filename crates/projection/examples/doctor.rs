@@ -8,7 +8,7 @@
 #![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
 
 use glam::DMat4;
-use projection::{readings, symptoms};
+use projection::recognize;
 
 /// Ortho(−1, 3, −2, 1, 2, 6) with + (far + near)/(far − near) at the end of its third row.
 const SLIDE: [f64; 16] =
@@ -21,22 +21,17 @@ fn main() {
     let matrix = DMat4::from_cols_array(&rows).transpose();
     show("The matrix", matrix);
 
+    let found = recognize(matrix);
     println!("It can be read as");
-    for (convention, found) in readings(matrix) {
-        println!(
-            "  near at {:+}, far at {:+}, {:?}, y {:?}:",
-            convention.near_depth(),
-            convention.far_depth(),
-            convention.handedness(),
-            convention.ndc_y()
-        );
-        println!("    {:?}, times {}", found.kind, found.factor);
+    for reading in found.readings.iter().take(4) {
+        println!("  {:?}, times {} (cost {})", reading.meaning, reading.factor, reading.cost);
     }
-    for symptom in symptoms(matrix) {
-        let id = symptom.misprint.id().unwrap_or("not numbered");
-        println!("It looks like a misprint ({id}): {}.", symptom.misprint.description());
-        println!("Remedy: {}.", symptom.misprint.remedy());
-        if let Some(remedied) = symptom.remedied {
+    for suspicion in &found.suspicions {
+        let misprint = suspicion.misprint;
+        let id = misprint.id().unwrap_or("not numbered");
+        println!("{:?}: a misprint ({id}): {}.", suspicion.strength, misprint.description());
+        println!("Remedy: {}.", misprint.remedy());
+        if let Some(remedied) = suspicion.remedied {
             show("Then it is", remedied);
         }
     }

@@ -57,14 +57,17 @@
 //! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
 //! | what depth can tell apart | [`DepthCurve`] |
 //! | corners, planes, eye of what is seen | [`ViewVolume`] |
-//! | the parameters of a given matrix | [`decompose()`], [`readings`] |
-//! | mistakes in a given matrix | [`misprint_of`], [`symptoms`] |
+//! | the meaning of a given matrix, or a misprint in it | [`recognize`], [`recognize_planar`] |
+//! | its parameters in a known convention | [`decompose()`], [`readings`] |
+//! | the slip in a matrix whose projection is known | [`misprint_of`] |
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
 //! −z. Column vectors, angles in radians, f64. Two programs to play with are in `examples`:
 //! `gallery` draws a house in every projection, `doctor` reads matrices.
 #![no_std]
+
+extern crate alloc;
 
 pub mod api;
 pub mod chapter;
@@ -80,7 +83,7 @@ mod error;
 mod fov;
 mod frustum;
 mod matrix;
-mod matrix_diagnosis;
+mod misprint;
 mod multiview;
 mod normalize;
 mod npoint;
@@ -91,6 +94,7 @@ mod perspective;
 mod placement;
 mod projection_class;
 mod projector;
+mod recognition;
 mod vanishing;
 mod view_volume;
 mod window;
@@ -106,7 +110,7 @@ pub use depth_curve::{DepthCurve, DepthFormat, third_row};
 pub use error::ProjectionError;
 pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
-pub use matrix_diagnosis::{IntendedProjection, Misprint, Symptom, misprint_of, symptoms};
+pub use misprint::{IntendedProjection, Misprint, misprint_of};
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};
 pub use normalize::{FrustumFactors, ParallelFactors};
 pub use npoint::NPoint;
@@ -116,6 +120,11 @@ pub use orthographic::Orthographic;
 pub use perspective::Perspective;
 pub use projection_class::ProjectionClass;
 pub use projector::Projector;
+pub use recognition::{
+    CameraReading, IntrinsicsReading, Lens, MatrixMeaning, MatrixReading, PlanarMatrix,
+    PlanarReading, Recognition, Suspicion, SuspicionStrength, ViewportReading, recognize,
+    recognize_planar,
+};
 pub use vanishing::{
     PointPerspective, PrincipalVanishingPoints, VanishingPoint, principal_vanishing_points,
     vanishing_point,

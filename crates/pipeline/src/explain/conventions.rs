@@ -101,24 +101,40 @@ impl ApiConventions {
         self.canonical_volume().ndc_y() == NdcY::Down
     }
 
-    /// The viewport that covers an image.
+    /// Where pixel centers are and which way rows run.
     ///
-    /// The depth range of OpenGL maps −1 … +1 to 0 … 1 as `glDepthRange(0, 1)` does; conventions
-    /// with NDC z in 0 … 1 pass z through unchanged.
+    /// In Vulkan y runs down already in clip space: nothing is left to flip.
+    #[must_use]
+    pub const fn pixel_convention(self) -> PixelConvention {
+        match self {
+            Self::Chapter => PixelConvention::CHAPTER,
+            Self::OpenGl | Self::Vulkan => PixelConvention::OPENGL,
+            Self::Alberti | Self::Direct3d | Self::WebGpu => PixelConvention::IMAGE,
+        }
+    }
+
+    /// The map from NDC z to the depth of a pixel.
+    ///
+    /// That of OpenGL maps −1 … +1 to 0 … 1 as `glDepthRange(0, 1)` does; conventions with NDC z in
+    /// 0 … 1, and the chapter, pass z through unchanged.
+    #[must_use]
+    pub const fn depth_range(self) -> DepthRange {
+        match self {
+            Self::Alberti | Self::OpenGl => DepthRange::ZERO_ONE,
+            Self::Chapter | Self::Vulkan | Self::Direct3d | Self::WebGpu => DepthRange::KEEP,
+        }
+    }
+
+    /// The viewport that covers an image.
     ///
     /// # Errors
     /// If width or height is 0.
     pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
-        let (pixels, depth) = match self {
-            Self::Alberti => (PixelConvention::IMAGE, DepthRange::ZERO_ONE),
-            Self::Chapter => return Viewport::chapter(width, height),
-            Self::OpenGl => (PixelConvention::OPENGL, DepthRange::ZERO_ONE),
-            // In Vulkan y runs down already in clip space: nothing is left to flip.
-            Self::Vulkan => (PixelConvention::OPENGL, DepthRange::KEEP),
-            Self::Direct3d | Self::WebGpu => (PixelConvention::IMAGE, DepthRange::KEEP),
-        };
+        if self == Self::Chapter {
+            return Viewport::chapter(width, height);
+        }
         let area = Rectangle::from_size(width.into(), height.into())?;
-        Ok(Viewport::new(area, pixels, depth))
+        Ok(Viewport::new(area, self.pixel_convention(), self.depth_range()))
     }
 }
 
@@ -136,7 +152,8 @@ impl FromStr for ApiConventions {
 /// Compares with a table of the volumes in use, in their plain and reversed forms. A custom
 /// convention has no entry and is called `another convention`.
 pub(super) fn volume_name(volume: Convention) -> &'static str {
-    const NAMES: [(Convention, &str); 9] = [
+    const OPENCV: Convention = Convention::OPENGL.left_handed().with_ndc_y(NdcY::Down);
+    const NAMES: [(Convention, &str); 16] = [
         (Convention::OPENGL, "OpenGL (near −1, far +1)"),
         (Convention::CHAPTER, "the textbook (near +1, far −1)"),
         (Convention::WEBGPU, "Metal and WebGPU (near 0, far 1)"),
@@ -149,6 +166,25 @@ pub(super) fn volume_name(volume: Convention) -> &'static str {
             "Direct3D with reversed depth (near 1, far 0, looks along +z)",
         ),
         (Convention::OPENGL.left_handed(), "OpenGL's volume seen along +z"),
+        (
+            OPENCV,
+            "a camera of OpenCV or COLMAP in OpenGL's volume (x right, y down, looks along +z)",
+        ),
+        (
+            Convention::DIRECT3D.with_ndc_y(NdcY::Down),
+            "depth from 0 to 1 with y down and looking along +z, as of OpenCV or COLMAP",
+        ),
+        (Convention::OPENGL.with_ndc_y(NdcY::Down), "OpenGL's volume with y down"),
+        (
+            Convention::DIRECT3D.reversed().with_ndc_y(NdcY::Down),
+            "depth from 1 to 0 with y down and looking along +z",
+        ),
+        (Convention::CHAPTER.with_ndc_y(NdcY::Down), "the textbook's volume with y down"),
+        (Convention::CHAPTER.left_handed(), "the textbook's volume seen along +z"),
+        (
+            Convention::CHAPTER.left_handed().with_ndc_y(NdcY::Down),
+            "the textbook's volume with y down seen along +z",
+        ),
     ];
     NAMES.iter().find(|(named, _)| *named == volume).map_or("another convention", |(_, name)| name)
 }

@@ -58,13 +58,8 @@ fn step_html(step: &Step) -> String {
 /// parentheses. Numbers have at most seven significant digits, as in plain text.
 fn item_html(item: &ExplanationEntry) -> String {
     let value = match &item.value {
-        ItemValue::Matrix(rows) => {
-            let cells = |row: &[f64; 4]| -> String {
-                row.iter().map(|&entry| format!("<td>{}</td>", format_number(entry))).collect()
-            };
-            let rows: String = rows.iter().map(|row| format!("<tr>{}</tr>", cells(row))).collect();
-            format!("<table>{rows}</table>")
-        }
+        ItemValue::Matrix(rows) => matrix_html(rows),
+        ItemValue::PlanarMatrix(rows) => matrix_html(rows),
         ItemValue::Numbers(numbers) => {
             let all: Vec<String> = numbers.iter().copied().map(format_number).collect();
             format!("({})", all.join(", "))
@@ -73,6 +68,15 @@ fn item_html(item: &ExplanationEntry) -> String {
         ItemValue::Text(words) => escape_html(words),
     };
     format!("<dt>{}</dt><dd>{value}</dd>\n", escape_html(&item.name))
+}
+
+/// A matrix as a table.
+fn matrix_html<const N: usize>(rows: &[[f64; N]; N]) -> String {
+    let cells = |row: &[f64; N]| -> String {
+        row.iter().map(|&entry| format!("<td>{}</td>", format_number(entry))).collect()
+    };
+    let rows: String = rows.iter().map(|row| format!("<tr>{}</tr>", cells(row))).collect();
+    format!("<table>{rows}</table>")
 }
 
 /// Escapes text for HTML content and attribute values.

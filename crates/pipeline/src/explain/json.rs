@@ -53,6 +53,7 @@ fn step_json(step: &Step) -> Json {
 fn item_json(item: &ExplanationEntry) -> Json {
     let value = match &item.value {
         ItemValue::Matrix(rows) => json!({"rows": rows}),
+        ItemValue::PlanarMatrix(rows) => json!({"rows": rows}),
         ItemValue::Numbers(numbers) => json!(numbers),
         ItemValue::Number(number) => json!(number),
         ItemValue::Text(words) => json!(words),

@@ -1,48 +1,65 @@
-//! Explanation of a 4 × 4 matrix: its kind, the projections it may be in known conventions, and
-//! known misprints it resembles.
+//! Explanation of a matrix: its kind, its inverse, its meaning with parameters, and known misprints
+//! it resembles.
 //!
 //! Sixteen numbers can be several projections, each in another convention: OpenGL's and
-//! the textbook's differ by the sign of z. All readings are listed, the simplest first. Misprints
-//! are those of the chapter and of widespread tutorials, such as a transposed matrix or a sign lost
-//! in the third row.
+//! the textbook's differ by the sign of z. The most sensible reading stands first with all its
+//! parameters; others follow in a line each. A misprint is reported only where the matrix as it
+//! stands makes less sense; where both are as good, both are told.
 
-use super::conventions::volume_name;
+mod meaning;
+mod planar;
+
+pub use planar::explain_planar_matrix;
+
 use super::plain_text::format_number;
 use super::{Explanation, Step};
 use homog::{Clip, HPointKind, Projective, View};
-use projection::{Convention, Decomposed, Symptom, readings, symptoms};
+use meaning::{describe_meaning, meaning_steps};
+use projection::{Recognition, Suspicion, SuspicionStrength, recognize};
 
-/// Explains a matrix for column vectors.
+/// How many readings are told beside the first.
+const OTHER_READINGS: usize = 5;
+
+/// Explains a 4×4 matrix for column vectors.
 ///
 /// # Errors
 /// If an entry is not a finite number.
 ///
-/// The matrix is read as a map from view to clip space, M p with p a column. Entries of the
-/// transposed matrix (row vectors, or column-major storage read by rows) are recognized as a
-/// misprint and shown corrected.
+/// The transposed matrix (row vectors, or column-major storage read by rows) is named as such only
+/// if its reading is the more sensible one, and shown corrected.
 pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
-    if let Some(at) = rows.as_flattened().iter().position(|entry| !entry.is_finite()) {
-        let (row, column) = (at / 4 + 1, at % 4 + 1);
-        return Err(format!("the entry in row {row}, column {column} is not a finite number"));
-    }
+    check_finite(&rows)?;
     let map = Projective::<View, Clip>::from_rows(rows);
-    let matrix = map.raw();
-    let read: Vec<_> = readings(matrix).collect();
-    let misprints: Vec<Symptom> = symptoms(matrix).collect();
-    let mut steps = vec![kind_step(rows, map)];
+    let found = recognize(map.raw());
+    let mut steps = vec![kind_step(rows, map), inverse_step(map)];
     steps.extend(affine_step(map));
     steps.push(vanishing_points_step(map));
-    steps.push(readings_step(&read));
-    steps.extend(misprints.iter().enumerate().map(|(at, slip)| misprint_step(at, slip)));
-    let verdict = matrix_verdict(map, &read, &misprints);
+    steps.extend(meaning_steps(&found.first()));
+    steps.extend(other_readings_step(&found));
+    steps.extend(found.suspicions.iter().enumerate().map(|(at, slip)| misprint_step(at, slip)));
+    let verdict = matrix_verdict(map, &found);
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// A projection that the matrix is, with the convention in which it is one.
-///
-/// The decomposition holds the parameters and the common factor: a projective map does not change
-/// when it is multiplied by a number other than 0.
-type ProjectionReading = (Convention, projection::Decomposition);
+/// Names the first entry that is not a finite number, counted from 1.
+fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
+    match rows.as_flattened().iter().position(|entry| !entry.is_finite()) {
+        Some(at) => {
+            let (row, column) = (at / N + 1, at % N + 1);
+            Err(format!("the entry in row {row}, column {column} is not a finite number"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The inverse matrix, or the reason why there is none.
+fn inverse_step(map: Projective<View, Clip>) -> Step {
+    let step = Step::new("inverse", "Its inverse", Some("IV-1"));
+    match map.inverse() {
+        Some(inverse) => step.with_item("inverse", "inverse", inverse.rows()),
+        None => step.with_item("none", "none", "a dimension is lost: the matrix has no inverse"),
+    }
+}
 
 /// The kind of map: affine, projective, its rank and determinant.
 ///
@@ -113,75 +130,35 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
         .fold(step, |step, (axis, point)| step.with_item(axis, axis, words(point)))
 }
 
-/// The projections that the matrix may be.
-///
-/// One item for each reading, labeled with its convention. A common factor other than 1 is printed:
-/// it does not move any point, but it scales w, which some programs use as a distance.
-fn readings_step(read: &[ProjectionReading]) -> Step {
-    let step =
-        Step::new("readings", "Which projection it is, in whose convention", Some("GL-1, PE-2"));
-    if read.is_empty() {
-        return step.with_item("none", "none", "no known projection, in no known convention");
+/// The readings beside the first, those as sensible as it before the others.
+fn other_readings_step(found: &Recognition) -> Option<Step> {
+    let equal = found.equal_readings().count();
+    let named = found.readings.iter().skip(1).filter(|reading| reading.meaning.is_named());
+    let others: Vec<_> = named.take(OTHER_READINGS).collect();
+    if others.is_empty() {
+        return None;
     }
-    (0..).zip(read).fold(step, |step, (at, (convention, found)): (usize, _)| {
-        let factor = match found.factor {
-            1.0 => String::new(),
-            factor => format!(", all times {}", format_number(factor)),
-        };
-        step.with_item(
-            at.to_string(),
-            volume_name(*convention),
-            describe_projection(&found.kind) + &factor,
-        )
-    })
-}
-
-/// A projection with its parameters in words.
-///
-/// Window and depth are in the units of view space, depth as positive distances from the eye. A
-/// placed projection is one that has a camera transform multiplied into it.
-pub(super) fn describe_projection(kind: &Decomposed) -> String {
-    let window = |w: projection::Window| {
-        let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
-        format!("left {l}, right {r}, bottom {b}, top {t}")
-    };
-    let depth = |near, far| format!("near {}, far {}", format_number(near), format_number(far));
-    match kind {
-        Decomposed::Frustum(f) => {
-            format!("perspective: {}, {}", window(f.window()), depth(f.near(), f.far()))
-        }
-        Decomposed::ApexMoved(_) => "perspective with its apex moved (LW-1)".to_owned(),
-        Decomposed::PlacedFrustum { frustum: f, .. } => {
-            let lens = format!("{}, {}", window(f.window()), depth(f.near(), f.far()));
-            format!("a camera and a perspective in one: {lens}")
-        }
-        Decomposed::ObliqueNear { .. } => "perspective with an inclined near plane".to_owned(),
-        Decomposed::Orthographic(o) => {
-            format!("orthographic: {}, {}", window(o.window()), depth(o.near(), o.far()))
-        }
-        Decomposed::Classical { projection, .. } => projection.class().name().to_owned(),
-        Decomposed::PlacedOrthographic { volume: o, .. } => {
-            let volume = format!("{}, {}", window(o.window()), depth(o.near(), o.far()));
-            format!("a camera and an orthographic box in one: {volume}")
-        }
-        Decomposed::NPoint(perspective) => {
-            let class = projection::Classical::NPoint(*perspective).class();
-            format!("{}, without a view volume", class.name())
-        }
-        Decomposed::Flat { projection, .. } => {
-            let name = projection.map_or("projection", |p| p.class().name());
-            format!("{name} onto a plane: depth is lost")
-        }
-    }
+    let step = Step::new("readings", "It can also be read as", None);
+    Some((0..).zip(others).fold(step, |step, (at, reading): (usize, _)| {
+        let name = if at < equal { "equally sensible" } else { "less likely" };
+        step.with_item(at.to_string(), name, describe_meaning(reading))
+    }))
 }
 
 /// A known misprint that the matrix resembles, with the correction.
 ///
 /// The corrected matrix is shown only where the sixteen entries determine it. The first misprint
 /// has the id `misprint`, further ones `other_misprint`.
-fn misprint_step(at: usize, slip: &Symptom) -> Step {
+fn misprint_step(at: usize, slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
-    let title = format!("It looks like a known misprint ({known})");
+    let title = match slip.strength {
+        SuspicionStrength::Likely => format!("It looks like a known misprint ({known})"),
+        SuspicionStrength::Equal => {
+            format!(
+                "As well as right, it may be a known misprint ({known}): the numbers are the same"
+            )
+        }
+    };
     let step = Step::new(if at == 0 { "misprint" } else { "other_misprint" }, title, None)
         .with_item("finding", "finding", slip.misprint.description())
         .with_item("remedy", "remedy", slip.misprint.remedy());
@@ -193,27 +170,24 @@ fn misprint_step(at: usize, slip: &Symptom) -> Step {
     }
 }
 
-/// The result in a sentence: the first reading, and the first misprint.
-///
-/// The readings come simplest first, so the first one is the likeliest intention.
-fn matrix_verdict(
-    map: Projective<View, Clip>,
-    read: &[ProjectionReading],
-    slips: &[Symptom],
-) -> String {
-    let what = match read.first() {
-        Some((convention, found)) => {
-            format!(
-                "In the convention of {}: {}.",
-                volume_name(*convention),
-                describe_projection(&found.kind)
-            )
-        }
-        None => format!("It is {}, and no projection that has a name.", map.classify()),
+/// The result in a sentence: the first reading, and the misprint if that explains it better.
+fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
+    let first = found.first();
+    let what = if first.meaning.is_named() {
+        format!("It is {}.", describe_meaning(&first))
+    } else {
+        format!("It is {}, and no transform or projection that has a name.", map.classify())
     };
-    match slips.first() {
+    if let Some(slip) = found.misprint() {
+        return format!("{what} But it looks like a misprint: {}.", slip.misprint.description());
+    }
+    match found.suspicions.first() {
         Some(slip) => {
-            format!("{what} But it looks like a misprint: {}.", slip.misprint.description())
+            let id = slip.misprint.id().map_or(String::new(), |id| format!(" ({id})"));
+            format!(
+                "{what} A known misprint{id} has the same numbers: {}.",
+                slip.misprint.description()
+            )
         }
         None => what,
     }

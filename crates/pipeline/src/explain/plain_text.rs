@@ -43,6 +43,7 @@ impl Display for FormulaSuffix<'_> {
 fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize) -> fmt::Result {
     let lines = match &item.value {
         ItemValue::Matrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
+        ItemValue::PlanarMatrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
         ItemValue::Numbers(numbers) => {
             let all: Vec<String> = numbers.iter().copied().map(format_number).collect();
             format!("({})", all.join(", "))

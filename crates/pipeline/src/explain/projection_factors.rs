@@ -8,7 +8,7 @@
 
 use super::Step;
 use super::conventions::ApiConventions;
-use super::matrix::describe_projection;
+use super::plain_text::format_number;
 use homog::{Clip, Projective, View};
 use projection::{Classical, Decomposed, decompose};
 
@@ -47,6 +47,45 @@ pub(super) fn add_projection_factors(
             step.add_item("fit", "fit, the box to the canonical volume", factors.fit.rows());
         }
         _ => {}
+    }
+}
+
+/// A projection with its parameters in words.
+///
+/// Window and depth are in the units of view space, depth as positive distances from the eye. A
+/// placed projection is one that has a camera transform multiplied into it.
+fn describe_projection(kind: &Decomposed) -> String {
+    let window = |w: projection::Window| {
+        let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
+        format!("left {l}, right {r}, bottom {b}, top {t}")
+    };
+    let depth = |near, far| format!("near {}, far {}", format_number(near), format_number(far));
+    match kind {
+        Decomposed::Frustum(f) => {
+            format!("perspective: {}, {}", window(f.window()), depth(f.near(), f.far()))
+        }
+        Decomposed::ApexMoved(_) => "perspective with its apex moved (LW-1)".to_owned(),
+        Decomposed::PlacedFrustum { frustum: f, .. } => {
+            let lens = format!("{}, {}", window(f.window()), depth(f.near(), f.far()));
+            format!("a camera and a perspective in one: {lens}")
+        }
+        Decomposed::ObliqueNear { .. } => "perspective with an inclined near plane".to_owned(),
+        Decomposed::Orthographic(o) => {
+            format!("orthographic: {}, {}", window(o.window()), depth(o.near(), o.far()))
+        }
+        Decomposed::Classical { projection, .. } => projection.class().name().to_owned(),
+        Decomposed::PlacedOrthographic { volume: o, .. } => {
+            let volume = format!("{}, {}", window(o.window()), depth(o.near(), o.far()));
+            format!("a camera and an orthographic box in one: {volume}")
+        }
+        Decomposed::NPoint(perspective) => {
+            let class = Classical::NPoint(*perspective).class();
+            format!("{}, without a view volume", class.name())
+        }
+        Decomposed::Flat { projection, .. } => {
+            let name = projection.map_or("projection", |p| p.class().name());
+            format!("{name} onto a plane: depth is lost")
+        }
     }
 }
 

@@ -1,14 +1,11 @@
-//! The matrix doctor: which misprint is this, and what should have been there.
+//! Known misprints of projection matrices, and what should have been there.
 //!
 //! Books, lessons and slides that teach these matrices print some of them wrongly, and programs
-//! copy them. Two questions can be answered: [`misprint_of`] compares a matrix with all known slips
-//! of the projection that was wanted, and is certain; [`symptoms`] looks at sixteen numbers alone
-//! and tells what is suspicious about them.
+//! copy them. [`misprint_of`] compares a matrix with all known slips of the projection that was
+//! wanted, and is certain; [`crate::recognize`] weighs slips against the readings of sixteen
+//! numbers alone.
 
-use crate::placement::{is_negligible, is_perpendicular, unit_vector};
-use crate::{
-    ApexMovedFrustum, Convention, Decomposed, Frustum, Orthographic, Perspective, decompose,
-};
+use crate::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 use glam::{DMat4, DVec4};
 
 /// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
@@ -17,6 +14,8 @@ use glam::{DMat4, DVec4};
 pub enum Misprint {
     /// M4 (7): P is left out of M_vp M_orth P M_cam; w stays 1 and nothing is foreshortened.
     PerspectiveLeftOut,
+    /// M6 (9): the third row of a translation repeats t_y where t_z is due.
+    RepeatedTranslation,
     /// M8 (16): the textbook's depth (near +1) where OpenGL's (near −1) is meant, or the other way
     /// round.
     DepthReversed,
@@ -55,8 +54,9 @@ pub enum IntendedProjection {
 
 impl Misprint {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::PerspectiveLeftOut,
+        Self::RepeatedTranslation,
         Self::DepthReversed,
         Self::NegativeW,
         Self::ThirdRowFlat,
@@ -74,6 +74,7 @@ impl Misprint {
     pub const fn id(self) -> Option<&'static str> {
         match self {
             Self::PerspectiveLeftOut => Some("M4"),
+            Self::RepeatedTranslation => Some("M6"),
             Self::DepthReversed | Self::NegativeW => Some("M8"),
             Self::ThirdRowFlat => Some("M11"),
             Self::ApexMoved => Some("M12"),
@@ -92,6 +93,9 @@ impl Misprint {
         match self {
             Self::PerspectiveLeftOut => {
                 "P is missing: w stays 1, so that dividing by it foreshortens nothing"
+            }
+            Self::RepeatedTranslation => {
+                "the third row repeats the second's offset: t_y stands in the place of t_z"
             }
             Self::DepthReversed => {
                 "x and y are right, but near and far have changed places in depth"
@@ -121,6 +125,7 @@ impl Misprint {
     pub const fn remedy(self) -> &'static str {
         match self {
             Self::PerspectiveLeftOut => "use M_per = M_orth P in place of M_orth",
+            Self::RepeatedTranslation => "the third row ends with t_z",
             Self::DepthReversed => {
                 "multiply by diag(1, 1, −1, 1) on the left, or name the convention meant"
             }
@@ -169,6 +174,7 @@ impl Misprint {
             }
             (
                 Self::ThirdRowFlat
+                | Self::RepeatedTranslation
                 | Self::FrustumOffsetOne
                 | Self::HalfOfTangent
                 | Self::Degrees
@@ -262,129 +268,4 @@ fn nearly_equal(ours: DMat4, theirs: DMat4) -> bool {
         |m: DMat4| m.to_cols_array().iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
     let (a, b) = (ours * (1.0 / size(ours)), theirs * (1.0 / size(theirs)));
     a.is_finite() && (a - b).to_cols_array().iter().all(|gap| gap.abs() < 1e-6)
-}
-
-/// Something suspicious about a matrix of which nothing else is known.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Symptom {
-    /// The slip it looks like.
-    pub misprint: Misprint,
-    /// The matrix that was probably meant; `None` where the numbers that are missing cannot be had
-    /// back.
-    pub remedied: Option<DMat4>,
-}
-
-/// The symptoms of common mistakes in a matrix, in OpenGL's convention unless another is evident.
-///
-/// A symptom is no proof: every such matrix is also the right matrix of something less likely.
-/// Nothing is found in what the builders of this crate make for usual volumes.
-pub fn symptoms(matrix: DMat4) -> impl Iterator<Item = Symptom> {
-    let tests: [fn(DMat4) -> Option<Symptom>; 8] = [
-        detect_transposed,
-        detect_negative_w,
-        detect_flat_third_row,
-        detect_moved_apex,
-        detect_bottom_row_one,
-        detect_ortho_offset_sign,
-        detect_frustum_offset_one,
-        detect_degrees,
-    ];
-    let finite = matrix.is_finite();
-    tests.into_iter().filter_map(move |test| if finite { test(matrix) } else { None })
-}
-
-fn verify_remedy(misprint: Misprint, remedied: DMat4) -> Option<Symptom> {
-    Some(Symptom { misprint, remedied: Some(remedied) })
-}
-
-fn decompose_any(matrix: DMat4) -> Option<Decomposed> {
-    decompose(matrix, Convention::OPENGL).ok().map(|found| found.kind)
-}
-
-/// The last column instead of the last row is (0, 0, ±1, 0) or, beside a translation, (0, 0, 0, 1).
-fn detect_transposed(matrix: DMat4) -> Option<Symptom> {
-    let (row, column) = (matrix.row(3), matrix.w_axis);
-    let central = column.abs() == DVec4::Z
-        && row.truncate() != glam::DVec3::ZERO
-        && row.x == 0.0
-        && row.y == 0.0;
-    let affine = column == DVec4::W && row.truncate() != glam::DVec3::ZERO && row.w == 1.0;
-    let turned = decompose(matrix.transpose(), Convention::OPENGL).is_ok()
-        || decompose(matrix.transpose(), Convention::DIRECT3D).is_ok();
-    if (central || affine) && turned {
-        verify_remedy(Misprint::Transposed, matrix.transpose())
-    } else {
-        None
-    }
-}
-
-/// w = z with the scales of x and y negative: M_per as printed.
-fn detect_negative_w(matrix: DMat4) -> Option<Symptom> {
-    let raw = matrix.row(3) == DVec4::Z && matrix.x_axis.x < 0.0 && matrix.y_axis.y < 0.0;
-    if raw { verify_remedy(Misprint::NegativeW, -matrix) } else { None }
-}
-
-/// A rigid motion whose z is lost.
-fn detect_flat_third_row(matrix: DMat4) -> Option<Symptom> {
-    let (x, y, z) = (matrix.x_axis.truncate(), matrix.y_axis.truncate(), matrix.z_axis);
-    let rigid = unit_vector(x)?.distance(x) < 1e-6
-        && unit_vector(y)?.distance(y) < 1e-6
-        && is_perpendicular(x, y);
-    if matrix.row(3) != DVec4::W || z != DVec4::ZERO || !rigid || matrix.w_axis.z == 0.0 {
-        return None;
-    }
-    let mut remedied = matrix;
-    remedied.z_axis = x.cross(y).extend(0.0);
-    verify_remedy(Misprint::ThirdRowFlat, remedied)
-}
-
-fn detect_moved_apex(matrix: DMat4) -> Option<Symptom> {
-    let Decomposed::ApexMoved(lesson) = decompose_any(matrix)? else { return None };
-    let through = Frustum::from_window(lesson.window(), lesson.near(), lesson.far()).ok()?;
-    verify_remedy(Misprint::ApexMoved, through.view_to_clip(Convention::OPENGL).raw())
-}
-
-/// (0, 0, −1, 1) below a depth row with an offset.
-fn detect_bottom_row_one(matrix: DMat4) -> Option<Symptom> {
-    let printed = matrix.row(3) == DVec4::new(0.0, 0.0, -1.0, 1.0) && matrix.w_axis.z != 0.0;
-    let remedied = with_entry(matrix, 3, 3, 0.0);
-    if printed && matches!(decompose_any(remedied)?, Decomposed::Frustum(_)) {
-        return verify_remedy(Misprint::BottomRowOne, remedied);
-    }
-    None
-}
-
-/// A box that lies behind the eye as a whole.
-fn detect_ortho_offset_sign(matrix: DMat4) -> Option<Symptom> {
-    let Decomposed::Orthographic(volume) = decompose_any(matrix)? else { return None };
-    let behind = volume.near() < volume.far() && volume.far() < 0.0;
-    if behind {
-        verify_remedy(Misprint::OrthoOffsetSign, with_entry(matrix, 2, 3, -matrix.w_axis.z))
-    } else {
-        None
-    }
-}
-
-/// A window that begins exactly at 0, but is not as far below as above in the same way.
-fn detect_frustum_offset_one(matrix: DMat4) -> Option<Symptom> {
-    let Decomposed::Frustum(_) = decompose_any(matrix)? else { return None };
-    let one = matrix.z_axis.x == 1.0 && matrix.z_axis.y != 1.0;
-    one.then_some(Symptom { misprint: Misprint::FrustumOffsetOne, remedied: None })
-}
-
-/// A scale that a whole number of degrees gives when taken for radians.
-fn detect_degrees(matrix: DMat4) -> Option<Symptom> {
-    let (x, y) = (matrix.x_axis.x, matrix.y_axis.y);
-    let central = matrix.row(3) == DVec4::new(0.0, 0.0, -1.0, 0.0);
-    if !central
-        || !is_negligible(glam::DVec3::new(matrix.z_axis.x, matrix.z_axis.y, 0.0), DVec4::ONE)
-    {
-        return None;
-    }
-    let degrees = (2..=34_u32).map(|fives| f64::from(fives * 5)).find(|degrees| {
-        let half = libm::tan(0.5 * degrees);
-        (y * half - 1.0).abs() < 1e-6
-    })?;
-    let scale = 1.0 / libm::tan(0.5 * degrees.to_radians());
-    verify_remedy(Misprint::Degrees, with_scale(matrix, scale * (x / y), scale))
 }

@@ -1,0 +1,106 @@
+//! Matrices as source code and LaTeX.
+//!
+//! | language | order | form |
+//! | --- | --- | --- |
+//! | C, GLSL, Rust | column by column, as OpenGL, glTF and glam store them | array, `mat4`, `[[f64; 4]; 4]` |
+//! | Python, LaTeX | row by row | list of lists, `bmatrix` |
+//!
+//! Numbers have the fewest digits that give the same f64.
+
+use std::fmt::Write as _;
+
+/// The languages of `--code`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+pub(super) enum CodeLanguage {
+    /// C array of 16 doubles, column by column
+    C,
+    /// GLSL mat4
+    Glsl,
+    /// Python list of rows
+    Python,
+    /// Rust array of columns, as glam takes them
+    Rust,
+    /// LaTeX bmatrix
+    Latex,
+}
+
+impl CodeLanguage {
+    /// The matrix with these rows as a statement, or as a formula in LaTeX.
+    pub(super) fn format_matrix<const N: usize>(self, rows: [[f64; N]; N]) -> String {
+        let columns: [[f64; N]; N] =
+            std::array::from_fn(|column| std::array::from_fn(|row| rows[row][column]));
+        match self {
+            Self::C => {
+                let body = lines(columns, "    ", ",");
+                format!("const double matrix[{}] = {{ /* column by column */\n{body}}};\n", N * N)
+            }
+            Self::Glsl => {
+                let body = lines(columns, "    ", ",");
+                let body = body.trim_end_matches(",\n");
+                format!("const mat{N} matrix = mat{N}( // column by column\n{body}\n);\n")
+            }
+            Self::Python => {
+                let body = lines(rows, "    [", "],");
+                format!("matrix = [  # row by row\n{body}]\n")
+            }
+            Self::Rust => {
+                let body = lines(columns, "    [", "],");
+                format!("let matrix: [[f64; {N}]; {N}] = [ // column by column\n{body}];\n")
+            }
+            Self::Latex => {
+                let body = latex_lines(rows);
+                format!("\\begin{{bmatrix}}\n{body}\\end{{bmatrix}}\n")
+            }
+        }
+    }
+}
+
+/// A number with a point or an exponent, as every language takes it for a floating-point one.
+fn number(x: f64) -> String {
+    format!("{:?}", x + 0.0)
+}
+
+fn lines<const N: usize>(vectors: [[f64; N]; N], open: &str, close: &str) -> String {
+    vectors.iter().fold(String::new(), |mut text, vector| {
+        let entries: Vec<String> = vector.iter().copied().map(number).collect();
+        let _ = writeln!(text, "{open}{}{close}", entries.join(", "));
+        text
+    })
+}
+
+/// Rows of a bmatrix; powers of ten are written out.
+fn latex_lines<const N: usize>(rows: [[f64; N]; N]) -> String {
+    rows.iter().fold(String::new(), |mut text, row| {
+        let entries: Vec<String> = row.iter().map(|&x| latex_number(x)).collect();
+        let _ = writeln!(text, "  {} \\\\", entries.join(" & "));
+        text
+    })
+}
+
+fn latex_number(x: f64) -> String {
+    let text = number(x);
+    let text = text.strip_suffix(".0").unwrap_or(&text);
+    match text.split_once('e') {
+        Some((digits, exponent)) => format!("{digits} \\cdot 10^{{{exponent}}}"),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: [[f64; 3]; 3] = [[1.0, 0.5, -0.0], [0.0, 1e-9, 2.0], [0.0, 0.0, 1.0]];
+
+    #[test]
+    fn languages_have_their_order_and_brackets() {
+        let code = |language: CodeLanguage| language.format_matrix(ROWS);
+        let python = "matrix = [  # row by row\n    [1.0, 0.5, 0.0],\n    [0.0, 1e-9, 2.0],\n    [0.0, 0.0, 1.0],\n]\n";
+        assert_eq!(code(CodeLanguage::Python), python);
+        let glsl = "const mat3 matrix = mat3( // column by column\n    1.0, 0.0, 0.0,\n    0.5, 1e-9, 0.0,\n    0.0, 2.0, 1.0\n);\n";
+        assert_eq!(code(CodeLanguage::Glsl), glsl);
+        assert!(code(CodeLanguage::C).starts_with("const double matrix[9] = {"));
+        assert!(code(CodeLanguage::Rust).contains("    [0.5, 1e-9, 0.0],\n"));
+        assert!(code(CodeLanguage::Latex).contains("  0 & 1 \\cdot 10^{-9} & 2 \\\\\n"));
+    }
+}

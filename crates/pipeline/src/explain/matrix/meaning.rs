@@ -1,0 +1,304 @@
+//! The meaning of a matrix in words, and its parameters as items.
+
+use super::super::Step;
+use super::super::conventions::volume_name;
+use super::super::plain_text::format_number;
+use projection::{
+    CameraReading, Convention, Lens, MatrixMeaning, MatrixReading, Oblique, PrincipalPlane,
+    ViewportReading, Window,
+};
+
+/// A reading in one sentence without its full stop: meaning, parameters, convention and factor.
+pub(super) fn describe_meaning(reading: &MatrixReading) -> String {
+    let meaning = &reading.meaning;
+    let convention = match meaning.convention() {
+        Some(convention) => format!(", in the convention of {}", volume_name(convention)),
+        None => String::new(),
+    };
+    let factor = match reading.factor {
+        1.0 => String::new(),
+        -1.0 if has_distance(meaning) => {
+            ", times -1: w is negative in front of the eye, so negate it before clipping".to_owned()
+        }
+        factor => format!(", all times {}", format_number(factor)),
+    };
+    describe_view(meaning).unwrap_or_else(|| describe_transform(meaning)) + &convention + &factor
+}
+
+/// Whether w is the distance ahead of the eye.
+fn has_distance(meaning: &MatrixMeaning) -> bool {
+    matches!(
+        meaning,
+        MatrixMeaning::Perspective { .. }
+            | MatrixMeaning::ApexMoved { .. }
+            | MatrixMeaning::CameraPerspective { .. }
+    )
+}
+
+fn list<const N: usize>(numbers: [f64; N]) -> String {
+    let all: Vec<String> = numbers.into_iter().map(format_number).collect();
+    format!("({})", all.join(", "))
+}
+
+fn window_words(w: Window) -> String {
+    let [l, r, b, t] = [w.left(), w.right(), w.bottom(), w.top()].map(format_number);
+    format!("left {l}, right {r}, bottom {b}, top {t}")
+}
+
+fn depth_words(near: f64, far: f64) -> String {
+    format!("near {}, far {}", format_number(near), format_number(far))
+}
+
+fn oblique_words(oblique: &Oblique) -> String {
+    let phi = oblique.phi().to_degrees();
+    let recedes = if phi > 0.0 { phi - 180.0 } else { phi + 180.0 };
+    let [length, phi, recedes] = [oblique.length(), phi, recedes].map(format_number);
+    format!("length {length}, angle {phi}° (what recedes is drawn towards {recedes}°)")
+}
+
+/// Projections and view volumes; `None` for other maps.
+fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
+    Some(match meaning {
+        MatrixMeaning::Perspective { frustum: f, .. } => {
+            format!(
+                "a perspective: {}, {}",
+                window_words(f.window()),
+                depth_words(f.near(), f.far())
+            )
+        }
+        MatrixMeaning::InversePerspective { frustum: f, .. } => {
+            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
+            format!("the inverse of a perspective: {window}, {depth}")
+        }
+        MatrixMeaning::ApexMoved { frustum: f, .. } => {
+            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
+            format!("the lesson's perspective with its apex moved (LW-1): {window}, {depth}")
+        }
+        MatrixMeaning::ObliqueNear { .. } => "a perspective with an inclined near plane".to_owned(),
+        MatrixMeaning::Orthographic { volume: o, .. } => {
+            format!(
+                "orthographic: {}, {}",
+                window_words(o.window()),
+                depth_words(o.near(), o.far())
+            )
+        }
+        MatrixMeaning::ObliqueVolume { projection, volume: o, .. } => {
+            let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
+            format!("an oblique volume: {}, {window}, {depth}", oblique_words(projection))
+        }
+        MatrixMeaning::ObliqueShear { projection } => {
+            format!("an oblique projection with depth kept: {}", oblique_words(projection))
+        }
+        MatrixMeaning::ObliqueOntoPlane { projection } => {
+            let plane = format_number(projection.plane_z());
+            if projection.length() == 0.0 {
+                format!("an orthographic projection onto the plane z = {plane}")
+            } else {
+                format!(
+                    "an oblique projection onto the plane z = {plane}: {}",
+                    oblique_words(projection)
+                )
+            }
+        }
+        MatrixMeaning::PrincipalView { plane } => {
+            let axis = match plane {
+                PrincipalPlane::Yoz => "x",
+                PrincipalPlane::Zox => "y",
+                PrincipalPlane::Xoy => "z",
+            };
+            format!("an orthographic projection onto the plane {axis} = 0")
+        }
+        MatrixMeaning::AxonometricOntoPlane { projection } => {
+            let name = projection::Classical::Axonometric(*projection).class().name();
+            format!(
+                "{name} onto the picture plane: foreshortening {}",
+                list(projection.foreshortening())
+            )
+        }
+        MatrixMeaning::NPoint { projection, onto_plane } => {
+            let class = projection::Classical::NPoint(*projection).class();
+            let kept = if *onto_plane { "onto the plane z = 0" } else { "depth kept" };
+            format!("{}, {kept}: (p, q, r) = {}", class.name(), list(projection.bottom_row()))
+        }
+        MatrixMeaning::CameraPerspective { camera, frustum: f, .. } => {
+            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
+            format!(
+                "a camera and a perspective in one: {}, {window}, {depth}",
+                camera_words(camera)
+            )
+        }
+        MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
+            let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
+            let gaze = list(camera.gaze);
+            format!("a camera and an orthographic box in one: gaze {gaze}, {window}, {depth}")
+        }
+        _ => return None,
+    })
+}
+
+fn camera_words(camera: &CameraReading) -> String {
+    format!("eye {}, gaze {}, up {}", list(camera.eye), list(camera.gaze), list(camera.up))
+}
+
+fn viewport_words(v: &ViewportReading) -> String {
+    let [x, y, width, height] = [v.x, v.y, v.width, v.height].map(format_number);
+    let origin = if v.x == 0.0 && v.y == 0.0 { String::new() } else { format!(" at ({x}, {y})") };
+    let rows = if v.y_down { "y down" } else { "y up" };
+    let centers = if v.integer_centers { "at whole numbers" } else { "at halves" };
+    format!("the viewport of {width} × {height} pixels{origin}, {rows}, pixel centers {centers}")
+}
+
+/// Affine maps, viewports, intrinsics, and the textbook's P.
+fn describe_transform(meaning: &MatrixMeaning) -> String {
+    match meaning {
+        MatrixMeaning::Identity => "the identity".to_owned(),
+        MatrixMeaning::Translation { by } => format!("a translation by {}", list(*by)),
+        MatrixMeaning::Scale { factors } => format!("a scale by {}", list(*factors)),
+        MatrixMeaning::Windowing { scale, offset } => {
+            format!(
+                "windowing: a scale by {}, then a translation by {}",
+                list(*scale),
+                list(*offset)
+            )
+        }
+        MatrixMeaning::Reflection { normal, distance } => {
+            let (normal, distance) = (list(*normal), format_number(*distance));
+            format!("a reflection in the plane with normal {normal} at distance {distance}")
+        }
+        MatrixMeaning::Rotation { axis, angle_degrees } => {
+            format!("a rotation by {}° about {}", format_number(*angle_degrees), list(*axis))
+        }
+        MatrixMeaning::Camera(camera) => format!("a camera transform: {}", camera_words(camera)),
+        MatrixMeaning::Shear { linear, .. } => {
+            let [x, y, z] = linear.map(list);
+            format!("a shear with the rows {x}, {y}, {z}")
+        }
+        MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => format!(
+            "a model transform: scale {}, rotation by {}° about {}, translation {}",
+            list(*scale),
+            format_number(*angle_degrees),
+            list(*axis),
+            list(*translation)
+        ),
+        MatrixMeaning::Viewport(viewport) => viewport_words(viewport),
+        MatrixMeaning::Intrinsics(k) => {
+            let [fx, fy, cx, cy] = [k.fx, k.fy, k.cx, k.cy].map(format_number);
+            format!("camera intrinsics: fx {fx}, fy {fy}, cx {cx}, cy {cy}")
+        }
+        MatrixMeaning::ChapterP { n, f } => {
+            format!("the textbook's P: n = {}, f = {}", format_number(*n), format_number(*f))
+        }
+        MatrixMeaning::ChapterPInverse { n, f } => {
+            let [n, f] = [*n, *f].map(format_number);
+            format!("the inverse of the textbook's P: n = {n}, f = {f}")
+        }
+        MatrixMeaning::Affine => "an affine map without a name".to_owned(),
+        _ => "a projective map without a name".to_owned(),
+    }
+}
+
+/// The first reading with all its parameters; nothing for a map without a name.
+pub(super) fn meaning_steps(reading: &MatrixReading) -> Option<Step> {
+    let meaning = &reading.meaning;
+    if !meaning.is_named() {
+        return None;
+    }
+    let step = Step::new("meaning", "Its most sensible reading", None).with_item(
+        "reading",
+        "reading",
+        describe_meaning(reading),
+    );
+    let step = match meaning.convention() {
+        Some(convention) => step.with_item("convention", "convention", volume_name(convention)),
+        None => step,
+    };
+    let step = add_parameters(step, meaning);
+    Some(step.with_item("factor", "common factor", reading.factor))
+}
+
+fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
+    match meaning {
+        MatrixMeaning::Perspective { frustum: f, lens, convention }
+        | MatrixMeaning::InversePerspective { frustum: f, lens, convention } => {
+            let step = add_window(step, f.window(), [f.near(), f.far()]);
+            add_lens(step, lens, *convention)
+        }
+        MatrixMeaning::ApexMoved { frustum: f, .. } => {
+            let step = add_window(step, f.window(), [f.near(), f.far()]);
+            step.with_item("apex", "apex", <[f64; 3]>::from(f.apex()))
+        }
+        MatrixMeaning::Orthographic { volume, .. } => {
+            add_window(step, volume.window(), [volume.near(), volume.far()])
+        }
+        MatrixMeaning::ObliqueVolume { projection, volume, .. } => {
+            let step = add_window(step, volume.window(), [volume.near(), volume.far()]);
+            add_oblique(step, projection)
+        }
+        MatrixMeaning::ObliqueShear { projection }
+        | MatrixMeaning::ObliqueOntoPlane { projection } => add_oblique(step, projection),
+        MatrixMeaning::CameraPerspective { camera, frustum: f, lens, convention } => {
+            let step = add_window(add_camera(step, camera), f.window(), [f.near(), f.far()]);
+            add_lens(step, lens, *convention)
+        }
+        MatrixMeaning::CameraOrthographic { camera, volume, .. } => {
+            let step = step.with_item("gaze", "gaze", camera.gaze).with_item("up", "up", camera.up);
+            add_window(step, volume.window(), [volume.near(), volume.far()])
+        }
+        MatrixMeaning::Camera(camera) => add_camera(step, camera),
+        MatrixMeaning::ChapterP { n, f } | MatrixMeaning::ChapterPInverse { n, f } => {
+            step.with_item("n", "n", *n).with_item("f", "f", *f)
+        }
+        MatrixMeaning::Viewport(v) => step
+            .with_item("size", "width, height", [v.width, v.height])
+            .with_item("origin", "x, y", [v.x, v.y])
+            .with_item("y", "y", if v.y_down { "down" } else { "up" })
+            .with_item("depth", "depth of z = -1 and z = 1", v.depth),
+        MatrixMeaning::Intrinsics(k) => step
+            .with_item("focal_lengths", "fx, fy", [k.fx, k.fy])
+            .with_item("principal_point", "cx, cy", [k.cx, k.cy])
+            .with_item("skew", "skew", k.skew),
+        MatrixMeaning::Windowing { scale, offset } => {
+            let ends = |end: f64| [0, 1, 2].map(|axis| scale[axis] * end + offset[axis]);
+            step.with_item("low", "(-1, -1, -1) goes to", ends(-1.0))
+                .with_item("origin", "(0, 0, 0) goes to", ends(0.0))
+                .with_item("high", "(1, 1, 1) goes to", ends(1.0))
+        }
+        _ => step,
+    }
+}
+
+fn add_camera(step: Step, camera: &CameraReading) -> Step {
+    step.with_item("eye", "eye", camera.eye)
+        .with_item("gaze", "gaze, if it looks along -z", camera.gaze)
+        .with_item("up", "up", camera.up)
+        .with_item("right", "right", camera.right)
+}
+
+fn add_window(step: Step, w: Window, [near, far]: [f64; 2]) -> Step {
+    let step = step
+        .with_item("window", "left, right, bottom, top", [w.left(), w.right(), w.bottom(), w.top()])
+        .with_item("near", "near", near);
+    if far.is_finite() {
+        step.with_item("far", "far", far)
+    } else {
+        step.with_item("far", "far", "infinite")
+    }
+}
+
+fn add_lens(step: Step, lens: &Lens, convention: Convention) -> Step {
+    let step = step
+        .with_item("fov_y", "vertical field of view, degrees", lens.fov_y_degrees)
+        .with_item("fov_x", "horizontal field of view, degrees", lens.fov_x_degrees)
+        .with_item("aspect", "aspect, width / height", lens.aspect)
+        .with_item("focal_lengths", "focal lengths, half widths and heights", lens.focal_lengths);
+    let turned = convention.ahead() > 0.0;
+    step.with_item("looks", "looks along", if turned { "+z" } else { "-z" })
+}
+
+fn add_oblique(step: Step, oblique: &Oblique) -> Step {
+    let phi = oblique.phi().to_degrees();
+    step.with_item("length", "drawn length of a unit of depth", oblique.length())
+        .with_item("angle", "its angle, degrees, for z towards the viewer", phi)
+        .with_item("projectors", "projectors to plane, degrees", oblique.alpha().to_degrees())
+        .with_item("plane", "plane z", oblique.plane_z())
+}

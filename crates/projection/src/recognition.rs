@@ -1,0 +1,177 @@
+//! Meanings of sixteen or nine numbers: transforms, projections, viewports and their inverses, the
+//! most sensible reading first.
+//!
+//! ```text
+//!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
+//!              (decimals,    (one file        2 per digit of a                (misprints that
+//!               f32, f64)     each)           parameter, and how               explain the entries
+//!                                             rarely such a matrix is met       better)
+//! ```
+//!
+//! A matrix does not tell its meaning: the OpenGL matrix of (N, F) is the zero-to-one matrix of
+//! (2FN/(F+N), F). What people write has few digits, windows with left < right and bottom < top,
+//! and 0 < near < far; so the reading with the fewest digits stands first, usual conventions before
+//! rare ones (minimum description length, Rissanen 1978). A matrix is called a misprint only if it
+//! has no such reading, or a misprinted one needs clearly fewer digits.
+
+mod affine;
+mod classical;
+mod convention_list;
+mod meaning;
+mod parallel;
+mod perspective;
+mod placed;
+mod planar;
+mod rigid;
+mod rounded;
+mod suspicion;
+mod viewport;
+
+pub use meaning::{Lens, MatrixMeaning};
+pub use planar::{PlanarMatrix, PlanarReading, recognize_planar};
+pub use rigid::CameraReading;
+pub use suspicion::{Suspicion, SuspicionStrength};
+pub use viewport::{IntrinsicsReading, ViewportReading};
+
+use alloc::vec::Vec;
+use glam::DMat4;
+use rounded::{Entries, Rounded, measure_entries};
+
+/// The cost of a matrix that nothing is known of.
+const UNNAMED: u32 = 1000;
+
+/// Readings that differ in cost by at most this are equally sensible.
+const EQUAL: u32 = 3;
+
+/// One meaning of a matrix.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct MatrixReading {
+    /// The meaning with its parameters, without the factor.
+    pub meaning: MatrixMeaning,
+    /// The common factor of all entries: a multiple is the same map. Negative where w is negative
+    /// in front of the eye, as in the textbook's M_per (PE-3).
+    pub factor: f64,
+    /// Twice the digits of the parameters, and more for rare conventions and mirrored windows. Less
+    /// is more sensible.
+    pub cost: u32,
+}
+
+/// Everything a matrix may be.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Recognition {
+    /// The meanings, the most sensible first; never empty.
+    pub readings: Vec<MatrixReading>,
+    /// Misprints that explain the entries better, or as well; the likeliest first.
+    pub suspicions: Vec<Suspicion>,
+}
+
+impl Recognition {
+    /// The most sensible reading.
+    #[must_use]
+    pub fn first(&self) -> MatrixReading {
+        self.readings.first().copied().unwrap_or(MatrixReading {
+            meaning: MatrixMeaning::Projective,
+            factor: 1.0,
+            cost: UNNAMED,
+        })
+    }
+
+    /// The other readings that are as sensible as the first.
+    pub fn equal_readings(&self) -> impl Iterator<Item = &MatrixReading> {
+        let most = self.first().cost + EQUAL;
+        self.readings.iter().skip(1).filter(move |reading| reading.cost <= most)
+    }
+
+    /// The misprint this is, if its reading as one is clearly better.
+    #[must_use]
+    pub fn misprint(&self) -> Option<&Suspicion> {
+        self.suspicions.iter().find(|found| found.strength == SuspicionStrength::Likely)
+    }
+}
+
+/// Recognizes a 4×4 matrix for column vectors.
+///
+/// A matrix with entries that are not finite, or beyond 1e-40 to 1e40, has one reading: a map
+/// without a name.
+///
+/// Entries may be rounded: the number of decimals, or f32, is taken from the entries themselves, and
+/// parameters have the fewest digits that give the same rounded matrix.
+///
+/// ```
+/// use glam::{DMat4, DVec4};
+/// use projection::{Convention, MatrixMeaning, recognize};
+/// // gluPerspective(60°, 16/9, 0.1, 100), printed with four decimals.
+/// let matrix = DMat4::from_cols(
+///     DVec4::new(0.9743, 0.0, 0.0, 0.0),
+///     DVec4::new(0.0, 1.7321, 0.0, 0.0),
+///     DVec4::new(0.0, 0.0, -1.002, -1.0),
+///     DVec4::new(0.0, 0.0, -0.2002, 0.0),
+/// );
+/// let MatrixMeaning::Perspective { frustum, lens, convention } = recognize(matrix).first().meaning
+/// else {
+///     panic!("a perspective")
+/// };
+/// assert_eq!(convention, Convention::OPENGL);
+/// assert_eq!((lens.fov_y_degrees, frustum.near(), frustum.far()), (60.0, 0.1, 100.0));
+/// ```
+#[must_use]
+pub fn recognize(matrix: DMat4) -> Recognition {
+    let entries = measure_entries(matrix.transpose().to_cols_array_2d());
+    let readings = readings_of(&entries);
+    let suspicions = suspicion::suspicions_of(&entries, &readings);
+    Recognition { readings, suspicions }
+}
+
+/// All readings, the most sensible first.
+fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
+    let mut found = Vec::new();
+    let moderate = entries.as_flattened().iter().all(|entry| is_moderate(entry.value));
+    if moderate {
+        let readers: [fn(&Entries<4>, &mut Vec<MatrixReading>); 12] = [
+            affine::read_affine,
+            rigid::read_rigid,
+            viewport::read_viewport,
+            viewport::read_intrinsics,
+            classical::read_classical,
+            perspective::read_p,
+            perspective::read_p_inverse,
+            perspective::read_frusta,
+            perspective::read_inverse_frusta,
+            parallel::read_boxes,
+            placed::read_placed_box,
+            placed::read_placed_perspective,
+        ];
+        for reader in readers {
+            reader(entries, &mut found);
+        }
+    }
+    if moderate && found.is_empty() {
+        placed::read_oblique_near(entries, &mut found);
+    }
+    found.retain(|reading| reading.factor.is_finite() && reading.factor != 0.0);
+    found.push(unnamed_reading(entries));
+    // Stable: of two equal costs the reader that comes first.
+    found.sort_by_key(|reading| reading.cost);
+    found
+}
+
+/// True if products of a few such numbers and quotients neither overflow nor vanish.
+fn is_moderate(entry: f64) -> bool {
+    entry == 0.0 || (1e-40..1e40).contains(&entry.abs())
+}
+
+/// An affine or projective map without a name.
+fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
+    let affine = (0..3).all(|j| entries[3][j].is_zero()) && !entries[3][3].is_zero();
+    let (meaning, cost) = if affine {
+        (MatrixMeaning::Affine, UNNAMED - 1)
+    } else {
+        (MatrixMeaning::Projective, UNNAMED)
+    };
+    MatrixReading { meaning, factor: 1.0, cost }
+}
+
+/// The cost of a common factor: none for 1.
+fn factor_cost(factor: Rounded) -> u32 {
+    if factor.is(1.0) { 0 } else { 2 + 2 * factor.digits() }
+}

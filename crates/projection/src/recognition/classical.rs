@@ -1,0 +1,108 @@
+//! Readings of the classical projections: onto a plane and therefore singular, or with depth kept
+//! (MV-1, AX-1, OB-1, OB-2, ONE-1, TWO-1, THREE-1).
+
+use super::parallel::{oblique_by_slants, oblique_cost};
+use super::rigid::orthonormal_rows;
+use super::rounded::{Entries, Rounded, divide_entries};
+use super::{MatrixMeaning, MatrixReading, factor_cost};
+use crate::{Axonometric, NPoint, PrincipalPlane};
+use alloc::vec::Vec;
+use glam::DVec3;
+use homog::Normal;
+
+/// Adds the readings as a classical projection.
+pub(super) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let factor = m[3][3];
+    if factor.is_zero() {
+        return;
+    }
+    let unit = divide_entries(m, factor);
+    let affine = (0..3).all(|j| unit[3][j].is_zero());
+    let reading = if affine {
+        read_principal_view(&unit)
+            .or_else(|| read_oblique(&unit))
+            .or_else(|| read_axonometric(&unit))
+    } else {
+        read_n_point(&unit)
+    };
+    found.extend(reading.map(|(meaning, cost)| MatrixReading {
+        meaning,
+        factor: factor.simplest(),
+        cost: cost + factor_cost(factor),
+    }));
+}
+
+fn is_unit_row(row: &[Rounded; 4], one: usize) -> bool {
+    (0..4).all(|j| row[j].is(if j == one { 1.0 } else { 0.0 }))
+}
+
+fn is_zero_row(row: &[Rounded; 4]) -> bool {
+    row.iter().all(|entry| entry.is_zero())
+}
+
+/// diag(0, 1, 1, 1) and its kin: T_yoz, T_zox, T_xoy (MV-1 to MV-3).
+fn read_principal_view(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
+    let dropped = (0..3).find(|&i| is_zero_row(&m[i]))?;
+    let kept = (0..3).filter(|&i| i != dropped).all(|i| is_unit_row(&m[i], i));
+    kept.then_some((MatrixMeaning::PrincipalView { plane: PrincipalPlane::ALL[dropped] }, 2))
+}
+
+/// x' = x + (z − z_p) slant, y' alike, and z' = z_p or z (OB-1, OB-2).
+fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
+    let [x, y, z, _] = m;
+    let upright = x[0].is(1.0) && x[1].is_zero() && y[0].is_zero() && y[1].is(1.0);
+    let flat = [z[0], z[1], z[2]].into_iter().all(Rounded::is_zero);
+    let kept = is_unit_row(z, 2);
+    if !upright || !(flat || kept) {
+        return None;
+    }
+    // With depth kept, the plane is where the shear leaves points alone.
+    let steeper = if x[2].value.abs() >= y[2].value.abs() { x } else { y };
+    let slanted = !steeper[2].is_zero();
+    let plane = if flat || !slanted { z[3] } else { -steeper[3] / steeper[2] };
+    let fixed = |row: &[Rounded; 4]| (row[3] + row[2] * plane).is_zero();
+    if !fixed(x) || !fixed(y) || (kept && !slanted) {
+        return None;
+    }
+    let projection = oblique_by_slants(x[2], y[2], plane.simplest())?;
+    let cost = 3 + oblique_cost(x[2], y[2]) + 2 * plane.digits();
+    let meaning = if flat {
+        MatrixMeaning::ObliqueOntoPlane { projection }
+    } else {
+        MatrixMeaning::ObliqueShear { projection }
+    };
+    Some((meaning, cost))
+}
+
+/// Two rows of a rotation and a row of zeros: onto the picture plane (AX-1).
+fn read_axonometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
+    let [x, y, z, _] = m;
+    let (a, b) = ([x[0], x[1], x[2]], [y[0], y[1], y[2]]);
+    let stays = x[3].is_zero() && y[3].is_zero() && is_zero_row(z);
+    let cross = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    let out = [cross(1, 2), cross(2, 0), cross(0, 1)];
+    let [u, v, w] = orthonormal_rows(&[a, b, out]).filter(|_| stays)?;
+    let error = 4.0 * a.iter().chain(&b).fold(1e-9, |error: f64, entry| error.max(entry.error));
+    let projection = Axonometric::by_normal(Normal::from_raw(w)).ok()?;
+    let turn = projection.depth_preserving().raw();
+    let same = |row: usize, ours: DVec3| (turn.row(row).truncate() - ours).length() < error;
+    let meaning = MatrixMeaning::AxonometricOntoPlane { projection };
+    (same(0, u) && same(1, v)).then_some((meaning, 8))
+}
+
+/// The identity, or the identity with z dropped, above (p, q, r, 1).
+fn read_n_point(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
+    let (kept, flat) = (is_unit_row(&m[2], 2), is_zero_row(&m[2]));
+    if !(is_unit_row(&m[0], 0) && is_unit_row(&m[1], 1) && (kept || flat)) {
+        return None;
+    }
+    let terms = [m[3][0], m[3][1], m[3][2]];
+    let [p, q, r] = terms.map(Rounded::simplest);
+    let projection = NPoint::new(p, q, r).ok()?;
+    let fewest = |term: Rounded| match term {
+        zero if zero.is_zero() => 0,
+        term => term.digits().min((Rounded::ONE / term).digits()),
+    };
+    let digits: u32 = terms.into_iter().map(fewest).sum();
+    Some((MatrixMeaning::NPoint { projection, onto_plane: flat }, 3 + 2 * digits))
+}

@@ -1,0 +1,33 @@
+//! The conventions a matrix is tried in, with how rarely each is met.
+
+use crate::{Convention, NdcY};
+
+const DOWN: NdcY = NdcY::Down;
+
+/// All sixteen combinations of depth range, handedness and direction of y, the usual ones first.
+///
+/// The second number counts against a reading beside the digits of its parameters; reversed and
+/// left-handed depth in [−1, 1], which no interface has, is rarest.
+pub(super) const CONVENTIONS: [(Convention, u32); 16] = [
+    (Convention::OPENGL, 0),
+    (Convention::CHAPTER, 1),
+    (Convention::WEBGPU, 1),
+    (Convention::VULKAN, 1),
+    (Convention::DIRECT3D, 1),
+    (Convention::WEBGPU.reversed(), 2),
+    (Convention::VULKAN.reversed(), 2),
+    (Convention::DIRECT3D.reversed(), 3),
+    (Convention::OPENGL.left_handed(), 3),
+    (Convention::OPENGL.left_handed().with_ndc_y(DOWN), 3),
+    (Convention::DIRECT3D.with_ndc_y(DOWN), 3),
+    (Convention::OPENGL.with_ndc_y(DOWN), 4),
+    (Convention::DIRECT3D.reversed().with_ndc_y(DOWN), 4),
+    (Convention::CHAPTER.with_ndc_y(DOWN), 8),
+    (Convention::CHAPTER.left_handed(), 9),
+    (Convention::CHAPTER.left_handed().with_ndc_y(DOWN), 10),
+];
+
+/// Those of the conventions whose view space looks to this side: −1 or +1.
+pub(super) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
+    CONVENTIONS.into_iter().filter(move |(convention, _)| convention.ahead() == ahead)
+}

@@ -1,0 +1,98 @@
+//! Readings of parallel matrices as view volumes: upright boxes and oblique prisms.
+
+use super::convention_list::CONVENTIONS;
+use super::perspective::MIRRORED;
+use super::rounded::{Entries, Rounded, divide_entries};
+use super::{MatrixMeaning, MatrixReading, factor_cost};
+use crate::{Convention, Oblique, Orthographic};
+use alloc::vec::Vec;
+
+/// Adds the readings as an orthographic box (OR-1, GL-3) or an oblique prism (VV-1).
+pub(super) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][2]];
+    let factor = m[3][3];
+    if factor.is_zero() || !zeros.into_iter().all(Rounded::is_zero) {
+        return;
+    }
+    let unit = divide_entries(m, factor);
+    if [unit[0][0], unit[1][1], unit[2][2]].into_iter().any(Rounded::is_zero) {
+        return;
+    }
+    for (convention, rarity) in CONVENTIONS {
+        let reading = box_reading(&unit, convention).map(|(meaning, cost)| MatrixReading {
+            meaning,
+            factor: factor.simplest(),
+            cost: cost + box_rarity(convention, rarity) + factor_cost(factor),
+        });
+        found.extend(reading);
+    }
+}
+
+/// Boxes gain nothing from reversed depth, and few programs reverse it; the textbook's is no
+/// reversed one.
+fn box_rarity(convention: Convention, rarity: u32) -> u32 {
+    let reversed = convention.near_depth() > convention.far_depth();
+    if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
+}
+
+fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
+    let [x, y, z, _] = unit;
+    let (ahead, top) = (Rounded::exact(convention.ahead()), Rounded::exact(convention.top()));
+    let mut cost = 2;
+    let mut edges = |scale: Rounded, offset: Rounded| {
+        cost += if scale.value < 0.0 { MIRRORED } else { 0 };
+        [(-Rounded::ONE - offset) / scale, (Rounded::ONE - offset) / scale]
+    };
+    let [l, r] = edges(x[0], x[3]);
+    let [b, t] = edges(y[1] * top, y[3] * top);
+    let distance = |depth: f64| (Rounded::exact(depth) - z[3]) / (z[2] * ahead);
+    let (near, far) = (distance(convention.near_depth()), distance(convention.far_depth()));
+    cost += pair_cost(l, r) + pair_cost(b, t) + pair_cost(near, far) + order_cost(near, far);
+    let volume = Orthographic::new(
+        l.simplest(),
+        r.simplest(),
+        b.simplest(),
+        t.simplest(),
+        near.simplest(),
+        far.simplest(),
+    )
+    .ok()?;
+    let slants = [x[2] / x[0], y[2] / y[1]];
+    if slants.into_iter().all(Rounded::is_zero) {
+        return Some((MatrixMeaning::Orthographic { volume, convention }, cost));
+    }
+    // In the view space that looks along −z.
+    let [slant_x, slant_y] = slants.map(|slant| slant * -ahead);
+    let projection = oblique_by_slants(slant_x, slant_y, 0.0)?;
+    let cost = cost + 2 + oblique_cost(slant_x, slant_y);
+    Some((MatrixMeaning::ObliqueVolume { projection, volume, convention }, cost))
+}
+
+/// Twice the digits of two edges, of one only if they are opposite.
+fn pair_cost(low: Rounded, high: Rounded) -> u32 {
+    let second = if (low + high).is_zero() { 0 } else { low.digits() };
+    2 * (high.digits() + second)
+}
+
+/// What near and far count beside their digits: they should be ahead of the eye and in order.
+fn order_cost(near: Rounded, far: Rounded) -> u32 {
+    match (near.value, far.value) {
+        (near, far) if near > far => MIRRORED,
+        (_, far_value) if far_value < 0.0 => MIRRORED,
+        (near_value, _) if near_value < 0.0 && !near.is_zero() => 2,
+        _ => 0,
+    }
+}
+
+/// The oblique projection with x' = x + slant z, y' alike, onto z = `plane_z`.
+pub(super) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
+    let direction = homog::Vector::new(x.simplest(), y.simplest(), -1.0);
+    Oblique::by_direction(direction, plane_z).ok()
+}
+
+/// Twice the digits of length and angle, or of the two slants.
+pub(super) fn oblique_cost(x: Rounded, y: Rounded) -> u32 {
+    let length = (x * x + y * y).sqrt().digits();
+    let angle = if x.is_zero() { 1 } else { (y / x).atan_degrees().digits() };
+    2 * (length + angle).min(x.digits() + y.digits())
+}

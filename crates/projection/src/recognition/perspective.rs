@@ -1,0 +1,224 @@
+//! Readings of central matrices: frusta in sixteen conventions, the textbook's P, and the inverses
+//! of both.
+
+use super::convention_list::conventions_looking;
+use super::rounded::{Entries, Rounded, divide_entries};
+use super::{Lens, MatrixMeaning, MatrixReading, factor_cost};
+use crate::{ApexMovedFrustum, Convention, Frustum};
+use alloc::vec::Vec;
+
+/// What a reading counts beside its digits if its window is mirrored.
+pub(super) const MIRRORED: u32 = 12;
+
+/// Adds the readings as a frustum (GL-1, PE-2) or as the lesson's with its apex moved (LW-1).
+pub(super) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][3]];
+    if !zeros.into_iter().all(Rounded::is_zero) || m[3][2].is_zero() {
+        return;
+    }
+    for sign in [1.0, -1.0] {
+        let factor = Rounded { value: sign * m[3][2].value.abs(), ..m[3][2] };
+        let unit = divide_entries(m, factor);
+        for (convention, rarity) in conventions_looking(unit[3][2].value.signum()) {
+            // The textbook's own sign: w = z, negative in front of the eye.
+            let natural = sign > 0.0 || convention == Convention::CHAPTER;
+            let factor_digits = if natural && factor.is(sign) { 0 } else { factor_cost(factor) };
+            let rare = if convention == Convention::CHAPTER && sign < 0.0 { 0 } else { rarity };
+            let reading = frustum_reading(&unit, convention).map(|(meaning, cost)| MatrixReading {
+                meaning,
+                factor: factor.simplest(),
+                cost: cost + rare + factor_digits,
+            });
+            found.extend(reading);
+        }
+    }
+}
+
+/// The frustum of a matrix with the bottom row (0, 0, ±1, 0).
+fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
+    let [x, y, z, w] = unit;
+    let ahead = Rounded::exact(w[2].value.signum());
+    let top = Rounded::exact(convention.top());
+    let (near, far) = depth_planes(z[2] * ahead, z[3], convention)?;
+    let shifts = [(x[2], x[3], x[0]), (y[2], y[3], y[1] * top)];
+    if shifts.iter().any(|shift| shift.2.is_zero()) {
+        return None;
+    }
+    let (mut cost, mut window, mut apex) = (0, [near; 4], [Rounded::exact(0.0); 2]);
+    for (axis, (slant, offset, scale)) in shifts.into_iter().enumerate() {
+        let sign = if axis == 1 { top } else { Rounded::ONE };
+        let center = -slant * ahead * sign;
+        if !offset.is_zero() {
+            apex[axis] = -offset * sign / scale;
+            if !center.is_zero() {
+                return None;
+            }
+        }
+        let edge = |side: Rounded| (center + side) / scale * near + apex[axis];
+        (window[2 * axis], window[2 * axis + 1]) = (edge(-Rounded::ONE), edge(Rounded::ONE));
+        cost += if scale.value < 0.0 { MIRRORED } else { 0 };
+    }
+    let lens = lens_digits(window, near, y[1] * top, x[0]);
+    let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
+    let meaning = named_frustum(window, near, far, apex, convention)?;
+    Some((meaning, cost + 2 * digits))
+}
+
+/// The frustum, or the lesson's if the apex is not at the origin.
+fn named_frustum(
+    window: [Rounded; 4],
+    near: Rounded,
+    far: Option<Rounded>,
+    apex: [Rounded; 2],
+    convention: Convention,
+) -> Option<MatrixMeaning> {
+    let [l, r, b, t] = window.map(Rounded::simplest);
+    let (n, f) = (near.simplest(), far.map_or(f64::INFINITY, Rounded::simplest));
+    if apex.into_iter().all(Rounded::is_zero) {
+        let frustum = Frustum::new(l, r, b, t, n, f).ok()?;
+        return Some(MatrixMeaning::Perspective {
+            frustum,
+            lens: read_lens(window, near),
+            convention,
+        });
+    }
+    let frustum = ApexMovedFrustum::new(l, r, b, t, n, f).ok()?;
+    Some(MatrixMeaning::ApexMoved { frustum, convention })
+}
+
+/// Angles, aspect ratio and focal lengths of a window at a distance.
+pub(super) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
+    let angle = |low: Rounded, high: Rounded| {
+        ((high / near).atan_degrees() - (low / near).atan_degrees()).simplest()
+    };
+    let two = Rounded::exact(2.0);
+    Lens {
+        fov_x_degrees: angle(l, r).abs(),
+        fov_y_degrees: angle(b, t).abs(),
+        aspect: ((r - l) / (t - b)).simplest().abs(),
+        focal_lengths: [(r - l, near), (t - b, near)].map(|(d, n)| (two * n / d).simplest().abs()),
+    }
+}
+
+/// The fewest digits that describe the lens: by its window, or if it is centered by an angle and an
+/// aspect ratio, or by its two scales.
+pub(super) fn lens_digits(
+    window: [Rounded; 4],
+    near: Rounded,
+    scale_y: Rounded,
+    scale_x: Rounded,
+) -> u32 {
+    let [l, r, b, t] = window;
+    let centered = (l + r).is_zero() && (b + t).is_zero();
+    if !centered {
+        return window.into_iter().map(Rounded::digits).sum();
+    }
+    let two = Rounded::exact(2.0);
+    let angle = |side: Rounded| (two * (side / near).atan_degrees()).digits();
+    let by_angle = angle(t).min(angle(r)) + (r / t).digits();
+    by_angle.min(r.digits() + t.digits()).min(scale_y.digits() + scale_x.digits())
+}
+
+/// The distances at which factor + offset/D is the near and the far depth, if 0 < near < far; no
+/// far plane if rounding may hide it.
+pub(super) fn depth_planes(
+    factor: Rounded,
+    offset: Rounded,
+    convention: Convention,
+) -> Option<(Rounded, Option<Rounded>)> {
+    let near = offset / (Rounded::exact(convention.near_depth()) - factor);
+    if !(near.value.is_finite() && near.value > 0.0) {
+        return None;
+    }
+    let gap = Rounded::exact(convention.far_depth()) - factor;
+    if gap.value.abs() <= gap.error.max(16.0 * f64::EPSILON) {
+        return Some((near, None));
+    }
+    let far = offset / gap;
+    (far.value > near.value).then_some((near, Some(far)))
+}
+
+/// Adds the reading as the textbook's P (PE-1): n on the diagonal, n + f and −fn in the third row.
+pub(super) fn read_p(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let factor = m[3][2];
+    let zeros = [m[0][1], m[0][2], m[0][3], m[1][0], m[1][2], m[1][3], m[2][0], m[2][1]];
+    let bottom = [m[3][0], m[3][1], m[3][3]];
+    if factor.is_zero() || !zeros.into_iter().chain(bottom).all(Rounded::is_zero) {
+        return;
+    }
+    let unit = divide_entries(m, factor);
+    let n = unit[0][0];
+    let f = unit[2][2] - n;
+    if n.equals(unit[1][1]) && (n * f + unit[2][3]).is_zero() {
+        found.extend(p_reading(n, f, false, factor, factor.is(1.0)));
+    }
+}
+
+/// Adds the reading as the inverse of P in either printed form: as it is, or times nf.
+pub(super) fn read_p_inverse(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let factor = m[2][3];
+    let zeros = [m[0][3], m[1][3]];
+    if !is_inverse_shaped(m) || !zeros.into_iter().all(Rounded::is_zero) {
+        return;
+    }
+    let unit = divide_entries(m, factor);
+    let n = Rounded::ONE / unit[0][0];
+    let f = -Rounded::ONE / (n * unit[3][2]);
+    let same = unit[0][0].equals(unit[1][1]) && (unit[3][3] * n * f).equals(n + f);
+    if same {
+        let printed = factor.is(1.0) || factor.equals(n * f);
+        found.extend(p_reading(n, f, true, factor, printed));
+    }
+}
+
+fn p_reading(
+    n: Rounded,
+    f: Rounded,
+    inverse: bool,
+    factor: Rounded,
+    printed: bool,
+) -> Option<MatrixReading> {
+    let cost = 2 * (n.digits() + f.digits()) + if printed { 0 } else { factor_cost(factor) };
+    let (n, f) = (n.simplest(), f.simplest());
+    if n * f <= 0.0 || n == f {
+        return None;
+    }
+    let meaning = if inverse {
+        MatrixMeaning::ChapterPInverse { n, f }
+    } else {
+        MatrixMeaning::ChapterP { n, f }
+    };
+    Some(MatrixReading { meaning, factor: factor.simplest(), cost })
+}
+
+/// The zeros of the inverse of a frustum's matrix (IV-1).
+fn is_inverse_shaped(m: &Entries<4>) -> bool {
+    let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1], m[2][2], m[3][0], m[3][1]];
+    let needed = [m[0][0], m[1][1], m[2][3], m[3][2]];
+    zeros.into_iter().all(Rounded::is_zero) && !needed.into_iter().any(Rounded::is_zero)
+}
+
+/// Adds the readings as the inverse of a frustum's matrix: clip to view space (IV-1).
+pub(super) fn read_inverse_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    if !is_inverse_shaped(m) {
+        return;
+    }
+    let (zero, one) = (Rounded::exact(0.0), Rounded::ONE);
+    let (x, y, w) = (m[0][0], m[1][1], m[2][3]);
+    let forward = [
+        [one / x, zero, -m[0][3] / (x * w), zero],
+        [zero, one / y, -m[1][3] / (y * w), zero],
+        [zero, zero, -m[3][3] / (m[3][2] * w), one / m[3][2]],
+        [zero, zero, one / w, zero],
+    ];
+    let mut inverses = Vec::new();
+    read_frusta(&forward, &mut inverses);
+    found.extend(inverses.into_iter().filter_map(|reading| match reading.meaning {
+        MatrixMeaning::Perspective { frustum, lens, convention } => Some(MatrixReading {
+            meaning: MatrixMeaning::InversePerspective { frustum, lens, convention },
+            factor: 1.0 / reading.factor,
+            cost: reading.cost + 2,
+        }),
+        _ => None,
+    }));
+}

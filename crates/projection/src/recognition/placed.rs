@@ -1,0 +1,253 @@
+//! Readings of a camera and its projection in one matrix: world to clip space; and of an inclined
+//! near plane.
+//!
+//! With the rows x, y, w of a central matrix the line of sight is the linear part of w, what is
+//! left of x beside it points to the right, and the eye is where all three rows vanish.
+
+use super::convention_list::{CONVENTIONS, conventions_looking};
+use super::perspective::{MIRRORED, depth_planes, lens_digits, read_lens};
+use super::rigid::shorten;
+use super::rounded::{Entries, Rounded, divide_entries};
+use super::{CameraReading, MatrixMeaning, MatrixReading, factor_cost};
+use crate::{Convention, Decomposed, Frustum, Orthographic, decompose};
+use alloc::vec::Vec;
+use glam::{DMat3, DMat4, DVec3};
+
+/// Adds the readings as a camera with a perspective; the view space looks along −z, y up.
+pub(super) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let linear = [m[3][0], m[3][1], m[3][2]];
+    let length = length_of(linear);
+    if length.is_zero() {
+        return;
+    }
+    for sign in [1.0, -1.0] {
+        let factor = Rounded { value: sign * length.value, ..length };
+        let unit = divide_entries(m, factor);
+        let Some(frame) = PlacedFrame::from_central(&unit) else { continue };
+        if frame.is_unplaced() {
+            continue;
+        }
+        for (convention, rarity) in conventions_looking(-1.0) {
+            let factor_digits =
+                if factor.is(1.0) || is_close(factor, 1.0) { 0 } else { factor_cost(factor) };
+            let reading = frame.perspective(convention).map(|(meaning, cost)| MatrixReading {
+                meaning,
+                factor: if is_close(factor, sign) { sign } else { factor.simplest() },
+                cost: cost + rarity + factor_digits,
+            });
+            found.extend(reading);
+        }
+    }
+}
+
+/// Equal within twice the error: a length of three rounded numbers.
+fn is_close(number: Rounded, expected: f64) -> bool {
+    number.is_within(expected, number.error + 1e-12)
+}
+
+fn length_of([x, y, z]: [Rounded; 3]) -> Rounded {
+    (x * x + y * y + z * z).sqrt()
+}
+
+fn dot(a: [Rounded; 3], b: [Rounded; 3]) -> Rounded {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn linear_part(row: &[Rounded; 4]) -> [Rounded; 3] {
+    [row[0], row[1], row[2]]
+}
+
+/// `vector` without its part along a vector of length 1.
+fn beside(vector: [Rounded; 3], unit: [Rounded; 3]) -> [Rounded; 3] {
+    let along = dot(vector, unit);
+    [0, 1, 2].map(|i| vector[i] - unit[i] * along)
+}
+
+fn values(vector: [Rounded; 3]) -> DVec3 {
+    DVec3::from_array(vector.map(|x| x.value))
+}
+
+/// True if two vectors may be at right angles.
+fn is_square(a: [Rounded; 3], b: [Rounded; 3]) -> bool {
+    dot(a, b).is_within(0.0, 1e-11 * values(a).length() * values(b).length())
+}
+
+/// A camera in the world and the rows of the projection behind it.
+struct PlacedFrame {
+    eye: DVec3,
+    eye_error: f64,
+    right: DVec3,
+    up: DVec3,
+    gaze: DVec3,
+    /// x' = scale x − center D, for x and y.
+    scale: [Rounded; 2],
+    center: [Rounded; 2],
+    /// Depth z' = factor D + offset.
+    depth: [Rounded; 2],
+}
+
+impl PlacedFrame {
+    /// Of a matrix whose last row has a linear part of length 1.
+    fn from_central(m: &Entries<4>) -> Option<Self> {
+        let [x, y, z, w] = m;
+        let sight = linear_part(w);
+        let (across, upwards) = (beside(linear_part(x), sight), beside(linear_part(y), sight));
+        let (width, height) = (length_of(across), length_of(upwards));
+        if width.is_zero() || height.is_zero() || !is_square(across, upwards) {
+            return None;
+        }
+        let residue = beside(linear_part(z), sight);
+        let along = residue.iter().all(|part| part.is_within(0.0, part.error + 1e-11));
+        let (gaze, right) = (values(sight), values(across) / width.value);
+        let rows = [linear_part(x), linear_part(y), sight].map(values);
+        let to_eye = DMat3::from_cols(rows[0], rows[1], rows[2]).transpose().inverse();
+        let eye = -(to_eye * DVec3::new(x[3].value, y[3].value, w[3].value));
+        if !along || !eye.is_finite() {
+            return None;
+        }
+        let eye_error = [x, y, w].iter().zip([width, height, Rounded::ONE]).fold(
+            1e-14 * eye.length(),
+            |error: f64, (row, scale)| {
+                let entry = row[3].error + row[0].error.max(row[1].error) * eye.length();
+                error.max(2.0 * entry / scale.value)
+            },
+        );
+        let up = right.cross(gaze);
+        let mirrored = values(upwards).dot(up) < 0.0;
+        let center = [dot(linear_part(x), sight), dot(linear_part(y), sight)].map(|c| -c);
+        let factor = dot(linear_part(z), sight);
+        let at_eye = linear_part(z).map(|entry| entry.error).into_iter().fold(0.0, f64::max);
+        let offset = Rounded {
+            value: rows_dot(z, eye) + z[3].value,
+            error: z[3].error + at_eye * eye.length() + factor.value.abs() * eye_error,
+        };
+        let height = if mirrored { -height } else { height };
+        let (depth, scale) = ([factor, offset], [width, height]);
+        Some(Self { eye, eye_error, right, up, gaze, scale, center, depth })
+    }
+
+    /// True if the camera is where a projection matrix has it: such a matrix holds no camera.
+    fn is_unplaced(&self) -> bool {
+        let turn = 1e-9 + 4.0 * self.scale[0].error / self.scale[0].value.abs();
+        let upright = self.right.distance(DVec3::X) < turn && self.gaze.z.abs() > 1.0 - turn;
+        upright && self.eye.length() <= self.eye_error + 1e-12
+    }
+
+    fn perspective(&self, convention: Convention) -> Option<(MatrixMeaning, u32)> {
+        let (near, far) = depth_planes(self.depth[0], self.depth[1], convention)?;
+        let top = Rounded::exact(convention.top());
+        let [sx, sy] = [self.scale[0], self.scale[1] * top];
+        let [cx, cy] = [self.center[0], self.center[1] * top];
+        let edge = |c: Rounded, s: Rounded, side: f64| {
+            let sum = c + Rounded::exact(side);
+            if sum.is_zero() { Rounded::exact(0.0) } else { sum / s * near }
+        };
+        // Rounded centers that may be 0 are 0: most cameras are symmetric.
+        let [cx, cy] = [cx, cy].map(|c| if is_close(c, 0.0) { Rounded::exact(0.0) } else { c });
+        let window = [edge(cx, sx, -1.0), edge(cx, sx, 1.0), edge(cy, sy, -1.0), edge(cy, sy, 1.0)];
+        let [l, r, b, t] = window.map(Rounded::simplest);
+        let far_distance = far.map_or(f64::INFINITY, Rounded::simplest);
+        let frustum = Frustum::new(l, r, b, t, near.simplest(), far_distance).ok()?;
+        let lens = read_lens(window, near);
+        let digits = near.digits()
+            + far.map_or(0, Rounded::digits)
+            + lens_digits(window, near, sy, sx)
+            + self.eye_digits();
+        let turned = if sy.value < 0.0 { MIRRORED } else { 0 };
+        let meaning =
+            MatrixMeaning::CameraPerspective { camera: self.camera(), frustum, lens, convention };
+        Some((meaning, 12 + turned + 2 * digits))
+    }
+
+    fn eye_digits(&self) -> u32 {
+        let number = |value| Rounded { value, error: self.eye_error }.digits();
+        self.eye.to_array().into_iter().map(number).sum()
+    }
+
+    fn camera(&self) -> CameraReading {
+        let clean = |v: DVec3, error: f64| v.to_array().map(|x| shorten(x, error));
+        let turn = self.scale[0].error / self.scale[0].value.abs();
+        CameraReading {
+            eye: clean(self.eye, self.eye_error),
+            gaze: clean(self.gaze, turn),
+            up: clean(self.up, turn),
+            right: clean(self.right, turn),
+        }
+    }
+}
+
+fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
+    values(linear_part(row)).dot(point)
+}
+
+/// Adds the readings as a camera with an orthographic box: rows at right angles.
+pub(super) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let factor = m[3][3];
+    if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
+        return;
+    }
+    let unit = divide_entries(m, factor);
+    let rows = [0, 1, 2].map(|i| linear_part(&unit[i]));
+    let lengths = rows.map(length_of);
+    let square =
+        is_square(rows[0], rows[1]) && is_square(rows[1], rows[2]) && is_square(rows[2], rows[0]);
+    let upright = (0..3).all(|i| (0..3).all(|j| i == j || rows[i][j].is_zero()));
+    if upright || !square || lengths.into_iter().any(Rounded::is_zero) {
+        return;
+    }
+    let axes = [0, 1, 2].map(|i| values(rows[i]) / lengths[i].value);
+    for (convention, rarity) in CONVENTIONS.into_iter().filter(|(c, _)| c.ahead() < 0.0) {
+        let reading = placed_box(&unit, axes, lengths, convention).map(|(meaning, cost)| {
+            let cost = cost + rarity + factor_cost(factor);
+            MatrixReading { meaning, factor: factor.simplest(), cost }
+        });
+        found.extend(reading);
+    }
+}
+
+fn placed_box(
+    unit: &Entries<4>,
+    [right, up, depth]: [DVec3; 3],
+    lengths: [Rounded; 3],
+    convention: Convention,
+) -> Option<(MatrixMeaning, u32)> {
+    let up = up * convention.top();
+    let gaze = -right.cross(up);
+    let forwards = Rounded::exact(depth.dot(gaze).signum()) * lengths[2];
+    let edge = |row: usize, side: f64| {
+        let sign = if row == 1 { convention.top() } else { 1.0 };
+        (Rounded::exact(side) - unit[row][3] * Rounded::exact(sign)) / lengths[row]
+    };
+    let distance = |at: f64| (Rounded::exact(at) - unit[2][3]) / forwards;
+    let window = [edge(0, -1.0), edge(0, 1.0), edge(1, -1.0), edge(1, 1.0)];
+    let planes = [distance(convention.near_depth()), distance(convention.far_depth())];
+    if planes[0].value >= planes[1].value {
+        return None;
+    }
+    let digits: u32 = window.iter().chain(&planes).map(|number| number.digits()).sum();
+    let [l, r, b, t] = window.map(Rounded::simplest);
+    let volume = Orthographic::new(l, r, b, t, planes[0].simplest(), planes[1].simplest()).ok()?;
+    let error = lengths[0].error / lengths[0].value;
+    let clean = |v: DVec3| v.to_array().map(|x| shorten(x, error));
+    let camera =
+        CameraReading { eye: [0.0; 3], gaze: clean(gaze), up: clean(up), right: clean(right) };
+    Some((MatrixMeaning::CameraOrthographic { camera, volume, convention }, 14 + 2 * digits))
+}
+
+/// Adds the reading as a perspective whose near plane is inclined (Lengyel 2005), from the origin.
+pub(super) fn read_oblique_near(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let rows = m.map(|row| row.map(|entry| entry.value));
+    let matrix = DMat4::from_cols_array_2d(&rows).transpose();
+    let named = [Convention::OPENGL, Convention::WEBGPU, Convention::VULKAN, Convention::DIRECT3D];
+    for convention in named {
+        let Ok(found_there) = decompose(matrix, convention) else { continue };
+        let Decomposed::ObliqueNear { placement, slopes, near_plane } = found_there.kind else {
+            continue;
+        };
+        let unplaced = placement.raw().abs_diff_eq(DMat4::IDENTITY, 1e-9);
+        if unplaced && found_there.factor > 0.0 {
+            let meaning = MatrixMeaning::ObliqueNear { slopes, near_plane, convention };
+            found.push(MatrixReading { meaning, factor: found_there.factor, cost: 120 });
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Readings of rigid matrices: rotations, reflections, and cameras with eye, gaze and up (CA-2).
+
+use super::rounded::{Entries, Rounded, divide_entries};
+use super::{MatrixMeaning, MatrixReading, factor_cost};
+use alloc::vec::Vec;
+use glam::{DMat3, DVec3};
+
+/// A camera's matrix from world to view space (CA-2): its position and its axes in the world.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct CameraReading {
+    /// The position of the camera.
+    pub eye: [f64; 3],
+    /// The direction of view, of length 1: −w of the textbook.
+    pub gaze: [f64; 3],
+    /// Up in the picture, of length 1: v of the textbook.
+    pub up: [f64; 3],
+    /// To the right in the picture, of length 1: u of the textbook.
+    pub right: [f64; 3],
+}
+
+/// True if three vectors of length 1 stand at right angles, as far as their rounding tells.
+pub(super) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
+    let dot = |a: [Rounded; 3], b: [Rounded; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let square = |a: usize, b: usize| dot(axes[a], axes[b]).is_within(0.0, 1e-12);
+    square(0, 1) && square(1, 2) && square(2, 0)
+}
+
+/// The rows of a 3×3 matrix, if they have length 1 and stand at right angles; made exactly so.
+pub(super) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
+    let unit = rows.iter().all(|[x, y, z]| {
+        let square = *x * *x + *y * *y + *z * *z;
+        square.is_within(1.0, 1e-12)
+    });
+    if !unit || !is_square_frame(rows) {
+        return None;
+    }
+    let [u, v, w] = rows.map(|row| DVec3::from_array(row.map(|entry| entry.value)));
+    // Gram and Schmidt, so that rounded rows give a rotation again.
+    let u = u / libm::sqrt(u.length_squared());
+    let v = v - u * u.dot(v);
+    let v = v / libm::sqrt(v.length_squared());
+    let turned = u.cross(v);
+    Some([u, v, if turned.dot(w) < 0.0 { -turned } else { turned }])
+}
+
+/// Adds the reading of a rigid matrix: rotation, camera or reflection.
+pub(super) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let factor = m[3][3];
+    if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
+        return;
+    }
+    let unit = divide_entries(m, factor);
+    let linear = [0, 1, 2].map(|i| [unit[i][0], unit[i][1], unit[i][2]]);
+    let offset = [unit[0][3], unit[1][3], unit[2][3]];
+    let Some([u, v, w]) = orthonormal_rows(&linear) else { return };
+    let stays = offset.into_iter().all(Rounded::is_zero);
+    let rotation = DMat3::from_cols(u, v, w).transpose();
+    let turned = u.distance(DVec3::X) > 1e-6 || v.distance(DVec3::Y) > 1e-6;
+    let reading = if w.dot(u.cross(v)) < 0.0 {
+        reflection(&linear, offset)
+    } else if stays && turned {
+        let (axis, angle_degrees) = axis_angle(rotation);
+        Some((MatrixMeaning::Rotation { axis, angle_degrees }, 6))
+    } else if turned {
+        let eye = eye_of(&linear, offset);
+        let cost = 6 + 2 * eye.iter().map(|x| x.digits()).sum::<u32>();
+        let clean = |v: DVec3| v.to_array().map(|x| shorten(x, linear[0][0].error));
+        let camera = CameraReading {
+            eye: eye.map(Rounded::simplest),
+            gaze: clean(-w),
+            up: clean(v),
+            right: clean(u),
+        };
+        Some((MatrixMeaning::Camera(camera), cost))
+    } else {
+        None
+    };
+    found.extend(reading.map(|(meaning, cost)| MatrixReading {
+        meaning,
+        factor: factor.simplest(),
+        cost: cost + factor_cost(factor),
+    }));
+}
+
+/// A component of a unit vector without digits that its rounding does not carry.
+pub(super) fn shorten(value: f64, error: f64) -> f64 {
+    Rounded { value, error: error.max(1e-13) }.simplest()
+}
+
+/// e in R e = −t, by the transpose.
+fn eye_of(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> [Rounded; 3] {
+    [0, 1, 2].map(|j| -(rows[0][j] * offset[0] + rows[1][j] * offset[1] + rows[2][j] * offset[2]))
+}
+
+/// I − 2nnᵀ and a shift along n: the reflection in the plane n·p = distance.
+fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixMeaning, u32)> {
+    let symmetric = (0..3).all(|i| (0..i).all(|j| rows[i][j].equals(rows[j][i])));
+    let trace = rows[0][0] + rows[1][1] + rows[2][2];
+    if !symmetric || !trace.is_within(1.0, 1e-12) {
+        return None;
+    }
+    let half = Rounded::exact(0.5);
+    let squares = [0, 1, 2].map(|i| (Rounded::ONE - rows[i][i]) * half);
+    let largest = (0..3).max_by(|&a, &b| squares[a].value.total_cmp(&squares[b].value))?;
+    let size = squares[largest].sqrt();
+    let normal =
+        [0, 1, 2].map(|i| if i == largest { size } else { -(rows[i][largest] * half) / size });
+    let distance = offset[largest] * half / normal[largest];
+    let along = (0..3).all(|i| {
+        let gap = offset[i] - normal[i] * distance * Rounded::exact(2.0);
+        gap.is_within(0.0, 1e-12)
+    });
+    let axes = normal.into_iter().filter(|n| !n.is_zero()).count() as u32;
+    let cost = 2 + 4 * axes.saturating_sub(1) + 2 * distance.digits();
+    let (normal, distance) = (normal.map(Rounded::simplest), distance.simplest());
+    along.then_some((MatrixMeaning::Reflection { normal, distance }, cost))
+}
+
+/// Axis of length 1 and angle in degrees, 0 to 180, of a rotation (Shoemake 1994, by the largest
+/// component of the quaternion).
+pub(super) fn axis_angle(rotation: DMat3) -> ([f64; 3], f64) {
+    let m = |i: usize, j: usize| rotation.col(j)[i];
+    let trace = m(0, 0) + m(1, 1) + m(2, 2);
+    let skew = DVec3::new(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
+    let sine = 0.5 * libm::sqrt(skew.length_squared());
+    let angle = libm::atan2(sine, 0.5 * (trace - 1.0));
+    let axis = if sine > 1e-4 {
+        skew / (2.0 * sine)
+    } else {
+        // Near 180° the symmetric part holds the axis: (R + I)/2 = nnᵀ.
+        let column = (0..3).max_by(|&a, &b| m(a, a).total_cmp(&m(b, b))).unwrap_or(0);
+        let mut along = rotation.col(column);
+        along[column] += 1.0;
+        let length = libm::sqrt(along.length_squared());
+        if length > 0.0 { along / length } else { DVec3::Z }
+    };
+    let shorter = |x: f64| shorten(x, 1e-12);
+    (axis.to_array().map(shorter), shorten(angle.to_degrees(), 1e-10))
+}

@@ -1,0 +1,208 @@
+//! Numbers with the error that their rounding may have, and how many digits they need.
+//!
+//! A matrix printed with three decimals, stored as f32 or computed in f64 says the same thing with
+//! other precision. The precision is estimated from the entries and carried through sums, products
+//! and quotients to first order, so that near = 0.0999 ± 0.0002 is read as 0.1.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Digits a parameter counts that no short decimal describes.
+const MANY_DIGITS: u32 = 8;
+
+/// A number and the largest error it may have.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Rounded {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+}
+
+/// The entries of a matrix by rows, with their precision.
+pub(crate) type Entries<const N: usize> = [[Rounded; N]; N];
+
+impl Rounded {
+    pub(crate) const ONE: Self = Self::exact(1.0);
+
+    pub(crate) const fn exact(value: f64) -> Self {
+        Self { value, error: 0.0 }
+    }
+
+    /// A function of this number with the given value and derivative.
+    pub(crate) fn mapped(self, value: f64, derivative: f64) -> Self {
+        Self { value, error: self.error * derivative.abs() + 4.0 * f64::EPSILON * value.abs() }
+    }
+
+    /// True if the number may be `expected`.
+    pub(crate) fn is(self, expected: f64) -> bool {
+        self.is_within(expected, 0.0)
+    }
+
+    /// True if the number may be `expected`, with some slack for lengths and angles.
+    pub(crate) fn is_within(self, expected: f64, slack: f64) -> bool {
+        self.error.is_finite() && (self.value - expected).abs() <= self.error + slack
+    }
+
+    /// True if two numbers may be equal.
+    pub(crate) fn equals(self, other: Self) -> bool {
+        (self - other).is(0.0)
+    }
+
+    pub(crate) fn is_zero(self) -> bool {
+        self.is(0.0)
+    }
+
+    /// The square root; 0 below 0.
+    pub(crate) fn sqrt(self) -> Self {
+        let root = libm::sqrt(self.value.max(0.0));
+        self.mapped(root, 0.5 / root.max(f64::MIN_POSITIVE))
+    }
+
+    /// The angle whose tangent this is, in degrees.
+    pub(crate) fn atan_degrees(self) -> Self {
+        let slope = (1.0 / (1.0 + self.value * self.value)).to_degrees();
+        self.mapped(libm::atan(self.value).to_degrees(), slope)
+    }
+
+    /// The shortest decimal within the error; the number itself if none has up to seven digits.
+    pub(crate) fn simplest(self) -> f64 {
+        if self.is_zero() {
+            return 0.0;
+        }
+        let short = (1..MANY_DIGITS).map(|digits| round_to_digits(self.value, digits));
+        let mut short = short.filter(|&decimal| self.is(decimal));
+        short.next().unwrap_or(self.value)
+    }
+
+    /// The significant digits of the shortest decimal within the error, or of the terms of a small
+    /// fraction such as 16/9; 0 for zero, 8 if there is none.
+    pub(crate) fn digits(self) -> u32 {
+        if self.is_zero() || !self.value.is_finite() {
+            return 0;
+        }
+        let found = (1..MANY_DIGITS).find(|&n| self.is(round_to_digits(self.value, n)));
+        let decimal = found.unwrap_or(MANY_DIGITS);
+        if decimal < 3 {
+            return decimal;
+        }
+        let is_fraction = |q: u32| {
+            let above = self * Self::exact(f64::from(q));
+            above.value.abs() < 100.0 && above.is(libm::round(above.value))
+        };
+        if (3..=12).any(is_fraction) { 2 } else { decimal }
+    }
+}
+
+/// The decimal with this many significant digits that is nearest to x.
+fn round_to_digits(x: f64, digits: u32) -> f64 {
+    let exponent = libm::floor(libm::log10(x.abs())) as i32;
+    let decimals = digits as i32 - 1 - exponent;
+    let power = power_of_ten(decimals.unsigned_abs());
+    if decimals >= 0 { libm::round(x * power) / power } else { libm::round(x / power) * power }
+}
+
+fn power_of_ten(exponent: u32) -> f64 {
+    (0..exponent.min(300)).fold(1.0, |power, _| power * 10.0)
+}
+
+/// The entries with the error that their decimals, or f32, or f64 arithmetic leave them.
+///
+/// | entries | error |
+/// | --- | --- |
+/// | 0 and ±1, and all if none has more than two decimals | 0 |
+/// | at most 3 to 12 decimals | 0.6 units of the last one |
+/// | f32 numbers | 2.4e-7 of themselves, 1.2e-7 of the largest |
+/// | others | 1e-14 of themselves, 1e-15 of the largest |
+pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N> {
+    let entries = rows.as_flattened();
+    let largest = entries.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
+    let (relative, absolute) = match (0..=12).find(|&n| entries.iter().all(|&x| has_decimals(x, n)))
+    {
+        Some(0..=2) => (0.0, 0.0),
+        Some(decimals) => (0.0, 0.6 / power_of_ten(decimals)),
+        None if entries.iter().all(|&x| f64::from(x as f32) == x) => (2.4e-7, 1.2e-7 * largest),
+        None => (1e-14, 1e-15 * largest),
+    };
+    rows.map(|row| {
+        row.map(|value| {
+            let whole = value == 0.0 || value.abs() == 1.0;
+            let error = if whole { 0.0 } else { absolute + relative * value.abs() };
+            Rounded { value, error }
+        })
+    })
+}
+
+/// True if x has at most so many decimals.
+fn has_decimals(x: f64, decimals: u32) -> bool {
+    let shifted = x * power_of_ten(decimals);
+    (shifted - libm::round(shifted)).abs() <= 4.0 * f64::EPSILON * shifted.abs()
+}
+
+/// All entries divided by a number.
+pub(crate) fn divide_entries<const N: usize>(entries: &Entries<N>, by: Rounded) -> Entries<N> {
+    entries.map(|row| row.map(|entry| entry / by))
+}
+
+impl Neg for Rounded {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { value: -self.value, ..self }
+    }
+}
+
+impl Add for Rounded {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let value = self.value + other.value;
+        let size = self.value.abs().max(other.value.abs());
+        Self { value, error: self.error + other.error + f64::EPSILON * size }
+    }
+}
+
+impl Sub for Rounded {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Rounded {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        let error = self.error * other.value.abs() + other.error * self.value.abs();
+        Self { value, error: error + f64::EPSILON * value.abs() }
+    }
+}
+
+impl Div for Rounded {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let error = (self.error + value.abs() * other.error) / other.value.abs();
+        Self { value, error: error + f64::EPSILON * value.abs() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_follow_the_precision() {
+        assert_eq!(Rounded { value: 0.0999, error: 2e-4 }.simplest(), 0.1);
+        assert_eq!(Rounded { value: 0.0999, error: 2e-6 }.simplest(), 0.0999);
+        assert_eq!(Rounded::exact(640.0).digits(), 2);
+        let wide = Rounded { value: 16.0 / 9.0, error: 1e-15 };
+        assert_eq!(wide.digits(), 2);
+        assert_eq!(Rounded { value: 1.234_567_89, error: 1e-15 }.digits(), 8);
+    }
+
+    #[test]
+    fn precision_is_estimated_from_the_decimals() {
+        let [[a, b], [c, d]] = measure_entries([[1.732, 0.0], [-1.002, 1.0]]);
+        assert_eq!((a.error, b.error, c.error, d.error), (0.0006, 0.0, 0.0006, 0.0));
+        assert_eq!(measure_entries([[2.5]])[0][0].error, 0.0);
+        assert!(measure_entries([[libm::sqrt(2.0)]])[0][0].error < 1e-13);
+        let single = f64::from(libm::sqrt(2.0) as f32);
+        assert!(measure_entries([[single]])[0][0].error > 1e-7);
+    }
+}

@@ -1,0 +1,237 @@
+//! Known misprints that explain a matrix better than its best reading, or as well.
+//!
+//! Each test undoes one slip and reads what comes out. A slip is assumed only if that reading needs
+//! clearly fewer digits, or the matrix as it stands makes no sense: every misprint is also the right
+//! matrix of something less likely.
+
+use super::rounded::{Entries, Rounded};
+use super::{MatrixMeaning, MatrixReading, is_moderate, readings_of};
+use crate::{Convention, Frustum, Misprint};
+use alloc::vec::Vec;
+use glam::DMat4;
+
+/// How much better a reading must be before a slip is assumed.
+const SLIP: u32 = 6;
+/// The margin below which a misprint is as good a reading as the right matrix, and above which it is
+/// the better one.
+const MARGIN: u32 = 4;
+/// A misprint this much costlier than the best reading is still told.
+const TOLD: u32 = 4;
+
+/// How sure a suspicion is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum SuspicionStrength {
+    /// The matrix as it stands makes no sense, or clearly less than without the slip.
+    Likely,
+    /// The same numbers are also the right matrix of something else, which is as sensible.
+    Equal,
+}
+
+/// A known misprint that a matrix may be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Suspicion {
+    /// The slip.
+    pub misprint: Misprint,
+    /// How sure it is.
+    pub strength: SuspicionStrength,
+    /// The matrix that was probably meant; `None` where the numbers that are missing cannot be had
+    /// back.
+    pub remedied: Option<DMat4>,
+}
+
+/// A slip undone: the cost of the best reading then, and the matrix.
+struct Remedy {
+    misprint: Misprint,
+    cost: u32,
+    remedied: Option<DMat4>,
+}
+
+/// The slips that may be in a matrix with these readings, the surest first.
+pub(super) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
+    if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {
+        return Vec::new();
+    }
+    let Some(best) = readings.first() else { return Vec::new() };
+    let tests: [fn(&Entries<4>, &MatrixReading) -> Option<Remedy>; 9] = [
+        undo_transposition,
+        undo_flat_third_row,
+        undo_bottom_row_one,
+        undo_ortho_offset_sign,
+        undo_half_of_tangent,
+        undo_degrees,
+        tell_moved_apex,
+        tell_frustum_offset_one,
+        tell_repeated_translation,
+    ];
+    let mut remedies: Vec<Remedy> = tests.into_iter().filter_map(|test| test(m, best)).collect();
+    remedies.sort_by_key(|remedy| remedy.cost);
+    let least = remedies.first().map_or(best.cost, |first| first.cost.min(best.cost));
+    remedies.retain(|remedy| remedy.cost <= least + TOLD);
+    let suspicion = |remedy: Remedy| Suspicion {
+        misprint: remedy.misprint,
+        strength: if remedy.cost + MARGIN <= best.cost {
+            SuspicionStrength::Likely
+        } else {
+            SuspicionStrength::Equal
+        },
+        remedied: remedy.remedied,
+    };
+    remedies.into_iter().map(suspicion).collect()
+}
+
+fn matrix_of(m: &Entries<4>) -> DMat4 {
+    DMat4::from_cols_array_2d(&m.map(|row| row.map(|entry| entry.value))).transpose()
+}
+
+/// The best reading of the remedied entries that has a wanted meaning, and what it costs.
+fn remedy(
+    misprint: Misprint,
+    remedied: &Entries<4>,
+    wanted: fn(&MatrixMeaning) -> bool,
+) -> Option<Remedy> {
+    let readings = readings_of(remedied);
+    let named = readings.iter().find(|reading| wanted(&reading.meaning))?;
+    Some(Remedy { misprint, cost: named.cost + SLIP, remedied: Some(matrix_of(remedied)) })
+}
+
+fn is_central(meaning: &MatrixMeaning) -> bool {
+    matches!(meaning, MatrixMeaning::Perspective { .. } | MatrixMeaning::ApexMoved { .. })
+}
+
+/// (24) Rows and columns exchanged: for row vectors, or stored column by column.
+fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let transposed = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| m[j][i]));
+    let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));
+    // (p, q, r, 1) with vanishing points beyond the unit cube is no translation of row vectors.
+    let distant = matches!(best.meaning, MatrixMeaning::NPoint { .. })
+        && m[3][..3].iter().all(|term| term.value.abs() < 1.0);
+    if symmetric || distant {
+        return None;
+    }
+    remedy(Misprint::Transposed, &transposed, MatrixMeaning::is_named)
+}
+
+/// M11: a rigid motion whose z is lost; the third row is the cross product of the first two.
+fn undo_flat_third_row(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
+    let column = (0..3).all(|i| m[i][2].is_zero());
+    if !column || m[2][3].is_zero() || !m[3][3].is(1.0) || !m[3][..3].iter().all(|x| x.is_zero()) {
+        return None;
+    }
+    let (a, b) = ([m[0][0], m[1][0], m[2][0]], [m[0][1], m[1][1], m[2][1]]);
+    let cross = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    let mut remedied = *m;
+    for (row, entry) in [cross(1, 2), cross(2, 0), cross(0, 1)].into_iter().enumerate() {
+        remedied[row][2] = if entry.is(1.0) { Rounded::ONE } else { entry };
+    }
+    let rigid = |meaning: &MatrixMeaning| {
+        matches!(meaning, MatrixMeaning::Translation { .. } | MatrixMeaning::Camera(_))
+    };
+    remedy(Misprint::ThirdRowFlat, &remedied, rigid)
+}
+
+/// M14: a bottom row (0, 0, −1, 1) below the depth row of a perspective (Eq7), or below the
+/// identity or a scale of x and y (Eq4, Eq5).
+fn undo_bottom_row_one(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
+    let [x, y, z, w] = m;
+    let opposite = !w[3].is_zero() && (w[2] + w[3]).is_zero();
+    if !opposite || !w[0].is_zero() || !w[1].is_zero() {
+        return None;
+    }
+    let mut remedied = *m;
+    remedied[3][3] = Rounded::exact(0.0);
+    let zeros = [x[1], x[2], x[3], y[0], y[2], y[3], z[0], z[1], z[3]];
+    let bare = zeros.into_iter().all(Rounded::is_zero)
+        && x[0].equals(y[1])
+        && !x[0].is_zero()
+        && z[2].equals(w[3]);
+    if bare {
+        let scale = x[0] / w[3];
+        let cost = SLIP + if scale.is(1.0) { 0 } else { 2 * scale.digits() };
+        let remedied = Some(matrix_of(&remedied));
+        return Some(Remedy { misprint: Misprint::BottomRowOne, cost, remedied });
+    }
+    remedy(Misprint::BottomRowOne, &remedied, is_central)
+}
+
+/// M15: a box ahead of the eye, if the depth offset changes its sign.
+fn undo_ortho_offset_sign(m: &Entries<4>, _: &MatrixReading) -> Option<Remedy> {
+    let mut remedied = *m;
+    remedied[2][3] = -m[2][3];
+    let ahead = |meaning: &MatrixMeaning| match meaning {
+        MatrixMeaning::Orthographic { volume, convention } => {
+            let ordered = 0.0 < volume.near() && volume.near() < volume.far();
+            *convention == Convention::OPENGL && ordered && volume.window().width() > 0.0
+        }
+        _ => false,
+    };
+    if m[2][3].is_zero() {
+        return None;
+    }
+    // Every such box is also one of Direct3D with reversed depth and another far plane.
+    let found = remedy(Misprint::OrthoOffsetSign, &remedied, ahead)?;
+    Some(Remedy { cost: found.cost + 2, ..found })
+}
+
+/// The scales of x and y of a centered perspective, if it is one in every respect.
+fn centered_scales(m: &Entries<4>) -> Option<[Rounded; 2]> {
+    let central = !m[3][2].is_zero() && m[3][3].is_zero();
+    let centered = m[0][2].is_zero() && m[1][2].is_zero() && m[0][3].is_zero();
+    let unit = m[3][2].value.abs() == 1.0;
+    (central && centered && unit).then_some([m[0][0], m[1][1]])
+}
+
+fn with_scale_y(m: &Entries<4>, [x, y]: [Rounded; 2], scale_y: Rounded) -> Entries<4> {
+    let mut changed = *m;
+    changed[0][0] = scale_y * (x / y);
+    changed[1][1] = scale_y;
+    changed
+}
+
+/// M17: 2/tan(fovy) stands for 1/tan(fovy/2).
+fn undo_half_of_tangent(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let [x, y] = centered_scales(m).filter(|_| is_central(&best.meaning))?;
+    let tangent = Rounded::exact(2.0) / y;
+    // tan(θ/2) = (√(1 + tan²θ) − 1)/tan θ
+    let root = (Rounded::ONE + tangent * tangent).sqrt();
+    let scale = tangent / (root - Rounded::ONE);
+    remedy(Misprint::HalfOfTangent, &with_scale_y(m, [x, y], scale), is_central)
+}
+
+/// M19: a scale that a multiple of five degrees gives when taken for radians.
+fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let [x, y] = centered_scales(m).filter(|_| best.meaning.is_named())?;
+    let degrees = (2..=34_u32).map(|fives| f64::from(fives * 5)).find(|degrees| {
+        let half = libm::tan(0.5 * degrees);
+        let product = y * Rounded::exact(half);
+        (product.value - 1.0).abs() <= product.error + 1e-12
+    })?;
+    let scale = Rounded::exact(1.0 / libm::tan(0.5 * degrees.to_radians()));
+    let scale = Rounded { error: 4.0 * f64::EPSILON * scale.value, ..scale };
+    remedy(Misprint::Degrees, &with_scale_y(m, [x, y], scale), is_central)
+}
+
+/// M12: not glFrustum with the same parameters.
+fn tell_moved_apex(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let MatrixMeaning::ApexMoved { frustum, convention } = best.meaning else { return None };
+    let through = Frustum::from_window(frustum.window(), frustum.near(), frustum.far()).ok()?;
+    let remedied = Some(through.view_to_clip(convention).raw());
+    Some(Remedy { misprint: Misprint::ApexMoved, cost: best.cost, remedied })
+}
+
+/// M16: a window that begins exactly at x = 0, but neither begins nor ends at y = 0.
+fn tell_frustum_offset_one(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let MatrixMeaning::Perspective { frustum, .. } = best.meaning else { return None };
+    let w = frustum.window();
+    let aside = w.bottom() != 0.0 && w.top() != 0.0 && w.bottom() != -w.top();
+    let told = w.left() == 0.0 && aside;
+    let misprint = Misprint::FrustumOffsetOne;
+    told.then_some(Remedy { misprint, cost: best.cost, remedied: None })
+}
+
+/// M6: t_y stands in the place of t_z.
+fn tell_repeated_translation(_: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let MatrixMeaning::Translation { by: [x, y, z] } = best.meaning else { return None };
+    let told = y == z && y != 0.0 && x != y && x != 0.0;
+    let misprint = Misprint::RepeatedTranslation;
+    told.then_some(Remedy { misprint, cost: best.cost, remedied: None })
+}
