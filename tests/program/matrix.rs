@@ -71,7 +71,7 @@ fn the_sources_own_matrices_are_no_misprints() {
     for (numbers, verdict) in [
         ("-2 0 0 0 0 -2 0 0 0 0 -8 -12 0 0 1 0", "It is the textbook's P: n = -2, f = -6."),
         (
-            "-1 0 -.5 0 0 -4/3 1/3 0 0 0 -2 6 0 0 1 0",
+            "-1 0 -.5 0 0 -4/3 1/3 0 0 0 -2 -6 0 0 1 0",
             "in the convention of the textbook (near +1, far −1), times -1",
         ),
         ("1 0 0 0 0 1 0 0 0 0 0 0 0 0 -0.2 1", "one-point perspective, onto the plane z = 0"),
@@ -106,9 +106,24 @@ fn row_vectors_and_the_lessons_slip_are_named_by_their_cause() {
 fn angles_and_the_inverse_are_printed_with_the_digits_that_matter() {
     let sandbox = Sandbox::new("matrix_angles");
     let run = sandbox.run(&words("0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -0.2002 0 0 -1 0"));
-    for line in ["vertical field of view, degrees           60\n", "Its inverse", "near 0.1, far 100"] {
+    for line in
+        ["vertical field of view, degrees           60\n", "Its inverse", "near 0.1, far 100"]
+    {
         assert!(run.stdout.contains(line), "{line}: {}", run.stdout);
     }
+}
+
+#[test]
+fn flags_may_stand_behind_numbers_that_begin_with_a_minus_sign() {
+    let sandbox = Sandbox::new("matrix_flags_behind");
+    let numbers = "-2 0 0 0 0 -2 0 0 0 0 -8 -12 0 0 1 0";
+    let before = sandbox.run(&[&["matrix", "--json"], &words(numbers)[1..]].concat());
+    let behind = sandbox.run(&[&words(numbers)[..], &["--json"]].concat());
+    assert_eq!((before.code, &before.stdout), (0, &behind.stdout));
+    let code = sandbox.run(&[&words(numbers)[..], &["--code", "c"]].concat());
+    assert!(code.stdout.starts_with("const double matrix[16] = {"), "{}", code.stdout);
+    let wrong = sandbox.run(&[&words(numbers)[..], &["--jsn"]].concat());
+    assert_eq!((wrong.code, wrong.stdout.as_str()), (2, ""));
 }
 
 #[test]
@@ -173,7 +188,10 @@ fn refused_parameters_are_named() {
     let sandbox = Sandbox::new("matrix_parameters");
     for (flags, reason) in [
         (["--frustum", "1,2,3"], "--frustum takes 6 numbers, found 3"),
-        (["--perspective", "60,1,2,1"], "`far` (1) must lie beyond `near` (2) along the line of sight"),
+        (
+            ["--perspective", "60,1,2,1"],
+            "`far` (1) must lie beyond `near` (2) along the line of sight",
+        ),
         (["--n-point", "0,0,0"], "p, q and r are all 0: that is a parallel projection"),
     ] {
         let run = sandbox.run(&[&["matrix"], &flags[..]].concat());

@@ -81,7 +81,7 @@ pub(crate) enum Command {
     Info(Deferred<InfoArgs>),
     /// Validate a scene or a model and print every error with its location and a fix
     Check(Deferred<CheckArgs>),
-    /// Classify a 4x4 matrix: transform, projection, convention, or a known misprint
+    /// Print the meaning of a 4x4 or 3x3 matrix, or build a matrix from parameters
     Matrix(Deferred<MatrixArgs>),
     /// Print every stage of the pipeline for a point, a segment, a pixel, a vertex or a triangle
     Explain(Deferred<ExplainArgs>),

@@ -9,6 +9,7 @@ mod code;
 
 use super::{CliError, print_stdout};
 use build::{BuildArgs, BuildOptions, BuiltMatrix};
+use clap::{Args as _, FromArgMatches as _};
 use code::CodeLanguage;
 use glam::DMat4;
 use pipeline::explain::{
@@ -57,6 +58,30 @@ pub(crate) struct MatrixArgs {
 /// If there are neither sixteen nor nine numbers, one of them is not finite, or a parameter is
 /// refused.
 pub(crate) fn run(args: &MatrixArgs) -> Result<(), CliError> {
+    match flags_after_numbers(&args.numbers) {
+        Some(reordered) => run_ordered(&reordered),
+        None => run_ordered(args),
+    }
+}
+
+/// The arguments again with the flags first, if one stands behind a number.
+///
+/// Numbers may begin with a minus sign, so everything behind the first one is taken for a number.
+fn flags_after_numbers(words: &[String]) -> Option<MatrixArgs> {
+    let first = words.iter().position(|word| word.starts_with("--"))?;
+    let (numbers, flags) = words.split_at(first);
+    let command = MatrixArgs::augment_args(clap::Command::new("alberti matrix"));
+    let reordered = ["matrix".to_owned()].into_iter().chain(flags.iter().chain(numbers).cloned());
+    let matches = command.try_get_matches_from(reordered);
+    let parsed = matches.and_then(|matches| MatrixArgs::from_arg_matches(&matches));
+    match parsed {
+        Ok(args) if !args.numbers.iter().any(|word| word.starts_with("--")) => Some(args),
+        Ok(_) => None,
+        Err(error) => error.exit(),
+    }
+}
+
+fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
     let options = BuildOptions {
         conventions: args.conventions,
         reversed: args.reversed,

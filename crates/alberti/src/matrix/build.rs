@@ -144,6 +144,16 @@ fn built(subject: String, formula: &'static str, matrix: DMat4) -> BuiltMatrix {
     BuiltMatrix { subject, formula, matrix, factors: Vec::new() }
 }
 
+/// The matrix with 0 for entries of its rotation that are rounding: below 1e-15 of a row of length 1.
+fn without_rounding(matrix: DMat4) -> DMat4 {
+    let clean = |column: glam::DVec4| {
+        let kept = column.to_array().map(|entry| if entry.abs() < 1e-15 { 0.0 } else { entry });
+        glam::DVec4::from_array(kept)
+    };
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(clean);
+    DMat4::from_cols(x, y, z, matrix.w_axis)
+}
+
 fn perspective_of(subject: String, frustum: Frustum, options: BuildOptions) -> BuiltMatrix {
     let factors = frustum.factors(options.volume());
     let matrix = frustum.view_to_clip(options.volume()).raw();
@@ -284,7 +294,7 @@ fn build_look_at(list: &NumberList, options: BuildOptions) -> Built {
         ("translation, the eye to the origin", DMat4::from_translation(-eye.raw())),
         ("rotation, u v w to the axes", turn * rotation),
     ];
-    Ok(BuiltMatrix { factors, ..built(subject, "CA-1, CA-2", turn * view) })
+    Ok(BuiltMatrix { factors, ..built(subject, "CA-1, CA-2", without_rounding(turn * view)) })
 }
 
 fn build_viewport(list: &NumberList, options: BuildOptions) -> Built {

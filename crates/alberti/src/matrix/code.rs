@@ -2,8 +2,8 @@
 //!
 //! | language | order | form |
 //! | --- | --- | --- |
-//! | C, GLSL, Rust | column by column, as OpenGL, glTF and glam store them | array, `mat4`, `[[f64; 4]; 4]` |
-//! | Python, LaTeX | row by row | list of lists, `bmatrix` |
+//! | C, GLSL, Rust | by columns, as OpenGL, glTF and glam | array, `mat4`, `[[f64; 4]; 4]` |
+//! | Python, LaTeX | by rows | list of lists, `bmatrix` |
 //!
 //! Numbers have the fewest digits that give the same f64.
 

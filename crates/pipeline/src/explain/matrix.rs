@@ -15,10 +15,13 @@ use super::plain_text::format_number;
 use super::{Explanation, Step};
 use homog::{Clip, HPointKind, Projective, View};
 use meaning::{describe_meaning, meaning_steps};
-use projection::{Recognition, Suspicion, SuspicionStrength, recognize};
+use projection::{MatrixReading, Recognition, Suspicion, SuspicionStrength, recognize};
 
 /// How many readings are told beside the first.
 const OTHER_READINGS: usize = 5;
+
+/// The greatest cost of a reading beside the first: four digits and a rare convention more.
+const LESS_LIKELY: u32 = 10;
 
 /// Explains a 4×4 matrix for column vectors.
 ///
@@ -133,7 +136,9 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
 /// The readings beside the first, those as sensible as it before the others.
 fn other_readings_step(found: &Recognition) -> Option<Step> {
     let equal = found.equal_readings().count();
-    let named = found.readings.iter().skip(1).filter(|reading| reading.meaning.is_named());
+    let most = found.first().cost + LESS_LIKELY;
+    let told = |reading: &&MatrixReading| reading.meaning.is_named() && reading.cost <= most;
+    let named = found.readings.iter().skip(1).filter(told);
     let others: Vec<_> = named.take(OTHER_READINGS).collect();
     if others.is_empty() {
         return None;

@@ -69,8 +69,11 @@ fn read_diagonal(
     }
     let kept = |factor: Rounded| if factor.is(1.0) { 0 } else { factor.digits() };
     let digits: u32 = scale.into_iter().map(kept).sum::<u32>() + total_digits(&offset);
+    // A view volume would map z as well.
+    let planar = scale[2].is(1.0) && offset[2].is_zero();
+    let base = if planar { 4 } else { 6 };
     let (scale, offset) = (scale.map(Rounded::simplest), offset.map(Rounded::simplest));
-    push(MatrixMeaning::Windowing { scale, offset }, 6 + 2 * digits + mirrored);
+    push(MatrixMeaning::Windowing { scale, offset }, base + 2 * digits + mirrored);
 }
 
 /// Translation, rotation and scale of the axes: columns at right angles, not all of length 1.

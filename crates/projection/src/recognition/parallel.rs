@@ -38,7 +38,8 @@ fn box_rarity(convention: Convention, rarity: u32) -> u32 {
 fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = unit;
     let (ahead, top) = (Rounded::exact(convention.ahead()), Rounded::exact(convention.top()));
-    let mut cost = 2;
+    // A volume maps z as well; what leaves z alone is a map of the plane.
+    let mut cost = if z[2].is(1.0) && z[3].is_zero() { MIRRORED } else { 2 };
     let mut edges = |scale: Rounded, offset: Rounded| {
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
         [(-Rounded::ONE - offset) / scale, (Rounded::ONE - offset) / scale]

@@ -58,7 +58,13 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         (window[2 * axis], window[2 * axis + 1]) = (edge(-Rounded::ONE), edge(Rounded::ONE));
         cost += if scale.value < 0.0 { MIRRORED } else { 0 };
     }
-    let lens = lens_digits(window, near, y[1] * top, x[0]);
+    // By the window, or by the apex and the window around it.
+    let [around_x, around_y] = apex;
+    let [l, r, b, t] = window;
+    let centered = [l - around_x, r - around_x, b - around_y, t - around_y];
+    let by_apex = around_x.digits() + around_y.digits();
+    let lens = (by_apex + lens_digits(centered, near, y[1] * top, x[0]))
+        .min(window.into_iter().map(Rounded::digits).sum());
     let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
     let meaning = named_frustum(window, near, far, apex, convention)?;
     Some((meaning, cost + 2 * digits))

@@ -103,6 +103,25 @@ fn oblique(random: &mut Random) -> Option<Built> {
     Some((matrix, Expected::Oblique(length, phi, 0.0, kept)))
 }
 
+fn prism(random: &mut Random) -> Option<Built> {
+    let (c, [n, f], w) = (random.pick(&CONVENTIONS), random.near_far(), random.window());
+    let (length, phi) = (random.number(0.1, 2.0), random.number(-179.0, 179.0));
+    let volume = Orthographic::new(w[0], w[1], w[2], w[3], n, f).ok()?;
+    let projection = Oblique::new(length, phi.to_radians()).ok()?;
+    let matrix = projection.view_to_clip(volume, c).raw();
+    Some((matrix, Expected::Prism(c, [length, phi], w, n, f)))
+}
+
+/// Window to viewport.
+fn windowing(random: &mut Random) -> Option<Built> {
+    let [from, to] = [random.window(), random.window()];
+    let scale = [0, 2].map(|i| (to[i + 1] - to[i]) / (from[i + 1] - from[i]));
+    let offset = [0, 1].map(|i| to[2 * i] - scale[i] * from[2 * i]);
+    let (scale, offset) = ([scale[0], scale[1], 1.0], [offset[0], offset[1], 0.0]);
+    let matrix = formulas::product(formulas::translation(offset), formulas::scale(scale));
+    Some((matrix_of(matrix), Expected::Windowing(scale, offset)))
+}
+
 fn n_point(random: &mut Random) -> Option<Built> {
     let terms = [0; 3].map(|_| random.number(-0.9, 0.9));
     let projection = NPoint::new(terms[0], terms[1], terms[2]).ok()?;
@@ -146,13 +165,15 @@ fn matrix_of(rows: Rows) -> DMat4 {
 
 #[test]
 fn ten_thousand_random_matrices_are_read_back() {
-    let builders: [fn(&mut Random) -> Option<Built>; 10] = [
+    let builders: [fn(&mut Random) -> Option<Built>; 12] = [
         perspective,
         frustum,
         ortho,
         moved,
         textbook,
         oblique,
+        prism,
+        windowing,
         n_point,
         look_at,
         viewport,

@@ -23,6 +23,7 @@ fn times(name: &'static str, factor: f64, matrix: Rows, expected: Expected) -> R
 pub(crate) fn rows() -> Vec<Row> {
     let mut all = chapter();
     all.extend(slides_and_lesson());
+    all.extend(point_perspectives());
     all.extend(interfaces());
     all.extend(engines_and_vision());
     all.extend(transforms());
@@ -78,10 +79,6 @@ fn slides_and_lesson() -> Vec<Row> {
     let flat = |x: [f64; 4], y: [f64; 4], z: f64| -> Rows {
         [x, y, [0.0, 0.0, 0.0, z], [0.0, 0.0, 0.0, 1.0]]
     };
-    let n_point = |third: [f64; 4], last: [f64; 4]| -> Rows {
-        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], third, last]
-    };
-    let kept = [0.0, 0.0, 1.0, 0.0];
     let beta = libm::asin(1.0 / libm::sqrt(3.0)).to_degrees();
     let isometric = product(rotation_x(beta), rotation_y(-45.0));
     let mut onto_picture = isometric;
@@ -118,6 +115,16 @@ fn slides_and_lesson() -> Vec<Row> {
             flat([1.0, 0.0, 0.25, -0.75], [0.0, 1.0, 0.5, -1.5], 3.0),
             Expected::Oblique(libm::sqrt(0.3125), libm::atan(2.0).to_degrees(), 3.0, false),
         ),
+    ]
+}
+
+/// The slides' matrices by vanishing points.
+fn point_perspectives() -> Vec<Row> {
+    let n_point = |third: [f64; 4], last: [f64; 4]| -> Rows {
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], third, last]
+    };
+    let kept = [0.0, 0.0, 1.0, 0.0];
+    vec![
         row(
             "one-point, d = 5",
             n_point([0.0; 4], [0.0, 0.0, -0.2, 1.0]),

@@ -17,6 +17,8 @@ pub(crate) enum Expected {
     InverseLens(Convention, f64, f64, f64, f64),
     Moved([f64; 4], f64, f64),
     Box(Convention, [f64; 4], f64, f64),
+    /// Convention; length and φ in degrees; left, right, bottom, top; near, far.
+    Prism(Convention, [f64; 2], [f64; 4], f64, f64),
     /// Length, φ in degrees, plane; with depth kept.
     Oblique(f64, f64, f64, bool),
     /// Eye and gaze.
@@ -121,6 +123,15 @@ fn is_expected_transform(found: &MatrixMeaning, expected: Expected, tolerance: f
         | (MatrixMeaning::ObliqueShear { projection }, Expected::Oblique(l, phi, z, true)) => {
             let angle = projection.phi().to_degrees();
             same(projection.length(), l) && same(angle, phi) && same(projection.plane_z(), z)
+        }
+        (
+            MatrixMeaning::ObliqueVolume { projection, volume, convention },
+            Expected::Prism(c, [length, phi], w, n, f),
+        ) => {
+            let angle = projection.phi().to_degrees();
+            let slant = same(projection.length(), length) && same(angle, phi);
+            let planes = same(volume.near(), n) && same(volume.far(), f);
+            c == convention && slant && all_near(edges(volume.window()), w, tolerance) && planes
         }
         (MatrixMeaning::Camera(camera), Expected::Camera(eye, gaze)) => {
             all_near(camera.eye, eye, tolerance) && all_near(camera.gaze, gaze, tolerance)

@@ -22,7 +22,11 @@ pub(super) fn describe_meaning(reading: &MatrixReading) -> String {
         }
         factor => format!(", all times {}", format_number(factor)),
     };
-    describe_view(meaning).unwrap_or_else(|| describe_transform(meaning)) + &convention + &factor
+    describe_view(meaning)
+        .or_else(|| describe_classical(meaning))
+        .unwrap_or_else(|| describe_transform(meaning))
+        + &convention
+        + &factor
 }
 
 /// Whether w is the distance ahead of the eye.
@@ -56,7 +60,7 @@ fn oblique_words(oblique: &Oblique) -> String {
     format!("length {length}, angle {phi}° (what recedes is drawn towards {recedes}°)")
 }
 
-/// Projections and view volumes; `None` for other maps.
+/// View volumes, also behind a camera; `None` for other maps.
 fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::Perspective { frustum: f, .. } => {
@@ -82,6 +86,25 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
                 depth_words(o.near(), o.far())
             )
         }
+        MatrixMeaning::CameraPerspective { camera, frustum: f, .. } => {
+            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
+            format!(
+                "a camera and a perspective in one: {}, {window}, {depth}",
+                camera_words(camera)
+            )
+        }
+        MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
+            let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
+            let gaze = list(camera.gaze);
+            format!("a camera and an orthographic box in one: gaze {gaze}, {window}, {depth}")
+        }
+        _ => return None,
+    })
+}
+
+/// Classical projections; `None` for other maps.
+fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
+    Some(match meaning {
         MatrixMeaning::ObliqueVolume { projection, volume: o, .. } => {
             let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
             format!("an oblique volume: {}, {window}, {depth}", oblique_words(projection))
@@ -119,18 +142,6 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
             let class = projection::Classical::NPoint(*projection).class();
             let kept = if *onto_plane { "onto the plane z = 0" } else { "depth kept" };
             format!("{}, {kept}: (p, q, r) = {}", class.name(), list(projection.bottom_row()))
-        }
-        MatrixMeaning::CameraPerspective { camera, frustum: f, .. } => {
-            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
-            format!(
-                "a camera and a perspective in one: {}, {window}, {depth}",
-                camera_words(camera)
-            )
-        }
-        MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
-            let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
-            let gaze = list(camera.gaze);
-            format!("a camera and an orthographic box in one: gaze {gaze}, {window}, {depth}")
         }
         _ => return None,
     })
