@@ -123,7 +123,8 @@ fn flags_may_stand_behind_numbers_that_begin_with_a_minus_sign() {
     let code = sandbox.run(&[&words(numbers)[..], &["--code", "c"]].concat());
     assert!(code.stdout.starts_with("const double matrix[16] = {"), "{}", code.stdout);
     let wrong = sandbox.run(&[&words(numbers)[..], &["--jsn"]].concat());
-    assert_eq!((wrong.code, wrong.stdout.as_str()), (2, ""));
+    assert_eq!((wrong.code, wrong.stdout.as_str()), (1, ""));
+    assert_eq!(wrong.stderr, "error: `--jsn` is not a number\n");
 }
 
 #[test]

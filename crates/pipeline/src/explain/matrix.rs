@@ -15,7 +15,9 @@ use super::plain_text::format_number;
 use super::{Explanation, Step};
 use homog::{Clip, HPointKind, Projective, View};
 use meaning::{describe_meaning, meaning_steps};
-use projection::{MatrixReading, Recognition, Suspicion, SuspicionStrength, recognize};
+use projection::{
+    MatrixMeaning, MatrixReading, Recognition, Suspicion, SuspicionStrength, recognize,
+};
 
 /// How many readings are told beside the first.
 const OTHER_READINGS: usize = 5;
@@ -35,7 +37,7 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     let map = Projective::<View, Clip>::from_rows(rows);
     let found = recognize(map.raw());
     let mut steps = vec![kind_step(rows, map), inverse_step(map)];
-    steps.extend(affine_step(map));
+    steps.extend(affine_step(map, &found.first().meaning));
     steps.push(vanishing_points_step(map));
     steps.extend(meaning_steps(&found.first()));
     steps.extend(other_readings_step(&found));
@@ -88,12 +90,16 @@ fn kind_step(rows: [[f64; 4]; 4], map: Projective<View, Clip>) -> Step {
 ///  handedness  sign of (a₁ × a₂) · a₃
 /// ```
 /// The tolerance is relative to the lengths, so that scales of 1e-6 do not hide a shear.
-fn affine_step(map: Projective<View, Clip>) -> Option<Step> {
+fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<Step> {
     let matrix = map.to_affine()?.raw();
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let lengths = axes.map(glam::DVec3::length);
     let slant = |a: usize, b: usize| axes[a].dot(axes[b]).abs() > 1e-9 * lengths[a] * lengths[b];
-    let angles = if slant(0, 1) || slant(1, 2) || slant(2, 0) {
+    let rigid = matches!(meaning, MatrixMeaning::Camera(_) | MatrixMeaning::Rotation { .. });
+    let slanted = slant(0, 1) || slant(1, 2) || slant(2, 0);
+    let angles = if slanted && rigid {
+        "the axes stay at right angles but for the rounding of the entries: a rotation"
+    } else if slanted {
         "the axes do not stay at right angles: there is a shear"
     } else {
         "the axes stay at right angles: a rotation and scales"
@@ -159,9 +165,7 @@ fn misprint_step(at: usize, slip: &Suspicion) -> Step {
     let title = match slip.strength {
         SuspicionStrength::Likely => format!("It looks like a known misprint ({known})"),
         SuspicionStrength::Equal => {
-            format!(
-                "As well as right, it may be a known misprint ({known}): the numbers are the same"
-            )
+            format!("It may also be a known misprint ({known}): the numbers are the same")
         }
     };
     let step = Step::new(if at == 0 { "misprint" } else { "other_misprint" }, title, None)
