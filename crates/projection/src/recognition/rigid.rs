@@ -21,15 +21,21 @@ pub struct CameraReading {
 /// True if three vectors of length 1 stand at right angles, as far as their rounding tells.
 pub(super) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     let dot = |a: [Rounded; 3], b: [Rounded; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let square = |a: usize, b: usize| dot(axes[a], axes[b]).is_within(0.0, 1e-12);
+    let slack = 1e-12 + largest_error(axes);
+    let square = |a: usize, b: usize| dot(axes[a], axes[b]).is_within(0.0, slack);
     square(0, 1) && square(1, 2) && square(2, 0)
+}
+
+/// The largest error of an entry: ±1 may be rounded, too.
+fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
+    rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
 /// The rows of a 3×3 matrix, if they have length 1 and stand at right angles; made exactly so.
 pub(super) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {
         let square = *x * *x + *y * *y + *z * *z;
-        square.is_within(1.0, 1e-12)
+        square.is_within(1.0, 1e-12 + largest_error(rows))
     });
     if !unit || !is_square_frame(rows) {
         return None;

@@ -14,9 +14,11 @@ fn first(rows: Rows3) -> PlanarReading {
 }
 
 fn plane(rows: Rows3) -> MatrixMeaning {
-    match first(rows).meaning {
+    let found = first(rows).meaning;
+    assert!(matches!(found, PlanarMatrix::Plane(_)), "{found:?}");
+    match found {
         PlanarMatrix::Plane(meaning) => meaning,
-        other => panic!("{other:?}"),
+        _ => MatrixMeaning::Projective,
     }
 }
 

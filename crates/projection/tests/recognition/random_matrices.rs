@@ -163,26 +163,28 @@ fn matrix_of(rows: Rows) -> DMat4 {
     DMat4::from_cols_array_2d(&rows).transpose()
 }
 
+/// Everything that is built from parameters.
+const BUILDERS: [fn(&mut Random) -> Option<Built>; 12] = [
+    perspective,
+    frustum,
+    ortho,
+    moved,
+    textbook,
+    oblique,
+    prism,
+    windowing,
+    n_point,
+    look_at,
+    viewport,
+    transform,
+];
+
 #[test]
 fn ten_thousand_random_matrices_are_read_back() {
-    let builders: [fn(&mut Random) -> Option<Built>; 12] = [
-        perspective,
-        frustum,
-        ortho,
-        moved,
-        textbook,
-        oblique,
-        prism,
-        windowing,
-        n_point,
-        look_at,
-        viewport,
-        transform,
-    ];
     let mut random = Random(17);
     let (mut first, mut equal, mut lost, mut called) = (0, 0, Vec::new(), Vec::new());
     for count in 0..10_000 {
-        let (matrix, expected) = builders[count % builders.len()](&mut random).expect("valid");
+        let (matrix, expected) = BUILDERS[count % BUILDERS.len()](&mut random).expect("valid");
         let found = recognize(matrix);
         let right = |meaning: &MatrixMeaning| is_expected(meaning, &expected, 1e-6);
         if right(&found.first().meaning) {
@@ -199,4 +201,28 @@ fn ten_thousand_random_matrices_are_read_back() {
     println!("{first} first, {equal} among the first six");
     assert_eq!((lost.first(), called.first()), (None, None), "{} and {}", lost.len(), called.len());
     assert!(first > 9_500, "{first} are the first reading, {equal} are told beside it");
+}
+
+#[test]
+fn rounded_matrices_are_not_called_misprints() {
+    let mut random = Random(4);
+    let mut called = Vec::new();
+    for count in 0..10_000 {
+        let (matrix, expected) = BUILDERS[count % BUILDERS.len()](&mut random).expect("valid");
+        let rows = matrix.transpose().to_cols_array_2d();
+        for printed in
+            [formulas::rounded(rows, 3), formulas::rounded(rows, 4), formulas::single(rows)]
+        {
+            let found = recognize(matrix_of(printed));
+            if let Some(misprint) = found.misprint() {
+                called.push(format!("{expected:?} is called {:?}: {printed:?}", misprint.misprint));
+            }
+        }
+    }
+    assert!(
+        called.is_empty(),
+        "{} of 30,000, such as\n{}",
+        called.len(),
+        called[..called.len().min(9)].join("\n")
+    );
 }

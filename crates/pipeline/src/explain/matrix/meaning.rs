@@ -4,8 +4,8 @@ use super::super::Step;
 use super::super::conventions::volume_name;
 use super::super::plain_text::format_number;
 use projection::{
-    CameraReading, Convention, Lens, MatrixMeaning, MatrixReading, Oblique, PrincipalPlane,
-    ViewportReading, Window,
+    CameraReading, Classical, Convention, Lens, MatrixMeaning, MatrixReading, Oblique,
+    PrincipalPlane, ViewportReading, Window,
 };
 
 /// A reading in one sentence without its full stop: meaning, parameters, convention and factor.
@@ -132,16 +132,20 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
             format!("an orthographic projection onto the plane {axis} = 0")
         }
         MatrixMeaning::AxonometricOntoPlane { projection } => {
-            let name = projection::Classical::Axonometric(*projection).class().name();
+            let name = Classical::Axonometric(*projection).class().name();
             format!(
-                "{name} onto the picture plane: foreshortening {}",
+                "an axonometric projection ({name}) onto the picture plane, foreshortening {}",
                 list(projection.foreshortening())
             )
         }
         MatrixMeaning::NPoint { projection, onto_plane } => {
-            let class = projection::Classical::NPoint(*projection).class();
+            let class = Classical::NPoint(*projection).class();
             let kept = if *onto_plane { "onto the plane z = 0" } else { "depth kept" };
-            format!("{}, {kept}: (p, q, r) = {}", class.name(), list(projection.bottom_row()))
+            format!(
+                "a {} perspective, {kept}: (p, q, r) = {}",
+                class.name(),
+                list(projection.bottom_row())
+            )
         }
         _ => return None,
     })
@@ -256,6 +260,10 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
             add_window(step, volume.window(), [volume.near(), volume.far()])
         }
         MatrixMeaning::Camera(camera) => add_camera(step, camera),
+        MatrixMeaning::NPoint { projection, .. } => match projection.eye().divide() {
+            Some(eye) => step.with_item("eye", "eye", <[f64; 3]>::from(eye)),
+            None => step,
+        },
         MatrixMeaning::ChapterP { n, f } | MatrixMeaning::ChapterPInverse { n, f } => {
             step.with_item("n", "n", *n).with_item("f", "f", *f)
         }
