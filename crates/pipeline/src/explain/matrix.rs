@@ -156,15 +156,21 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     }))
 }
 
-/// A known misprint that the matrix resembles, with the correction.
+/// A known misprint that the matrix resembles, with the correction and what it then is.
 ///
 /// The corrected matrix is shown only where the sixteen entries determine it. The first misprint
 /// has the id `misprint`, further ones `other_misprint`.
 fn misprint_step(at: usize, slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
-    let title = match slip.strength {
-        SuspicionStrength::Likely => format!("It looks like a known misprint ({known})"),
-        SuspicionStrength::Equal => {
+    let title = match (slip.misprint, slip.strength) {
+        (Misprint::Transposed, SuspicionStrength::Likely) => {
+            "It looks like a matrix for row vectors, or stored column by column".to_owned()
+        }
+        (Misprint::Transposed, SuspicionStrength::Equal) => {
+            "It may also be a matrix for row vectors: the numbers are the same".to_owned()
+        }
+        (_, SuspicionStrength::Likely) => format!("It looks like a known misprint ({known})"),
+        (_, SuspicionStrength::Equal) => {
             format!("It may also be a known misprint ({known}): the numbers are the same")
         }
     };
@@ -172,9 +178,13 @@ fn misprint_step(at: usize, slip: &Suspicion) -> Step {
         .with_item("finding", "finding", slip.misprint.description())
         .with_item("remedy", "remedy", slip.misprint.remedy());
     match slip.remedied {
-        Some(remedied) => {
-            step.with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
-        }
+        Some(remedied) => step
+            .with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
+            .with_item(
+                "remedied_reading",
+                "which is",
+                describe_meaning(&recognize(remedied).first()),
+            ),
         None => step,
     }
 }
@@ -187,10 +197,21 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
     } else {
         format!("It is {}, and no transform or projection that has a name.", map.classify())
     };
+    let turned = |slip: &Suspicion| {
+        let transposed = slip.remedied.map(|matrix| recognize(matrix).first());
+        transposed.map_or(String::new(), |reading| describe_meaning(&reading))
+    };
     if let Some(slip) = found.misprint() {
-        return format!("{what} But it looks like a misprint: {}.", slip.misprint.description());
+        return if slip.misprint == Misprint::Transposed {
+            format!("{what} For row vectors it is more sensible: {}.", turned(slip))
+        } else {
+            format!("{what} But it looks like a misprint: {}.", slip.misprint.description())
+        };
     }
     match found.suspicions.first() {
+        Some(slip) if slip.misprint == Misprint::Transposed => {
+            format!("{what} For row vectors the same numbers are {}.", turned(slip))
+        }
         Some(slip) => {
             let id = slip.misprint.id().map_or(String::new(), |id| format!(" ({id})"));
             format!(

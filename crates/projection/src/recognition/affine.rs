@@ -67,8 +67,13 @@ fn read_diagonal(
         push(MatrixMeaning::Scale { factors }, 1 + 2 * digits + 2 * mirrored);
         return;
     }
-    let kept = |factor: Rounded| if factor.is(1.0) { 0 } else { factor.digits() };
-    let digits: u32 = scale.into_iter().map(kept).sum::<u32>() + total_digits(&offset);
+    // What all axes have in common counts once.
+    let different = |numbers: &[Rounded; 3]| -> u32 {
+        let repeated = |at: usize| numbers[..at].iter().any(|earlier| earlier.equals(numbers[at]));
+        let new = (0..3).filter(|&at| !repeated(at) && !numbers[at].is(1.0));
+        new.map(|at| numbers[at].digits()).sum()
+    };
+    let digits = different(&scale) + different(&offset);
     // A view volume would map z as well.
     let planar = scale[2].is(1.0) && offset[2].is_zero();
     let base = if planar { 4 } else { 6 };

@@ -56,6 +56,8 @@ pub enum MatrixMeaning {
         axis: [f64; 3],
         /// 0 to 180, counterclockwise seen against the axis.
         angle_degrees: f64,
+        /// The camera at the origin that it is, if it is one.
+        camera: CameraReading,
     },
     /// The camera transform M_cam: rotation and translation (CA-2).
     Camera(CameraReading),

@@ -62,21 +62,21 @@ pub(super) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let stays = offset.into_iter().all(Rounded::is_zero);
     let rotation = DMat3::from_cols(u, v, w).transpose();
     let turned = u.distance(DVec3::X) > 1e-6 || v.distance(DVec3::Y) > 1e-6;
+    let eye = eye_of(&linear, offset);
+    let clean = |v: DVec3| v.to_array().map(|x| shorten(x, largest_error(&linear)));
+    let camera = CameraReading {
+        eye: eye.map(Rounded::simplest),
+        gaze: clean(-w),
+        up: clean(v),
+        right: clean(u),
+    };
     let reading = if w.dot(u.cross(v)) < 0.0 {
         reflection(&linear, offset)
     } else if stays && turned {
         let (axis, angle_degrees) = axis_angle(rotation);
-        Some((MatrixMeaning::Rotation { axis, angle_degrees }, 6))
+        Some((MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6))
     } else if turned {
-        let eye = eye_of(&linear, offset);
         let cost = 6 + 2 * eye.iter().map(|x| x.digits()).sum::<u32>();
-        let clean = |v: DVec3| v.to_array().map(|x| shorten(x, linear[0][0].error));
-        let camera = CameraReading {
-            eye: eye.map(Rounded::simplest),
-            gaze: clean(-w),
-            up: clean(v),
-            right: clean(u),
-        };
         Some((MatrixMeaning::Camera(camera), cost))
     } else {
         None

@@ -93,7 +93,8 @@ pub(super) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> 
         return None;
     }
     let same = if fx.equals(fy) { 0 } else { fy.digits() };
-    let digits = fx.digits() + same + cx.digits() + cy.digits() + skew.digits();
+    let square = if cx.equals(cy) { 0 } else { cy.digits() };
+    let digits = fx.digits() + same + cx.digits() + square + skew.digits();
     let [fx, fy, cx, cy, skew] = [fx, fy, cx, cy, skew].map(Rounded::simplest);
     Some((IntrinsicsReading { fx, fy, cx, cy, skew }, 3 + 2 * digits))
 }

@@ -157,7 +157,7 @@ fn is_expected_transform(found: &MatrixMeaning, expected: Expected, tolerance: f
         (MatrixMeaning::Reflection { normal, distance }, Expected::Reflection(n, d)) => {
             all_near(normal, n, tolerance) && same(distance, d)
         }
-        (MatrixMeaning::Rotation { axis, angle_degrees }, Expected::Rotation(a, angle)) => {
+        (MatrixMeaning::Rotation { axis, angle_degrees, .. }, Expected::Rotation(a, angle)) => {
             all_near(axis, a, tolerance) && same(angle_degrees, angle)
         }
         (MatrixMeaning::Shear { linear, .. }, Expected::Shear(expected)) => {

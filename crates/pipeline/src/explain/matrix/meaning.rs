@@ -180,7 +180,7 @@ fn describe_transform(meaning: &MatrixMeaning) -> String {
             let (normal, distance) = (list(*normal), format_number(*distance));
             format!("a reflection in the plane with normal {normal} at distance {distance}")
         }
-        MatrixMeaning::Rotation { axis, angle_degrees } => {
+        MatrixMeaning::Rotation { axis, angle_degrees, .. } => {
             format!("a rotation by {}° about {}", format_number(*angle_degrees), list(*axis))
         }
         MatrixMeaning::Camera(camera) => format!("a camera transform: {}", camera_words(camera)),
@@ -259,7 +259,9 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
             let step = step.with_item("gaze", "gaze", camera.gaze).with_item("up", "up", camera.up);
             add_window(step, volume.window(), [volume.near(), volume.far()])
         }
-        MatrixMeaning::Camera(camera) => add_camera(step, camera),
+        MatrixMeaning::Camera(camera) | MatrixMeaning::Rotation { camera, .. } => {
+            add_camera(step, camera)
+        }
         MatrixMeaning::NPoint { projection, .. } => match projection.eye().divide() {
             Some(eye) => step.with_item("eye", "eye", <[f64; 3]>::from(eye)),
             None => step,
