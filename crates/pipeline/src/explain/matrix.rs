@@ -16,7 +16,7 @@ use super::{Explanation, Step};
 use homog::{Clip, HPointKind, Projective, View};
 use meaning::{describe_meaning, meaning_steps};
 use projection::{
-    MatrixMeaning, MatrixReading, Recognition, Suspicion, SuspicionStrength, recognize,
+    MatrixMeaning, MatrixReading, Misprint, Recognition, Suspicion, SuspicionStrength, recognize,
 };
 
 /// How many readings are told beside the first.
