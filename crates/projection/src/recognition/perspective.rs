@@ -67,7 +67,10 @@ fn frustum_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixM
         .min(window.into_iter().map(Rounded::digits).sum());
     let digits = near.digits() + far.map_or(0, Rounded::digits) + lens;
     let meaning = named_frustum(window, near, far, apex, convention)?;
-    Some((meaning, cost + 2 * digits))
+    // Rounded to a few decimals, near 0.1 of one convention is near 0.05 of another: people choose
+    // powers of ten.
+    let usual = if near.is_power_of_ten() { 0 } else { 2 };
+    Some((meaning, cost + usual + 2 * digits))
 }
 
 /// The frustum, or the lesson's if the apex is not at the origin.

@@ -72,6 +72,14 @@ impl Rounded {
         short.next().unwrap_or(self.value)
     }
 
+    /// True for 0.01, 0.1, 1, 10 and so on, as far as the error tells.
+    pub(crate) fn is_power_of_ten(self) -> bool {
+        let simplest = self.simplest();
+        let exponent = libm::round(libm::log10(simplest.abs())) as i32;
+        let power = power_of_ten(exponent.unsigned_abs());
+        simplest == if exponent < 0 { 1.0 / power } else { power }
+    }
+
     /// The significant digits of the shortest decimal within the error, or of the terms of a small
     /// fraction such as 16/9; 0 for zero, 8 if there is none.
     pub(crate) fn digits(self) -> u32 {

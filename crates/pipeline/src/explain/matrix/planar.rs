@@ -5,7 +5,7 @@ use super::super::{Explanation, ItemValue, Step};
 use super::check_finite;
 use super::meaning::describe_meaning;
 use homog::{HPoint2, Homography};
-use projection::{MatrixReading, PlanarMatrix, PlanarReading, recognize_planar};
+use projection::{MatrixMeaning, MatrixReading, PlanarMatrix, PlanarReading, recognize_planar};
 
 /// How many readings are told beside the first.
 const OTHER_READINGS: usize = 3;
@@ -28,13 +28,13 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
         }
         None => inverse.with_item("none", "none", "a dimension is lost: there is no inverse"),
     };
-    let mut steps = vec![kind, inverse, points_step(map), readings_step(&readings)];
+    let mut steps = vec![kind, inverse, points_step(map), readings_step(&readings, &rows)];
     if transposed {
         let turned = [0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[j][i]));
         let step = Step::new("misprint", "It looks like a matrix for row vectors", None);
         steps.push(step.with_item("remedied", "then", ItemValue::PlanarMatrix(turned)));
     }
-    let first = readings.first().map_or(String::new(), describe_planar);
+    let first = readings.first().map_or(String::new(), |first| describe_planar(first, &rows));
     let verdict = if transposed {
         format!("It is {first}. But it looks like a matrix for row vectors.")
     } else {
@@ -56,16 +56,22 @@ fn points_step(map: Homography) -> Step {
     })
 }
 
-fn readings_step(readings: &[PlanarReading]) -> Step {
+fn readings_step(readings: &[PlanarReading], rows: &[[f64; 3]; 3]) -> Step {
     let step = Step::new("readings", "What it may be, the most sensible reading first", None);
     (0..).zip(readings.iter().take(1 + OTHER_READINGS)).fold(step, |step, (at, reading)| {
         let at: usize = at;
-        step.with_item(at.to_string(), (at + 1).to_string(), describe_planar(reading))
+        step.with_item(at.to_string(), (at + 1).to_string(), describe_planar(reading, rows))
     })
 }
 
-fn describe_planar(reading: &PlanarReading) -> String {
+fn describe_planar(reading: &PlanarReading, rows: &[[f64; 3]; 3]) -> String {
     match reading.meaning {
+        PlanarMatrix::Plane(MatrixMeaning::Camera(camera)) => {
+            let angle = libm::atan2(-camera.right[1], camera.right[0]).to_degrees();
+            let [x, y] = [rows[0][2], rows[1][2]].map(|offset| offset / reading.factor);
+            let [angle, x, y] = [angle, x, y].map(format_number);
+            format!("a rotation by {angle}°, then a translation by ({x}, {y})")
+        }
         PlanarMatrix::Plane(meaning) => {
             let of_space = MatrixReading { meaning, factor: reading.factor, cost: reading.cost };
             format!("{} (of the plane; z is left alone)", describe_meaning(&of_space))
