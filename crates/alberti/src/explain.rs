@@ -6,15 +6,18 @@
 
 use super::CliError;
 use super::load_options::LoadArgs;
+use super::number_list::{parse_number_list, parse_numbers};
 use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
-use homog::{Point, World};
+use homog::{HPoint, Point, World};
 use model::Model;
 use model::ModelInstance;
 use pipeline::explain::{
-    ApiConventions, Explanation, TransformChain, VertexRef, explain_node, explain_pixel,
-    explain_point, explain_segment, explain_transforms, explain_triangle, explain_vertex,
+    ApiConventions, BareMap, Explanation, TransformChain, VertexRef, explain_homogeneous_point,
+    explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,
+    explain_triangle, explain_vertex,
 };
+use pipeline::scene::Inset;
 use pipeline::{Picture, Scene};
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -28,9 +31,12 @@ const MAX_PAGE_SIDE: f64 = 960.0;
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
     /// Scene (.ron) or model (.gltf, .glb)
-    input: PathBuf,
+    #[arg(required_unless_present_any = ["matrix", "planes"])]
+    input: Option<PathBuf>,
     #[command(flatten)]
     subject: ExplainSubjectArgs,
+    #[command(flatten)]
+    map: BareMapArgs,
     /// API conventions of view space, canonical volume and pixels
     #[arg(long, value_name = "NAME", default_value = "alberti", value_parser = conventions_parser())]
     conventions: ApiConventions,
@@ -49,19 +55,45 @@ pub(crate) struct ExplainArgs {
     load_options: LoadArgs,
 }
 
+/// A single matrix in the place of a scene.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Without a scene")]
+struct BareMapArgs {
+    /// Map --point or --segment by this 4x4 matrix, row by row, instead of a scene's camera
+    #[arg(
+        long,
+        value_name = "NUMBERS",
+        value_parser = parse_numbers::<16>,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["input", "planes", "node", "pixel", "html"]
+    )]
+    matrix: Option<[f64; 16]>,
+    /// Map --point or --segment by the textbook's matrix P of the planes z = N and z = F
+    ///
+    /// Both numbers are z-coordinates, negative ahead of the camera, as in -1,-3.
+    #[arg(
+        long,
+        value_name = "N,F",
+        value_parser = parse_numbers::<2>,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["input", "node", "pixel", "html"]
+    )]
+    planes: Option<[f64; 2]>,
+}
+
 /// The subject of the explanation; without any, the transforms of the pipeline themselves.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Subject")]
 struct ExplainSubjectArgs {
-    /// Point in world space
+    /// Point in world space; with W a homogeneous point, or a direction if W is 0
     #[arg(
         long,
-        value_name = "X,Y,Z",
-        value_parser = parse_numbers::<3>,
+        value_name = "X,Y,Z[,W]",
+        value_parser = parse_point,
         allow_hyphen_values = true,
         conflicts_with_all = ["segment", "node"]
     )]
-    point: Option<[f64; 3]>,
+    point: Option<SubjectPoint>,
     /// Pixel by column and row from the upper left: what is visible, and why it has its color
     #[arg(
         long,
@@ -104,16 +136,43 @@ struct ExplainSubjectArgs {
 /// # Errors
 /// If the input is invalid or has no such subject, or the output cannot be written.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
-    let (_, _, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
+    if let Some(map) = args.map.build_map()? {
+        let explanation = map.explain_points(&args.subject.bare_points()).map_err(CliError::Usage)?;
+        return write_explanation(args, &explanation, |explanation| Ok(explanation.to_string()));
+    }
+    let Some(input) = &args.input else {
+        return Err(CliError::Usage("name a scene or a model to explain".to_owned()));
+    };
+    let (_, file, scene) = args.overrides.open_scene(input, &args.load_options)?;
     let size = (scene.image.width, scene.image.height);
     let chain = TransformChain::new(&scene.view_projection, size, args.conventions)
         .map_err(pipeline::RenderError::from)?;
-    let explanation = args.subject.explain_subject(&chain, &scene).map_err(CliError::Usage)?;
-    let text = match (args.json, args.html) {
-        (true, _) => format!("{:#}\n", explanation.to_json()),
-        (_, true) => explanation.to_html(&chain, Some(&render_page_picture(scene)?)),
-        _ => explanation.to_string(),
-    };
+    let mut explanation = args.subject.explain_subject(&chain, &scene).map_err(CliError::Usage)?;
+    if let (Some(_), [left, right]) = (file.stereo, &scene.insets[..]) {
+        let eyes = [eye_chain(left, args.conventions)?, eye_chain(right, args.conventions)?];
+        explanation = explanation.with_stereo_pair(&eyes, args.subject.stereo_point());
+    }
+    write_explanation(args, &explanation, |explanation| match args.html {
+        true => Ok(explanation.to_html(&chain, Some(&render_page_picture(scene)?))),
+        false => Ok(explanation.to_string()),
+    })
+}
+
+/// The transforms of one eye of a stereo pair, in its own picture.
+fn eye_chain(eye: &Inset, conventions: ApiConventions) -> Result<TransformChain, CliError> {
+    let size = (eye.rect.width, eye.rect.height);
+    let chain = TransformChain::new(&eye.scene.view_projection, size, conventions);
+    Ok(chain.map_err(pipeline::RenderError::from)?)
+}
+
+/// Writes an explanation as JSON or in the form of `format`, to a file or the standard output.
+fn write_explanation(
+    args: &ExplainArgs,
+    explanation: &Explanation,
+    format: impl FnOnce(&Explanation) -> Result<String, CliError>,
+) -> Result<(), CliError> {
+    let text =
+        if args.json { format!("{:#}\n", explanation.to_json()) } else { format(explanation)? };
     match &args.output {
         Some(path) => pipeline::write_file(path, text.as_bytes())?,
         None => std::io::stdout().write_all(text.as_bytes())?,
@@ -145,8 +204,12 @@ impl ExplainSubjectArgs {
         chain: &TransformChain,
         scene: &Scene,
     ) -> Result<Explanation, String> {
-        if let Some(point) = self.point {
-            return Ok(explain_point(chain, point.into()));
+        match self.point {
+            Some(SubjectPoint::Cartesian(point)) => return Ok(explain_point(chain, point.into())),
+            Some(SubjectPoint::Homogeneous(point)) => {
+                return explain_homogeneous_point(chain, point.into());
+            }
+            None => {}
         }
         if let Some([x, y]) = self.pixel {
             return explain_pixel(chain, scene, x, y);
@@ -161,6 +224,20 @@ impl ExplainSubjectArgs {
             format!("the scene has {count} models; there is no model {}", self.model)
         })?;
         self.explain_part(chain, placed, find_node(&placed.model, node)?)
+    }
+
+    /// The points of the flags for a map without a scene: one, the ends of a segment, or none.
+    fn bare_points<S: homog::Space>(&self) -> Vec<HPoint<S>> {
+        let point = self.point.map(SubjectPoint::numbers).into_iter();
+        let ends = self.segment.iter().flat_map(|[ax, ay, az, bx, by, bz]| {
+            [[*ax, *ay, *az, 1.0], [*bx, *by, *bz, 1.0]]
+        });
+        point.chain(ends).map(HPoint::from).collect()
+    }
+
+    /// The point that both eyes of a stereo pair see; `None` for other subjects.
+    fn stereo_point(&self) -> Option<Point<World>> {
+        HPoint::<World>::from(self.point?.numbers()).divide()
     }
 
     /// Explains a vertex, a triangle, or the visibility of a node.
@@ -199,18 +276,55 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
     })
 }
 
-/// Parses `N` finite numbers separated by commas.
+/// A point of the command line: three coordinates, or four homogeneous ones.
+#[derive(Clone, Copy, Debug)]
+enum SubjectPoint {
+    /// x, y, z.
+    Cartesian([f64; 3]),
+    /// x, y, z, w.
+    Homogeneous([f64; 4]),
+}
+
+impl SubjectPoint {
+    /// Four homogeneous coordinates.
+    fn numbers(self) -> [f64; 4] {
+        match self {
+            Self::Cartesian([x, y, z]) => [x, y, z, 1.0],
+            Self::Homogeneous(numbers) => numbers,
+        }
+    }
+}
+
+impl BareMapArgs {
+    /// The map that the flags name; `None` without them.
+    ///
+    /// # Errors
+    /// If the planes make no matrix P.
+    fn build_map(&self) -> Result<Option<BareMap>, CliError> {
+        if let Some(entries) = self.matrix {
+            let [a, b, c, d] = [0, 4, 8, 12].map(|at| std::array::from_fn(|j| entries[at + j]));
+            return Ok(Some(BareMap::from_rows([a, b, c, d])));
+        }
+        let Some([near, far]) = self.planes else { return Ok(None) };
+        let map = BareMap::from_planes(near, far);
+        map.map(Some).map_err(|error| CliError::Usage(format!("--planes {near},{far}: {error}")))
+    }
+}
+
+/// Parses a point of three or four numbers.
 ///
 /// # Errors
-/// If there are more or fewer numbers, or one is not finite.
-fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let fault = || format!("expected {N} numbers separated by commas");
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|word| word.trim().parse().map_err(|_| fault()))
-        .collect::<Result<_, _>>()?;
-    let numbers: [f64; N] = numbers.try_into().map_err(|_| fault())?;
-    if numbers.iter().all(|number| number.is_finite()) { Ok(numbers) } else { Err(fault()) }
+/// If there are more or fewer numbers, one is not finite, or all four are 0.
+fn parse_point(text: &str) -> Result<SubjectPoint, String> {
+    let numbers = parse_number_list(text)?;
+    match numbers[..] {
+        [x, y, z] => Ok(SubjectPoint::Cartesian([x, y, z])),
+        [0.0, 0.0, 0.0, 0.0] => {
+            Err("four zeros are no point: choose w = 1, or 0 for a direction".to_owned())
+        }
+        [x, y, z, w] => Ok(SubjectPoint::Homogeneous([x, y, z, w])),
+        _ => Err(format!("expected 3 or 4 numbers separated by commas, found {}", numbers.len())),
+    }
 }
 
 /// Parses a column and a row.

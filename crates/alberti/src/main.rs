@@ -38,6 +38,7 @@ mod manual;
 mod matrix;
 mod messages;
 mod model_state;
+mod number_list;
 mod options;
 mod page_output;
 mod panel_subject;

@@ -11,15 +11,24 @@
 //! | --- | --- |
 //! | the transform chain and its steps, shared by all | `transform_chain.rs` |
 //! | conventions of OpenGL, Vulkan, Direct3D, WebGPU | `conventions.rs` |
+//! | the matrices of the textbook's page | `chapter_matrices.rs` |
 //! | points and vertices, segments, triangles | `point.rs`, `segment.rs`, `triangle.rs` |
+//! | homogeneous points and directions, f(t) | `homogeneous_point.rs`, `foreshortening.rs` |
+//! | points under a single matrix, without a scene | `bare_map.rs` |
+//! | both eyes of a stereo pair | `stereo.rs` |
 //! | why a node is invisible; why a pixel has its color | `node.rs`, `pixel.rs` |
 //! | the meaning of an arbitrary matrix, and known misprints | `matrix.rs` |
 //! | factors of a projection | `projection_factors.rs` |
-//! | output | `plain_text.rs`, `json.rs`, `html.rs`, `diagrams.rs` |
+//! | output | `introduction.rs`, `plain_text.rs`, `json.rs`, `html.rs`, `diagrams.rs` |
 
+mod bare_map;
+mod chapter_matrices;
 mod conventions;
 mod diagrams;
+mod foreshortening;
+mod homogeneous_point;
 mod html;
+mod introduction;
 mod json;
 mod matrix;
 mod node;
@@ -28,10 +37,13 @@ mod plain_text;
 mod point;
 mod projection_factors;
 mod segment;
+mod stereo;
 mod transform_chain;
 mod triangle;
 
+pub use bare_map::BareMap;
 pub use conventions::ApiConventions;
+pub use homogeneous_point::explain_homogeneous_point;
 pub use json::{SCHEMA_NAME, SCHEMA_VERSION};
 pub use matrix::{explain_matrix, explain_planar_matrix};
 pub use node::explain_node;

@@ -3,7 +3,7 @@
 //!
 //! | conventions | NDC z, near to far | y in clip space | view space |
 //! | --- | --- | --- | --- |
-//! | alberti, chapter | +1 to −1 | up | looks along −z |
+//! | alberti, chapter, chapter-y-down | +1 to −1 | up | looks along −z |
 //! | OpenGL | −1 to +1 | up | looks along −z |
 //! | Vulkan | 0 to 1 | down | looks along −z |
 //! | Direct3D | 0 to 1 | up | looks along +z |
@@ -34,6 +34,8 @@ pub enum ApiConventions {
     ///
     /// The viewport matrix is M_vp of the chapter, with x from −1/2 to width − 1/2.
     Chapter,
+    /// The chapter's, with pixel rows counted from the top (VP-2, exercise 1).
+    ChapterYDown,
     /// OpenGL: near at z = −1, y up, depth 0 at the near plane.
     OpenGl,
     /// Vulkan: near at z = 0, y down in clip space.
@@ -49,8 +51,15 @@ pub enum ApiConventions {
 
 impl ApiConventions {
     /// All conventions.
-    pub const ALL: [Self; 6] =
-        [Self::Alberti, Self::Chapter, Self::OpenGl, Self::Vulkan, Self::Direct3d, Self::WebGpu];
+    pub const ALL: [Self; 7] = [
+        Self::Alberti,
+        Self::Chapter,
+        Self::ChapterYDown,
+        Self::OpenGl,
+        Self::Vulkan,
+        Self::Direct3d,
+        Self::WebGpu,
+    ];
 
     /// The name on the command line.
     ///
@@ -60,6 +69,7 @@ impl ApiConventions {
         match self {
             Self::Alberti => "alberti",
             Self::Chapter => "chapter",
+            Self::ChapterYDown => "chapter-y-down",
             Self::OpenGl => "opengl",
             Self::Vulkan => "vulkan",
             Self::Direct3d => "direct3d",
@@ -75,7 +85,7 @@ impl ApiConventions {
     #[must_use]
     pub const fn canonical_volume(self) -> Convention {
         match self {
-            Self::Alberti | Self::Chapter => Convention::CHAPTER,
+            Self::Alberti | Self::Chapter | Self::ChapterYDown => Convention::CHAPTER,
             Self::OpenGl => Convention::OPENGL,
             Self::Vulkan => Convention::VULKAN,
             Self::Direct3d => Convention::DIRECT3D,
@@ -96,6 +106,11 @@ impl ApiConventions {
         self.canonical_volume().handedness() == Handedness::Left
     }
 
+    /// Whether matrices are shown as the textbook prints them: P, M_orth, M_per.
+    pub(super) fn is_textbook(self) -> bool {
+        matches!(self, Self::Chapter | Self::ChapterYDown)
+    }
+
     /// Whether y runs down in clip space.
     pub(super) fn y_runs_down(self) -> bool {
         self.canonical_volume().ndc_y() == NdcY::Down
@@ -108,6 +123,7 @@ impl ApiConventions {
     pub const fn pixel_convention(self) -> PixelConvention {
         match self {
             Self::Chapter => PixelConvention::CHAPTER,
+            Self::ChapterYDown => PixelConvention::CHAPTER_Y_DOWN,
             Self::OpenGl | Self::Vulkan => PixelConvention::OPENGL,
             Self::Alberti | Self::Direct3d | Self::WebGpu => PixelConvention::IMAGE,
         }
@@ -121,7 +137,11 @@ impl ApiConventions {
     pub const fn depth_range(self) -> DepthRange {
         match self {
             Self::Alberti | Self::OpenGl => DepthRange::ZERO_ONE,
-            Self::Chapter | Self::Vulkan | Self::Direct3d | Self::WebGpu => DepthRange::KEEP,
+            Self::Chapter
+            | Self::ChapterYDown
+            | Self::Vulkan
+            | Self::Direct3d
+            | Self::WebGpu => DepthRange::KEEP,
         }
     }
 
@@ -130,9 +150,6 @@ impl ApiConventions {
     /// # Errors
     /// If width or height is 0.
     pub(super) fn viewport(self, width: u32, height: u32) -> Result<Viewport, ViewportError> {
-        if self == Self::Chapter {
-            return Viewport::chapter(width, height);
-        }
         let area = Rectangle::from_size(width.into(), height.into())?;
         Ok(Viewport::new(area, self.pixel_convention(), self.depth_range()))
     }

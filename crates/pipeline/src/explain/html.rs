@@ -13,7 +13,7 @@ impl Explanation {
     /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,
     /// of any size and of the scene's aspect ratio, shows the position of the subject.
     ///
-    /// The page is complete without network access. The order is subject, verdict, diagrams, steps.
+    /// The page is complete without network access. The order is subject, introduction, verdict, diagrams, steps.
     #[must_use]
     pub fn to_html(&self, chain: &TransformChain, picture: Option<&Picture>) -> String {
         let subject = escape_html(&self.subject);
@@ -21,7 +21,8 @@ impl Explanation {
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
             <title>{subject}</title>\n<style>{STYLESHEET}</style>\n</head>\n<body>\n\
-            <h1>{subject}</h1>\n<p class=\"verdict\">{}</p>\n<div class=\"figures\">\n",
+            <h1>{subject}</h1>\n<p>{}</p>\n<p class=\"verdict\">{}</p>\n<div class=\"figures\">\n",
+            escape_html(self.introduction().unwrap_or_default()),
             escape_html(&self.verdict)
         );
         for figure in draw_diagrams(self, chain, picture) {

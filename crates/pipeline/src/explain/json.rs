@@ -1,7 +1,8 @@
 //! An explanation as JSON, for programs. Numbers are exact: the decimals parse to the same f64.
 //!
 //! ```json
-//! {"schema": {"name": "alberti-explain", "version": 1}, "subject": "…", "verdict": "…",
+//! {"schema": {"name": "alberti-explain", "version": 1}, "subject": "…",
+//!  "introduction": "…", "verdict": "…",
 //!  "steps": [{"id": "camera", "title": "…", "formula": "CA-1, CA-2",
 //!             "items": [{"id": "eye", "name": "eye", "value": [4, 3, 6]}]}]}
 //! ```
@@ -29,6 +30,7 @@ impl Explanation {
         json!({
             "schema": {"name": SCHEMA_NAME, "version": SCHEMA_VERSION},
             "subject": self.subject,
+            "introduction": self.introduction(),
             "steps": self.steps.iter().map(step_json).collect::<Vec<_>>(),
             "verdict": self.verdict,
         })

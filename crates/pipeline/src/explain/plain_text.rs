@@ -8,12 +8,14 @@
 //! ```
 
 use super::{Explanation, ExplanationEntry, ItemValue, Step};
-use homog::MatrixDisplay;
 use std::fmt::{self, Display, Formatter};
 
 impl Display for Explanation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.subject)?;
+        if let Some(words) = self.introduction() {
+            writeln!(f, "\n{words}")?;
+        }
         for (number, step) in (1..).zip(&self.steps) {
             writeln!(f, "\n{number}. {}{}", step.title, FormulaSuffix(step))?;
             let width = step.items.iter().map(|item| item.name.chars().count()).max().unwrap_or(0);
@@ -42,8 +44,8 @@ impl Display for FormulaSuffix<'_> {
 /// `width` counts characters, not bytes, for labels such as `x, y = ±distance`.
 fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize) -> fmt::Result {
     let lines = match &item.value {
-        ItemValue::Matrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
-        ItemValue::PlanarMatrix(rows) => MatrixDisplay::from_rows(*rows).to_string(),
+        ItemValue::Matrix(rows) => format_matrix(rows),
+        ItemValue::PlanarMatrix(rows) => format_matrix(rows),
         ItemValue::Numbers(numbers) => {
             let all: Vec<String> = numbers.iter().copied().map(format_number).collect();
             format!("({})", all.join(", "))
@@ -59,11 +61,23 @@ fn write_item_text(f: &mut Formatter<'_>, item: &ExplanationEntry, width: usize)
     Ok(())
 }
 
+/// Formats a matrix with aligned columns, a row in each line, its numbers as everywhere else.
+fn format_matrix<const N: usize>(rows: &[[f64; N]; N]) -> String {
+    let cells = rows.map(|row| row.map(format_number));
+    let width = |column: usize| cells.iter().map(|row| row[column].len()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    let lines = cells.map(|row| {
+        let padded = row.iter().zip(widths).map(|(cell, width)| format!("{cell:>width$}"));
+        format!("[ {} ]", padded.collect::<Vec<_>>().join("  "))
+    });
+    lines.join("\n")
+}
+
 /// Formats a number with up to seven significant digits, without trailing zeros; −0 as 0.
 ///
 /// ```text
 ///  0, 1e-4 ≤ |x| < 1e9   decimal     0.333333   123456.8
-///  otherwise             scientific  1.000000e-9
+///  otherwise             scientific  1.5e-9
 /// ```
 /// The digits before the point are counted on the rounded number, so 9.9999999 becomes 10 and not a
 /// number with eight digits. Infinities print as `inf`.
@@ -72,7 +86,7 @@ pub(super) fn format_number(x: f64) -> String {
     let x = x + 0.0;
     let size = x.abs();
     if !(size == 0.0 || (1e-4..1e9).contains(&size)) {
-        return format!("{x:.6e}");
+        return format_scientific(x);
     }
     let before = format!("{size:.0}").len().min(7);
     let digits = format!("{x:.*}", 7 - before);
@@ -80,6 +94,17 @@ pub(super) fn format_number(x: f64) -> String {
         digits.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         digits
+    }
+}
+
+/// Formats a very small, very large or infinite number, such as `1.5e-9`.
+fn format_scientific(x: f64) -> String {
+    let text = format!("{x:.6e}");
+    match text.split_once('e') {
+        Some((digits, power)) => {
+            format!("{}e{power}", digits.trim_end_matches('0').trim_end_matches('.'))
+        }
+        None => text,
     }
 }
 
@@ -96,12 +121,26 @@ mod tests {
             (-100.0, "-100"),
             (1.0 / 3.0, "0.333333"),
             (123_456.789, "123456.8"),
-            (1e-9, "1.000000e-9"),
-            (2.0e12, "2.000000e12"),
+            (1e-9, "1e-9"),
+            (-1.25e-7, "-1.25e-7"),
+            (2.0e12, "2e12"),
             (f64::INFINITY, "inf"),
         ];
         for (x, text) in cases {
             assert_eq!(format_number(x), text);
         }
+    }
+
+    /// A third in a matrix reads as a third in coordinates does.
+    #[test]
+    fn a_number_has_one_form_in_matrices_and_lists() {
+        let third = 1.0 / 3.0;
+        let step = Step::new("one", "One", None)
+            .with_item("matrix", "matrix", [[third, 0.0, 0.0, 1e-9]; 4])
+            .with_item("list", "list", [third, 1e-9]);
+        let (subject, verdict) = ("A third".to_owned(), String::new());
+        let text = Explanation { subject, steps: vec![step], verdict }.to_string();
+        assert_eq!(text.matches("0.333333").count(), 5, "{text}");
+        assert_eq!(text.matches("1e-9").count(), 5, "{text}");
     }
 }

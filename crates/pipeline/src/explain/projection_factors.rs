@@ -7,6 +7,7 @@
 //! ```
 
 use super::Step;
+use super::chapter_matrices::ChapterMatrices;
 use super::conventions::ApiConventions;
 use super::plain_text::format_number;
 use homog::{Clip, Projective, View};
@@ -30,6 +31,12 @@ pub(super) fn add_projection_factors(
     let Ok(decomposition) = decompose(view_to_clip.raw(), volume) else { return };
     step.formula = formula_ids_of_kind(&decomposition.kind, conventions);
     step.add_item("kind", "it is", describe_projection(&decomposition.kind));
+    let on_the_page = conventions.is_textbook().then(|| ChapterMatrices::from_projection(view_to_clip));
+    if let Some(matrices) = on_the_page.flatten() {
+        step.formula = Some(matrices.formula());
+        matrices.add_factors(step);
+        return;
+    }
     match decomposition.kind {
         Decomposed::Frustum(frustum) => {
             let factors = frustum.factors(volume);
@@ -104,7 +111,7 @@ pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'stat
 /// Perspective and orthographic matrices have formulas of their own for the volumes of graphics
 /// APIs (GL-1, GL-3); the classical projections are numbered once.
 fn formula_ids_of_kind(kind: &Decomposed, conventions: ApiConventions) -> Option<&'static str> {
-    let chapter = matches!(conventions, ApiConventions::Alberti | ApiConventions::Chapter);
+    let chapter = conventions == ApiConventions::Alberti || conventions.is_textbook();
     match kind {
         Decomposed::Frustum(_) if chapter => Some("PE-1, PE-3, VV-2"),
         Decomposed::Frustum(_) => Some("GL-1, VV-2"),

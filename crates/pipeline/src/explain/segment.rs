@@ -6,6 +6,7 @@
 //! d is a plane's signed distance, such as w − x for the right plane. The visible part runs from
 //! the largest t where the segment enters to the smallest where it leaves (Liang and Barsky, 1984).
 
+use super::foreshortening::foreshortening_step;
 use super::plain_text::format_number;
 use super::transform_chain::{TransformChain, describe_outcode};
 use super::{Explanation, Step};
@@ -26,6 +27,7 @@ pub fn explain_segment(chain: &TransformChain, ends: [Point<World>; 2]) -> Expla
         chain.projection_step(&named),
         chain.outcode_step(&[("a", a), ("b", b)]),
     ];
+    steps.push(foreshortening_step(a, b));
     let volume = chain.clip_volume();
     let clipped = clip_segment(a, b, &volume);
     steps.push(clip_step(chain, a, b, clipped.as_ref()));

@@ -8,6 +8,7 @@
 //! Matrices act on column vectors; the composition reads from left to right in the figure and from
 //! right to left in a product, M = M_vp · M_proj · M_cam.
 
+use super::chapter_matrices::ChapterMatrices;
 use super::conventions::ApiConventions;
 use super::plain_text::format_number;
 use super::projection_factors;
@@ -90,7 +91,9 @@ impl TransformChain {
     #[must_use]
     pub fn clip_volume(&self) -> Volume {
         match self.conventions {
-            ApiConventions::Alberti | ApiConventions::Chapter => Volume::CHAPTER,
+            ApiConventions::Alberti | ApiConventions::Chapter | ApiConventions::ChapterYDown => {
+                Volume::CHAPTER
+            }
             ApiConventions::OpenGl => Volume::OPENGL,
             ApiConventions::Vulkan | ApiConventions::Direct3d | ApiConventions::WebGpu => {
                 Volume::ZERO_ONE
@@ -131,6 +134,11 @@ impl TransformChain {
         clip.divide().map_or(f64::NEG_INFINITY, Point::z)
     }
 
+    /// The position of the eye.
+    pub(super) fn eye(&self) -> Point<World> {
+        self.camera.eye()
+    }
+
     /// The projection matrix: view to clip space.
     pub(super) fn view_to_clip(&self) -> Projective<View, Clip> {
         self.view_to_clip
@@ -144,12 +152,20 @@ impl TransformChain {
     /// NDC z of the near and of the far plane.
     pub(super) fn depth_range(&self) -> [f64; 2] {
         match self.conventions {
-            ApiConventions::Alberti | ApiConventions::Chapter => [1.0, -1.0],
+            ApiConventions::Alberti | ApiConventions::Chapter | ApiConventions::ChapterYDown => {
+                [1.0, -1.0]
+            }
             ApiConventions::OpenGl => [-1.0, 1.0],
             ApiConventions::Vulkan | ApiConventions::Direct3d | ApiConventions::WebGpu => {
                 [0.0, 1.0]
             }
         }
+    }
+
+    /// The textbook's matrices, in its conventions and for projections that its page has.
+    fn chapter_matrices(&self) -> Option<ChapterMatrices> {
+        let is_textbook = self.conventions.is_textbook();
+        is_textbook.then(|| ChapterMatrices::from_projection(self.view_to_clip)).flatten()
     }
 
     /// Width and height of the picture in pixels.
@@ -174,12 +190,15 @@ impl TransformChain {
             Step::new("camera", "Camera: from the world to view space", Some("CA-1, CA-2"))
                 .with_item("eye", "eye", <[f64; 3]>::from(self.camera.eye()))
                 .with_item("gaze", "gaze", <[f64; 3]>::from(self.camera.gaze()))
+                .with_item("u", "u, to the right", <[f64; 3]>::from(self.camera.u()))
+                .with_item("v", "v, up", <[f64; 3]>::from(self.camera.v()))
+                .with_item("w", "w, against the gaze", <[f64; 3]>::from(self.camera.w()))
                 .with_item(
                     "translation",
                     "T, the eye to the origin",
                     self.camera.translation().rows(),
                 )
-                .with_item("rotation", "R, u v w to the axes", self.camera.rotation().rows());
+                .with_item("rotation", "R, its rows u, v, w", self.camera.rotation().rows());
         if self.conventions.looks_along_z() {
             step = step.with_item("turn", "z turned over", self.conventions.view_flip().rows());
         }
@@ -210,11 +229,21 @@ impl TransformChain {
     pub(super) fn projection_step(&self, points: &[NamedPoint<'_, Point<World>>]) -> Step {
         let mut step = Step::new("projection", "Projection: from view to clip space", None);
         projection_factors::add_projection_factors(&mut step, self.view_to_clip, self.conventions);
+        let page = self.chapter_matrices();
+        let names = match page.filter(ChapterMatrices::turns_w) {
+            Some(_) => ["−M_per, w > 0 ahead, to clip with", "−M_per M_cam"],
+            None => ["the whole projection", "projection after M_cam"],
+        };
         step = step
-            .with_item("view_to_clip", "the whole projection", self.view_to_clip.rows())
-            .with_item("world_to_clip", "projection after M_cam", self.world_to_clip().rows());
+            .with_item("view_to_clip", names[0], self.view_to_clip.rows())
+            .with_item("world_to_clip", names[1], self.world_to_clip().rows());
         for (name, point) in points {
             let clip = self.world_to_clip().transform_point(*point);
+            if let Some(page) = page {
+                let id = format!("page_clip{}", id_suffix(name));
+                let label = label_with_name("on the page", name);
+                step.add_item(id, label, <[f64; 4]>::from(page.page_clip(clip)));
+            }
             step = step.with_item(
                 format!("clip{}", id_suffix(name)),
                 label_with_name("clip", name),
@@ -256,6 +285,10 @@ impl TransformChain {
             Some("VP-1, VP-2, VP-3, DP-1"),
         )
         .with_item("ndc_to_screen", "M_vp", self.ndc_to_screen().rows());
+        let page = self.chapter_matrices();
+        if let Some(page) = page {
+            page.add_products(&mut screen, self.world_to_view(), self.ndc_to_screen());
+        }
         for (name, point) in points {
             let Some(ndc) = point.divide() else {
                 divide.items.push(infinity_item(name));
@@ -267,6 +300,11 @@ impl TransformChain {
                 label_with_name("ndc", name),
                 <[f64; 3]>::from(ndc),
             );
+            if let Some(page) = page {
+                let undivided = self.ndc_to_screen().raw() * page.page_clip(*point).raw();
+                let id = format!("page_screen{}", id_suffix(name));
+                screen.add_item(id, label_with_name("M p", name), undivided.to_array());
+            }
             screen = screen
                 .with_item(
                     format!("screen{}", id_suffix(name)),

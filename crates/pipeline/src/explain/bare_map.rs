@@ -1,0 +1,107 @@
+//! Explanation of points and segments under a single matrix, without a scene: the examples and
+//! exercises of the textbook (HO-3, PE-1, IN-1).
+//!
+//! ```text
+//!  p = (x, y, z, w) ──M──► M p ──÷ its w──► the image       a segment adds f(t)
+//! ```
+
+use super::foreshortening::foreshortening_step;
+use super::homogeneous_point::homogeneous_step;
+use super::plain_text::format_number;
+use super::{Explanation, Step};
+use homog::{Clip, HPoint, Projective, View};
+use projection::{ProjectionError, chapter};
+
+/// A matrix with the steps that explain where it comes from.
+#[derive(Clone, PartialEq, Debug)]
+pub struct BareMap {
+    /// The map.
+    map: Projective<View, Clip>,
+    /// The steps before a point is mapped.
+    steps: Vec<Step>,
+}
+
+impl BareMap {
+    /// The map of a matrix for column vectors, by rows.
+    #[must_use]
+    pub fn from_rows(rows: [[f64; 4]; 4]) -> Self {
+        let map = Projective::from_rows(rows);
+        let step = Step::new("map", "The matrix", Some("HO-3"))
+            .with_item("matrix", "M", rows)
+            .with_item("kind", "it is", map.classify().to_string());
+        Self { map, steps: vec![step] }
+    }
+
+    /// The textbook's matrix P of the planes z = `near` and z = `far` (PE-1), with its inverse.
+    ///
+    /// The numbers are z-coordinates, negative ahead of the camera; both may be positive, as in
+    /// exercise 8. The product of P and nf P⁻¹ is nf times the identity (exercise 6).
+    ///
+    /// # Errors
+    /// If a number is 0 or not finite, both are equal, or they lie on different sides of the eye.
+    pub fn from_planes(near: f64, far: f64) -> Result<Self, ProjectionError> {
+        let p = chapter::p(near, far)?;
+        let inverse = chapter::p_inverse_scaled(near, far)?;
+        let step = Step::new("map", "P keeps z on the planes z = n and z = f", Some("PE-1"))
+            .with_item("n", "n", near)
+            .with_item("f", "f", far)
+            .with_item("matrix", "P", p.rows())
+            .with_item("scaled_inverse", "n f times its inverse", inverse.rows())
+            .with_item("product", "P times that", inverse.then(p).rows());
+        Ok(Self { map: Projective::from_raw(p.raw()), steps: vec![step] })
+    }
+
+    /// Explains the image of a homogeneous point, or of several: a segment has two.
+    ///
+    /// # Errors
+    /// If the four numbers of a point are all 0.
+    pub fn explain_points(&self, points: &[HPoint<View>]) -> Result<Explanation, String> {
+        let mut steps = self.steps.clone();
+        let labels: &[&str] = if let [_] = points { &[""] } else { &["_a", "_b"] };
+        let images: Vec<HPoint<Clip>> =
+            points.iter().map(|point| self.map.transform_hpoint(*point)).collect();
+        if points.iter().any(|point| <[f64; 4]>::from(*point) == [0.0; 4]) {
+            return Err("(0, 0, 0, 0) is neither a point nor a direction".to_owned());
+        }
+        if let [point] = points {
+            steps.push(homogeneous_step(*point));
+        }
+        steps.push(image_step(labels, points, &images));
+        if let [start, end] = images[..] {
+            steps.push(foreshortening_step(start, end));
+        }
+        let verdict = match images[..] {
+            [image] => describe_image(image),
+            [] => "--point and --segment map something by it.".to_owned(),
+            _ => "Both ends are mapped; f(t) says where the points between them go.".to_owned(),
+        };
+        Ok(Explanation { subject: "A map without a scene".to_owned(), steps, verdict })
+    }
+}
+
+/// The images of points: four numbers, and divided.
+fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>]) -> Step {
+    let mut step = Step::new("image", "The image: M p, divided by its w", Some("HO-1, HO-3"));
+    for ((label, point), image) in labels.iter().zip(points).zip(images) {
+        step.add_item(format!("point{label}"), "p", <[f64; 4]>::from(*point));
+        step.add_item(format!("image{label}"), "M p", <[f64; 4]>::from(*image));
+        match image.divide() {
+            Some(divided) => {
+                step.add_item(format!("divided{label}"), "divided", <[f64; 3]>::from(divided));
+            }
+            None => step.add_item(format!("divided{label}"), "divided", "w is 0: at infinity"),
+        }
+    }
+    step
+}
+
+/// The image of one point in words.
+fn describe_image(image: HPoint<Clip>) -> String {
+    match image.divide() {
+        Some(divided) => {
+            let [x, y, z] = <[f64; 3]>::from(divided).map(format_number);
+            format!("It goes to ({x}, {y}, {z}).")
+        }
+        None => "It goes to infinity: its w is 0.".to_owned(),
+    }
+}

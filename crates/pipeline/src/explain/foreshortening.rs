@@ -1,0 +1,39 @@
+//! The step of f(t): where the points of a segment land between the images of its ends (IN-1,
+//! exercise 11).
+//!
+//! ```text
+//!  f(t) = w_R t / (w_r + t (w_R − w_r))        f(0) = 0, f(1) = 1, f′ > 0
+//! ```
+
+use super::Step;
+use homog::{Foreshortening, HPoint, Space};
+
+/// The parameters for which f(t) is printed.
+const SAMPLES: [(&str, f64); 5] =
+    [("f_0", 0.0), ("f_1_4", 0.25), ("f_1_2", 0.5), ("f_3_4", 0.75), ("f_1", 1.0)];
+
+/// The step of f(t) for a segment between two images that are not divided yet.
+///
+/// A segment whose ends have w of different signs passes the plane of the eye; it has no image in
+/// one piece and no f(t), and the step says so.
+pub(super) fn foreshortening_step<S: Space>(start: HPoint<S>, end: HPoint<S>) -> Step {
+    let title = "f(t): where its points land between the images of the ends";
+    let mut step = Step::new("foreshortening", title, Some("IN-1"))
+        .with_item("w_r", "w_r, of a", start.w())
+        .with_item("w_R", "w_R, of b", end.w());
+    let Ok(f) = Foreshortening::from_endpoints(start, end) else {
+        let words = "not defined: w is 0 at an end or changes its sign between them; clip first";
+        return step.with_item("f", "f(t)", words);
+    };
+    for (id, t) in SAMPLES {
+        if let Some(place) = f.image_parameter(t) {
+            step.add_item(id, format!("f({t})"), place);
+        }
+    }
+    for (id, t) in [("slope_0", 0.0), ("slope_1", 1.0)] {
+        if let Some(slope) = f.derivative(t) {
+            step.add_item(id, format!("f′({t})"), slope);
+        }
+    }
+    step
+}

@@ -1,0 +1,35 @@
+//! Two sentences at the head of an explanation: what the page shows, and its units.
+
+use super::Explanation;
+
+/// The introduction of the stages from the world to the screen.
+const PIPELINE: &str = "\
+Each step prints its matrices and where it takes the subject, in the order of the viewing \
+pipeline: model, camera, projection, clipping, divide by w, viewport. Lengths of the world and of \
+view space are in units of the scene (meters in glTF), clip space and NDC have no unit, the screen \
+is in pixels; matrices stand before column vectors, so products are read from right to left.";
+
+/// The introduction of points under a single matrix.
+const BARE_MAP: &str = "\
+One matrix stands before homogeneous points (x, y, z, w), written as columns, and each image is \
+divided by its own w at the end. There is no camera and no picture: numbers are in the units of \
+the points, depth z included.";
+
+/// The introduction of the classification of a matrix.
+const MATRIX: &str = "\
+Sixteen numbers are read as a matrix that stands before column vectors, and compared with the \
+projections of the textbooks and graphics interfaces. Windows and planes are in the units of view \
+space; near and far are distances ahead of the eye.";
+
+impl Explanation {
+    /// Two sentences for the reader of the page: what it shows, and in which units.
+    ///
+    /// `None` for subjects that need neither, such as a node that is not shown.
+    #[must_use]
+    pub fn introduction(&self) -> Option<&'static str> {
+        let has_step = |id: &str| self.steps.iter().any(|step| step.id == id);
+        [("camera", PIPELINE), ("map", BARE_MAP), ("readings", MATRIX)]
+            .into_iter()
+            .find_map(|(id, words)| has_step(id).then_some(words))
+    }
+}
