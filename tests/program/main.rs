@@ -10,6 +10,7 @@ mod compare_projections;
 mod curve;
 mod drawings;
 mod examples;
+mod exercises;
 mod explain;
 mod external_viewers;
 mod files;

@@ -137,7 +137,7 @@ impl DepthTable {
         let half_range_distance = format_short(self.curves[0].half_range_distance(), 5);
         let planes = [self.near, self.far].map(|distance| format_short(distance, 6));
         let mut notes = vec![
-            format!("near {}, far {}, {format}", planes[0], planes[1]),
+            format!("near {}, far {}, {format}; distances in scene units", planes[0], planes[1]),
             format!("half of the range is spent at 2FN/(F+N) = {half_range_distance}"),
         ];
         notes.extend(self.moved_midpoint().map(|[middle, moved]| {
@@ -212,6 +212,23 @@ impl DepthTable {
             [format_short(row.distance, 6), depth, reversed, step, other]
         };
         std::iter::once(names).chain(rows.iter().map(row)).collect()
+    }
+
+    /// Formats rows as JSON with all digits, for programs: a list of numbers for each column.
+    ///
+    /// The keys are those of the CSV columns, with `notes` for the sentences above the table.
+    #[must_use]
+    pub fn to_json(&self, rows: &[DepthRow]) -> String {
+        let column = |of: fn(&DepthRow) -> f64| -> Vec<f64> { rows.iter().map(of).collect() };
+        let json = serde_json::json!({
+            "notes": self.notes(),
+            "distance": column(|row| row.distance),
+            "depth": column(|row| row.depths[0]),
+            "reversed_depth": column(|row| row.depths[1]),
+            "step": column(|row| row.steps[0]),
+            "reversed_step": column(|row| row.steps[1]),
+        });
+        format!("{json:#}\n")
     }
 
     /// Formats rows as CSV with all digits, for programs: a line of names, then a line per

@@ -30,10 +30,12 @@ pub fn explain_homogeneous_point(
     let [x, y, z, w] = numbers.map(format_number);
     let view = chain.world_to_view().raw() * point.raw();
     let clip = chain.world_to_clip().transform_hpoint(point);
+    let mut projection = chain.projection_step(&[]);
+    chain.add_clip_items(&mut projection, "", clip);
     let mut steps = vec![
         homogeneous_step(point),
         chain.camera_step(&[]).with_item("view", "view", view.to_array()),
-        chain.projection_step(&[]).with_item("clip", "clip", <[f64; 4]>::from(clip)),
+        projection,
     ];
     let verdict = if point.w() == 0.0 {
         describe_vanishing_point(chain, clip)
@@ -53,8 +55,11 @@ pub fn explain_homogeneous_point(
 
 /// The point that four numbers stand for.
 pub(super) fn homogeneous_step<S: homog::Space>(point: HPoint<S>) -> Step {
-    let step = Step::new("homogeneous", "The four numbers", Some("HO-1, HO-2"))
-        .with_item("numbers", "x, y, z, w", <[f64; 4]>::from(point));
+    let step = Step::new("homogeneous", "The four numbers", Some("HO-1, HO-2")).with_item(
+        "numbers",
+        "x, y, z, w",
+        <[f64; 4]>::from(point),
+    );
     match point.divide() {
         Some(divided) => step
             .with_item("stands_for", "the point", <[f64; 3]>::from(divided))

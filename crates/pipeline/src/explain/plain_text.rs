@@ -10,11 +10,15 @@
 use super::{Explanation, ExplanationEntry, ItemValue, Step};
 use std::fmt::{self, Display, Formatter};
 
+/// The width of the introduction in characters.
+const LINE_WIDTH: usize = 100;
+
 impl Display for Explanation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.subject)?;
         if let Some(words) = self.introduction() {
-            writeln!(f, "\n{words}")?;
+            f.write_str("\n")?;
+            write_wrapped(f, words)?;
         }
         for (number, step) in (1..).zip(&self.steps) {
             writeln!(f, "\n{number}. {}{}", step.title, FormulaSuffix(step))?;
@@ -25,6 +29,20 @@ impl Display for Explanation {
         }
         writeln!(f, "\n{}", self.verdict)
     }
+}
+
+/// Writes a paragraph in lines of at most 100 characters.
+fn write_wrapped(f: &mut Formatter<'_>, words: &str) -> fmt::Result {
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > LINE_WIDTH {
+            writeln!(f, "{line}")?;
+            line.clear();
+        }
+        line += if line.is_empty() { "" } else { " " };
+        line += word;
+    }
+    writeln!(f, "{line}")
 }
 
 /// The formula ids of a step in parentheses.

@@ -31,7 +31,8 @@ pub(super) fn add_projection_factors(
     let Ok(decomposition) = decompose(view_to_clip.raw(), volume) else { return };
     step.formula = formula_ids_of_kind(&decomposition.kind, conventions);
     step.add_item("kind", "it is", describe_projection(&decomposition.kind));
-    let on_the_page = conventions.is_textbook().then(|| ChapterMatrices::from_projection(view_to_clip));
+    let on_the_page =
+        conventions.is_textbook().then(|| ChapterMatrices::from_projection(view_to_clip));
     if let Some(matrices) = on_the_page.flatten() {
         step.formula = Some(matrices.formula());
         matrices.add_factors(step);

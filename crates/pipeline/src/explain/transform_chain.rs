@@ -234,23 +234,27 @@ impl TransformChain {
             Some(_) => ["−M_per, w > 0 ahead, to clip with", "−M_per M_cam"],
             None => ["the whole projection", "projection after M_cam"],
         };
-        step = step
-            .with_item("view_to_clip", names[0], self.view_to_clip.rows())
-            .with_item("world_to_clip", names[1], self.world_to_clip().rows());
+        step = step.with_item("view_to_clip", names[0], self.view_to_clip.rows()).with_item(
+            "world_to_clip",
+            names[1],
+            self.world_to_clip().rows(),
+        );
         for (name, point) in points {
-            let clip = self.world_to_clip().transform_point(*point);
-            if let Some(page) = page {
-                let id = format!("page_clip{}", id_suffix(name));
-                let label = label_with_name("on the page", name);
-                step.add_item(id, label, <[f64; 4]>::from(page.page_clip(clip)));
-            }
-            step = step.with_item(
-                format!("clip{}", id_suffix(name)),
-                label_with_name("clip", name),
-                <[f64; 4]>::from(clip),
-            );
+            self.add_clip_items(&mut step, name, self.world_to_clip().transform_point(*point));
         }
         step
+    }
+
+    /// Adds a point of clip space; in the textbook's conventions also in the signs of its page.
+    pub(super) fn add_clip_items(&self, step: &mut Step, name: &str, clip: HPoint<Clip>) {
+        if let Some(page) = self.chapter_matrices() {
+            let product = if page.turns_w() { "M_per M_cam p" } else { "M_orth M_cam p" };
+            let (id, label) =
+                (format!("page_clip{}", id_suffix(name)), label_with_name(product, name));
+            step.add_item(id, label, <[f64; 4]>::from(page.page_clip(clip)));
+        }
+        let (id, label) = (format!("clip{}", id_suffix(name)), label_with_name("clip", name));
+        step.add_item(id, label, <[f64; 4]>::from(clip));
     }
 
     /// The outcodes of points of clip space.

@@ -1,0 +1,173 @@
+//! The page of exercises: each of its commands is run, and its JSON output compared with the worked
+//! answer that the page gives (exercises 1 to 11, C104).
+
+use crate::sandbox::Sandbox;
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// A command of the page with the ids and numbers of its answers.
+struct Case {
+    title: String,
+    command: String,
+    answers: Vec<(String, Vec<f64>)>,
+}
+
+fn read_page(name: &str) -> String {
+    let path = alberti_tests::project_root().join("docs").join(name);
+    std::fs::read_to_string(path).expect(name)
+}
+
+/// A sandbox with the scenes of the exercises, below `docs` as the commands have it.
+fn sandbox_with_scenes(name: &str) -> Sandbox {
+    let sandbox = Sandbox::new(name);
+    std::fs::create_dir_all(sandbox.path_of("docs/exercises")).expect("a folder");
+    let scenes = alberti_tests::project_root().join("docs/exercises");
+    for entry in std::fs::read_dir(scenes).expect("the scenes") {
+        let from = entry.expect("a scene").path();
+        let file = from.file_name().expect("a name").to_string_lossy().into_owned();
+        std::fs::copy(&from, sandbox.path_of(&format!("docs/exercises/{file}"))).expect("a copy");
+    }
+    sandbox
+}
+
+/// A number or a fraction of the page.
+fn parse_number(word: &str) -> f64 {
+    let (above, below) = word.split_once('/').unwrap_or((word, "1"));
+    let parse = |digits: &str| digits.parse::<f64>().unwrap_or_else(|_| panic!("{word}"));
+    parse(above) / parse(below)
+}
+
+/// The commands of the page, with the answers that follow each.
+fn read_cases(page: &str) -> Vec<Case> {
+    let mut cases: Vec<Case> = Vec::new();
+    let mut title = String::new();
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        if let Some(heading) = line.strip_prefix("### ") {
+            heading.clone_into(&mut title);
+        } else if line == "```sh" {
+            let command = lines.next().expect("a command").to_owned();
+            cases.push(Case { title: title.clone(), command, answers: Vec::new() });
+        } else if let Some((id, numbers)) =
+            line.strip_prefix("- `").and_then(|rest| rest.split_once("`: `"))
+        {
+            let numbers = numbers.trim_end_matches('`').replace(';', " ");
+            let numbers = numbers.split_whitespace().map(parse_number).collect();
+            cases.last_mut().expect("a command").answers.push((id.to_owned(), numbers));
+        }
+    }
+    cases
+}
+
+/// The words of a command, those in single quotes as one.
+fn split_words(command: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for (part, text) in command.split('\'').enumerate() {
+        match part % 2 {
+            0 => words.extend(text.split_whitespace().map(str::to_owned)),
+            _ => words.push(text.to_owned()),
+        }
+    }
+    words
+}
+
+/// Runs a command of a page, which begins with `alberti`.
+fn run_command(sandbox: &Sandbox, command: &str, more: &[&str]) -> String {
+    let words = split_words(command);
+    assert_eq!(words[0], "alberti", "{command}");
+    let words: Vec<&str> =
+        words.iter().skip(1).map(String::as_str).chain(more.iter().copied()).collect();
+    let run = sandbox.run(&words);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{command}");
+    run.stdout
+}
+
+/// The numbers of a value: of a step's item, or of a member of the document.
+fn find_numbers(document: &Value, id: &str) -> Option<Vec<f64>> {
+    let steps = document["steps"].as_array().into_iter().flatten();
+    let mut items = steps.flat_map(|step| step["items"].as_array().into_iter().flatten());
+    let found = match items.find(|item| item["id"] == id) {
+        Some(item) => &item["value"],
+        None => document.get(id)?,
+    };
+    let found = found.get("rows").unwrap_or(found);
+    Some(match found {
+        Value::Array(list) => list
+            .iter()
+            .flat_map(|part| part.as_array().map_or(std::slice::from_ref(part), Vec::as_slice))
+            .filter_map(Value::as_f64)
+            .collect(),
+        number => vec![number.as_f64()?],
+    })
+}
+
+#[test]
+fn c104_every_command_of_the_exercises_gives_the_worked_answer() {
+    let sandbox = sandbox_with_scenes("exercises");
+    for Case { title, command, answers } in read_cases(&read_page("exercises.md")) {
+        let output = match command.rsplit_once(" -o ") {
+            Some((_, file)) => {
+                run_command(&sandbox, &command, &[]);
+                std::fs::read_to_string(sandbox.path_of(file)).expect("an output")
+            }
+            None => run_command(&sandbox, &command, &["--json"]),
+        };
+        let document: Value = serde_json::from_str(&output).expect("JSON");
+        assert!(!answers.is_empty(), "{title}: {command}");
+        for (id, expected) in answers {
+            let actual = find_numbers(&document, &id).unwrap_or_default();
+            let close = actual.len() == expected.len()
+                && actual.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12);
+            assert!(close, "{title}, {id} is {actual:?}, not {expected:?}: {command}");
+        }
+    }
+}
+
+#[test]
+fn the_page_has_eleven_exercises_and_items_of_all_sources() {
+    let cases = read_cases(&read_page("exercises.md"));
+    let titles: BTreeSet<&str> = cases.iter().map(|case| case.title.as_str()).collect();
+    for number in 1..=11 {
+        assert!(titles.contains(format!("Exercise {number} [S]").as_str()), "exercise {number}");
+    }
+    let items: Vec<&&str> = titles.iter().filter(|title| !title.starts_with("Exercise")).collect();
+    assert!(items.len() >= 30, "{} items", items.len());
+    for source in ["[S]", "[N]", "[G]", "[L]", "[A]"] {
+        assert!(items.iter().filter(|title| title.ends_with(source)).count() >= 4, "{source}");
+    }
+}
+
+/// `reference ID` shows formula, source and command of every id, and each command works.
+#[test]
+fn every_formula_is_in_the_reference_and_its_command_works() {
+    let sandbox = sandbox_with_scenes("formulas");
+    let page = read_page("formulas.md");
+    let commands: BTreeSet<&str> = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("Command: `")?.strip_suffix('`'))
+        .collect();
+    assert!(commands.len() > 35, "{}", commands.len());
+    for command in commands {
+        run_command(&sandbox, command, &[]);
+    }
+    let names = sandbox.run(&["reference", "formulas"]).stdout;
+    let headings = page.lines().filter_map(|line| line.strip_prefix("**")?.split("** [").next());
+    assert!(names.lines().eq(headings), "{names}");
+    for (id, parts) in [
+        ("PE-1", ["n + f − f n/z", "Fundamentals of Computer Graphics", "--planes 1,2"]),
+        ("ob-1", ["x' = x + z L1 cos φ", "Lecture slides", "cabinet.ron"]),
+        ("D3D-1", ["−FN/(F−N)", "Common knowledge", "--conventions direct3d"]),
+    ] {
+        let run = sandbox.run(&["reference", id]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{id}");
+        for part in parts {
+            assert!(run.stdout.contains(part), "{id}, {part}: {}", run.stdout);
+        }
+    }
+    let markdown = sandbox.run(&["reference", "PE-1", "--format", "markdown"]).stdout;
+    assert!(markdown.contains("```text\n    ┌ n 0  0    0  ┐"), "{markdown}");
+    let html = sandbox.run(&["reference", "PE-1", "--format", "html"]).stdout;
+    assert!(html.starts_with("<!DOCTYPE html>") && html.contains("Command: alberti"), "{html}");
+    let unknown = sandbox.run(&["reference", "PE-99"]);
+    assert!(unknown.code == 1 && unknown.stderr.contains("nothing named `PE-99`"));
+}
