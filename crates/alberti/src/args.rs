@@ -103,7 +103,7 @@ pub(crate) enum Command {
     Completions(Deferred<CompletionArgs>),
     /// Print or write manual pages
     Man(Deferred<ManArgs>),
-    /// Print the reference of all flags and scene fields
+    /// Print the reference of all flags, scene fields and formulas
     Reference(Deferred<ReferenceArgs>),
 }
 

@@ -1,4 +1,4 @@
-//! `alberti reference` and `alberti scene doc`: the reference of flags and scene fields.
+//! `alberti reference` and `alberti scene doc`: the reference of flags, scene fields and formulas.
 //!
 //! ```text
 //!  clap's commands ─► flags ──┐
@@ -11,6 +11,7 @@
 
 mod fields;
 mod flags;
+mod formula;
 mod html;
 mod markdown;
 mod search;
@@ -18,13 +19,15 @@ mod text;
 
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
+use pipeline::formulas::{entries, find_formula};
 
 /// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
-    /// Flag, command, type, field or path of fields to look up [default: everything]
+    /// Flag, command, type, field, path of fields or formula [default: all flags and fields]
     ///
-    /// For example --size, render, LookAt or camera.projection.
+    /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula.
+    /// `formulas` lists all of these.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
     /// Output format
@@ -69,8 +72,19 @@ struct ReferenceEntry {
     inner: Vec<Self>,
 }
 
-/// Prints the reference of the flags and of scene files.
+/// Prints the reference of the flags and of scene files, or a formula.
+///
+/// # Errors
+/// If nothing has the name that is looked up.
 pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), CliError> {
+    let word = args.word.as_deref().unwrap_or_default();
+    if let Some(formula) = find_formula(word) {
+        return print_stdout(formula::format_formula(&formula, args.format).as_bytes());
+    }
+    if word == "formulas" {
+        let names = entries().map(|entry| format!("{}\n", entry.name));
+        return print_stdout(names.collect::<String>().as_bytes());
+    }
     let flags = flags::command_sections(program);
     print_reference(
         args,

@@ -38,6 +38,7 @@
 mod cancel;
 pub mod demonstration;
 pub mod explain;
+pub mod formulas;
 pub mod render;
 pub mod scene;
 pub mod sequence;

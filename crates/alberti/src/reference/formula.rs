@@ -1,0 +1,58 @@
+//! A formula of the reference, as text, Markdown or HTML.
+//!
+//! The words are those of `docs/formulas.md`, which the program contains; paragraphs are wrapped,
+//! matrices and tables stay as they are.
+
+use super::ReferenceFormat;
+use super::text::wrap_paragraphs;
+use drawing::escape_markup;
+use pipeline::formulas::Formula;
+
+/// The entry of a formula: name, formula and meaning, sources, and the command that shows it.
+pub(super) fn format_formula(formula: &Formula, format: ReferenceFormat) -> String {
+    match format {
+        ReferenceFormat::Text => plain_text(formula),
+        ReferenceFormat::Markdown => format!("# {formula}"),
+        ReferenceFormat::Html => format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{}</title>\n\
+             <pre>\n{}</pre>\n</html>\n",
+            escape_markup(formula.name),
+            escape_markup(&plain_text(formula))
+        ),
+    }
+}
+
+/// The entry with wrapped paragraphs, without the marks of Markdown.
+fn plain_text(formula: &Formula) -> String {
+    let mut page = String::new();
+    let mut paragraph = String::new();
+    let mut verbatim = false;
+    let text = formula.to_string();
+    for line in text.lines() {
+        let is_fence = line.starts_with("```");
+        if verbatim && !is_fence || line.starts_with('|') {
+            page.push_str(&format!("  {line}\n"));
+        } else if is_fence || line.is_empty() {
+            push_paragraph(&mut page, &mut paragraph);
+            verbatim ^= is_fence;
+        } else if line.starts_with("Source: ") || line.starts_with("Command: ") {
+            page.push_str(&format!("  {line}\n"));
+        } else {
+            paragraph += &format!("{} ", line.replace('`', ""));
+        }
+    }
+    push_paragraph(&mut page, &mut paragraph);
+    page.trim_start().to_owned()
+}
+
+/// Appends a paragraph, wrapped, with an empty line below it.
+fn push_paragraph(page: &mut String, paragraph: &mut String) {
+    if !page.is_empty() && !page.ends_with("\n\n") {
+        page.push('\n');
+    }
+    if !paragraph.is_empty() {
+        wrap_paragraphs(page, paragraph, 2);
+        page.push('\n');
+        paragraph.clear();
+    }
+}

@@ -1,0 +1,144 @@
+//! The formulas of the viewing pipeline by their ids, read from `docs/formulas.md`, which is part of
+//! the program.
+//!
+//! ```text
+//!  **OB-1, oblique projection by length and angle** [A]. `x' = x + z L1 cos φ`, …     an entry
+//!  Command: `alberti explain …`                                      what demonstrates it
+//!  | D3D-1 | left-handed, by angle | F/(F−N) | …                     a row of a table
+//! ```
+
+use std::fmt;
+
+/// The file that the entries are read from.
+const PAGE: &str = include_str!("../../../docs/formulas.md");
+
+/// An entry of the formulas.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Formula {
+    /// The ids and the name, such as `OB-1, oblique projection by length and angle`.
+    pub name: &'static str,
+    /// The marks of its sources, such as `S, N`.
+    marks: &'static str,
+    /// The formula and its meaning, as Markdown.
+    pub text: &'static str,
+    /// The command that demonstrates it; `None` if no output shows it by itself.
+    pub command: Option<&'static str>,
+}
+
+/// Finds the formula with this id, such as `PE-1`, in any case.
+#[must_use]
+pub fn find_formula(id: &str) -> Option<Formula> {
+    entries().find(|entry| entry.has_id(id)).or_else(|| table_row(id))
+}
+
+/// All entries, in the order of the file; rows of tables belong to the entry of their table.
+pub fn entries() -> impl Iterator<Item = Formula> {
+    PAGE.split("\n**").skip(1).filter_map(|part| {
+        let (name, rest) = part.split_once("** [")?;
+        let (marks, rest) = rest.split_once(']')?;
+        let text = rest.split("\n#").next().unwrap_or(rest);
+        let (text, command) = split_command(text);
+        let text = text.trim_start_matches('.').trim();
+        Some(Formula { name, marks, text, command })
+    })
+}
+
+impl Formula {
+    /// Whether the entry has an id, in any case.
+    fn has_id(&self, id: &str) -> bool {
+        let is_word = |c: char| c.is_alphanumeric() || c == '-';
+        let words = self.name.split(|c: char| !is_word(c));
+        is_id(id) && words.into_iter().any(|word| word.eq_ignore_ascii_case(id))
+    }
+
+    /// The titles of its sources.
+    pub fn sources(&self) -> impl Iterator<Item = &'static str> {
+        self.marks.split(", ").filter_map(|mark| {
+            let row = format!("| [{mark}] | ");
+            let at = PAGE.find(&row)? + row.len();
+            PAGE[at..].split(" |").next()
+        })
+    }
+
+    /// The first two equations of the text: code with `=` or `→` in it.
+    pub fn equations(&self) -> impl Iterator<Item = &'static str> {
+        let code = self.text.split("```").next().unwrap_or_default().split('`').skip(1).step_by(2);
+        code.filter(|code| code.contains(" = ") || code.contains(" → ")).take(2)
+    }
+}
+
+impl fmt::Display for Formula {
+    /// Markdown: the name, the text, the sources and the command.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}\n\n{}\n", self.name, self.text)?;
+        for source in self.sources() {
+            writeln!(f, "Source: {source}")?;
+        }
+        match self.command {
+            Some(command) => writeln!(f, "Command: {command}"),
+            None => writeln!(f, "Command: none shows it by itself"),
+        }
+    }
+}
+
+/// Whether a word has the form of an id: letters and digits, a hyphen, a number.
+fn is_id(word: &str) -> bool {
+    word.rsplit_once('-').is_some_and(|(letters, number)| {
+        letters.starts_with(|c: char| c.is_ascii_alphabetic())
+            && !number.is_empty()
+            && number.bytes().all(|c| c.is_ascii_digit())
+    })
+}
+
+/// The formula in the row of a table, whose cells are matched with the names of the columns.
+fn table_row(id: &str) -> Option<Formula> {
+    if !is_id(id) {
+        return None;
+    }
+    let row = PAGE.lines().find(|line| {
+        let first = line.strip_prefix("| ").and_then(|rest| rest.split(" |").next());
+        first.is_some_and(|cell| cell.eq_ignore_ascii_case(id))
+    })?;
+    let at = PAGE.find(row)?;
+    let section = PAGE[..at].rfind("\n### ")?;
+    let (text, command) = split_command(PAGE[section..].split("\n**").next()?);
+    let (_, text) = text.trim().split_once('\n')?;
+    Some(Formula { name: row.trim_matches(['|', ' ']), marks: "std", text: text.trim(), command })
+}
+
+/// Splits the line of the command off a text.
+fn split_command(text: &'static str) -> (&'static str, Option<&'static str>) {
+    match text.split_once("\nCommand: `") {
+        Some((text, rest)) => (text.trim(), rest.split("`\n").next().map(str::trim)),
+        None => (text.trim(), None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_and_rows_are_found_with_formula_source_and_command() {
+        let oblique = find_formula("ob-1").expect("an entry");
+        assert_eq!(oblique.name, "OB-1, oblique projection by length and angle");
+        assert_eq!(oblique.equations().next(), Some("x' = x + z L1 cos φ"));
+        assert!(oblique.sources().all(|source| source.starts_with("Lecture slides")));
+        assert!(oblique.command.is_some_and(|command| command.starts_with("alberti ")));
+        let windowing = find_formula("WI-3").expect("an entry of two ids");
+        assert_eq!(find_formula("WI-2"), Some(windowing));
+        let row = find_formula("D3D-3").expect("a row");
+        assert!(row.name.starts_with("D3D-3 | left-handed, by window"), "{}", row.name);
+        assert!(row.text.contains("0 0 A B") && row.command.is_some());
+        assert_eq!(find_formula("XY-1"), None);
+        assert_eq!(find_formula("and"), None);
+    }
+
+    #[test]
+    fn texts_end_before_the_next_entry() {
+        for entry in entries() {
+            assert!(!entry.text.contains("\n**") && !entry.text.contains("Command:"), "{entry}");
+            assert!(!entry.text.is_empty() && entry.sources().next().is_some(), "{entry}");
+        }
+    }
+}
