@@ -97,6 +97,24 @@ fn the_curves_are_drawn_in_every_format() {
     }
 }
 
+/// On a linear axis the mark of half the range is where its distance is, 2FN/(F + N).
+#[test]
+fn the_axis_of_distances_can_be_linear() {
+    let sandbox = Sandbox::new("curve_linear");
+    let flags = ["curve", "depth", "--near", "2", "--far", "40", "-o", "out.svg"];
+    for (more, expected) in [
+        (&["--axis", "linear"][..], (80.0 / 21.0 - 2.0) / 38.0),
+        (&[], (40.0_f64 / 21.0).ln() / 20_f64.ln()),
+    ] {
+        assert_succeeds(&sandbox, &[&flags[..], more].concat());
+        let (_, layers) = read_drawing(&sandbox, "out.svg");
+        let [low, high] = layer_bounds(&layers, |layer| layer == "depth-normal");
+        let mark = layers["depth-marks"][0][0][0];
+        let part = (mark - low[0]) / (high[0] - low[0]);
+        assert!((part - expected).abs() < 0.01, "{more:?}: {part}");
+    }
+}
+
 /// C36: the segments that pass the eye are torn if they are divided as they are.
 #[test]
 fn the_wrap_around_is_shown_with_and_without_clipping() {
@@ -131,7 +149,7 @@ fn errors_are_reported_and_leave_no_file() {
         (&["--near", "1", "--far", "2", "--distances", "0"], "distance"),
         (
             &["--near", "1", "--far", "2", "-o", "out.html"],
-            "has no known extension: .svg, .pdf, .png, .txt, .md or .csv",
+            "has no known extension: .svg, .pdf, .png, .txt, .md, .csv or .json",
         ),
     ] {
         let run = depth(flags);

@@ -196,3 +196,56 @@ fn a_page_marks_the_pixel_also_where_rows_run_up() {
         assert!(run.stdout.contains("cx=\"100.0\" cy=\"25.0\""), "{conventions}");
     }
 }
+
+#[test]
+fn the_page_introduces_itself_with_its_units() {
+    let sandbox = sandbox_with_scene("explain_introduction", |_| {});
+    for (flags, words) in [
+        (&["explain", "scene.ron"][..], "units of the scene"),
+        (&["explain", "--planes", "1,2"], "divided by its own w"),
+    ] {
+        let run = sandbox.run(flags);
+        assert!(run.stdout.replace('\n', " ").contains(words), "{flags:?}: {}", run.stdout);
+        assert!(run.stdout.lines().take(6).all(|line| line.chars().count() <= 100));
+        let json = sandbox.run(&[flags, &["--json"]].concat()).stdout;
+        let json: Value = serde_json::from_str(&json).expect("JSON");
+        assert!(json["introduction"].as_str().is_some_and(|text| text.contains(words)));
+    }
+    let html = sandbox.run(&["explain", "scene.ron", "--html"]).stdout;
+    assert!(html.contains("units of the scene"), "{html}");
+}
+
+#[test]
+fn maps_without_a_scene_say_what_they_need() {
+    let sandbox = Sandbox::new("explain_map_mistakes");
+    for (flags, code, words) in [
+        (&["explain"][..], 2, "<INPUT>"),
+        (&["explain", "--matrix", "1 2 3"], 2, "expected 16 numbers separated by commas, found 3"),
+        (&["explain", "--planes", "0,1"], 1, "--planes 0,1"),
+        (&["explain", "--planes", "-1,1"], 1, "same side of the eye"),
+        (&["explain", "--planes", "1,2", "--point", "0,0,0,0"], 2, "four zeros are no point"),
+        (&["explain", "--planes", "1,2", "--point", "1,2"], 2, "expected 3 or 4 numbers"),
+        (&["explain", "--planes", "1,2", "--node", "0"], 2, "cannot be used with"),
+    ] {
+        let run = sandbox.run(flags);
+        assert!(run.code == code && run.stderr.contains(words), "{flags:?}: {}", run.stderr);
+    }
+    let run = sandbox.run(&["explain", "--planes", "1,2", "--point", "1,1,0"]);
+    assert!(run.stdout.contains("It goes to infinity: its w is 0."), "{}", run.stdout);
+}
+
+/// A point with w = 0 is a direction, and its image a vanishing point (VN-1); a segment that passes
+/// the eye has no f(t).
+#[test]
+fn directions_vanish_and_segments_through_the_eye_have_no_f() {
+    let sandbox = sandbox_with_scene("explain_direction", |_| {});
+    // The window is 4 x 2 on the plane at distance 1: (1, 0, -1) vanishes halfway to the right.
+    let found = explanation_json(&sandbox, &["--point", "1,0,-1,0"]);
+    let screen = find_item(&found, "screen");
+    let position = screen.as_array().expect("a position");
+    assert_near(&json!(position[..2]), &[150.0, 50.0]);
+    let parallel = explanation_json(&sandbox, &["--point", "1,0,0,0"]);
+    assert!(parallel["verdict"].as_str().expect("words").contains("stay parallel"));
+    let torn = explanation_json(&sandbox, &["--segment", "0,0,0,0,0,10"]);
+    assert!(find_item(&torn, "f").as_str().expect("words").contains("clip first"));
+}

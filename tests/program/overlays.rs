@@ -165,3 +165,18 @@ fn axis_vectors(layers: &Layers) -> [PagePoint; 3] {
         )
     })
 }
+
+/// A vanishing point beyond the border is named there; one in the picture has its ring alone.
+#[test]
+fn vanishing_points_outside_of_the_picture_are_named_at_its_border() {
+    let sandbox = Sandbox::new("vanishing_outside");
+    let camera = "projection: TwoPoint(x: (-3.2, 0.5), z: (1.1, 0.5))";
+    let (half, layers) = draw_overlays(&sandbox, camera, "VanishingPoints");
+    let named = layers_ending_in(&layers, "-outside-x");
+    let [low, high] = point_bounds(named.iter().flat_map(|line| line.iter()));
+    assert!(low[0] > 0.0 && high[0] < half[0], "at the left: {low:?} {high:?}");
+    assert!(low[1] > 0.0 && high[1] < 2.0 * half[1]);
+    assert!(layers_ending_in(&layers, "-vanishing-x").is_empty());
+    assert!(layers_ending_in(&layers, "-outside-z").is_empty());
+    assert!(!layers_ending_in(&layers, "-vanishing-z").is_empty());
+}

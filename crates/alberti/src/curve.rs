@@ -3,6 +3,7 @@
 use super::format::OutputFormat;
 use super::page_output::{has_extension, write_page};
 use super::{CliError, print_stdout};
+use drawing::Spacing;
 use pipeline::demonstration::{DepthRow, DepthTable};
 use projection::{Convention, DepthFormat};
 use std::path::{Path, PathBuf};
@@ -39,7 +40,10 @@ struct DepthArgs {
     /// Distances of the table, separated by commas [default: 16 from near to far, in equal ratios]
     #[arg(long, value_name = "DISTANCES", value_delimiter = ',', allow_hyphen_values = true)]
     distances: Vec<f64>,
-    /// Output file: .svg, .pdf or .png for the plot, .txt, .md or .csv for the table alone
+    /// Spacing of the plot's axis of distances
+    #[arg(long, value_name = "SPACING", default_value = "logarithmic")]
+    axis: AxisArg,
+    /// Output file: .svg, .pdf or .png for the plot, .txt, .md, .csv or .json for the table alone
     /// [default: the table on the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -54,14 +58,36 @@ enum DepthRangeArg {
     MinusOneOne,
 }
 
+/// The spacing of an axis.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum AxisArg {
+    /// Equal ratios at equal distances on the page
+    Logarithmic,
+    /// Equal differences at equal distances on the page
+    Linear,
+}
+
+impl From<AxisArg> for Spacing {
+    fn from(axis: AxisArg) -> Self {
+        match axis {
+            AxisArg::Logarithmic => Self::Logarithmic,
+            AxisArg::Linear => Self::Linear,
+        }
+    }
+}
+
 /// Formats a depth table as text.
 type TableFormatter = fn(&DepthTable, &[DepthRow]) -> String;
 
 /// The file extensions of a table without its plot, with their formatters.
 ///
 /// Any other extension is that of a plot.
-const TABLE_FORMATS: [(&str, TableFormatter); 3] =
-    [("txt", DepthTable::to_text), ("md", DepthTable::to_markdown), ("csv", DepthTable::to_csv)];
+const TABLE_FORMATS: [(&str, TableFormatter); 4] = [
+    ("txt", DepthTable::to_text),
+    ("md", DepthTable::to_markdown),
+    ("csv", DepthTable::to_csv),
+    ("json", DepthTable::to_json),
+];
 
 /// Plots a function, or prints its table.
 ///
@@ -85,25 +111,30 @@ pub(crate) fn run(args: &CurveArgs) -> Result<(), CliError> {
         .collect::<Result<_, _>>()
         .map_err(projection_error)?;
     match &args.output {
-        Some(output) => write_output(output, &table, &rows),
+        Some(output) => write_output(output, &table, &rows, args.axis.into()),
         None => print_stdout(table.to_text(&rows).as_bytes()),
     }
 }
 
 /// Writes the table or the plot, by the extension of the output.
 ///
-/// An unknown extension is reported with the list of all six, instead of that of plots alone.
-fn write_output(output: &Path, table: &DepthTable, rows: &[DepthRow]) -> Result<(), CliError> {
+/// An unknown extension is reported with the list of all seven, instead of that of plots alone.
+fn write_output(
+    output: &Path,
+    table: &DepthTable,
+    rows: &[DepthRow],
+    distances: Spacing,
+) -> Result<(), CliError> {
     if let Some((_, written)) =
         TABLE_FORMATS.iter().find(|(ending, _)| has_extension(output, ending))
     {
         return Ok(pipeline::write_file(output, written(table, rows).as_bytes())?);
     }
     OutputFormat::from_path(output).map_err(|_| {
-        let (name, extensions) = (output.display(), ".svg, .pdf, .png, .txt, .md or .csv");
+        let (name, extensions) = (output.display(), ".svg, .pdf, .png, .txt, .md, .csv or .json");
         CliError::Usage(format!("the output {name} has no known extension: {extensions}"))
     })?;
-    write_page(output, &table.to_page(rows))
+    write_page(output, &table.to_page(rows, distances))
 }
 
 /// Planes that make no projection, such as a near plane behind the eye, are wrong usage.

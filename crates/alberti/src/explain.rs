@@ -137,7 +137,8 @@ struct ExplainSubjectArgs {
 /// If the input is invalid or has no such subject, or the output cannot be written.
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     if let Some(map) = args.map.build_map()? {
-        let explanation = map.explain_points(&args.subject.bare_points()).map_err(CliError::Usage)?;
+        let explanation =
+            map.explain_points(&args.subject.bare_points()).map_err(CliError::Usage)?;
         return write_explanation(args, &explanation, |explanation| Ok(explanation.to_string()));
     }
     let Some(input) = &args.input else {
@@ -229,9 +230,10 @@ impl ExplainSubjectArgs {
     /// The points of the flags for a map without a scene: one, the ends of a segment, or none.
     fn bare_points<S: homog::Space>(&self) -> Vec<HPoint<S>> {
         let point = self.point.map(SubjectPoint::numbers).into_iter();
-        let ends = self.segment.iter().flat_map(|[ax, ay, az, bx, by, bz]| {
-            [[*ax, *ay, *az, 1.0], [*bx, *by, *bz, 1.0]]
-        });
+        let ends = self
+            .segment
+            .iter()
+            .flat_map(|[ax, ay, az, bx, by, bz]| [[*ax, *ay, *az, 1.0], [*bx, *by, *bz, 1.0]]);
         point.chain(ends).map(HPoint::from).collect()
     }
 

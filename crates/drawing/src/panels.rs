@@ -64,6 +64,8 @@ pub struct Panel {
 pub struct Panels {
     /// The title of the page.
     pub title: String,
+    /// Sentences below the title: what the page shows, and the units of its numbers.
+    pub introduction: Vec<String>,
     /// The number of panels in a row, at least 1.
     pub columns: usize,
     /// The panels, row by row from the left.
@@ -108,7 +110,13 @@ impl Panels {
     pub fn new(title: impl Into<String>, panels: Vec<Panel>) -> Self {
         let count = panels.len();
         let columns = if count <= 3 { count } else { (1..).find(|n| n * n >= count).unwrap_or(1) };
-        Self { title: title.into(), columns: columns.max(1), panels }
+        Self { title: title.into(), introduction: Vec::new(), columns: columns.max(1), panels }
+    }
+
+    /// The panels with sentences below the title, a line each.
+    #[must_use]
+    pub fn with_introduction(self, introduction: Vec<String>) -> Self {
+        Self { introduction, ..self }
     }
 
     /// The warnings of all drawings, each once.
@@ -134,7 +142,8 @@ impl Panels {
             .collect();
         let heights: Vec<f64> =
             sizes.chunks(columns).map(|row| largest_side(row.iter().map(|size| size.y))).collect();
-        let top = MARGIN + HEADING_HEIGHT + PANEL_GAP;
+        let lines = self.introduction.len() as f64 * NOTE_HEIGHT * LEADING;
+        let top = MARGIN + HEADING_HEIGHT + lines + PANEL_GAP;
         let sum = |sides: &[f64]| sides.iter().map(|side| side + PANEL_GAP).sum::<f64>();
         let size = DVec2::new(
             sum(&widths) - PANEL_GAP + 2.0 * MARGIN,
@@ -158,7 +167,13 @@ impl Panels {
         let heading =
             Label::new(&self.title, at, HEADING_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
         let mut layer = Layer::new("heading", "what the page shows", heading.pen(INK));
-        layer.groups.push(Group { strokes: heading.strokes(), ..Group::default() });
+        let mut strokes = heading.strokes();
+        for (line, words) in self.introduction.iter().enumerate() {
+            let below = at + DVec2::new(0.0, (line + 1) as f64 * NOTE_HEIGHT * LEADING);
+            let label = Label::new(words, below, NOTE_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
+            strokes.extend(label.strokes());
+        }
+        layer.groups.push(Group { strokes, ..Group::default() });
         page.layers.extend([frames, names, notes, layer]);
         page.warnings = self.warnings();
         page

@@ -13,6 +13,9 @@ use homog::Vector;
 /// The radius of the ring around a vanishing point, in millimeters.
 const RING_RADIUS: f64 = 0.8;
 
+/// The distance from the border of the picture to the name of a point beyond it, in millimeters.
+const BORDER_GAP: f64 = 1.5;
+
 /// The number of sides of a ring.
 const RING_SIDES: u32 = 24;
 
@@ -67,8 +70,9 @@ impl PicturePlane {
     /// Rings around the vanishing points of the axes, and lines to them from the corners of the
     /// models' bounding box.
     ///
-    /// An axis parallel to the picture plane has no finite vanishing point (w = 0 but for rounding)
-    /// and is left out.
+    /// A vanishing point outside of the picture is named at the border, on the line from the center
+    /// to it. An axis parallel to the picture plane has no finite vanishing point (w = 0 but for
+    /// rounding) and is left out.
     pub(super) fn vanishing_point_layers(&self) -> Vec<Layer> {
         let mut layers = Vec::new();
         for (direction, name, ink) in AXES {
@@ -83,15 +87,31 @@ impl PicturePlane {
             let strokes = self.bounds.corners().into_iter().filter_map(to_it).collect();
             lines.groups.push(Group { strokes, ..Group::default() });
             let title = format!("vanishing point of {name}");
-            let mut mark = overlay_layer(&format!("vanishing-{name}"), &title, ink);
-            let strokes = self
-                .point_in_picture(image)
-                .map(|center| vanishing_point_mark(center, name))
-                .unwrap_or_default();
+            let (id, strokes) = match self.point_in_picture(image) {
+                Some(center) => ("vanishing", vanishing_point_mark(center, name)),
+                None => ("outside", self.outside_mark(image, name)),
+            };
+            let mut mark = overlay_layer(&format!("{id}-{name}"), &title, ink);
             mark.groups.push(Group { strokes, ..Group::default() });
             layers.extend([lines, mark]);
         }
         layers
+    }
+
+    /// `Vx outside`, at the border on the way from the center to a vanishing point.
+    fn outside_mark(&self, image: DVec3, name: &str) -> Vec<Polyline> {
+        let Some([_, border]) = self.clip_to_picture(DVec3::Z, image) else { return Vec::new() };
+        let text = format!("V{name} outside");
+        let from_center = (border - self.half) / self.half;
+        let (align, aside) = match from_center.x {
+            x if x > 0.99 => (TextAlign::End, -BORDER_GAP),
+            x if x < -0.99 => (TextAlign::Start, BORDER_GAP),
+            _ => (TextAlign::Middle, 0.0),
+        };
+        let lowest = 2.0 * self.half.y - BORDER_GAP;
+        let y = border.y.clamp((LETTER_HEIGHT + BORDER_GAP).min(lowest), lowest);
+        let at = DVec2::new(border.x + aside, y);
+        Label::new(&text, at, LETTER_HEIGHT).with_align(align).strokes()
     }
 
     /// The line from the image of a corner to a vanishing point.

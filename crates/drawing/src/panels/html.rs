@@ -26,8 +26,12 @@ impl Panels {
         let title = escape_markup(&self.title);
         let mut html = format!(
             "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
-             <style>{STYLE_SHEET}</style>\n<h1>{title}</h1>\n<main>\n"
+             <style>{STYLE_SHEET}</style>\n<h1>{title}</h1>\n"
         );
+        for words in &self.introduction {
+            let _ = writeln!(html, "<p>{}</p>", escape_markup(words));
+        }
+        html += "<main>\n";
         self.panels.iter().for_each(|panel| push_figure(&mut html, panel));
         html += "</main>\n</html>\n";
         html

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!  ┌ heading ────────────────────────────┐
-//!  │ depth      ╭──── normal    │ table   │   Distances are on a logarithmic axis in both charts;
-//!  │           ╱ ╭─── reversed  │ …       │   the resolution has a logarithmic axis too, since it
-//!  │ resolution ╱╱              │         │   spans many powers of ten.
+//!  │ depth      ╭──── normal    │ table   │   Distances are on a logarithmic axis in both charts,
+//!  │           ╱ ╭─── reversed  │ …       │   or on a linear one; the resolution has a logarithmic
+//!  │ resolution ╱╱              │         │   axis, since it spans many powers of ten.
 //!  └─────────────────────────────────────┘
 //! ```
 
@@ -50,17 +50,17 @@ const LINE_SPACING: f64 = 2.1;
 const CURVE_SAMPLES: u32 = 800;
 
 impl DepthTable {
-    /// Draws curves and table on a page.
+    /// Draws curves and table on a page, with this spacing of distances.
     ///
     /// The charts have their own samples; `rows` appear in the table only. Each table line takes
     /// 4.83 mm, so 31 rows fit on A4, and the page grows downwards beyond that.
     #[must_use]
-    pub fn to_page(&self, rows: &[DepthRow]) -> Page {
+    pub fn to_page(&self, rows: &[DepthRow], distances: Spacing) -> Page {
         let table_end = TABLE_CORNER.y + (rows.len() + 2) as f64 * LETTER_HEIGHT * LINE_SPACING;
         let size = DVec2::new(PAGE_SIZE.x, PAGE_SIZE.y.max(table_end + 10.0));
         let title = "Depth after the perspective divide";
         let mut page = Page::new(size, title, Some([255; 3]));
-        let [depths, steps] = self.build_charts();
+        let [depths, steps] = self.build_charts(distances);
         page.layers.extend(depths.to_layers(UPPER_CHART_CORNER, CHART_SIZE));
         page.layers.extend(steps.to_layers(LOWER_CHART_CORNER, CHART_SIZE));
         page.layers
@@ -73,10 +73,11 @@ impl DepthTable {
     /// The depth axis is linear and contains [0, 1], or [−1, 1] for OpenGL's range. A tick on it
     /// marks the distance 2FN/(F + N) at which half of the range is spent. Normal curves are solid,
     /// reversed ones dashed: readable without color.
-    fn build_charts(&self) -> [Chart; 2] {
-        let samples = self.sample_rows();
+    fn build_charts(&self, spacing: Spacing) -> [Chart; 2] {
+        let samples = self.sample_rows(spacing);
         let [from, to] = self.distance_range();
-        let x = |title: &str| Axis { title: title.into(), from, to, spacing: Spacing::Logarithmic };
+        let title = format!("distance in scene units, {} axis", spacing_name(spacing));
+        let x = Axis { title, from, to, spacing };
         let curve = |which: usize, of: &dyn Fn(&DepthRow) -> [f64; 2]| Curve {
             id: ["normal", "reversed"][which].to_owned(),
             title: ["normal", "reversed"][which].to_owned(),
@@ -92,9 +93,9 @@ impl DepthTable {
         [
             Chart {
                 id: "depth".to_owned(),
-                x: x("distance"),
+                x: x.clone(),
                 y: Axis {
-                    title: "depth".to_owned(),
+                    title: "depth, linear axis".to_owned(),
                     from: low,
                     to: high,
                     spacing: Spacing::Linear,
@@ -107,9 +108,9 @@ impl DepthTable {
             },
             Chart {
                 id: "step".to_owned(),
-                x: x("distance"),
+                x,
                 y: Axis {
-                    title: "smallest step that is told apart".to_owned(),
+                    title: "smallest step in scene units, logarithmic axis".to_owned(),
                     from: finest,
                     to: coarsest,
                     spacing: Spacing::Logarithmic,
@@ -123,20 +124,35 @@ impl DepthTable {
         ]
     }
 
-    /// Densely sampled rows, in equal ratios of distance.
+    /// Densely sampled rows, even on the axis of distances.
     ///
-    /// D(s) = N (E / N)^(s / samples), even on a logarithmic axis. The first and the last sample
+    /// D(s) = N (E / N)^(s / samples) on a logarithmic axis, N + (E − N) s / samples on a linear
+    /// one. The first and the last sample
     /// are the planes themselves, without the rounding of `exp`. Distances whose depth is not
     /// representable are dropped.
-    fn sample_rows(&self) -> Vec<DepthRow> {
+    fn sample_rows(&self, spacing: Spacing) -> Vec<DepthRow> {
         let [near, end] = self.distance_range();
         let ratio = libm::log(end) - libm::log(near);
         let distance = |sample: u32| match sample {
             0 => near,
             CURVE_SAMPLES => end,
-            sample => near * libm::exp(ratio * (f64::from(sample) / f64::from(CURVE_SAMPLES))),
+            sample => {
+                let fraction = f64::from(sample) / f64::from(CURVE_SAMPLES);
+                match spacing {
+                    Spacing::Linear => near + (end - near) * fraction,
+                    Spacing::Logarithmic => near * libm::exp(ratio * fraction),
+                }
+            }
         };
         (0..=CURVE_SAMPLES).filter_map(|sample| self.row_at(distance(sample)).ok()).collect()
+    }
+}
+
+/// The word for the spacing of an axis.
+const fn spacing_name(spacing: Spacing) -> &'static str {
+    match spacing {
+        Spacing::Linear => "linear",
+        Spacing::Logarithmic => "logarithmic",
     }
 }
 
@@ -210,7 +226,7 @@ mod tests {
     #[test]
     fn the_curve_is_drawn_where_the_formula_says() {
         let table = DepthTable::new(2.0, 40.0, Convention::WEBGPU, DepthFormat::Float32);
-        let page = table.expect("a table").to_page(&[]);
+        let page = table.expect("a table").to_page(&[], Spacing::Logarithmic);
         let layer = page.layers.iter().find(|layer| layer.id == "depth-normal").expect("a curve");
         let points = &layer.groups[0].strokes[0].points;
         assert!(points.len() > 500);
@@ -223,6 +239,23 @@ mod tests {
     }
 
     #[test]
+    fn axes_say_what_they_are_and_how_they_are_spaced() {
+        let table = DepthTable::new(2.0, 40.0, Convention::WEBGPU, DepthFormat::Float32);
+        let table = table.expect("a table");
+        for (spacing, words) in
+            [(Spacing::Linear, "linear axis"), (Spacing::Logarithmic, "logarithmic axis")]
+        {
+            let [depth, step] = table.build_charts(spacing);
+            for chart in [&depth, &step] {
+                assert_eq!(chart.x.title, format!("distance in scene units, {words}"));
+                assert_eq!(chart.x.spacing, spacing);
+            }
+            assert!(depth.y.title.ends_with("linear axis"), "{}", depth.y.title);
+            assert!(step.y.title.contains("scene units"), "{}", step.y.title);
+        }
+    }
+
+    #[test]
     fn every_range_and_format_has_a_page() {
         for (near, far) in [(1e-3, f64::INFINITY), (1.0, 1.000_001), (1e-6, 1e9)] {
             for format in
@@ -230,7 +263,7 @@ mod tests {
             {
                 for convention in [Convention::OPENGL, Convention::WEBGPU] {
                     let table = DepthTable::new(near, far, convention, format).expect("a table");
-                    let page = table.to_page(&[]);
+                    let page = table.to_page(&[], Spacing::Linear);
                     let curves = page.layers.iter().filter(|layer| layer.id.ends_with("-normal"));
                     assert_eq!(curves.count(), 2, "{near} {far} {format:?}");
                 }

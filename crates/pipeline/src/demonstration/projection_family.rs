@@ -12,6 +12,7 @@
 use super::DemonstrationError;
 use super::number_format::format_short;
 use crate::explain::formula_ids;
+use crate::formulas::find_formula;
 use crate::scene::file::{CameraFile, ProjectionFile, SceneFile};
 use crate::scene::{Origin, Scene};
 use camera::ViewProjection;
@@ -22,6 +23,15 @@ use model::ModelInstance;
 use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
+
+/// The sentences at the head of the page.
+const INTRODUCTION: [&str; 2] = [
+    "Each panel shows the same models in one projection, with its class, the ids of its formulas \
+     (see `alberti reference OB-1`) and the first of them in full.",
+    "Parallel projections give the drawn length of a unit of each axis in scene units, and its \
+     direction counterclockwise from the right; perspectives the vertical field of view, and \
+     vanishing points in half heights of the picture from its center.",
+];
 
 /// The world axes by name, as unit vectors: their images give foreshortening and vanishing points.
 const AXES: [(&str, Vector<World>); 3] = [("x", Vector::X), ("y", Vector::Y), ("z", Vector::Z)];
@@ -62,7 +72,9 @@ pub fn projection_panels(
         panels.push(panel.with_notes(projection_notes(projection, &scene.view_projection, size)));
         title = scene.model_names();
     }
-    Ok(Panels::new(format!("{title}: planar projections"), panels))
+    let introduction = INTRODUCTION.map(str::to_owned).to_vec();
+    let title = format!("{title}: planar projections");
+    Ok(Panels::new(title, panels).with_introduction(introduction))
 }
 
 /// The notes of a panel: class, formulas, measurements.
@@ -92,11 +104,21 @@ fn projection_notes(
         None if is_parallel => describe_axes(world_to_clip, size, None),
         None => describe_vanishing_points(world_to_clip, size),
     };
-    vec![
-        class_path(class),
-        format!("formulas {}", formula_list(class, view_projection)),
-        measurements,
-    ]
+    let formulas = formula_list(class, view_projection);
+    let mut notes = vec![class_path(class), format!("formulas {formulas}"), measurements];
+    notes.extend(formula_in_full(&formulas));
+    notes
+}
+
+/// The first of some formulas that is an equation, in letters of the plotter font.
+fn formula_in_full(ids: &str) -> Option<String> {
+    let (id, equation) = ids.split(", ").find_map(|id| {
+        let equation = find_formula(id)?.equations().collect::<Vec<_>>().join(", ");
+        (!equation.is_empty()).then_some((id, equation))
+    })?;
+    let letters = [("φ", "phi"), ("α", "alpha"), ("β", "beta"), ("θ", "theta")];
+    let spelled = letters.iter().fold(equation, |text, (from, to)| text.replace(from, to));
+    Some(format!("{id}: {spelled}"))
 }
 
 /// The classes from below the root to this one, such as `parallel, oblique, cavalier`.
@@ -277,6 +299,8 @@ mod tests {
         for (projection, formula, axes) in cases {
             let notes = notes_for(projection.clone());
             assert!(notes[1].contains(formula), "{projection:?}: {notes:?}");
+            let is_equation = notes[3].starts_with(&format!("{formula}: "));
+            assert!(is_equation && notes[3].contains(['=', '→']), "{projection:?}: {notes:?}");
             assert_eq!(notes[2], axes, "{projection:?}");
         }
     }
