@@ -168,6 +168,6 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
     assert!(markdown.contains("```text\n    ┌ n 0  0    0  ┐"), "{markdown}");
     let html = sandbox.run(&["reference", "PE-1", "--format", "html"]).stdout;
     assert!(html.starts_with("<!DOCTYPE html>") && html.contains("Command: alberti"), "{html}");
-    let unknown = sandbox.run(&["reference", "PE-99"]);
-    assert!(unknown.code == 1 && unknown.stderr.contains("nothing named `PE-99`"));
+    let unknown = sandbox.run(&["reference", "UNKNOWN-1"]);
+    assert!(unknown.code == 1 && unknown.stderr.contains("nothing named `UNKNOWN-1`"));
 }

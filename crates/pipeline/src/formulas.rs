@@ -130,7 +130,7 @@ mod tests {
         let row = find_formula("D3D-3").expect("a row");
         assert!(row.name.starts_with("D3D-3 | left-handed, by window"), "{}", row.name);
         assert!(row.text.contains("0 0 A B") && row.command.is_some());
-        assert_eq!(find_formula("XY-1"), None);
+        assert_eq!(find_formula("UNKNOWN-1"), None);
         assert_eq!(find_formula("and"), None);
     }
 
