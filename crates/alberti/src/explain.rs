@@ -63,11 +63,11 @@ struct BareMapArgs {
     #[arg(
         long,
         value_name = "NUMBERS",
-        value_parser = parse_numbers::<16>,
+        value_parser = parse_matrix,
         allow_hyphen_values = true,
         conflicts_with_all = ["input", "planes", "node", "pixel", "html"]
     )]
-    matrix: Option<[f64; 16]>,
+    matrix: Option<Box<[f64; 16]>>,
     /// Map --point or --segment by the textbook's matrix P of the planes z = N and z = F
     ///
     /// Both numbers are z-coordinates, negative ahead of the camera, as in -1,-3.
@@ -303,7 +303,7 @@ impl BareMapArgs {
     /// # Errors
     /// If the planes make no matrix P.
     fn build_map(&self) -> Result<Option<BareMap>, CliError> {
-        if let Some(entries) = self.matrix {
+        if let Some(entries) = &self.matrix {
             let [a, b, c, d] = [0, 4, 8, 12].map(|at| std::array::from_fn(|j| entries[at + j]));
             return Ok(Some(BareMap::from_rows([a, b, c, d])));
         }
@@ -311,6 +311,11 @@ impl BareMapArgs {
         let map = BareMap::from_planes(near, far);
         map.map(Some).map_err(|error| CliError::Usage(format!("--planes {near},{far}: {error}")))
     }
+}
+
+/// Parses sixteen numbers, boxed to keep the arguments of the command small.
+fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
+    parse_numbers(text).map(Box::new)
 }
 
 /// Parses a point of three or four numbers.
