@@ -25,28 +25,32 @@ impl ViewProjection {
     /// at infinity.
     ///
     /// It is the one point that has no image: the rows of x, y and w of the matrix all give 0 for
-    /// it.
+    /// it. Its sign is that of a step towards the viewer, in which depth grows: `viewer.xyz −
+    /// p·viewer.w` is the vector from a visible point p to where it is seen from.
+    ///
+    /// w is 1 for an eye and 0 for a direction. It is −1 in reverse perspective, such as the bottom
+    /// row (p, q, r, 1) with r > 0: lines of sight meet *behind* the scene, and what is farthest
+    /// from their center hides what is nearer to it.
     #[must_use]
     pub fn viewer(&self) -> HPoint<World> {
         let viewer = self.blind_point();
-        let towards = self.camera.w().raw();
-        let backwards =
-            if viewer.w == 0.0 { viewer.truncate().dot(towards) < 0.0 } else { viewer.w < 0.0 };
-        let viewer = if backwards { -viewer } else { viewer };
-        HPoint::from_raw(if viewer.w == 0.0 { viewer } else { viewer / viewer.w })
+        let viewer = if self.is_mirrored() { viewer } else { -viewer };
+        HPoint::from_raw(if viewer.w == 0.0 { viewer } else { viewer / viewer.w.abs() })
     }
 
     /// Whether the picture shows the world as in a mirror: a window with left and right (or bottom
     /// and top) exchanged.
+    ///
+    /// The determinant of the matrix, the row of z times the point without an image, tells: depth
+    /// grows towards the viewer, who therefore has a positive z in clip space.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
-        self.blind_point().dot(self.viewer().raw()) > 0.0
+        self.world_to_clip().raw().row(2).dot(self.blind_point()) > 0.0
     }
 
     /// The point without an image, as the product of the rows of x, y and w in four dimensions: the
-    /// determinant of three points and this one is that of (x, y, w) of their images. View space
-    /// looks along −z while w grows ahead, so the product points away from the viewer unless the
-    /// picture is mirrored.
+    /// determinant of three points and this one is that of (x, y, w) of their images. The product
+    /// points away from the viewer unless the picture is mirrored.
     fn blind_point(&self) -> DVec4 {
         let m = self.world_to_clip().raw();
         let rows = [m.row(0), m.row(1), m.row(3)];
@@ -67,7 +71,7 @@ impl ViewProjection {
 mod tests {
     use super::*;
     use homog::{Point, Vector};
-    use projection::{Convention, Frustum, Orthographic};
+    use projection::{Convention, Frustum, NPoint, Orthographic};
 
     fn camera() -> Camera {
         Camera::look_at(Point::new(4.0, 3.0, 6.0), Point::new(0.0, 1.0, 0.0), Vector::Y)
@@ -97,6 +101,27 @@ mod tests {
         let unit = towards.normalized().expect("a direction");
         assert!((unit - camera().w()).length() < 1e-12);
         assert!(!view_projection.is_mirrored());
+    }
+
+    #[test]
+    fn the_viewer_of_a_reverse_perspective_is_turned() {
+        for r in [-0.2, 0.2] {
+            let perspective = NPoint::new(0.1, -0.05, r).expect("a perspective");
+            let volume = Orthographic::new(-2.0, 2.0, -2.0, 2.0, -1.0, 1.0).expect("a good box");
+            let view_to_clip =
+                perspective.depth_preserving().then(volume.view_to_clip(Convention::CHAPTER));
+            let camera =
+                Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a good camera");
+            let view_projection = ViewProjection { camera, view_to_clip };
+            let viewer = view_projection.viewer();
+            // ONE-1: the lines of sight meet at (0, 0, −1/r).
+            assert_eq!(viewer.w(), -r.signum());
+            let center = viewer.divide().expect("a place");
+            assert!((center - Point::new(0.0, 0.0, -1.0 / r)).length() < 1e-12, "{center:?}");
+            // In both, depth grows towards +z.
+            assert!(viewer.z() > 0.0);
+            assert!(!view_projection.is_mirrored());
+        }
     }
 
     #[test]

@@ -81,13 +81,15 @@ impl ViewTransform {
         Projective::from_raw(self.ndc_to_screen.raw() * self.world_to_clip.raw())
     }
 
-    /// The eye with w = 1, or in a parallel view the unit direction towards it with w = 0.
+    /// The eye with w = 1, or in a parallel view the unit direction towards it with w = 0; in
+    /// reverse perspective w = −1 (see [`ViewProjection::viewer`]).
     #[must_use]
     pub const fn viewer(&self) -> HPoint<World> {
         self.viewer
     }
 
-    /// The vector from a point to the eye; of length 1 in a parallel view.
+    /// The vector from a point to the eye; of length 1 in a parallel view, and away from the center
+    /// of a reverse perspective.
     #[must_use]
     #[inline]
     pub fn vector_to_viewer(&self, from: Point<World>) -> Vector<World> {

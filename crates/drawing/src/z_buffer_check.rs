@@ -118,10 +118,17 @@ struct FacePlane {
 
 impl FacePlane {
     /// The plane of a triangle, oriented towards the viewer.
-    fn from_triangle([a, b, c]: [DVec3; 3], projector: &Projector) -> Self {
+    ///
+    /// The side of the viewer is the one where depth grows: it is read from the matrix and not from
+    /// the projector's viewer, by which hidden lines are cut, so that a wrong viewer cannot hide
+    /// from the comparison. The row vector (n, −offset) in the world is (n, −offset) · M⁻¹ on the
+    /// screen; its third number is the change with depth.
+    fn from_triangle([a, b, c]: [DVec3; 3], screen_to_world: &DMat4) -> Self {
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        let normal = normal * normal.dot(projector.towards_viewer(a)).signum();
-        Self { normal, offset: normal.dot(a) }
+        let offset = normal.dot(a);
+        let along_depth = screen_to_world.z_axis.dot(normal.extend(-offset));
+        let sign = along_depth.signum();
+        Self { normal: normal * sign, offset: offset * sign }
     }
 }
 
@@ -133,11 +140,12 @@ impl ZBufferImage {
         let finer = (MAX_Z_BUFFER_SIDE / width.max(height)).clamp(1, SUPERSAMPLING);
         let (width, height) = (width * finer, height * finer);
         let projector = Projector::new(&subject.view_projection, &Viewport::image(width, height)?);
+        let to_world = drawing_projector.world_to_screen().inverse();
         let surface = WeldedSurface::new(subject.models, subject.sections);
         let mut planes = Vec::new();
         let triangles = surface.occluder_triangles().map(|triangle| {
             let vertices = triangle.map(Point::raw);
-            planes.push(FacePlane::from_triangle(vertices, &projector));
+            planes.push(FacePlane::from_triangle(vertices, &to_world));
             vertices
         });
         let ids = rasterize_faces(triangles, &projector, [width, height])?;
@@ -147,7 +155,7 @@ impl ZBufferImage {
             scale: f64::from(finer),
             ids,
             planes,
-            to_world: drawing_projector.world_to_screen().inverse(),
+            to_world,
             touching: surface.touch_tolerance().world,
         })
     }
