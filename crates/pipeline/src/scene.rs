@@ -24,6 +24,7 @@ mod hdr;
 mod include;
 mod insets;
 mod instances;
+mod lens;
 mod lights;
 mod lints;
 mod material_overrides;

@@ -63,13 +63,12 @@ impl CameraPath {
         }
         let usual = match &file.camera.projection {
             None => Some(FieldOfView::DEFAULT),
-            Some(ProjectionFile::Perspective { fov_y_degrees, .. }) => Some(*fov_y_degrees),
-            Some(_) => None,
+            Some(projection) => vertical_field_of_view(projection),
         };
         let angled = path.keys.iter().position(|key| key.fov_y_degrees.is_some());
         if let (None, Some(at)) = (usual, angled) {
-            let message = "the scene's projection has no opening angle".to_owned();
-            let help = "leave it out, or choose Perspective()";
+            let message = "the scene's projection has no vertical field of view".to_owned();
+            let help = "leave it out, or choose Perspective() with fov_y_degrees or without";
             return Err(fault(&[Index(at), Field("fov_y_degrees")], message, help));
         }
         let usual = usual.unwrap_or_default();
@@ -94,9 +93,12 @@ impl CameraPath {
         let view = ViewFile::LookAt { eye: triple(0), target: triple(3), up: triple(6) };
         let mut camera = CameraFile { view, ..self.camera.clone() };
         let projection = camera.projection.get_or_insert(ProjectionFile::PERSPECTIVE);
-        if let ProjectionFile::Perspective { fov_y_degrees, .. } = projection {
+        let is_vertical = vertical_field_of_view(projection).is_some();
+        if let ProjectionFile::Perspective { fov_y_degrees, .. } = projection
+            && is_vertical
+        {
             // A curve may swing beyond its keys.
-            *fov_y_degrees = FieldOfView::new(numbers[9].clamp(0.01, 179.0)).unwrap_or_default();
+            *fov_y_degrees = FieldOfView::new(numbers[9].clamp(0.01, 179.0));
         }
         camera
     }
@@ -151,6 +153,19 @@ impl CameraPath {
         let (start, from) = self.keys[at.saturating_sub(1)];
         let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];
         (to[number] - from[number]) / (end - start)
+    }
+}
+
+/// The vertical field of view of a perspective that is not given by another one.
+fn vertical_field_of_view(projection: &ProjectionFile) -> Option<FieldOfView> {
+    match projection {
+        ProjectionFile::Perspective {
+            fov_y_degrees,
+            fov_x_degrees: None,
+            fov_diagonal_degrees: None,
+            ..
+        } => Some(fov_y_degrees.unwrap_or_default()),
+        _ => None,
     }
 }
 
@@ -214,7 +229,7 @@ mod tests {
         else {
             panic!("a perspective");
         };
-        assert_eq!(fov_y_degrees.value(), 45.0);
+        assert_eq!(fov_y_degrees.map(FieldOfView::value), Some(45.0));
     }
 
     #[test]

@@ -18,6 +18,7 @@ mod depth;
 mod visibility_survey;
 
 use super::file::{ProjectionFile, ViewFile};
+use super::lens::given_window;
 use super::syntax::PathStep::{Field, Index};
 use super::view_projection::select_lens;
 use super::{Origin, Scene, SceneError, SceneFile, Style};
@@ -126,9 +127,14 @@ impl Linter<'_> {
         let image = self.scene.image;
         let picture = f64::from(image.width) / f64::from(image.height);
         let (what, shape, place) = match (&self.file.camera.projection, &self.file.camera.view) {
-            (Some(ProjectionFile::Frustum { left, right, bottom, top, .. }), _) => {
-                let shape = (right.value() - left.value()) / (top.value() - bottom.value());
-                ("the window of the Frustum", shape.abs(), "projection")
+            (Some(projection), _) => {
+                let [left, right, bottom, top] = given_window(projection)?;
+                let what = match projection {
+                    ProjectionFile::Orthographic { .. } => "the window of the Orthographic",
+                    ProjectionFile::ApexMovedFrustum { .. } => "the window of the ApexMovedFrustum",
+                    _ => "the window of the Frustum",
+                };
+                (what, ((right - left) / (top - bottom)).abs(), "projection")
             }
             (None, ViewFile::FromModel(choice)) => {
                 let lens = select_lens(self.origin, &self.scene.models, choice)?;

@@ -10,7 +10,9 @@
 
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
-use super::file::{CameraChoice, CameraFile, FromFile, ProjectionFile, ViewFile};
+use super::file::{CameraChoice, CameraFile, Finite, FromFile, ProjectionFile, ViewFile};
+use super::lens::{Lens, check_lens, given_window};
+use super::number::Positive;
 use super::suggest::suggest_name;
 use super::syntax::PathStep::{self, Field};
 use super::{ImageSpec, Origin, SceneError};
@@ -20,7 +22,9 @@ use homog::{Point, Vector, World};
 use model::ModelInstance;
 use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
-use projection::{Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError};
+use projection::{
+    ApexMovedFrustum, Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError,
+};
 
 /// The path of the position and direction of the camera.
 pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];
@@ -94,30 +98,11 @@ pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError
     };
     let view_error = camera.err().map(|error| origin.error_at(&VIEW_PATH, error.to_string(), None));
     let is_framed = matches!(file.view, ViewFile::Frame { .. });
-    let projection_error = match file.projection.as_ref().and_then(check_planes) {
-        Some(error) => Some(origin.error_at(&PROJECTION_PATH, error.to_string(), None)),
-        None => check_classical_projection(origin, file.projection.as_ref(), is_framed),
-    };
+    let projection = file.projection.as_ref();
+    let projection_error = projection
+        .and_then(|projection| check_lens(origin, projection))
+        .or_else(|| check_classical_projection(origin, projection, is_framed));
     view_error.into_iter().chain(projection_error).collect()
-}
-
-/// The error of a projection whose clipping planes are all given.
-fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
-    match *projection {
-        ProjectionFile::Perspective { fov_y_degrees, near: Some(near), far: Some(far) } => {
-            let fov = Fov::Vertical(fov_y_degrees.value().to_radians());
-            Perspective::new(fov, 1.0, near.value(), far.value()).err()
-        }
-        ProjectionFile::Orthographic { near: Some(near), far: Some(far), .. } => {
-            Orthographic::new(-1.0, 1.0, -1.0, 1.0, near.value(), far.value()).err()
-        }
-        ProjectionFile::Frustum { left, right, bottom, top, near, far } => {
-            let far = far.map_or(2.0 * near.value(), super::number::Positive::value);
-            let [l, r, b, t] = [left, right, bottom, top].map(super::number::Finite::value);
-            Frustum::new(l, r, b, t, near.value(), far).err()
-        }
-        _ => None,
-    }
 }
 
 /// The lens of the camera that is chosen; `None` if there is no such camera.
@@ -191,33 +176,41 @@ impl<'a> CameraResolver<'a> {
         height: Option<f64>,
     ) -> Result<ViewProjection, SceneError> {
         let span = DepthSpan::from_points(&self.points, camera);
+        let window = given_window(projection);
+        let [l, r, b, t] = window.unwrap_or_default();
         let view_to_clip = match *projection {
-            ProjectionFile::Perspective { fov_y_degrees, near, far } => {
-                let (near, far) = span.perspective_planes(
-                    near.map(super::number::Positive::value),
-                    far.map(super::number::Positive::value),
-                );
-                let fov = Fov::Vertical(fov_y_degrees.value().to_radians());
-                Perspective::new(fov, self.aspect, near, far)
+            ProjectionFile::Perspective {
+                fov_y_degrees: y,
+                fov_x_degrees: x,
+                fov_diagonal_degrees: diagonal,
+                shift,
+                near,
+                far,
+            } => {
+                let (near, far) =
+                    span.perspective_planes(near.map(Positive::value), far.map(Positive::value));
+                Lens::new([y, x, diagonal], shift).view_to_clip(self.aspect, [near, far])
+            }
+            ProjectionFile::Orthographic { height: given, near, far, .. } => {
+                let (near, far) =
+                    span.parallel_planes(near.map(Finite::value), far.map(Finite::value));
+                let [l, r, b, t] = window.unwrap_or_else(|| {
+                    let height = given.map(Positive::value).or(height);
+                    let half = 0.5 * height.unwrap_or_else(|| self.fitting_window_height(camera));
+                    let right = half * self.aspect;
+                    [-right, right, -half, half]
+                });
+                Orthographic::new(l, r, b, t, near, far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
-            ProjectionFile::Orthographic { height: given, near, far } => {
-                let (near, far) = span.parallel_planes(
-                    near.map(super::number::Finite::value),
-                    far.map(super::number::Finite::value),
-                );
-                let height = given.map(super::number::Positive::value).or(height);
-                let half = 0.5 * height.unwrap_or_else(|| self.fitting_window_height(camera));
-                let right = half * self.aspect;
-                Orthographic::new(-right, right, -half, half, near, far)
-                    .map(|p| p.view_to_clip(Convention::CHAPTER))
-            }
-            ProjectionFile::Frustum { left, right, bottom, top, near, far } => {
-                let far = span
-                    .perspective_planes(Some(near.value()), far.map(super::number::Positive::value))
-                    .1;
-                let [l, r, b, t] = [left, right, bottom, top].map(super::number::Finite::value);
+            ProjectionFile::Frustum { near, far, .. } => {
+                let far = span.perspective_planes(Some(near.value()), far.map(Positive::value)).1;
                 Frustum::new(l, r, b, t, near.value(), far)
+                    .map(|p| p.view_to_clip(Convention::CHAPTER))
+            }
+            ProjectionFile::ApexMovedFrustum { near, far, .. } => {
+                let far = span.perspective_planes(Some(near.value()), far.map(Positive::value)).1;
+                ApexMovedFrustum::new(l, r, b, t, near.value(), far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
             _ => return self.project_classical(camera, projection),
@@ -258,23 +251,61 @@ impl<'a> CameraResolver<'a> {
                     Some(framed.top - framed.bottom),
                 );
             }
-            ProjectionFile::Perspective { fov_y_degrees, .. } => {
-                let angle = fov_y_degrees.value().to_radians();
-                Slopes::vertical_angle(angle, self.aspect).map_err(fault)?
+            ProjectionFile::Perspective { .. } | ProjectionFile::Frustum { .. } => {
+                self.window_slopes(projection)?
             }
-            ProjectionFile::Frustum { left, right, bottom, top, near, .. } => {
-                let slope = |side: super::number::Finite| side.value() / near.value();
-                Slopes {
-                    left: slope(left),
-                    right: slope(right),
-                    bottom: slope(bottom),
-                    top: slope(top),
-                }
+            ProjectionFile::ApexMovedFrustum { .. } => {
+                return self.frame_apex_moved(basis, padding, projection);
             }
             _ => return self.frame_classical(from, padding, projection),
         };
         let framed = frame_perspective(points, basis, slopes, padding).map_err(fault)?;
         self.project_from_camera(framed.camera, projection, None)
+    }
+
+    /// The borders of a perspective's window one unit ahead of the eye.
+    fn window_slopes(&self, projection: &ProjectionFile) -> Result<Slopes, SceneError> {
+        let lens = Lens::from_file(projection);
+        if let Some(Lens { fov: Fov::Vertical(angle), .. }) = lens.filter(|lens| lens.is_centered())
+        {
+            return Slopes::vertical_angle(angle, self.aspect)
+                .map_err(|error| self.framing_error(&error));
+        }
+        let [left, right, bottom, top] = match (lens, projection, given_window(projection)) {
+            (Some(lens), ..) => {
+                let window =
+                    lens.slopes(self.aspect).map_err(|error| self.projection_error(&error))?;
+                [window.left(), window.right(), window.bottom(), window.top()]
+            }
+            (
+                None,
+                ProjectionFile::Frustum { near, .. }
+                | ProjectionFile::ApexMovedFrustum { near, .. },
+                Some(window),
+            ) => window.map(|side| side / near.value()),
+            _ => [-1.0, 1.0, -1.0, 1.0],
+        };
+        Ok(Slopes { left, right, bottom, top })
+    }
+
+    /// The moved-apex frustum framed around the models: the apex finds its place as the eye of a
+    /// centered window does, and the camera stands beside it.
+    fn frame_apex_moved(
+        &self,
+        basis: Basis,
+        padding: f64,
+        projection: &ProjectionFile,
+    ) -> Result<ViewProjection, SceneError> {
+        let Slopes { left, right, bottom, top } = self.window_slopes(projection)?;
+        let (x, y) = (0.5 * (right - left), 0.5 * (top - bottom));
+        let centered = Slopes { left: -x, right: x, bottom: -y, top: y };
+        let points = self.points.iter().chain(&self.shadow_points).copied();
+        let framed = frame_perspective(points, basis, centered, padding)
+            .map_err(|error| self.framing_error(&error))?;
+        let [l, r, b, t] = given_window(projection).unwrap_or_default();
+        let beside = basis.u() * (0.5 * (l + r)) + basis.v() * (0.5 * (b + t));
+        let camera = framed.camera.moved(-beside).map_err(|error| self.camera_error(&error))?;
+        self.project_from_camera(camera, projection, None)
     }
 
     /// The axes of a camera that looks from a named direction or a vector towards the models.

@@ -10,19 +10,39 @@ scene_enum! {
     /// Those from `Multiview` on are the classical ones. Each of them fits its own window around
     /// the models, and unless the view says otherwise it shows their front.
     pub enum ProjectionFile as "Projection" {
-        /// Perspective, the eye in front of the image's center.
+        /// Perspective, the eye in front of the image's center unless the lens is shifted. One
+        /// field of view is given, or none.
         Perspective {
-            /// The vertical field of view in degrees. Default: 35.
-            fov_y_degrees: FieldOfView = FieldOfView::DEFAULT,
+            /// The vertical field of view in degrees. Default: 35, if no other is given.
+            fov_y_degrees: Option<FieldOfView>,
+            /// The horizontal field of view in degrees. Default: from the vertical one and the
+            /// shape of the image.
+            fov_x_degrees: Option<FieldOfView>,
+            /// The field of view from corner to corner in degrees. Default: from the vertical one
+            /// and the shape of the image.
+            fov_diagonal_degrees: Option<FieldOfView>,
+            /// How far the lens is shifted to the right and upwards, in fractions of the image's
+            /// longer side, as in Blender. Verticals stay parallel: a camera that looks straight
+            /// ahead with `shift: (0, 0.2)` shows a tower without falling lines. Default: (0, 0).
+            shift: (Finite, Finite) = NO_SHIFT,
             /// The distance of the near plane. Default: as far as the models allow.
             near: Option<Positive>,
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
-        /// Orthographic: parallel, perpendicular to the image.
+        /// Orthographic: parallel, perpendicular to the image. The window is given by its height,
+        /// or by all four borders, or by none of them.
         Orthographic {
             /// The height of the view volume in the scene's units. Default: from the framing.
             height: Option<Positive>,
+            /// The window's left border, from the line of sight. Default: from the height.
+            left: Option<Finite>,
+            /// The window's right border. Default: from the height.
+            right: Option<Finite>,
+            /// The window's bottom border. Default: from the height.
+            bottom: Option<Finite>,
+            /// The window's top border. Default: from the height.
+            top: Option<Finite>,
             /// The distance of the near plane. Default: just before the models.
             near: Option<Finite>,
             /// The distance of the far plane. Default: just behind the models.
@@ -30,6 +50,23 @@ scene_enum! {
         },
         /// Perspective through any window on the near plane, also an off-axis one.
         Frustum {
+            /// The window's left border.
+            left: Finite,
+            /// The window's right border.
+            right: Finite,
+            /// The window's bottom border.
+            bottom: Finite,
+            /// The window's top border.
+            top: Finite,
+            /// The distance of the window, which is the near plane.
+            near: Positive,
+            /// The distance of the far plane. Default: just behind the models.
+            far: Option<Positive>,
+        },
+        /// The frustum of the WebGL lesson (createFrustum): from an apex right behind the window's
+        /// center, in the plane of the eye. Another picture than that of `Frustum`, unless the
+        /// window's center is on the line of sight.
+        ApexMovedFrustum {
             /// The window's left border.
             left: Finite,
             /// The window's right border.
@@ -116,7 +153,8 @@ scene_enum! {
             z: (Finite, Finite) = point(2.4, 1.2),
         },
         /// Perspective by the bottom row (p, q, r, 1) of the textbooks' matrix, with the models
-        /// scaled so that they just fit into a sphere of radius 1.
+        /// scaled so that they just fit into a sphere of radius 1. With r > 0 it is a reverse
+        /// perspective: lines in depth run apart, and what is farther away is larger.
         NPoint {
             /// Lines along x meet at 1/p. Default: 0.
             p: Finite = Finite::ZERO,
@@ -130,10 +168,24 @@ scene_enum! {
 
 impl ProjectionFile {
     /// Perspective with every default.
-    pub const PERSPECTIVE: Self =
-        Self::Perspective { fov_y_degrees: FieldOfView::DEFAULT, near: None, far: None };
+    pub const PERSPECTIVE: Self = Self::Perspective {
+        fov_y_degrees: None,
+        fov_x_degrees: None,
+        fov_diagonal_degrees: None,
+        shift: NO_SHIFT,
+        near: None,
+        far: None,
+    };
     /// Orthographic with every default.
-    pub const ORTHOGRAPHIC: Self = Self::Orthographic { height: None, near: None, far: None };
+    pub const ORTHOGRAPHIC: Self = Self::Orthographic {
+        height: None,
+        left: None,
+        right: None,
+        bottom: None,
+        top: None,
+        near: None,
+        far: None,
+    };
 
     /// Cavalier with every default.
     #[must_use]
@@ -174,9 +226,19 @@ impl ProjectionFile {
     /// Whether it is one of the classical projections, which find their own windows.
     #[must_use]
     pub fn is_classical(&self) -> bool {
-        !matches!(self, Self::Perspective { .. } | Self::Orthographic { .. } | Self::Frustum { .. })
+        !matches!(
+            self,
+            Self::Perspective { .. }
+                | Self::Orthographic { .. }
+                | Self::Frustum { .. }
+                | Self::ApexMovedFrustum { .. }
+        )
     }
 }
+
+/// The lens in the middle of the picture.
+const NO_SHIFT: (Finite, Finite) = point(0.0, 0.0);
+
 /// 45 degrees, the direction of depth in most oblique drawings.
 const HALF_RIGHT_ANGLE: Finite = Finite::constant(45.0);
 

@@ -79,6 +79,7 @@ fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<crate::scene::syn
             ProjectionFile::Perspective { .. }
                 | ProjectionFile::Orthographic { .. }
                 | ProjectionFile::Frustum { .. }
+                | ProjectionFile::ApexMovedFrustum { .. }
         )
     );
     match adviser.file.camera.view {

@@ -10,10 +10,17 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     // Cameras: three.js PerspectiveCamera and OrthographicCamera, glTF camera.perspective, Blender
     // and f3d's --camera-… options.
     (
-        "fov fovy yfov vfov xfov fieldofview viewangle camerafov cameraviewangle focallength lens angley",
+        "fov fovy yfov vfov fieldofview viewangle camerafov cameraviewangle focallength lens angley",
         "Projection::Perspective",
         "fov_y_degrees",
     ),
+    ("fovx xfov hfov horizontalfov angle anglex", "Projection::Perspective", "fov_x_degrees"),
+    (
+        "fovd dfov diagonalfov diagonalfieldofview",
+        "Projection::Perspective",
+        "fov_diagonal_degrees",
+    ),
+    ("shiftx shifty lensshift viewoffset", "Projection::Perspective", "shift"),
     ("fov fovy yfov fieldofview viewangle", "CameraKey", "fov_y_degrees"),
     ("znear clipstart nearclip nearplane nearclippingplane", "Projection::Perspective", "near"),
     ("zfar clipend farclip farplane farclippingplane", "Projection::Perspective", "far"),
