@@ -2,12 +2,16 @@
 //!
 //! The models are those of the scenes and, if it exists, the listed ones of `$ASSETS` or of
 //! `shared/assets` beside the repository. Each is drawn from six directions in perspective, in
-//! isometric and in cavalier projection. Arguments that are not flags select models by a part of
+//! isometric and in cavalier projection. Then come random scenes over all projections (`random.rs`).
+//! Arguments that are not flags select models by a part of
 //! their path; a path below the folder's `models` names one that is not listed.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
+mod bits;
+mod random;
+mod random_projection;
 mod views;
 
 use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program};
@@ -81,7 +85,11 @@ fn main() -> ExitCode {
         }
         models.retain(|(_, name)| arguments.select(name));
         models.dedup();
-        Ok(check_models(&models))
+        let mut tally = check_models(&models);
+        if arguments.select("random") {
+            tally += random::check_random_scenes(random::COUNT, &scenes)?;
+        }
+        Ok(tally)
     })
 }
 

@@ -1,0 +1,243 @@
+//! Random scenes over all projections: lines against the z-buffer, or a reason for the refusal.
+//!
+//! ```text
+//!  number ─► splitmix64 ─► text of a scene ─► parse, resolve ─► lines ─► verify
+//!                                                └► refused: the message is the reason
+//! ```
+//! A scene is a text, so that one that fails can be written to a file and drawn by the program. All
+//! of it follows from the scene's number. The projections take turns; their parameters go beyond
+//! what is sensible, because the program has to refuse that.
+
+use alberti_tests::harness::{Tally, map_parallel};
+use drawing::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
+use model::import::{ImportOptions, load};
+use model::{Model, ModelInstance};
+use pipeline::scene::reference::Shape;
+use pipeline::scene::{Style, parse_scene};
+use pipeline::{Origin, Scene, render};
+use raster::Samples;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::bits::Random;
+use crate::random_projection::{PROJECTIONS, random_projection};
+
+/// Scenes of a run.
+pub const COUNT: usize = 1000;
+
+/// The fractions that are allowed: what `--verify` allows; lines that are hidden by slivers which
+/// contain no sample; and the same for the outline.
+const ALLOWED: [f64; 3] = [super::MAX_DISAGREEMENT, 0.005, super::MAX_DISAGREEMENT];
+
+/// Models of the scenes, with faces alone and larger than a few pixels in every view.
+const MODELS: [&str; 8] = [
+    "bearing.glb",
+    "crate.glb",
+    "house.glb",
+    "lamp.glb",
+    "room.glb",
+    "table.glb",
+    "teapot.glb",
+    "vase.glb",
+];
+
+/// The outcome of a scene that was drawn or refused.
+enum Verdict {
+    /// The fraction of the visible length that the z-buffer hides, and that of all lines that are
+    /// drawn as hidden and that it shows.
+    /// Last the fraction of the shaded picture's outline that has no line.
+    Drawn { denied: f64, contradicted: f64, unlined: f64 },
+    /// The scene is refused, for this reason.
+    Refused(String),
+}
+
+/// Compares the first scenes and records each; prints the figures.
+pub fn check_random_scenes(count: usize, folder: &Path) -> Result<Tally, String> {
+    check_projections()?;
+    let models = load_models(folder)?;
+    let numbers: Vec<usize> = (0..count).collect();
+    let verdicts = map_parallel(&numbers, |_, &number| {
+        let text = scene_text(number, &models);
+        check_scene(&text, &models).map_err(|reason| format!("{reason}\n{text}"))
+    });
+    let mut tally = Tally::default();
+    let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    let mut worst = [(0.0_f64, 0); 3];
+    for (number, verdict) in numbers.into_iter().zip(verdicts) {
+        let outcome = verdict.and_then(|verdict| match verdict {
+            Verdict::Refused(reason) => {
+                *reasons.entry(reason).or_default() += 1;
+                Ok(())
+            }
+            Verdict::Drawn { denied, contradicted, unlined } => {
+                let measured = [denied, contradicted, unlined];
+                for (worst, measured) in worst.iter_mut().zip(measured) {
+                    *worst = if measured > worst.0 { (measured, number) } else { *worst };
+                }
+                let is_right = measured.iter().zip(ALLOWED).all(|(m, allowed)| *m <= allowed);
+                let text = scene_text(number, &models);
+                if is_right { Ok(()) } else { Err(format!("{}\n{text}", describe(measured))) }
+            }
+        });
+        tally.record(&format!("random/{number}"), outcome);
+    }
+    let refused: usize = reasons.values().sum();
+    println!("{count} random scenes, {refused} refused; the worst:");
+    println!("  {}", describe(worst.map(|(measured, _)| measured)));
+    println!("  in the scenes {:?}", worst.map(|(_, number)| number));
+    reasons.iter().for_each(|(reason, count)| println!("  refused {count:4}: {reason}"));
+    Ok(tally)
+}
+
+/// Whether every projection of the scene language takes its turn.
+fn check_projections() -> Result<(), String> {
+    let types = pipeline::scene::reference::all_types();
+    let projection = types.iter().find(|entry| entry.name == "Projection").map(|entry| entry.shape);
+    let Some(Shape::Variants(variants)) = projection else {
+        return Err("the language has no projections".to_owned());
+    };
+    match variants.iter().find(|variant| !PROJECTIONS.contains(&variant.name)) {
+        Some(variant) => Err(format!("no random scene has the projection {}", variant.name)),
+        None => Ok(()),
+    }
+}
+
+/// The three fractions in words.
+fn describe(measured: [f64; 3]) -> String {
+    let [denied, contradicted, unlined] = measured.map(|fraction| fraction * 100.0);
+    format!(
+        "{denied:.4} % of the visible length is hidden, {contradicted:.4} % of all lines is dashed and shown, {unlined:.4} % of the outline has no line"
+    )
+}
+
+/// The fraction of the shaded picture's outline, pixels beside one without a surface, that has no
+/// visible line nearby; 0 where a depth plane cuts the models, whose cuts have no lines.
+fn outline_without_line(mut scene: Scene, drawing: &LineDrawing) -> Result<f64, String> {
+    let world_to_clip = scene.view_projection.world_to_clip();
+    let is_cut = scene.world_points().into_iter().any(|point| {
+        let clip = world_to_clip.transform_point(point);
+        clip.w() <= 0.0 || clip.z().abs() > clip.w()
+    });
+    if is_cut {
+        return Ok(0.0);
+    }
+    scene.style = Style::Flat;
+    scene.image.background = [0.0; 4];
+    scene.image.samples = Samples::One;
+    let picture = render(&scene, 1).map_err(|error| error.to_string())?;
+    let (width, height) = (scene.image.width, scene.image.height);
+    let mut lined = vec![false; (width * height) as usize];
+    for segment in drawing.segments.iter().filter(|segment| segment.visible) {
+        let [from, to] = segment.ends;
+        let steps = ((to - from).length() * 2.0).ceil().max(1.0);
+        for step in 0..=steps as u32 {
+            let at = from + (to - from) * (f64::from(step) / steps);
+            let (x, y) = (at.x.floor() as i64, at.y.floor() as i64);
+            for (x, y) in (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y))) {
+                if (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y) {
+                    lined[(y * i64::from(width) + x) as usize] = true;
+                }
+            }
+        }
+    }
+    let is_shown = |x: u32, y: u32| picture.pixel(x, y).is_some_and(|pixel| pixel[3] > 0);
+    let (mut outline, mut unlined) = (0_u32, 0_u32);
+    for (x, y) in (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| (x, y))) {
+        let beside = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+        if is_shown(x, y) && beside.into_iter().any(|(x, y)| !is_shown(x, y)) {
+            outline += 1;
+            unlined += u32::from(!lined[(y * width + x) as usize]);
+        }
+    }
+    Ok(f64::from(unlined) / f64::from(outline.max(1)))
+}
+
+/// The models by the names of their files, both sides of all surfaces shown: lines know no back
+/// faces.
+fn load_models(folder: &Path) -> Result<Vec<(&'static str, Arc<Model>)>, String> {
+    let load_model = |name: &'static str| {
+        let model = load(&folder.join(name), &ImportOptions::default());
+        let mut model = model.map_err(|error| error.to_string())?;
+        model.materials.iter_mut().for_each(|material| material.double_sided = true);
+        Ok((name, Arc::new(model)))
+    };
+    MODELS.into_iter().map(load_model).collect()
+}
+
+/// The scene of a number.
+fn scene_text(number: usize, models: &[(&'static str, Arc<Model>)]) -> String {
+    let mut random = Random::new(number as u64);
+    let projection = random_projection(PROJECTIONS[number % PROJECTIONS.len()], &mut random);
+    let (model, _) = random.choose(models);
+    let (width, height) = random.choose(&[(480, 360), (360, 480), (400, 400), (640, 240)]);
+    let view = random_view(&mut random);
+    format!(
+        "Scene(\n  models: [(path: \"models/{model}\")],\n  camera: ({view}projection: {projection}),\n  style: Lines(),\n  image: (size: ({width}, {height})),\n)\n"
+    )
+}
+
+/// A view, or nothing for the default of the projection.
+fn random_view(random: &mut Random) -> String {
+    let mut direction = || {
+        let [x, y, z] = [0; 3].map(|_| random.between(-1.0, 1.0));
+        format!("({x}, {y}, {z})")
+    };
+    let [from, gaze, eye] = [direction(), direction(), direction()];
+    match random.below(8) {
+        0 | 1 => String::new(),
+        2 | 3 => format!("view: Frame(from: Direction({from})), "),
+        4 => {
+            let padding = random.below(20);
+            format!("view: Frame(from: Direction({from}), padding_percent: {padding}), ")
+        }
+        5 => format!("view: LookTo(eye: {eye}, gaze: {gaze}), "),
+        _ => {
+            let [x, y, z] = [0; 3].map(|_| random.between(-9.0, 9.0));
+            format!("view: LookAt(eye: ({x}, {y}, {z}), target: {gaze}), ")
+        }
+    }
+}
+
+/// Draws a scene with its hidden lines and compares both kinds with the z-buffer.
+fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verdict, String> {
+    let file = parse_scene("random.ron", text).map_err(|errors| errors.to_string());
+    let file = match file {
+        Ok(file) => file,
+        Err(errors) => return Ok(Verdict::Refused(reason_of(&errors))),
+    };
+    let (name, model) = models
+        .iter()
+        .find(|(name, _)| file.models[0].path.ends_with(name))
+        .ok_or("a model that is not there")?;
+    let origin = Origin::from_text("random.ron", text, PathBuf::from(name));
+    let instance = ModelInstance {
+        model: Arc::clone(model),
+        model_to_world: homog::Affine::scale(1.0, 1.0, 1.0),
+    };
+    let scene = match Scene::from_models(&origin, &file, vec![instance]) {
+        Ok(scene) => scene,
+        Err(error) => return Ok(Verdict::Refused(reason_of(&error.to_string()))),
+    };
+    let subject = scene.drawing_subject();
+    let options = DrawOptions { hidden_edges: HiddenEdges::Retained, ..DrawOptions::default() };
+    let drawing = draw(&subject, &options, 1).map_err(|error| error.to_string())?;
+    let agreement = verify_with_z_buffer(&subject, &drawing).map_err(|error| error.to_string())?;
+    // Models in the distance have few lines, of which one point is much: two pixels are allowed.
+    let visible = agreement.visible_length.max(1000.0);
+    let denied = agreement.denied_length / visible;
+    let contradicted = agreement.contradicted_length / (visible + agreement.hidden_length);
+    let unlined = outline_without_line(scene.clone(), &drawing)?;
+    Ok(Verdict::Drawn { denied, contradicted, unlined })
+}
+
+/// The message of a refusal without its numbers and its place.
+fn reason_of(message: &str) -> String {
+    let lines: Vec<&str> = message.lines().collect();
+    let first = lines.first().map_or("", |line| line.trim());
+    let words = first.split_whitespace().map(|word| {
+        let is_number = word.trim_matches(|c: char| !c.is_ascii_digit() && c != '-').parse::<f64>();
+        if is_number.is_ok() { "…" } else { word }
+    });
+    words.collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,111 @@
+//! Random projections, as a scene file writes them.
+
+use crate::bits::Random;
+
+/// The projections by their names in scene files, each of them a variant.
+pub const PROJECTIONS: &[&str] = &[
+    "Perspective",
+    "Orthographic",
+    "Frustum",
+    "ApexMovedFrustum",
+    "Multiview",
+    "Isometric",
+    "Dimetric",
+    "Trimetric",
+    "Axonometric",
+    "Cavalier",
+    "Cabinet",
+    "Oblique",
+    "Military",
+    "OnePoint",
+    "TwoPoint",
+    "ThreePoint",
+    "NPoint",
+];
+
+/// A projection of this name with random parameters, some of them impossible.
+pub fn random_projection(name: &str, r: &mut Random) -> String {
+    let angle = |r: &mut Random| format!("angle_degrees: {}", r.between(-180.0, 180.0));
+    let fields = match name {
+        "Perspective" => random_lens(r),
+        "Orthographic" => random_parallel_window(r),
+        "Frustum" | "ApexMovedFrustum" => {
+            let window = random_window(r);
+            format!("{window}, near: {}", r.between(0.5, 2.0))
+        }
+        "Multiview" => r.choose(&["Front", "Back", "Left", "Right", "Top", "Bottom"]).to_owned(),
+        "Axonometric" => {
+            let [x, y, z] = [0; 3].map(|_| r.between(0.4, 1.0));
+            format!("x: {x}, y: {y}, z: {z}")
+        }
+        "Cavalier" | "Cabinet" => angle(r),
+        "Oblique" => format!("length: {}, {}", r.between(0.0, 1.5), angle(r)),
+        "Military" => {
+            let rotation = r.between(-180.0, 180.0);
+            format!("rotation_degrees: {rotation}, height: {}", r.between(0.0, 1.5))
+        }
+        "OnePoint" => {
+            let [x, y] = [0; 2].map(|_| r.between(-2.0, 2.0));
+            format!("at: ({x}, {y}), distance: {}", r.between(0.3, 6.0))
+        }
+        "TwoPoint" => {
+            let [x, z] = [r.between(-6.0, 0.5), r.between(-0.5, 6.0)];
+            let [y1, y2] = [0; 2].map(|_| r.between(-1.0, 1.0));
+            format!("x: ({x}, {y1}), z: ({z}, {y2}), fraction: {}", r.between(-0.05, 1.05))
+        }
+        "ThreePoint" => {
+            let [x, z] = [r.between(-6.0, -1.0), r.between(1.0, 6.0)];
+            let [y1, y2] = [0; 2].map(|_| r.between(-1.0, 2.0));
+            let below = r.between(-8.0, -1.0);
+            let y = format!("({}, {below})", r.between(-1.0, 1.0));
+            format!("x: ({x}, {y1}), y: {y}, z: ({z}, {y2})")
+        }
+        "NPoint" => {
+            // Some so large that a part of the models is behind the eye.
+            let [p, q, r] = [0; 3].map(|_| if r.once_in(4) { 0.0 } else { r.between(-1.2, 1.2) });
+            format!("p: {p}, q: {q}, r: {r}")
+        }
+        _ => return name.to_owned(),
+    };
+    format!("{name}({fields})")
+}
+
+/// An angle, and sometimes a shift and planes.
+fn random_lens(r: &mut Random) -> String {
+    let angle = r.between(5.0, 120.0);
+    let which = r.choose(&["fov_y_degrees", "fov_x_degrees", "fov_diagonal_degrees"]);
+    let mut fields = format!("{which}: {angle}");
+    if r.once_in(3) {
+        let [x, y] = [0; 2].map(|_| r.between(-0.6, 0.6));
+        fields += &format!(", shift: ({x}, {y})");
+    }
+    if r.once_in(4) {
+        let near = r.between(0.05, 4.0);
+        fields += &format!(", near: {near}, far: {}", r.between(2.0, 20.0));
+    }
+    fields
+}
+
+/// A height, a window or nothing, and sometimes planes.
+fn random_parallel_window(r: &mut Random) -> String {
+    let mut fields = match r.below(3) {
+        0 => String::new(),
+        1 => format!("{}, ", random_window(r)),
+        _ => format!("height: {}, ", r.between(0.5, 6.0)),
+    };
+    if r.once_in(4) {
+        let near = r.between(-3.0, 3.0);
+        fields += &format!("near: {near}, far: {}", r.between(1.0, 9.0));
+    }
+    fields
+}
+
+/// A window by its borders, at times mirrored or without extent.
+fn random_window(r: &mut Random) -> String {
+    let [left, bottom] = [0; 2].map(|_| r.between(-2.0, 0.5));
+    let [right, top] = [0; 2].map(|_| r.between(0.4, 2.0));
+    if r.once_in(6) {
+        return format!("left: {right}, right: {left}, bottom: {bottom}, top: {top}");
+    }
+    format!("left: {left}, right: {right}, bottom: {bottom}, top: {top}")
+}
