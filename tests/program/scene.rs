@@ -276,3 +276,30 @@ fn a_misspelt_model_is_answered_with_the_one_beside_it() {
     let run = sandbox.run(&["render", "scene.ron"]);
     assert!(run.code == 1 && run.stderr.contains("did you mean `crate.glb`?"), "{}", run.stderr);
 }
+
+/// Values that are valid and still not meant are warned of, in the first run and beside errors.
+#[test]
+fn sections_of_shaded_scenes_and_flat_stereo_pairs_are_warned_of() {
+    let sandbox = Sandbox::new("scene_warnings");
+    sandbox.copy_model("crate.glb");
+    let check = |fields: &str| {
+        let text = format!("Scene(models: [(path: \"crate.glb\")], {fields})");
+        sandbox.write_file("scene.ron", &text);
+        sandbox.run(&["scene", "check", "scene.ron"])
+    };
+    let cut = "sections: [(normal: (1, 0, 0))]";
+    for style in ["", ", style: Flat", ", camera: (projection: Perspective(near: 5, far: 2))"] {
+        let run = check(&format!("{cut}{style}"));
+        let count = run.stdout.matches("warning[sections-ignored]").count();
+        assert_eq!(count, 1, "{style}: {}", run.stdout);
+    }
+    for drawn in [", style: Lines", ", sheet: ()"] {
+        let run = check(&format!("{cut}{drawn}"));
+        assert!(!run.stdout.contains("sections-ignored"), "{drawn}: {}", run.stdout);
+    }
+    let flat = check("stereo: SideBySide(eye_distance: 0.0001)");
+    assert!(flat.stdout.contains("warning[flat-stereo]: "), "{}", flat.stdout);
+    assert!(flat.stdout.contains("larger eye_distance"), "{}", flat.stdout);
+    let deep = check("stereo: SideBySide()");
+    assert!(deep.code == 0 && !deep.stdout.contains("flat-stereo"), "{}", deep.stdout);
+}

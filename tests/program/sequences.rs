@@ -128,3 +128,27 @@ fn what_cannot_be_is_refused() {
         assert_eq!(sandbox.file_names(), ["crate.glb"]);
     }
 }
+
+/// `--time` renders the still of a camera path that `animate` shows at that time.
+#[test]
+fn a_still_of_a_camera_path_is_the_frame_of_its_time() {
+    let sandbox = Sandbox::new("camera_path_still");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file(
+        "scene.ron",
+        "Scene(models: [(path: \"crate.glb\")], image: (size: (80, 60)), camera_path: (keys: [
+            (time: 0, eye: (4, 3, 5), target: (0, 0.5, 0)),
+            (time: 2, eye: (-4, 2, 6), target: (0, 0.5, 0), fov_y_degrees: 50),
+        ]))",
+    );
+    let film = ["animate", "scene.ron", "-o", "f_{frame}.png", "--from", "1.5", "--to", "2"];
+    let run = sandbox.run(&[&film[..], &["--frames", "1"]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    for (time, name) in [("1.5", "still.png"), ("0", "start.png")] {
+        let run = sandbox.run(&["render", "scene.ron", "--time", time, "-o", name]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{time}");
+    }
+    let bytes = |name: &str| std::fs::read(sandbox.path_of(name)).expect("a picture");
+    assert_eq!(bytes("still.png"), bytes("f_0.png"));
+    assert_ne!(bytes("still.png"), bytes("start.png"));
+}

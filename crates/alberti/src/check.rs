@@ -15,7 +15,7 @@ use super::render::is_scene_file;
 use super::{CliError, color, print_stdout};
 use model::import::ImportOptions;
 use model::{CheckReport, check_file};
-use pipeline::scene::{Lint, ResolveOptions, lint_scene, validate_scene};
+use pipeline::scene::{Lint, ResolveOptions, lint_description, lint_scene, validate_scene};
 use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -91,8 +91,8 @@ fn exit_code(errors: usize) -> ExitCode {
 
 /// Validates a scene and its models.
 ///
-/// A file that cannot be parsed has its syntax errors only. Lints need a resolved scene, so they
-/// are looked for only where there is no error.
+/// A file that cannot be parsed has its syntax errors only. Most lints need a resolved scene, so
+/// they are looked for only where there is no error.
 ///
 /// The order is: parse, validate fields and references, resolve as `render` would, look for lints,
 /// check the models. The models are checked even if the scene has errors, unless it cannot be
@@ -112,7 +112,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     };
     let resolve = ResolveOptions { import: options.clone() };
     let mut mistakes = validate_scene(&origin, &file, &resolve);
-    let mut advice = Vec::new();
+    let mut advice = lint_description(&origin, &file);
     if mistakes.is_empty() {
         // Whatever `render` would reject is an error, even if the review does not look for it.
         match Scene::resolve(&origin, &file, &resolve) {

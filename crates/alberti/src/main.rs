@@ -39,6 +39,7 @@ mod matrix;
 mod messages;
 mod model_state;
 mod number_list;
+mod negative_numbers;
 mod options;
 mod page_output;
 mod panel_subject;
@@ -72,7 +73,8 @@ use std::process::ExitCode;
 /// `batch` and `scene fmt --check` also exit with 1 for a verdict rather than for a failure; they
 /// have then printed it themselves, without `error:`.
 fn main() -> ExitCode {
-    match run(Args::parse()) {
+    let words = negative_numbers::join_negative_numbers(std::env::args_os(), Args::command);
+    match run(Args::parse_from(words)) {
         Ok(code) => code,
         Err(failure) => {
             print_message("error", &failure.to_message());

@@ -2,7 +2,10 @@
 //!
 //! The flags apply to every model of a scene; scene files can choose the state of each.
 
+use super::CliError;
+use pipeline::scene::CameraPath;
 use pipeline::scene::file::{Choice, Finite, ModelFile};
+use pipeline::{Origin, ResolveError, SceneFile};
 
 /// The state of a model; each flag replaces the field of the same name in a scene file.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -16,12 +19,42 @@ pub(crate) struct ModelStateArgs {
     /// Animation that poses the model, by name or index [default: the first, with --time]
     #[arg(long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) animation: Option<Choice>,
-    /// Time of the animation in seconds [default: 0, with --animation]
+    /// Time of the animation and of the scene's camera path, in seconds [default: 0, with
+    /// --animation]
+    ///
+    /// Of a scene with a camera path this is the still that `animate` shows at that time; models
+    /// then move if the scene or --animation names their animation.
     #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
     pub(crate) time: Option<Finite>,
 }
 
 impl ModelStateArgs {
+    /// Replaces the fields of all models of a scene, and its camera by that of the camera path at
+    /// `--time`, if it has one.
+    ///
+    /// # Errors
+    /// If the keyframes of the camera path make no sense.
+    pub(crate) fn apply_to_scene(
+        &self,
+        origin: &Origin,
+        file: &mut SceneFile,
+    ) -> Result<(), CliError> {
+        let path = CameraPath::from_scene_file(origin, file).map_err(ResolveError::from);
+        let at = match self.time {
+            Some(time) => path?.map(|path| path.camera_at(time.value())),
+            None => None,
+        };
+        let moves_camera = at.is_some();
+        for model in &mut file.models {
+            let is_animated = model.animation.is_some() || model.time.is_some();
+            let rests = moves_camera && self.animation.is_none() && !is_animated;
+            let state = if rests { Self { time: None, ..self.clone() } } else { self.clone() };
+            state.apply_to(model);
+        }
+        file.camera = at.unwrap_or_else(|| file.camera.clone());
+        Ok(())
+    }
+
     /// Replaces the fields of a scene's model by the flags that were given.
     ///
     /// A choice that a model does not have is an error when it is loaded.

@@ -77,7 +77,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
         ..job.overrides.import_options(&args.load_options)
     };
     let (origin, mut file) = open_input(&job.input, &import)?;
-    job.overrides.apply_to(&mut file);
+    job.overrides.apply_to(&origin, &mut file)?;
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;

@@ -76,7 +76,11 @@ impl SceneOverrideArgs {
     ///
     /// The order matters in one case: `--scale` multiplies the size of `--size`, if both are given.
     /// A size is at least one pixel; one that is too large is rejected when the scene is resolved.
-    pub(crate) fn apply_to(&self, file: &mut SceneFile) {
+    /// With a camera path `--time` chooses the moment on it, unless another flag chooses the view.
+    ///
+    /// # Errors
+    /// If the keyframes of the camera path make no sense.
+    pub(crate) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(size) = self.size {
             file.image.size = size;
         }
@@ -99,9 +103,10 @@ impl SceneOverrideArgs {
         }
         self.section.append_to(file);
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
-        file.models.iter_mut().for_each(|model| self.model_state.apply_to(model));
+        self.model_state.apply_to_scene(origin, file)?;
         self.light.apply_to(file);
         self.apply_to_camera(&mut file.camera);
+        Ok(())
     }
 
     /// The import options, with permission to read the files that these flags name.
@@ -127,7 +132,7 @@ impl SceneOverrideArgs {
     ) -> Result<(Origin, SceneFile, Scene), CliError> {
         let import = self.import_options(load_options);
         let (origin, mut file) = open_input(input, &import)?;
-        self.apply_to(&mut file);
+        self.apply_to(&origin, &mut file)?;
         let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
         Ok((origin, file, scene))
     }

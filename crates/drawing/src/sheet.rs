@@ -172,13 +172,8 @@ impl Sheet {
         sections: &[Plane<World>],
         threads: usize,
     ) -> Result<Page, SheetError> {
-        let points = world_points(models);
-        let view =
-            |name: NamedView| SheetView::frame_points(&points, name, self.millimeters_per_unit);
-        let [front, top, side] =
-            [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side_view)?];
-        let axonometric = self.axonometric_view.map(view).transpose()?;
-        let layout = ViewLayout::arrange_views(self, [&front, &top, &side], axonometric.as_ref())?;
+        let (principal, axonometric) = self.frame_views(models)?;
+        let layout = ViewLayout::arrange_views(self, principal.each_ref(), axonometric.as_ref())?;
         let title = if self.title_block.title.is_empty() {
             model_names(models)
         } else {
@@ -199,6 +194,27 @@ impl Sheet {
         page.layers.extend(section_line::section_line_layers(self, sections, &layout, ink));
         self.draw_annotations(&mut page, &layout, ink);
         Ok(page)
+    }
+
+    /// Whether the views of models fit on the paper, without drawing them.
+    ///
+    /// # Errors
+    /// As for [`draw`](Self::draw).
+    pub fn check_layout(&self, models: &[ModelInstance]) -> Result<(), SheetError> {
+        let (principal, axonometric) = self.frame_views(models)?;
+        ViewLayout::arrange_views(self, principal.each_ref(), axonometric.as_ref()).map(drop)
+    }
+
+    /// The front, top and side view, and the axonometric one if there is one.
+    fn frame_views(
+        &self,
+        models: &[ModelInstance],
+    ) -> Result<([SheetView; 3], Option<SheetView>), SheetError> {
+        let points = world_points(models);
+        let view =
+            |name: NamedView| SheetView::frame_points(&points, name, self.millimeters_per_unit);
+        let principal = [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side_view)?];
+        Ok((principal, self.axonometric_view.map(view).transpose()?))
     }
 
     /// The style of a view's lines.

@@ -57,7 +57,7 @@ pub use file::SceneFile;
 pub use format::format_source;
 pub use ground::{Ground, OcclusionArea};
 pub use insets::Inset;
-pub use lints::{Lint, lint_scene};
+pub use lints::{Lint, lint_description, lint_scene};
 pub use origin::Origin;
 pub use outputs::Outputs;
 pub use parse::parse_scene;

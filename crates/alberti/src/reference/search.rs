@@ -6,7 +6,8 @@ use super::{ReferenceEntry, ReferenceSection};
 /// entries of that name.
 ///
 /// Titles come first, because they are the most specific: `render` is the command, not every entry
-/// of that name. Types are found in any case, commands with or without `alberti`.
+/// of that name. Types are found in any case, commands with or without `alberti`. A path may be one
+/// of an error, with indices as in `models[0].materials[0].of`, and may begin with a type.
 ///
 /// # Errors
 /// If nothing has that name; the message suggests the most similar one.
@@ -19,10 +20,20 @@ pub(super) fn find_sections(
     if !titled.is_empty() {
         return Ok(titled);
     }
-    let steps: Vec<&str> = word.split('.').collect();
-    let found =
-        if steps.len() > 1 { find_by_path(sections, &steps) } else { find_entries(sections, word) };
+    let steps: Vec<&str> = word.split('.').map(without_index).collect();
+    let found = match steps.as_slice() {
+        [name] => find_entries(sections, name),
+        steps => find_by_path(sections, steps),
+    };
     if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
+}
+
+/// A step of a path without the indices of elements: `models` of `models[0]`.
+fn without_index(step: &str) -> &str {
+    match step.split_once('[') {
+        Some((name, index)) if !name.is_empty() && index.ends_with(']') => name,
+        _ => step,
+    }
 }
 
 /// Whether a section describes the type or command of this name.
@@ -78,8 +89,26 @@ fn entry_names(entry: &ReferenceEntry) -> impl Iterator<Item = &str> {
 /// the types of the values that were found and the fields inside of them. A step without a match
 /// ends with nothing found.
 fn find_by_path(sections: &[ReferenceSection], steps: &[&str]) -> Vec<ReferenceSection> {
-    let is_scene = |section: &&ReferenceSection| section.title == "Scene";
-    let mut scopes: Vec<ReferenceSection> = sections.iter().filter(is_scene).cloned().collect();
+    let titled = |title: &str| -> Vec<ReferenceSection> {
+        sections.iter().filter(|section| section.title == title).cloned().collect()
+    };
+    let found = follow_path(sections, titled("Scene"), steps);
+    if !found.is_empty() {
+        return found;
+    }
+    // A path that begins with a type, or with a field or variant of any.
+    match (steps, titled(steps[0])) {
+        ([_, rest @ ..], start) if !start.is_empty() => follow_path(sections, start, rest),
+        _ => follow_path(sections, sections.to_vec(), steps),
+    }
+}
+
+/// The entries at the end of a path that begins in one of the scopes.
+fn follow_path(
+    sections: &[ReferenceSection],
+    mut scopes: Vec<ReferenceSection>,
+    steps: &[&str],
+) -> Vec<ReferenceSection> {
     let mut found = Vec::new();
     for step in steps {
         found = find_entries(&scopes, step);
@@ -137,4 +166,53 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     let hint = best.filter(|name| likeness(name) > 0.8);
     let hint = hint.map_or(String::new(), |name| format!("\n  = help: did you mean `{name}`?"));
     format!("the reference has nothing named `{word}`{hint}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::type_sections;
+    use super::*;
+
+    /// Paths as messages print them are found when they are followed.
+    #[test]
+    fn paths_of_messages_are_found() {
+        let sections = type_sections();
+        for path in [
+            "models[0].materials[0].of",
+            "models[0].path",
+            "camera.view.LookAt.eye[1]",
+            "camera.projection.Perspective.fov_y_degrees",
+            "camera.view.eye",
+            "lights[0].Ambient.intensity",
+            "image.size[0]",
+            "LookAt.eye",
+            "View.LookAt",
+            "Model.path",
+            "Projection.Perspective.near",
+        ] {
+            let found = find_sections(&sections, path);
+            let last = without_index(path.rsplit('.').next().unwrap_or(path));
+            let has_entry = |entry: &ReferenceEntry| prune_entry(entry, last).is_some();
+            let is_found = found
+                .as_ref()
+                .is_ok_and(|found| found.iter().any(|part| part.entries.iter().any(has_entry)));
+            assert!(is_found, "{path}: {found:?}");
+        }
+        assert!(find_sections(&sections, "models[0].nothing").is_err());
+        assert!(find_sections(&sections, "Nothing.path").is_err());
+    }
+
+    /// Every field of every type is found by the name of its type.
+    #[test]
+    fn every_field_is_found_behind_its_type() {
+        let sections = type_sections();
+        for section in &sections {
+            for entry in &section.entries {
+                for name in entry_names(entry) {
+                    let path = format!("{}.{name}", section.title);
+                    assert!(find_sections(&sections, &path).is_ok(), "{path}");
+                }
+            }
+        }
+    }
 }

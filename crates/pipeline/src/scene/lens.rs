@@ -108,14 +108,23 @@ pub(super) fn given_window(projection: &ProjectionFile) -> Option<[f64; 4]> {
 /// The errors of lenses and windows, without models: fields that exclude each other, planes and
 /// borders in the wrong order.
 pub(super) fn check_lens(origin: &Origin, projection: &ProjectionFile) -> Option<SceneError> {
-    let both = check_fields_of_view(origin, projection);
-    both.or_else(|| check_orthographic_window(origin, projection)).or_else(|| {
+    check_lens_fields(origin, projection).or_else(|| {
         let error = check_planes(projection)?;
+        let is_order = matches!(error, ProjectionError::FarNotBeyondNear { .. });
         let order = "planes are distances from the eye: the near one is the smaller";
-        let help = matches!(error, ProjectionError::FarNotBeyondNear { .. });
-        let help = help.then(|| order.to_owned());
+        let help = is_order.then(|| order.to_owned());
         Some(origin.error_at(&PROJECTION_PATH, error.to_string(), help))
     })
+}
+
+/// The error of a projection with fields that exclude each other, or with some of those that need
+/// each other.
+pub(super) fn check_lens_fields(
+    origin: &Origin,
+    projection: &ProjectionFile,
+) -> Option<SceneError> {
+    check_fields_of_view(origin, projection)
+        .or_else(|| check_orthographic_window(origin, projection))
 }
 
 /// Whether a perspective has more than one field of view.

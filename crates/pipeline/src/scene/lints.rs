@@ -13,11 +13,14 @@
 //! | `wasteful-depth-range` | the near plane is far nearer than anything visible |
 //! | `aspect-mismatch` | the window's aspect ratio is not the picture's |
 //! | `no-light` | a shaded style without light, environment or emission |
+//! | `flat-stereo` | a stereo pair whose eyes see the same within a pixel |
+//! | `sections-ignored` | section planes, and no line drawing that they cut |
 
 mod depth;
+mod stereo;
 mod visibility_survey;
 
-use super::file::{ProjectionFile, ViewFile};
+use super::file::{ProjectionFile, StyleFile, ViewFile};
 use super::lens::given_window;
 use super::syntax::PathStep::{Field, Index};
 use super::view_projection::select_lens;
@@ -59,8 +62,25 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice.extend(depth::lint_depth_range(&adviser));
     advice.extend(adviser.lint_aspect_ratio());
     advice.extend(adviser.lint_missing_light());
+    advice.extend(stereo::lint_flat_stereo(&adviser));
+    advice.extend(lint_description(origin, file));
     advice.sort_by_key(|advice| advice.error.span.start);
     advice
+}
+
+/// The lints that a scene file without its models has, also one with mistakes.
+#[must_use]
+pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
+    let is_drawn = |style: &StyleFile| matches!(style, StyleFile::Lines(_));
+    let insets = file.viewports.iter().filter_map(|viewport| viewport.style.as_ref());
+    let cuts_drawing = file.sheet.is_some() || insets.chain([&file.style]).any(is_drawn);
+    if file.sections.is_empty() || cuts_drawing {
+        return Vec::new();
+    }
+    let message = "sections cut line drawings, and this scene has none";
+    let help = "choose style: Lines(), or draw the scene with `alberti sheet`".to_owned();
+    let error = origin.error_at(&[Field("sections")], message, Some(help));
+    vec![Lint { code: "sections-ignored", error }]
 }
 
 /// The scene under inspection, in every form that the lints need.

@@ -87,6 +87,12 @@ impl ValueType {
         }
     }
 
+    /// Whether it is a struct of which every field may be left out.
+    pub(super) fn has_only_optional_fields(&self) -> bool {
+        matches!(self, Self::Declared(TypeEntry { shape: Shape::Fields(fields), .. })
+            if fields.iter().all(|field| field.is_optional))
+    }
+
     /// The declared types that a value of this type is made of.
     ///
     /// Looks through lists and tuples, but not into the fields of the types it finds: walking the

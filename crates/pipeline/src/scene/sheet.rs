@@ -2,10 +2,11 @@
 
 use super::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile, SideView};
 use super::style::resolve_iso_group;
-use super::syntax::PathStep::Field;
+use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
-use drawing::{LineStyle, LineWidths, Sheet, TitleBlockText};
+use drawing::{LineStyle, LineWidths, Sheet, SheetError, TitleBlockText};
+use model::ModelInstance;
 use projection::SheetAngle;
 use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper};
 
@@ -45,6 +46,31 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
         ..default_sheet
     })
 }
+
+/// The error of a sheet whose views are larger than its paper; `None` without one, or if it is wrong
+/// in itself.
+pub(super) fn check_sheet_layout(
+    origin: &Origin,
+    file: Option<&SheetFile>,
+    models: &[ModelInstance],
+) -> Option<SceneError> {
+    let file = file?;
+    let error = resolve_sheet(origin, file).ok()?.check_layout(models).err()?;
+    let place: &[PathStep<'_>] = match (&error, file.scale) {
+        (SheetError::TooLarge { .. }, Some(_)) => &[Field("sheet"), Field("scale")],
+        (SheetError::TooLarge { .. }, None) => &[Field("sheet")],
+        // Models without anything to draw are told of by the camera.
+        _ => return None,
+    };
+    let message = error.to_string();
+    // The remedy is the last part of the message.
+    let (message, help) = match message.rsplit_once("; ") {
+        Some((message, help)) => (message.to_owned(), Some(help.to_owned())),
+        None => (message, None),
+    };
+    Some(origin.error_at(place, message, help))
+}
+
 /// The paper in its orientation, and its name on the sheet.
 fn resolve_paper(file: &SheetFile) -> (Paper, &'static str) {
     let (paper, name) = match file.paper {

@@ -22,7 +22,7 @@ use super::resolve::{
 };
 use super::section::{check_section_count, resolve_section};
 use super::shadows::resolve_shadow;
-use super::sheet::resolve_sheet;
+use super::sheet::{check_sheet_layout, resolve_sheet};
 use super::style::resolve_style;
 use super::surrounding_light::resolve_environment;
 use super::syntax::PathStep::Field;
@@ -148,7 +148,9 @@ fn errors_of_scene(
     allowed: &[PathBuf],
 ) -> Vec<SceneError> {
     let mut errors = errors_of_description(origin, file, allowed);
-    let (Some(models), Ok(image)) = (models, resolve_image(origin, file)) else { return errors };
+    let Some(models) = models else { return errors };
+    errors.extend(check_sheet_layout(origin, file.sheet.as_ref(), &models));
+    let Ok(image) = resolve_image(origin, file) else { return errors };
     if check_camera(origin, &file.camera).is_empty() {
         let camera = resolve_view_projection(origin, &file.camera, &models, image);
         errors.extend(camera.err());

@@ -11,7 +11,7 @@
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
 use super::file::{CameraChoice, CameraFile, Finite, FromFile, ProjectionFile, ViewFile};
-use super::lens::{Lens, check_lens, given_window};
+use super::lens::{Lens, check_lens, check_lens_fields, given_window};
 use super::number::Positive;
 use super::suggest::suggest_name;
 use super::syntax::PathStep::{self, Field};
@@ -66,6 +66,9 @@ pub(super) fn resolve_view_of_points(
     let resolver = CameraResolver { origin, models, points, shadow_points, aspect };
     let projection = file.projection.as_ref();
     let or_usual = projection.unwrap_or(&ProjectionFile::PERSPECTIVE);
+    if let Some(error) = check_lens_fields(origin, or_usual) {
+        return Err(error);
+    }
     match &file.view {
         ViewFile::LookAt { eye, target, up } => {
             let camera = Camera::look_at(eye.0.into(), target.0.into(), up.0.into());

@@ -56,7 +56,13 @@ pub(super) fn suggest_field(
     let targets = targets_of(word);
     let own = targets.iter().find(|(target, _)| *target == owner);
     if let Some(&(_, name)) = own.filter(|(_, name)| siblings.contains(name)) {
-        let help = format!("did you mean `{name}`?{}", legacy_note(owner, word));
+        let mut help = format!("did you mean `{name}`?{}", legacy_note(owner, word));
+        // A field of the scene itself is not all that the word can mean there.
+        let declared =
+            if owner == SceneFile::ENTRY.name { declared_elsewhere(word) } else { vec![] };
+        if let Some(example) = declared.first() {
+            help = format!("{help} or write it as {example}");
+        }
         return Suggestion { help, sibling: Some(name), kind: SuggestionKind::Known };
     }
     let same_spelling = siblings.iter().copied().find(|name| normalize(name) == normalize(word));
@@ -65,7 +71,9 @@ pub(super) fn suggest_field(
     if !is_very_similar && same_spelling.is_none() {
         // A field of this very name goes before what the word means in other programs, unless that
         // is nearer or in the tables.
-        let same_name = targets.iter().filter(|(_, name)| normalize(name) == normalize(word));
+        let is_field = |name: &str| name.starts_with(char::is_lowercase);
+        let same_name =
+            targets.iter().filter(|(_, name)| is_field(name) && normalize(name) == normalize(word));
         let same_name: Vec<Target> = same_name.copied().collect();
         let meant = example_elsewhere(&same_name, top_level)
             .or_else(|| example_elsewhere(&targets, top_level));

@@ -130,3 +130,45 @@ fn words_of_other_programs_are_answered_with_ours() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// A field of any part of the language is answered, in the scene's own brackets, with its place.
+#[test]
+fn fields_in_the_wrong_place_are_answered_with_their_place() {
+    use crate::scene::reference::{FieldEntry, Shape, all_types};
+    let types = all_types();
+    let fields_of = |shape: Shape| -> Vec<&'static FieldEntry> {
+        match shape {
+            Shape::Plain => Vec::new(),
+            Shape::Fields(fields) => fields.iter().collect(),
+            Shape::Variants(variants) => variants.iter().flat_map(|v| v.fields).collect(),
+        }
+    };
+    let own: Vec<&str> = fields_of(types[0].shape).iter().map(|field| field.name).collect();
+    let mut wrong = Vec::new();
+    for field in types.iter().flat_map(|entry| fields_of(entry.shape)) {
+        if own.contains(&field.name) {
+            continue;
+        }
+        let found = mistakes(&scene_with(&format!("{}: 1", field.name)));
+        let named = format!("{}: …", field.name);
+        if !matches!(found.as_slice(), [(.., help)] if help.contains(&named)) {
+            wrong.push(format!("{}: {}", field.name, found[0].2));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// A variant of which nothing has to be said stands with brackets and without.
+#[test]
+fn brackets_with_nothing_inside_may_be_left_out() {
+    use crate::scene::parse_scene;
+    let styles = ["Lines", "Shaded"].map(|word| format!("style: {word}"));
+    let others = ["camera: (projection: Perspective)", "camera: (view: Frame)", "shadows: On"];
+    for field in styles.into_iter().chain(others.map(str::to_owned)) {
+        let word = field.trim_end_matches(')').to_owned();
+        let closed = format!("{word}(){}", &field[word.len()..]);
+        let read = |field: &str| parse_scene("a.ron", &scene_with(field));
+        assert!(read(&field).is_ok(), "{field}: {:?}", read(&field));
+        assert_eq!(read(&field), read(&closed), "{field}");
+    }
+}

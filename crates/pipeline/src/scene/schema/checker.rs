@@ -485,17 +485,20 @@ impl<'n> Variant<'n> {
     ///  FromModel(name: "front")    the brackets of the variant are those of the struct
     ///  Variant((1, 2, 3))          one item, a vector in its own brackets
     /// ```
-    /// The second form is RON's extension `unwrap_variant_newtypes`.
+    /// The second form is RON's extension `unwrap_variant_newtypes`. Without brackets a struct has
+    /// all of its defaults, if it has no required field: `Lines` is `Lines()`.
     pub(in crate::scene) fn read_inner<T: SceneValue>(
         &self,
         checker: &mut Checker<'_>,
     ) -> Option<T> {
+        let value_type = self.variant.value_type.map(|value_type| value_type());
         let Some(group) = self.group else {
+            if value_type.as_ref().is_some_and(ValueType::has_only_optional_fields) {
+                let kind = NodeKind::Group(Group { name: None, open: '(', items: Vec::new() });
+                return T::from_node(&Node { span: self.span.clone(), kind }, checker);
+            }
             let message = format!("`{}` needs a value in brackets", self.variant.name);
-            let words = self
-                .variant
-                .value_type
-                .map_or(String::new(), |value_type: fn() -> ValueType| value_type().words());
+            let words = value_type.map_or(String::new(), |value_type| value_type.words());
             let help = format!("write {}(…) with a {words}", self.variant.name);
             checker.report(self.span.clone(), message, Some(help));
             return None;

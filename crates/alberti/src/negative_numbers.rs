@@ -1,0 +1,129 @@
+//! Negative numbers as values of flags: `--from -1`, `--section -.5,0,0`, `--scale -2`.
+//!
+//! A word that begins with a hyphen looks like a flag. Behind a flag that takes a value, one that
+//! goes on as a number is that value, so that the flag itself says what is wrong with it. The two
+//! are joined to `--from=-1` before the command line is parsed; words of no number, such as a flag
+//! behind one whose value was forgotten, are left alone.
+
+use clap::{Arg, ArgAction, Command};
+use std::ffi::OsString;
+
+/// The words of a command line, with negative numbers joined to the flags before them.
+///
+/// The flags are built only if there is such a number: declaring all of them is most of what a
+/// short command costs.
+pub(crate) fn join_negative_numbers(
+    words: impl Iterator<Item = OsString>,
+    program: impl FnOnce() -> Command,
+) -> Vec<OsString> {
+    let words: Vec<OsString> = words.collect();
+    if !words.iter().skip(1).any(is_negative_number) {
+        return words;
+    }
+    let mut program = program();
+    program.build();
+    let command = called_command(&program, &words);
+    let mut joined: Vec<OsString> = Vec::new();
+    for word in words {
+        let flag = joined.last_mut().filter(|last| {
+            is_negative_number(&word)
+                && last.to_str().is_some_and(|flag| takes_value(command, flag))
+        });
+        match flag {
+            Some(flag) => {
+                flag.push("=");
+                flag.push(word);
+            }
+            None => joined.push(word),
+        }
+    }
+    joined
+}
+
+/// Whether a word goes on as a number behind its hyphen: `-1`, `-.5`.
+fn is_negative_number(word: &OsString) -> bool {
+    let Some(digits) = word.to_str().and_then(|word| word.strip_prefix('-')) else { return false };
+    digits.strip_prefix('.').unwrap_or(digits).starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// The innermost command that the words call.
+fn called_command<'a>(program: &'a Command, words: &[OsString]) -> &'a Command {
+    words.iter().skip(1).fold(program, |command, word| {
+        let name = word.to_str().unwrap_or_default();
+        command.find_subcommand(name).unwrap_or(command)
+    })
+}
+
+/// Whether a word is a flag of the command that takes one value.
+fn takes_value(command: &Command, word: &str) -> bool {
+    let is_this = |flag: &Arg| {
+        let long = flag.get_long().is_some_and(|name| word.strip_prefix("--") == Some(name));
+        let short = word.strip_prefix('-').and_then(|rest| rest.parse().ok());
+        let short = short.is_some() && flag.get_short() == short;
+        (long || short) && matches!(flag.get_action(), ArgAction::Set | ArgAction::Append)
+    };
+    command.get_arguments().any(is_this)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::Args;
+    use clap::CommandFactory as _;
+    use clap::error::ErrorKind;
+
+    fn join(words: &[&str]) -> Vec<OsString> {
+        let words = words.iter().map(OsString::from);
+        join_negative_numbers(words, Args::command)
+    }
+
+    /// Calls each command below this one with each of its flags and a negative number.
+    fn check_flags(command: &Command, path: &[String], checked: &mut usize) {
+        for flag in command.get_arguments() {
+            let Some(long) = flag.get_long() else { continue };
+            if !matches!(flag.get_action(), ArgAction::Set | ArgAction::Append) {
+                continue;
+            }
+            for number in ["-1", "-.5", "-2x3", "-1,-2,3"] {
+                let mut words = path.to_vec();
+                words.extend([format!("--{long}"), number.to_owned()]);
+                let words: Vec<&str> = words.iter().map(String::as_str).collect();
+                let error = Args::command().try_get_matches_from(join(&words)).err();
+                // The number reached the flag: it is taken, or this flag refuses it.
+                let is_value = error.as_ref().is_none_or(|error| {
+                    error.kind() != ErrorKind::UnknownArgument
+                        && error.kind() != ErrorKind::InvalidSubcommand
+                });
+                assert!(is_value, "{words:?}: {error:?}");
+                *checked += 1;
+            }
+        }
+        for inner in command.get_subcommands().filter(|inner| inner.get_name() != "help") {
+            let path = [path, &[inner.get_name().to_owned()]].concat();
+            check_flags(inner, &path, checked);
+        }
+    }
+
+    #[test]
+    fn every_flag_with_a_value_takes_negative_numbers() {
+        let mut program = Args::command();
+        program.build();
+        let mut checked = 0;
+        check_flags(&program, &["alberti".to_owned()], &mut checked);
+        assert!(checked > 400, "{checked}");
+    }
+
+    #[test]
+    fn numbers_behind_other_words_stay_where_they_are() {
+        for words in [
+            ["alberti", "matrix", "--json", "-1", "0"],
+            ["alberti", "matrix", "1", "-.5", "0"],
+            ["alberti", "render", "a.glb", "--scale", "--json"],
+        ] {
+            assert_eq!(join(&words), words.map(OsString::from));
+        }
+        let joined = join(&["alberti", "curve", "depth", "--near", "-.5", "--far", "3"]);
+        let expected = ["alberti", "curve", "depth", "--near=-.5", "--far", "3"];
+        assert_eq!(joined, expected.map(OsString::from));
+    }
+}
