@@ -36,7 +36,7 @@ impl Random {
     }
 
     /// One of the choices.
-    pub fn choose<'a, T: Clone>(&mut self, choices: &'a [T]) -> T {
+    pub fn choose<T: Clone>(&mut self, choices: &[T]) -> T {
         choices[self.below(choices.len() as u64) as usize].clone()
     }
 }

@@ -1,4 +1,4 @@
-//! The camera path of a scene file, for `alberti animate`.
+//! The camera path of a scene file, for `alberti animate` and stills of it.
 
 use crate::scene::number::{FieldOfView, Finite, Triple};
 use crate::scene::schema::{named_enum, scene_struct};
