@@ -5,7 +5,7 @@
 use super::CliError;
 use pipeline::scene::CameraPath;
 use pipeline::scene::file::{Choice, Finite, ModelFile};
-use pipeline::{Origin, ResolveError, SceneFile};
+use pipeline::{Origin, ResolveError, Scene, SceneFile};
 
 /// The state of a model; each flag replaces the field of the same name in a scene file.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -29,29 +29,37 @@ pub(crate) struct ModelStateArgs {
 }
 
 impl ModelStateArgs {
-    /// Replaces the fields of all models of a scene, and its camera by that of the camera path at
-    /// `--time`, if it has one.
+    /// Replaces the fields of all models of a scene.
     ///
-    /// # Errors
-    /// If the keyframes of the camera path make no sense.
-    pub(crate) fn apply_to_scene(
-        &self,
-        origin: &Origin,
-        file: &mut SceneFile,
-    ) -> Result<(), CliError> {
-        let path = CameraPath::from_scene_file(origin, file).map_err(ResolveError::from);
-        let at = match self.time {
-            Some(time) => path?.map(|path| path.camera_at(time.value())),
-            None => None,
-        };
-        let moves_camera = at.is_some();
+    /// `--time` alone does not pose the models of a scene with a camera path, which may have no
+    /// animation: it is then the time of the path.
+    pub(crate) fn apply_to_scene(&self, file: &mut SceneFile) {
+        let moves_camera = file.camera_path.is_some();
         for model in &mut file.models {
             let is_animated = model.animation.is_some() || model.time.is_some();
             let rests = moves_camera && self.animation.is_none() && !is_animated;
             let state = if rests { Self { time: None, ..self.clone() } } else { self.clone() };
             state.apply_to(model);
         }
-        file.camera = at.unwrap_or_else(|| file.camera.clone());
+    }
+
+    /// Moves the camera of a scene to its place on the camera path at `--time`, if it has both.
+    ///
+    /// Only the camera moves, as in a sequence: lights stand where the scene's own camera puts them.
+    ///
+    /// # Errors
+    /// If the keyframes of the camera path make no sense, or there is no view at that time.
+    pub(crate) fn place_camera(
+        &self,
+        origin: &Origin,
+        file: &SceneFile,
+        scene: &mut Scene,
+    ) -> Result<(), CliError> {
+        let Some(time) = self.time else { return Ok(()) };
+        let path = CameraPath::from_scene_file(origin, file).map_err(ResolveError::from)?;
+        if let Some(path) = path {
+            path.place_camera(origin, time.value(), scene).map_err(ResolveError::from)?;
+        }
         Ok(())
     }
 

@@ -77,11 +77,12 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
         ..job.overrides.import_options(&args.load_options)
     };
     let (origin, mut file) = open_input(&job.input, &import)?;
-    job.overrides.apply_to(&origin, &mut file)?;
+    job.overrides.apply_to(&mut file);
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+    let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+    job.overrides.place_camera(&origin, &file, &mut scene)?;
     progress.enter_stage("rendering");
     let threads = thread_count(args.threads);
     let render_job =

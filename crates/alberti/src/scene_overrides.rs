@@ -76,11 +76,7 @@ impl SceneOverrideArgs {
     ///
     /// The order matters in one case: `--scale` multiplies the size of `--size`, if both are given.
     /// A size is at least one pixel; one that is too large is rejected when the scene is resolved.
-    /// With a camera path `--time` chooses the moment on it, unless another flag chooses the view.
-    ///
-    /// # Errors
-    /// If the keyframes of the camera path make no sense.
-    pub(crate) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
+    pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(size) = self.size {
             file.image.size = size;
         }
@@ -103,10 +99,26 @@ impl SceneOverrideArgs {
         }
         self.section.append_to(file);
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
-        self.model_state.apply_to_scene(origin, file)?;
+        self.model_state.apply_to_scene(file);
         self.light.apply_to(file);
         self.apply_to_camera(&mut file.camera);
-        Ok(())
+    }
+
+    /// Moves the camera of the resolved scene to its place on the camera path at `--time`, unless
+    /// another flag chooses the view.
+    ///
+    /// # Errors
+    /// If the keyframes of the camera path make no sense, or there is no view at that time.
+    pub(crate) fn place_camera(
+        &self,
+        origin: &Origin,
+        file: &SceneFile,
+        scene: &mut Scene,
+    ) -> Result<(), CliError> {
+        if self.view.is_some() || self.camera.is_some() {
+            return Ok(());
+        }
+        self.model_state.place_camera(origin, file, scene)
     }
 
     /// The import options, with permission to read the files that these flags name.
@@ -132,8 +144,9 @@ impl SceneOverrideArgs {
     ) -> Result<(Origin, SceneFile, Scene), CliError> {
         let import = self.import_options(load_options);
         let (origin, mut file) = open_input(input, &import)?;
-        self.apply_to(&origin, &mut file)?;
-        let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+        self.apply_to(&mut file);
+        let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+        self.place_camera(&origin, &file, &mut scene)?;
         Ok((origin, file, scene))
     }
 

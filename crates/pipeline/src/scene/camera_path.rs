@@ -12,7 +12,7 @@ use super::file::{
 use super::number::Triple;
 use super::syntax::PathStep::{self, Field, Index};
 use super::view_projection::resolve_view_projection;
-use super::{ImageSpec, Origin, SceneError};
+use super::{ImageSpec, Origin, Scene, SceneError};
 use camera::ViewProjection;
 use model::ModelInstance;
 
@@ -119,6 +119,21 @@ impl CameraPath {
             let message = format!("{:.3} s along the camera's way: {}", time, error.message);
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
+    }
+
+    /// Moves the camera of a scene to its place at a time in seconds. Lights and insets stay.
+    ///
+    /// # Errors
+    /// If eye and target coincide there, or up is parallel to the gaze.
+    pub fn place_camera(
+        &self,
+        origin: &Origin,
+        time: f64,
+        scene: &mut Scene,
+    ) -> Result<(), SceneError> {
+        let view_projection = self.view_projection_at(origin, time, &scene.models, scene.image)?;
+        scene.view_projection = view_projection;
+        Ok(())
     }
 
     /// The values at a time: those of the first and the last keyframe outside of their range, else
