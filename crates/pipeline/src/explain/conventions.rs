@@ -137,11 +137,9 @@ impl ApiConventions {
     pub const fn depth_range(self) -> DepthRange {
         match self {
             Self::Alberti | Self::OpenGl => DepthRange::ZERO_ONE,
-            Self::Chapter
-            | Self::ChapterYDown
-            | Self::Vulkan
-            | Self::Direct3d
-            | Self::WebGpu => DepthRange::KEEP,
+            Self::Chapter | Self::ChapterYDown | Self::Vulkan | Self::Direct3d | Self::WebGpu => {
+                DepthRange::KEEP
+            }
         }
     }
 
