@@ -75,7 +75,9 @@ fn every_format_shows_the_same() {
     assert!(html.contains("formulas OB-1, VV-1") && html.contains("z 1 at 225°"), "{html}");
     assert!(html.contains("formulas VN-1, PE-1, PE-3, VV-2") && html.contains("x to (-3.2, 0.4)"));
     assert!(html.contains("OB-1: x' = x + z L1 cos phi, y' = y + z L1 sin phi"), "{html}");
-    assert!(html.contains("VN-1: v = M (d, 0)") && html.contains("half heights of the picture"));
+    assert!(
+        html.contains("VN-1: v = M (d, 0)") && html.contains("vanishing points in half heights")
+    );
     assert!(!html.contains("href") && !html.contains("src="), "the page needs no other file");
 }
 

@@ -64,7 +64,7 @@ pub struct Panel {
 pub struct Panels {
     /// The title of the page.
     pub title: String,
-    /// Sentences below the title: what the page shows, and the units of its numbers.
+    /// Lines below the title: what the page shows, and the units of its numbers.
     pub introduction: Vec<String>,
     /// The number of panels in a row, at least 1.
     pub columns: usize,
@@ -113,7 +113,7 @@ impl Panels {
         Self { title: title.into(), introduction: Vec::new(), columns: columns.max(1), panels }
     }
 
-    /// The panels with sentences below the title, a line each.
+    /// The panels with lines of text below the title; HTML joins them to a paragraph.
     #[must_use]
     pub fn with_introduction(self, introduction: Vec<String>) -> Self {
         Self { introduction, ..self }
@@ -167,13 +167,12 @@ impl Panels {
         let heading =
             Label::new(&self.title, at, HEADING_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
         let mut layer = Layer::new("heading", "what the page shows", heading.pen(INK));
-        let mut strokes = heading.strokes();
+        layer.groups.push(Group { strokes: heading.strokes(), ..Group::default() });
         for (line, words) in self.introduction.iter().enumerate() {
             let below = at + DVec2::new(0.0, (line + 1) as f64 * NOTE_HEIGHT * LEADING);
             let label = Label::new(words, below, NOTE_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
-            strokes.extend(label.strokes());
+            notes.groups.push(Group { strokes: label.strokes(), ..Group::default() });
         }
-        layer.groups.push(Group { strokes, ..Group::default() });
         page.layers.extend([frames, names, notes, layer]);
         page.warnings = self.warnings();
         page

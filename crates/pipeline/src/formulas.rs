@@ -60,10 +60,10 @@ impl Formula {
         })
     }
 
-    /// The first two equations of the text: code with `=` or `→` in it.
+    /// The first three equations of the text: code with `=` or `→` in it.
     pub fn equations(&self) -> impl Iterator<Item = &'static str> {
         let code = self.text.split("```").next().unwrap_or_default().split('`').skip(1).step_by(2);
-        code.filter(|code| code.contains(" = ") || code.contains(" → ")).take(2)
+        code.filter(|code| code.contains(" = ") || code.contains(" → ")).take(3)
     }
 }
 

@@ -28,8 +28,8 @@ impl Panels {
             "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
              <style>{STYLE_SHEET}</style>\n<h1>{title}</h1>\n"
         );
-        for words in &self.introduction {
-            let _ = writeln!(html, "<p>{}</p>", escape_markup(words));
+        if !self.introduction.is_empty() {
+            let _ = writeln!(html, "<p>{}</p>", escape_markup(&self.introduction.join(" ")));
         }
         html += "<main>\n";
         self.panels.iter().for_each(|panel| push_figure(&mut html, panel));

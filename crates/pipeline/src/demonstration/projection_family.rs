@@ -24,13 +24,12 @@ use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
 
-/// The sentences at the head of the page.
-const INTRODUCTION: [&str; 2] = [
-    "Each panel shows the same models in one projection, with its class, the ids of its formulas \
-     (see `alberti reference OB-1`) and the first of them in full.",
-    "Parallel projections give the drawn length of a unit of each axis in scene units, and its \
-     direction counterclockwise from the right; perspectives the vertical field of view, and \
-     vanishing points in half heights of the picture from its center.",
+/// The lines at the head of the page: two sentences.
+const INTRODUCTION: [&str; 4] = [
+    "Each panel shows the same models in one projection, with its class, the ids of its formulas",
+    "(`alberti reference OB-1` prints one) and the first of them in full. Parallel projections give",
+    "the drawn length of a unit of each axis, in scene units, and its direction from the right;",
+    "perspectives the vertical field of view, and vanishing points in half heights from the center.",
 ];
 
 /// The world axes by name, as unit vectors: their images give foreshortening and vanishing points.
@@ -116,7 +115,7 @@ fn formula_in_full(ids: &str) -> Option<String> {
         let equation = find_formula(id)?.equations().collect::<Vec<_>>().join(", ");
         (!equation.is_empty()).then_some((id, equation))
     })?;
-    let letters = [("φ", "phi"), ("α", "alpha"), ("β", "beta"), ("θ", "theta")];
+    let letters = [("φ", "phi"), ("α", "alpha"), ("β", "beta"), ("√", "sqrt")];
     let spelled = letters.iter().fold(equation, |text, (from, to)| text.replace(from, to));
     Some(format!("{id}: {spelled}"))
 }
