@@ -97,8 +97,7 @@ impl<A: Space> VertexProjection<A> {
             let first = index * CHUNK_POSITIONS;
             for run in runs(first..first + positions.len()) {
                 let (positions, vertices) = (&positions[run.clone()], &mut vertices[run]);
-                let level = self.simd_level.level();
-                dispatch!(level, _simd => project_chunk(positions, to_clip, rows, vertices));
+                project_run(self.simd_level, positions, [to_clip, rows], vertices);
             }
         });
     }
@@ -133,6 +132,18 @@ impl ScreenVertex {
             *vertex = screen.and_then(|screen| Self::snap(screen, point.w()));
         }
     }
+}
+
+/// Projects positions and snaps them with vector instructions; matrices are given by rows.
+///
+/// It is not generic, so that it is compiled here, whoever calls it.
+fn project_run(
+    simd_level: SimdLevel,
+    positions: &[[f32; 3]],
+    [to_clip, to_screen]: [DMat4; 2],
+    vertices: &mut [Option<ScreenVertex>],
+) {
+    dispatch!(simd_level.level(), _simd => project_chunk(positions, to_clip, to_screen, vertices));
 }
 
 /// Projects positions and snaps them; matrices are given by rows.

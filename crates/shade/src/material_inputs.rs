@@ -32,9 +32,9 @@ pub(super) struct MaterialInputs<const N: usize> {
     pub(super) tangent_normal: Vec3Lanes<N>,
     /// Ambient occlusion: the fraction of light from all directions that arrives.
     pub(super) occlusion: Lanes<N>,
-    /// The ambient visibility that the picture shows, beside that of the material's texture; 1
+    /// The ambient visibility that the picture shows, beside that of the material's texture; `None`
     /// without screen-space ambient occlusion.
-    pub(super) screen_visibility: Lanes<N>,
+    pub(super) screen_visibility: Option<Lanes<N>>,
     /// The emitted radiance.
     pub(super) emitted: Rgb<N>,
     /// The parameters of the extensions.
@@ -114,7 +114,7 @@ impl<const N: usize> MaterialInputs<N> {
             roughness: Lanes::splat(material.roughness),
             tangent_normal: Vec3Lanes::splat([0.0, 0.0, 1.0]),
             occlusion: Lanes::ONE,
-            screen_visibility: Lanes::ONE,
+            screen_visibility: None,
             emitted: Rgb::splat(if material.unlit { [0.0; 3] } else { material.emissive }),
             layers: LayerInputs::from_factors(&material.extensions),
         }

@@ -358,7 +358,8 @@ impl Shading<'_> {
     ) -> SurfaceLight<N> {
         let geometry = self.surface_geometry(draw, primitives, fragments);
         if let Some(occlusion) = self.occlusion {
-            inputs.screen_visibility = occlusion.visibility(geometry.positions, geometry.normals);
+            let visibility = occlusion.visibility(geometry.positions, geometry.normals);
+            inputs.screen_visibility = Some(visibility);
         }
         // Tangent frame for normal maps and anisotropy.
         let tangents = draw.interpolate_tangents(primitives, &fragments.weights());

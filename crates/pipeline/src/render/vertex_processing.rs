@@ -169,6 +169,7 @@ pub(super) fn normal_matrix(map: Affine<Model, World>) -> DMat3 {
 }
 
 /// A unit normal in the world; zero if it has no direction there.
+#[inline(always)]
 pub(super) fn transform_normal(map: DMat3, normal: [f32; 3]) -> [f32; 3] {
     let in_world = map * DVec3::from_array(normal.map(f64::from));
     let length = in_world.length();

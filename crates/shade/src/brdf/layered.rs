@@ -157,7 +157,10 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         let light = environment.specular_radiance(mirrors, views, roughness);
         // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
         // angles the mirror direction is less occluded than the hemisphere.
-        let visibility = self.inputs.occlusion * self.inputs.screen_visibility;
+        let mut visibility = self.inputs.occlusion;
+        if let Some(on_screen) = self.inputs.screen_visibility {
+            visibility *= on_screen;
+        }
         let sum = n_dot_v + visibility;
         let occlusion = (sum * sum - 1.0 + visibility).clamp(0.0, 1.0);
         // Albedo scaling of sheen, then the split sum's product.
@@ -178,8 +181,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         let reflectance = self.base.diffuse * self.base.diffuse_transmittance * self.base_scale();
         // Screen-space occlusion is geometry: light that it takes may come back from there.
         let mut light = white * occlusion;
-        if screen_visibility != Lanes::ONE {
-            light = light * add_bounces(screen_visibility, reflectance);
+        if let Some(visibility) = screen_visibility {
+            light = light * add_bounces(visibility, reflectance);
         }
         self.radiance += reflectance * light;
         if let Some(sheen) = &self.sheen {
