@@ -172,7 +172,8 @@ fn read_stdin() -> Result<String, CliError> {
     String::from_utf8(bytes).map_err(|_| fault("it is not UTF-8 text".to_owned()))
 }
 
-/// Parses the rows of a matrix from sixteen or nine numbers between any brackets, commas and spaces.
+/// Parses the rows of a matrix from sixteen or nine numbers between any brackets, commas and
+/// spaces.
 ///
 /// ```text
 /// 1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1

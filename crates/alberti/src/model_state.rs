@@ -45,7 +45,8 @@ impl ModelStateArgs {
 
     /// Moves the camera of a scene to its place on the camera path at `--time`, if it has both.
     ///
-    /// Only the camera moves, as in a sequence: lights stand where the scene's own camera puts them.
+    /// Only the camera moves, as in a sequence: lights stand where the scene's own camera puts
+    /// them.
     ///
     /// # Errors
     /// If the keyframes of the camera path make no sense, or there is no view at that time.

@@ -1,5 +1,5 @@
-//! The formulas of the viewing pipeline by their ids, read from `docs/formulas.md`, which is part of
-//! the program.
+//! The formulas of the viewing pipeline by their ids, read from `docs/formulas.md`, which is part
+//! of the program.
 //!
 //! ```text
 //!  **OB-1, oblique projection by length and angle** [A]. `x' = x + z L1 cos φ`, …     an entry

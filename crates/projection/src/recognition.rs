@@ -94,8 +94,8 @@ impl Recognition {
 /// A matrix with entries that are not finite, or beyond 1e-40 to 1e40, has one reading: a map
 /// without a name.
 ///
-/// Entries may be rounded: the number of decimals, or f32, is taken from the entries themselves, and
-/// parameters have the fewest digits that give the same rounded matrix.
+/// Entries may be rounded: the number of decimals, or f32, is taken from the entries themselves,
+/// and parameters have the fewest digits that give the same rounded matrix.
 ///
 /// ```
 /// use glam::{DMat4, DVec4};

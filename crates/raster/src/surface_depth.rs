@@ -29,8 +29,8 @@ impl SurfaceDepth {
 }
 
 impl Frame {
-    /// Finds the nearest opaque surface at the first sample of each pixel, with its depth there, and
-    /// writes it to `target`: rows from the top, `width` × `height` of them.
+    /// Finds the nearest opaque surface at the first sample of each pixel, with its depth there,
+    /// and writes it to `target`: rows from the top, `width` × `height` of them.
     ///
     /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel, with
     /// one sample its center. Depths are not carried to another place: beyond the edge of a steep

@@ -51,7 +51,7 @@ pub struct AmbientOcclusion {
     depths: PixelGrid,
     /// The fraction of the light from all directions that arrives there, 0 to 1.
     visibilities: PixelGrid,
-    /// The same before it was denoised: memory for the next picture.
+    /// These before they were denoised: memory for the next picture.
     noisy: PixelGrid,
 }
 

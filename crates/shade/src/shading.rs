@@ -44,7 +44,7 @@ pub struct Shading<'a> {
     pub ground_occlusion: Option<&'a GroundOcclusion>,
     /// Screen-space ambient occlusion, if it is switched on.
     pub occlusion: Option<&'a AmbientOcclusion>,
-    /// What refracting and rough glass shows of the surfaces behind it. Without it such glass is
+    /// The picture of the surfaces behind refracting and rough glass. Without it such glass is
     /// drawn like a smooth thin sheet.
     pub transmission_framebuffer: Option<&'a TransmissionFramebuffer>,
     /// The environment for image-based lighting, if there is one.
@@ -217,9 +217,10 @@ impl<const N: usize> ShadedLanes<N> {
 struct SurfaceLight<const N: usize> {
     /// Emitted, reflected and refracted radiance.
     radiance: Rgb<N>,
-    /// What passes through from behind, if the material transmits light.
+    /// The share of light that passes through from behind, if the material transmits any.
     transmission: Option<TransmittedShare<N>>,
-    /// What refracting or rough glass adds after tone mapping, and the alpha behind it.
+    /// The display color that refracting or rough glass adds after tone mapping, and the alpha
+    /// behind it.
     behind: Option<(Rgb<N>, Lanes<N>)>,
 }
 

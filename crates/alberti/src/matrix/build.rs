@@ -144,7 +144,8 @@ fn built(subject: String, formula: &'static str, matrix: DMat4) -> BuiltMatrix {
     BuiltMatrix { subject, formula, matrix, factors: Vec::new() }
 }
 
-/// The matrix with 0 for entries of its rotation that are rounding: below 1e-15 of a row of length 1.
+/// The matrix with 0 for entries of its rotation that are rounding: below 1e-15 of a row of length
+/// 1.
 fn without_rounding(matrix: DMat4) -> DMat4 {
     let clean = |column: glam::DVec4| {
         let kept = column.to_array().map(|entry| if entry.abs() < 1e-15 { 0.0 } else { entry });

@@ -13,7 +13,8 @@ impl Explanation {
     /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,
     /// of any size and of the scene's aspect ratio, shows the position of the subject.
     ///
-    /// The page is complete without network access. The order is subject, introduction, verdict, diagrams, steps.
+    /// The page is complete without network access. The order is subject, introduction, verdict,
+    /// diagrams, steps.
     #[must_use]
     pub fn to_html(&self, chain: &TransformChain, picture: Option<&Picture>) -> String {
         let subject = escape_html(&self.subject);

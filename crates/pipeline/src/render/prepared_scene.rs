@@ -44,7 +44,7 @@ pub struct PreparedScene<'a> {
     /// The occlusion buffer of the whole picture, for regions that are a part of it and for
     /// pictures with a transmission framebuffer.
     full_occlusion: Option<AmbientOcclusion>,
-    /// What refracting and rough glass shows behind it, once it is needed.
+    /// The picture behind refracting and rough glass, once it is needed.
     transmission_framebuffer: Option<TransmissionFramebuffer>,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,

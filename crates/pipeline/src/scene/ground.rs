@@ -107,12 +107,13 @@ fn occlusion_area(
     (margin > 0.0).then_some(OcclusionArea { low, high, margin })
 }
 
-/// The shadows of the models' points on the ground, in the world, for a camera that frames them too.
+/// The shadows of the models' points on the ground, in the world, for a camera that frames them
+/// too.
 ///
 /// Those of directional light from above, and the darkest part of what the models occlude. A shadow
-/// is at most as long as the diagonal of the models' bounding box: of longer ones, under a sun below
-/// 30° for a cube, the picture shows only the beginning. Lamps near the models have no such measure
-/// and do not count.
+/// is at most as long as the diagonal of the models' bounding box: of longer ones, under a sun
+/// below 30° for a cube, the picture shows only the beginning. Lamps near the models have no such
+/// measure and do not count.
 pub(super) fn shadow_points(
     ground: Ground,
     models: &[ModelInstance],

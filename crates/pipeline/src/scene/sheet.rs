@@ -47,8 +47,8 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
     })
 }
 
-/// The error of a sheet whose views are larger than its paper; `None` without one, or if it is wrong
-/// in itself.
+/// The error of a sheet whose views are larger than its paper; `None` without one, or if it is
+/// wrong in itself.
 pub(super) fn check_sheet_layout(
     origin: &Origin,
     file: Option<&SheetFile>,

@@ -75,7 +75,7 @@ fn pair_cost(low: Rounded, high: Rounded) -> u32 {
     2 * (high.digits() + second)
 }
 
-/// What near and far count beside their digits: they should be ahead of the eye and in order.
+/// The cost of near and far beside their digits: they should be ahead of the eye and in order.
 fn order_cost(near: Rounded, far: Rounded) -> u32 {
     match (near.value, far.value) {
         (near, far) if near > far => MIRRORED,

@@ -7,7 +7,7 @@ use super::{Lens, MatrixMeaning, MatrixReading, factor_cost};
 use crate::{ApexMovedFrustum, Convention, Frustum};
 use alloc::vec::Vec;
 
-/// What a reading counts beside its digits if its window is mirrored.
+/// The cost of a mirrored window beside the digits of a reading.
 pub(super) const MIRRORED: u32 = 12;
 
 /// Adds the readings as a frustum (GL-1, PE-2) or as the lesson's with its apex moved (LW-1).

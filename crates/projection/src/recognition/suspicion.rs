@@ -1,8 +1,8 @@
 //! Known misprints that explain a matrix better than its best reading, or as well.
 //!
 //! Each test undoes one slip and reads what comes out. A slip is assumed only if that reading needs
-//! clearly fewer digits, or the matrix as it stands makes no sense: every misprint is also the right
-//! matrix of something less likely.
+//! clearly fewer digits, or the matrix as it stands makes no sense: every misprint is also the
+//! right matrix of something less likely.
 
 use super::rounded::{Entries, Rounded};
 use super::{MatrixMeaning, MatrixReading, is_moderate, readings_of};
@@ -12,8 +12,8 @@ use glam::DMat4;
 
 /// How much better a reading must be before a slip is assumed.
 const SLIP: u32 = 6;
-/// The margin below which a misprint is as good a reading as the right matrix, and above which it is
-/// the better one.
+/// The margin below which a misprint is as good a reading as the right matrix, and above which it
+/// is the better one.
 const MARGIN: u32 = 4;
 /// A misprint this much costlier than the best reading is still told.
 const TOLD: u32 = 4;
@@ -23,7 +23,7 @@ const TOLD: u32 = 4;
 pub enum SuspicionStrength {
     /// The matrix as it stands makes no sense, or clearly less than without the slip.
     Likely,
-    /// The same numbers are also the right matrix of something else, which is as sensible.
+    /// Its numbers are also the right matrix of something else, which is as sensible.
     Equal,
 }
 

@@ -1,4 +1,4 @@
-//! What matrices are recognized as: a table of 120 from books, interfaces and programs, half of
+//! Recognition of matrices: a table of 120 from books, interfaces and programs, half of
 //! them wrong, and 10,000 random ones.
 // Test names say what they check.
 #![allow(missing_docs)]

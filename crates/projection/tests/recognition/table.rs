@@ -7,7 +7,7 @@ use projection::{
     Convention, MatrixMeaning, Misprint, PrincipalPlane, Recognition, SuspicionStrength, recognize,
 };
 
-/// What a matrix is, from its source.
+/// The meaning of a matrix, from its source.
 #[derive(Clone, Debug)]
 pub(crate) enum Expected {
     /// Convention; left, right, bottom, top; near, far.
@@ -54,7 +54,7 @@ pub(crate) struct Row {
     pub(crate) tolerance: f64,
 }
 
-/// What should be said of it.
+/// The report that is expected.
 pub(crate) enum Verdict {
     /// The first reading, and the common factor.
     Reading(Expected, f64),

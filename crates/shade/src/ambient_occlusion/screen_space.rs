@@ -33,8 +33,8 @@ impl ScreenSpace {
     ///
     /// `world_to_screen` maps the world to pixels and depth; `origin` is a position near the
     /// surfaces; `viewer` is the eye or, in parallel projection, the direction to it;
-    /// `radius_across_view` is a vector in the world across the view, as long as the distance within
-    /// which surfaces occlude.
+    /// `radius_across_view` is a vector in the world across the view, as long as the distance
+    /// within which surfaces occlude.
     pub fn new(
         size: [u32; 2],
         sample_offset: [f32; 2],

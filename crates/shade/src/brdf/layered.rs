@@ -191,7 +191,8 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     }
 
     /// Adds the light that refracting or rough glass shows of what is behind it, and returns what
-    /// is to be added after tone mapping: background and backdrop, and the alpha behind the surface.
+    /// is to be added after tone mapping: background and backdrop, and the alpha behind the
+    /// surface.
     #[inline(always)]
     pub(crate) fn add_light_behind(
         &mut self,

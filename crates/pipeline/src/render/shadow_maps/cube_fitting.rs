@@ -163,7 +163,7 @@ fn face_coordinates(face: usize, p: DVec3) -> DVec3 {
 
 /// The sides of the six faces that a position is outside of, five bits for each face.
 ///
-/// What has a bit in common is outside of the face: a triangle, or a volume by its corners.
+/// Anything with a bit in common is outside of the face: a triangle, or a volume by its corners.
 fn outside_bits(p: DVec3, slope: f64) -> u32 {
     (0..6).fold(0, |bits, face| {
         let DVec3 { x, y, z } = face_coordinates(face, p);

@@ -4,7 +4,8 @@ use crate::scene::number::Softness;
 use crate::scene::schema::scene_enum;
 
 scene_enum! {
-    /// Whether a light casts shadows, and how soft they are. Directional, point and spot lights can.
+    /// Whether a light casts shadows, and how soft they are. Directional, point and spot lights
+    /// can.
     ///
     /// Masked materials cast the shadow of their opaque parts; blended and transmissive ones cast
     /// none.
