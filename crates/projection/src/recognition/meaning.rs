@@ -174,6 +174,12 @@ pub enum MatrixMeaning {
         /// True if z is dropped.
         onto_plane: bool,
     },
+    /// The perspective projection from the origin onto a plane z = const: w = z / `plane_z`
+    /// (Foley, van Dam and others 1990, equation 6.5).
+    CentralOntoPlane {
+        /// The plane of the picture; negative ahead of a camera that looks along −z.
+        plane_z: f64,
+    },
     /// A camera and a perspective: world to clip space.
     CameraPerspective {
         /// Where the camera is.

@@ -9,3 +9,28 @@ mod random_matrices;
 mod right_matrices;
 mod table;
 mod wrong_matrices;
+
+use glam::{DMat4, DVec4};
+use projection::{MatrixMeaning, recognize};
+
+/// (x, y, z) and w = z/d, in all multiples and with either sign of d (Foley, van Dam and others
+/// 1990, equation 6.5; with d < 0 the slides' projection onto the plane z = d).
+#[test]
+fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
+    for (plane, multiple) in [(2.0, 1.0), (-2.0, 1.0), (0.5, 1.0), (-3.0, -3.0), (4.0, 4.0)] {
+        let rows = DMat4::from_cols(
+            DVec4::X,
+            DVec4::Y,
+            DVec4::new(0.0, 0.0, 1.0, 1.0 / plane),
+            DVec4::ZERO,
+        );
+        let found = recognize(rows * multiple);
+        let expected = MatrixMeaning::CentralOntoPlane { plane_z: plane };
+        assert_eq!((found.first().meaning, found.first().factor), (expected, multiple));
+        assert_eq!(found.misprint(), None, "{plane}");
+    }
+    // A third, rounded to four decimals.
+    let rounded = DVec4::new(0.0, 0.0, 1.0, 0.3333);
+    let found = recognize(DMat4::from_cols(DVec4::X, DVec4::Y, rounded, DVec4::ZERO));
+    assert_eq!(found.first().meaning, MatrixMeaning::CentralOntoPlane { plane_z: 3.0 });
+}

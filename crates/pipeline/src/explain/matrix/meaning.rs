@@ -138,6 +138,10 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
                 list(projection.foreshortening())
             )
         }
+        MatrixMeaning::CentralOntoPlane { plane_z } => {
+            let plane = format_number(*plane_z);
+            format!("a perspective projection from the origin onto the plane z = {plane}")
+        }
         MatrixMeaning::NPoint { projection, onto_plane } => {
             let class = Classical::NPoint(*projection).class();
             let kept = if *onto_plane { "onto the plane z = 0" } else { "depth kept" };
@@ -266,6 +270,9 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
             Some(eye) => step.with_item("eye", "eye", <[f64; 3]>::from(eye)),
             None => step,
         },
+        MatrixMeaning::CentralOntoPlane { plane_z } => {
+            step.with_item("plane", "plane z", *plane_z).with_item("eye", "eye", [0.0; 3])
+        }
         MatrixMeaning::ChapterP { n, f } | MatrixMeaning::ChapterPInverse { n, f } => {
             step.with_item("n", "n", *n).with_item("f", "f", *f)
         }
