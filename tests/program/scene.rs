@@ -182,6 +182,28 @@ fn a_model_beside_the_picture_is_named() {
 }
 
 #[test]
+fn instances_beside_the_picture_are_named_once_and_only_if_all_are() {
+    let sandbox = Sandbox::new("scene_advice_instances");
+    sandbox.copy_model("crate.glb");
+    let check = |grid: &str, after: &str| {
+        let text = format!(
+            "Scene(\n  models: [(path: \"crate.glb\", instances: Grid({grid})),{after}],\n  \
+             camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0))),\n)"
+        );
+        sandbox.write_file("scene.ron", &text);
+        sandbox.run(&["scene", "check", "scene.ron"]).stdout
+    };
+    // A forest: the camera stands among its trees.
+    let forest = "count: (9, 1, 9), step: (4, 0, 4)";
+    let output = check(forest, "");
+    assert!(!output.contains("model-not-visible"), "{output}");
+    // A model behind it is pointed at as the second of the file.
+    let output = check(forest, "\n    (path: \"crate.glb\", translation: (90, 0, 90))");
+    assert_eq!(output.matches("warning[model-not-visible]").count(), 1, "{output}");
+    assert!(output.contains("scene.ron:3:5"), "{output}");
+}
+
+#[test]
 fn included_files_are_joined_and_mistakes_point_into_the_right_one() {
     let sandbox = Sandbox::new("scene_include");
     sandbox.copy_model("crate.glb");

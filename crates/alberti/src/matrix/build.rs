@@ -270,8 +270,11 @@ fn build_n_point(list: &NumberList, options: BuildOptions) -> Built {
     let projection = NPoint::new(p, q, r).map_err(refused)?;
     let matrix =
         if options.onto_plane { projection.onto_plane() } else { projection.depth_preserving() };
-    let subject =
-        format!("A perspective of {} vanishing points: ({p}, {q}, {r}, 1)", projection.count());
+    let points = match projection.count() {
+        1 => "one vanishing point".to_owned(),
+        count => format!("{count} vanishing points"),
+    };
+    let subject = format!("A perspective of {points}: ({p}, {q}, {r}, 1)");
     Ok(built(subject, "ONE-1, TWO-1, THREE-1", matrix.raw()))
 }
 

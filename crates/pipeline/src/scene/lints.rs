@@ -101,6 +101,24 @@ impl Linter<'_> {
         &self.scene.models[model].model.name
     }
 
+    /// The surveys of the scene's models, with the number of each and that of its first instance.
+    ///
+    /// A model counts as a whole: that some trees of a forest are beside the picture is no mistake.
+    fn survey_models(&self) -> Vec<(usize, usize, VisibilitySurvey)> {
+        let mut first = 0;
+        let models = self.file.models.iter().enumerate().map(|(number, entry)| {
+            let instances = first..(first + entry.instance_count()).min(self.surveys.len());
+            first = instances.end;
+            let own = self.surveys[instances.clone()].iter();
+            (
+                number,
+                instances.start,
+                own.fold(VisibilitySurvey::default(), VisibilitySurvey::merge),
+            )
+        });
+        models.collect()
+    }
+
     /// Models outside of the view volume. If that holds for all of them, one warning at the camera
     /// replaces one for each model, since the camera is the likelier cause.
     fn lint_visibility(&self) -> Vec<Lint> {
@@ -113,10 +131,11 @@ impl Linter<'_> {
             let error = self.origin.error_at(&[Field("camera")], message, Some(help));
             return vec![Lint { code: "nothing-visible", error }];
         }
-        let unseen = self.surveys.iter().enumerate().filter(|(_, survey)| is_unseen(survey));
-        let advice = unseen.map(|(number, survey)| {
-            let what = self.describe_rejection(survey);
-            let message = format!("{} is not in the picture: {what}", self.model_name(number));
+        let models = self.survey_models().into_iter();
+        let unseen = models.filter(|(_, _, survey)| is_unseen(survey));
+        let advice = unseen.map(|(number, instance, survey)| {
+            let what = self.describe_rejection(&survey);
+            let message = format!("{} is not in the picture: {what}", self.model_name(instance));
             let help = "place it where the camera looks, or leave it out".to_owned();
             let fault =
                 self.origin.error_at(&[Field("models"), Index(number)], message, Some(help));

@@ -99,11 +99,23 @@ fn read_axonometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let out = [cross(1, 2), cross(2, 0), cross(0, 1)];
     let [u, v, w] = orthonormal_rows(&[a, b, out]).filter(|_| stays)?;
     let error = 4.0 * a.iter().chain(&b).fold(1e-9, |error: f64, entry| error.max(entry.error));
-    let projection = Axonometric::by_normal(Normal::from_raw(w)).ok()?;
+    let normal = equalize_lengths(w, error);
+    let projection = Axonometric::by_normal(Normal::from_raw(normal)).ok()?;
     let turn = projection.depth_preserving().raw();
     let same = |row: usize, ours: DVec3| (turn.row(row).truncate() - ours).length() < error;
     let meaning = MatrixMeaning::AxonometricOntoPlane { projection };
     (same(0, u) && same(1, v)).then_some((meaning, 8))
+}
+
+/// Makes coordinates equally long that rounding cannot tell apart: what was isometric stays so.
+fn equalize_lengths(normal: DVec3, error: f64) -> DVec3 {
+    let mut lengths = normal.to_array();
+    for [i, j] in [[0, 1], [1, 2], [0, 2]] {
+        if (lengths[i].abs() - lengths[j].abs()).abs() < error {
+            lengths[j] = libm::copysign(lengths[i], lengths[j]);
+        }
+    }
+    lengths.into()
 }
 
 /// The identity, or the identity with z dropped, above (p, q, r, 1).

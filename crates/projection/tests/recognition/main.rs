@@ -11,7 +11,23 @@ mod table;
 mod wrong_matrices;
 
 use glam::{DMat4, DVec4};
-use projection::{MatrixMeaning, recognize};
+use projection::{AxonometricKind, MatrixMeaning, recognize};
+
+/// 1/√2, 1/√6 and √(2/3) with three to nine decimals.
+#[test]
+fn a_rounded_isometric_projection_is_isometric() {
+    for decimals in 3..10 {
+        let round = |x: f64| format!("{x:.decimals$}").parse::<f64>().expect("a number");
+        let [side, down, up] = [0.5_f64, 1.0 / 6.0, 2.0 / 3.0].map(|square| round(square.sqrt()));
+        let columns = [[side, -down], [0.0, up], [-side, -down]];
+        let [x, y, z] = columns.map(|[x, y]| DVec4::new(x, y, 0.0, 0.0));
+        let found = recognize(DMat4::from_cols(x, y, z, DVec4::W)).first().meaning;
+        let MatrixMeaning::AxonometricOntoPlane { projection } = found else {
+            panic!("{decimals}: {found:?}")
+        };
+        assert_eq!(projection.kind(), AxonometricKind::Isometric, "{decimals}");
+    }
+}
 
 /// (x, y, z) and w = z/d, in all multiples and with either sign of d (Foley, van Dam and others
 /// 1990, equation 6.5; with d < 0 the slides' projection onto the plane z = d).

@@ -15,14 +15,13 @@ const WASTEFUL_DEPTH_RATIO: f64 = 100.0;
 /// model off, depth planes rarely should.
 pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
     let mut advice = Vec::new();
-    for (number, survey) in
-        adviser.surveys.iter().enumerate().filter(|(_, survey)| survey.inside > 0)
-    {
+    let models = adviser.survey_models().into_iter();
+    for (_, instance, survey) in models.filter(|(_, _, survey)| survey.inside > 0) {
         let sides = [("near", survey.before_near), ("far", survey.behind_far)];
         for (plane, vertices) in sides.into_iter().filter(|(_, vertices)| *vertices > 0) {
             let message = format!(
                 "the {plane} plane cuts off {vertices} vertices of {}",
-                adviser.model_name(number)
+                adviser.model_name(instance)
             );
             let (near, far) = survey.depth_range().unwrap_or_default();
             let help = if plane == "near" {
