@@ -58,6 +58,8 @@ impl VisibilitySurvey {
     pub(super) fn merge(mut self, other: &Self) -> Self {
         self.total += other.total;
         self.inside += other.inside;
+        self.before_near += other.before_near;
+        self.behind_far += other.behind_far;
         for (sum, count) in self.outside.iter_mut().zip(other.outside) {
             *sum += count;
         }
