@@ -78,7 +78,7 @@ fn checked(loaded: Result<Model, ImportError>) -> Option<Model> {
 /// What a person would do with the outcome: read the error, or look at the model.
 fn show(loaded: Result<Model, ImportError>) {
     let Some(mut model) = checked(loaded) else { return };
-    draw(&model, StyleFile::Shaded, ViewFile::default());
+    draw(&model, StyleFile::Shaded, ViewFile::DEFAULT);
     if !model.cameras.is_empty() {
         draw(&model, StyleFile::Flat, ViewFile::FromModel(CameraChoice::Index(0)));
     }
