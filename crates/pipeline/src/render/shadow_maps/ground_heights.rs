@@ -17,8 +17,11 @@ use homog::{Point, Vector};
 use projection::{Convention, Orthographic, Window};
 use shade::{GroundGrid, GroundOcclusion, HeightSlab, ShadowMap};
 
-/// The cells of the grid's longer side.
-const GRID_CELLS: f64 = 192.0;
+/// The most cells of the grid's longer side.
+const MAX_GRID_CELLS: u32 = 192;
+/// The pixels of the picture's longer side for each of them: a contact shadow is smooth, and small
+/// pictures need not wait for more.
+const PIXELS_PER_CELL: u32 = 3;
 
 /// The depths of a height map, and the planes between which they count.
 struct HeightMap {
@@ -43,7 +46,10 @@ impl ShadowMapRenderer {
         context: &RenderContext<'_>,
     ) -> Result<Option<GroundOcclusion>, RenderError> {
         let area = context.scene.ground.and_then(|ground| ground.occlusion);
-        let Some((area, grid)) = area.and_then(|area| Some((area, occlusion_grid(area)?))) else {
+        let [width, height] = context.image_size();
+        let cells = (width.max(height) / PIXELS_PER_CELL).clamp(32, MAX_GRID_CELLS);
+        let Some((area, grid)) = area.and_then(|area| Some((area, occlusion_grid(area, cells)?)))
+        else {
             return Ok(None);
         };
         let Some(lowest) = self.render_heights(context, area, grid, true)? else {
@@ -85,12 +91,13 @@ impl ShadowMapRenderer {
     }
 }
 
-/// The grid of an area, with square cells; `None` if the area is too large or small for `f32`.
-fn occlusion_grid(area: OcclusionArea) -> Option<GroundGrid> {
+/// The grid of an area, with so many square cells along its longer side; `None` if the area is too
+/// large or small for `f32`.
+fn occlusion_grid(area: OcclusionArea, cells: u32) -> Option<GroundGrid> {
     let (low, extent) = (area.low.raw(), area.high.raw() - area.low.raw());
-    let cell = extent.x.max(extent.z) / GRID_CELLS;
+    let cell = extent.x.max(extent.z) / f64::from(cells);
     // Frames have 16 pixels a side at least.
-    let count = |side: f64| ((side / cell).ceil() as usize).clamp(16, GRID_CELLS as usize);
+    let count = |side: f64| ((side / cell).ceil() as usize).clamp(16, cells as usize);
     let (cell_f32, fade) = (cell as f32, area.margin as f32);
     let corner = [low.x as f32, low.z as f32];
     let is_usable = cell_f32.is_normal() && corner.iter().all(|c| c.is_finite());
