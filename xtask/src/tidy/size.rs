@@ -7,7 +7,7 @@ use super::source::Source;
 /// Lines past which a file is noted: it may hold two subjects.
 const LONG_FILE_LINES: usize = 400;
 /// Lines past which a file must be split.
-const MAX_FILE_LINES: usize = 550;
+const MAX_FILE_LINES: usize = 500;
 /// Lines of a `lib.rs`, which declares and re-exports.
 const MAX_LIB_LINES: usize = 140;
 /// Lines of a function.

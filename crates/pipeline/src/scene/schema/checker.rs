@@ -10,13 +10,19 @@
 //! The checker holds the path to the value, for messages, and the scope, which is the innermost
 //! field or element around it: a later resolution skips errors in a scope that already has one.
 
-use super::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType, VariantEntry};
+mod fields;
+mod variant;
+
+use super::{FieldEntry, SceneValue, Shape, TypeEntry, VariantEntry};
 use crate::scene::mistake::Mistake;
 use crate::scene::syntax::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
 use core::fmt::Write as _;
 use core::ops::Range;
 use std::collections::BTreeMap;
+
+pub(in crate::scene) use fields::Fields;
+pub(in crate::scene) use variant::Variant;
 
 /// A step of the path to the value that is being read: `camera`, `.LookAt`, `[2]`.
 #[derive(Clone, Copy, Debug)]
@@ -409,106 +415,4 @@ struct Owner {
     key: String,
     /// The name in messages: `Model`, or `LookAt`.
     shown: &'static str,
-}
-
-/// The fields of a struct or a variant that are in the text.
-pub(in crate::scene) struct Fields<'n> {
-    /// The declared fields that were found, each once, in the order of the text.
-    items: Vec<(&'static str, &'n SyntaxItem<'n>)>,
-}
-
-impl Fields<'_> {
-    /// The value of a field. A field that is left out, or that cannot be read, has the value of
-    /// `default`, if it has one.
-    ///
-    /// The default also stands in for a value that cannot be read, so that one mistake does not
-    /// make the struct and everything around it unreadable.
-    pub(in crate::scene) fn read<T: SceneValue>(
-        &self,
-        checker: &mut Checker<'_>,
-        name: &'static str,
-        default: fn() -> Option<T>,
-    ) -> Option<T> {
-        let Some((_, item)) = self.items.iter().find(|(found, _)| *found == name) else {
-            return default();
-        };
-        checker.path.push(Segment::Field(name));
-        checker.scopes.push(item.span());
-        let value = T::from_node(&item.value, checker);
-        checker.scopes.pop();
-        checker.path.pop();
-        value.or_else(default)
-    }
-}
-
-/// A variant that is named in the text.
-pub(in crate::scene) struct Variant<'n> {
-    entry: &'static TypeEntry,
-    /// The declaration of the variant.
-    variant: &'static VariantEntry,
-    /// Its brackets, if it has any.
-    group: Option<&'n Group<'n>>,
-    span: Range<usize>,
-}
-
-impl<'n> Variant<'n> {
-    /// The name of the variant, one of those that are declared.
-    pub(in crate::scene) fn name(&self) -> &'static str {
-        self.variant.name
-    }
-
-    /// Whether nothing stands in the brackets of a variant that has no fields; reports what does.
-    pub(in crate::scene) fn expect_empty(&self, checker: &mut Checker<'_>) -> bool {
-        let Some(group) = self.group.filter(|group| !group.items.is_empty()) else { return true };
-        let span = group.items[0].span().start..group.items[group.items.len() - 1].span().end;
-        let message = format!("`{}` has no fields", self.variant.name);
-        checker.report(span, message, Some(format!("write {}", self.variant.name)));
-        false
-    }
-
-    /// The fields in the brackets; a variant without brackets has none.
-    pub(in crate::scene) fn open_fields(&self, checker: &mut Checker<'_>) -> Option<Fields<'n>> {
-        /// The brackets of a variant that is written without any.
-        static EMPTY: Group<'static> = Group { name: None, open: '(', items: Vec::new() };
-        let owner = Owner {
-            key: format!("{}::{}", self.entry.name, self.variant.name),
-            shown: self.variant.name,
-        };
-        let group: &'n Group<'n> = self.group.unwrap_or(&EMPTY);
-        checker.read_fields(group, &self.span, &owner, self.variant.fields)
-    }
-
-    /// Reads the value in the brackets.
-    ///
-    /// ```text
-    ///  Color("#fff")               one item without a name: that item is the value
-    ///  FromModel(name: "front")    the brackets of the variant are those of the struct
-    ///  Variant((1, 2, 3))          one item, a vector in its own brackets
-    /// ```
-    /// The second form is RON's extension `unwrap_variant_newtypes`. Without brackets a struct has
-    /// all of its defaults, if it has no required field: `Lines` is `Lines()`.
-    pub(in crate::scene) fn read_inner<T: SceneValue>(
-        &self,
-        checker: &mut Checker<'_>,
-    ) -> Option<T> {
-        let value_type = self.variant.value_type.map(|value_type| value_type());
-        let Some(group) = self.group else {
-            if value_type.as_ref().is_some_and(ValueType::has_only_optional_fields) {
-                let kind = NodeKind::Group(Group { name: None, open: '(', items: Vec::new() });
-                return T::from_node(&Node { span: self.span.clone(), kind }, checker);
-            }
-            let message = format!("`{}` needs a value in brackets", self.variant.name);
-            let words = value_type.map_or(String::new(), |value_type| value_type.words());
-            let help = format!("write {}(…) with a {words}", self.variant.name);
-            checker.report(self.span.clone(), message, Some(help));
-            return None;
-        };
-        if let [SyntaxItem { key: None, value }] = group.items.as_slice() {
-            return T::from_node(value, checker);
-        }
-        let unnamed = Group { name: None, ..group.clone() };
-        let name_length = group.name.as_ref().map_or(0, |name| name.span.len());
-        let span = self.span.start + name_length..self.span.end;
-        T::from_node(&Node { span, kind: NodeKind::Group(unnamed) }, checker)
-    }
 }
