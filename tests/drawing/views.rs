@@ -80,6 +80,7 @@ pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Resu
     let (width, height) = IMAGE_SIZE;
     let samples = raster::Samples::One;
     Ok(Scene {
+        caption: None,
         models: vec![ModelInstance { model: Arc::clone(model), model_to_world }],
         view_projection: view_projection?,
         lights: Vec::new(),
@@ -89,6 +90,7 @@ pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Resu
         tone_mapper: shade::ToneMapper::default(),
         style: Style::Flat,
         image: ImageSpec {
+            caption_height: 0,
             width,
             height,
             background: [0.0; 4],

@@ -2,6 +2,7 @@
 //! cameras.
 
 use crate::sandbox::Sandbox;
+use crate::vector_files::{PagePoint, parse_svg};
 
 fn render_fields(sandbox: &Sandbox, name: &str, fields: &str) -> (u32, u32, Vec<[u8; 4]>) {
     let scene = format!("{name}.ron");
@@ -50,9 +51,50 @@ fn a_viewport_shows_what_its_camera_shows_alone() {
     let run = sandbox.run(&["render", "all.ron", "-o", "part.png", "--crop", "15,5,50,40"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     assert_eq!(sandbox.read_picture("part.png").2, cut_out(&all, [15, 5, 50, 40]));
-    let run = sandbox.run(&["render", "all.ron", "-o", "all.svg"]);
+}
+
+/// In a drawing a view is what its camera draws alone, in its rectangle; what is below is erased.
+#[test]
+fn a_viewport_of_a_drawing_has_the_lines_of_its_camera() {
+    let sandbox = Sandbox::new("drawn_viewports");
+    sandbox.copy_model("crate.glb");
+    let draw = |name: &str, fields: &str| {
+        let scene = format!("Scene(models: [(path: \"crate.glb\")], style: Lines(), {fields})");
+        sandbox.write_file("scene.ron", scene);
+        let run = sandbox.run(&["render", "scene.ron", "-o", name]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+        parse_svg(&std::fs::read_to_string(sandbox.path_of(name)).expect("an SVG")).1
+    };
+    let camera = "camera: (view: Frame(from: Top), projection: Orthographic())";
+    // 96 pixels are 25.4 millimetres.
+    let inset =
+        format!("pixels: (96, 192, 192, 96), {camera}, border: (color: \"#0f0\", width: 4)");
+    let both = draw("both.svg", &format!("image: (size: (384, 384)), viewports: [({inset})]"));
+    let alone = draw("alone.svg", &format!("image: (size: (192, 96)), {camera}"));
+    for (id, lines) in &alone {
+        let moved = |line: &Vec<PagePoint>| {
+            line.iter().map(|[x, y]| [x + 25.4, y + 50.8]).collect::<Vec<PagePoint>>()
+        };
+        let [moved, drawn] =
+            [lines.iter().map(moved).collect(), both[&format!("view-1-{id}")].clone()]
+                .map(|lines: Vec<Vec<PagePoint>>| lines.concat());
+        let near = |[a, b]: [&PagePoint; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-6;
+        assert_eq!(moved.len(), drawn.len());
+        assert!(moved.iter().zip(&drawn).all(|(a, b)| near([a, b])), "{id}");
+    }
+    for (id, lines) in both.iter().filter(|(id, _)| !id.starts_with("view-")) {
+        let inside = |[x, y]: &PagePoint| *x > 25.401 && *x < 76.199 && *y > 50.801 && *y < 76.199;
+        assert!(!lines.iter().flatten().any(inside), "{id}");
+    }
+    assert!(both.contains_key("view-1-border"));
+    // The two eyes of a pair are two such views; an anaglyph is of pixels.
+    let pair = draw("pair.svg", "stereo: SideBySide()");
+    assert!(pair.keys().any(|id| id.starts_with("view-1-")));
+    assert!(pair.keys().any(|id| id.starts_with("view-2-")));
+    sandbox.write_file("scene.ron", "Scene(models: [(path: \"crate.glb\")], stereo: Anaglyph())");
+    let run = sandbox.run(&["render", "scene.ron", "-o", "anaglyph.svg"]);
     assert_eq!(run.code, 0);
-    assert!(run.stderr.contains("only PNG pictures have viewports"), "{}", run.stderr);
+    assert!(run.stderr.contains("only PNG pictures have anaglyphs"), "{}", run.stderr);
 }
 
 #[test]

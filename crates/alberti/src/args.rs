@@ -134,6 +134,12 @@ pub(crate) struct RenderArgs {
         conflicts_with_all = ["view", "camera"]
     )]
     pub(crate) views: Vec<NamedView>,
+    /// One scale for all --views: the same length is equally long in all pictures of an input
+    ///
+    /// The scale is the least at which each view fits. It needs a parallel projection, such as
+    /// --projection orthographic.
+    #[arg(long, requires = "views")]
+    pub(crate) same_scale: bool,
     #[command(flatten)]
     pub(crate) overrides: SceneOverrideArgs,
     #[command(flatten)]

@@ -9,7 +9,7 @@ use super::scene_overrides::parse_image_size;
 use super::section::SectionArgs;
 use pipeline::Origin;
 use pipeline::scene::SceneFile;
-use pipeline::scene::file::OverlayFile;
+use pipeline::scene::file::{OverlayFile, ViewportsScale};
 use std::path::PathBuf;
 
 /// The subject that every panel of `compare-projections` and `sweep` shows.
@@ -54,9 +54,12 @@ impl PanelSubjectArgs {
     /// Opens the scene file, or makes one for a bare model, and applies the flags to it.
     ///
     /// The scene is not resolved, because each panel changes its camera first. Size and style
-    /// always replace those of the scene, as panels have defaults of their own.
+    /// always replace those of the scene, as panels have defaults of their own; viewports, a stereo
+    /// pair and a caption are left out, as panels show one camera and have titles.
     pub(super) fn open_scene(&self) -> Result<(Origin, SceneFile), CliError> {
         let (origin, mut file) = open_input(&self.input, &self.load_options.import_options())?;
+        (file.viewports, file.stereo, file.caption) = (Vec::new(), None, None);
+        file.viewports_scale = ViewportsScale::Individual;
         file.image.size = self.size;
         file.style = self.style.into();
         file.models.iter_mut().for_each(|model| self.model_state.apply_to(model));

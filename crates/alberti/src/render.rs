@@ -6,6 +6,7 @@
 //! One call renders every input from every view. The plan is complete before the first model is
 //! loaded, so that a bad output name costs nothing.
 
+mod shared_scale;
 pub(super) mod tasks;
 
 use super::args::RenderArgs;
@@ -83,6 +84,9 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     let outputs = Outputs::from_scene_file(&origin, &file)?;
     let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
     job.overrides.place_camera(&origin, &file, &mut scene)?;
+    if args.same_scale {
+        shared_scale::share_scale(&args.views, &origin, &file, &mut scene)?;
+    }
     progress.enter_stage("rendering");
     let threads = thread_count(args.threads);
     let render_job =

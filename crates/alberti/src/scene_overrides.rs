@@ -150,6 +150,15 @@ impl SceneOverrideArgs {
         Ok((origin, file, scene))
     }
 
+    /// Frames the models from a direction, with the padding of a scene that frames them already.
+    pub(crate) fn aim_from(file: &mut CameraFile, view: NamedView) {
+        let padding_percent = match &file.view {
+            ViewFile::Frame { padding_percent, .. } => *padding_percent,
+            _ => DEFAULT_PADDING,
+        };
+        file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
+    }
+
     /// Replaces view and projection of the scene by the flags that were given.
     ///
     /// `--view` keeps the padding of a scene that frames its models.
@@ -163,11 +172,7 @@ impl SceneOverrideArgs {
             file.view = ViewFile::FromModel(choice);
         }
         if let Some(view) = self.view {
-            let padding_percent = match &file.view {
-                ViewFile::Frame { padding_percent, .. } => *padding_percent,
-                _ => DEFAULT_PADDING,
-            };
-            file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
+            Self::aim_from(file, view);
         }
         if let Some(projection) = self.projection {
             file.projection = Some(projection.into());

@@ -22,7 +22,7 @@ use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::page::{
     Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, to_micrometers,
 };
-use super::palette::{INK, LIGHT_INK};
+use super::palette::ink_on_paper;
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
@@ -152,16 +152,10 @@ impl LineDrawing {
 
 impl Page {
     /// The ink of a style on this page: its own, or a dark or light one that contrasts with the
-    /// paper.
-    ///
-    /// Paper is dark if its luma (Rec. 601 weights) is below 118 of 255.
+    /// paper: [`ink_on_paper`].
     #[must_use]
     pub fn ink_for_style(&self, style: &LineStyle) -> Ink {
-        let is_dark = self.paper.is_some_and(|[r, g, b]| {
-            let [r, g, b] = [r, g, b].map(u32::from);
-            r * 299 + g * 587 + b * 114 < 118_000
-        });
-        style.ink.unwrap_or(if is_dark { LIGHT_INK } else { INK })
+        style.ink.unwrap_or_else(|| ink_on_paper(self.paper))
     }
 }
 

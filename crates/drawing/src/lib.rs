@@ -14,8 +14,9 @@
 //!  `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
 //!  `line_style`, `line_type`, `dash_pattern` | pens, line widths and dashes of ISO 128 |
 //!  `page`, `svg`, `pdf`, `canvas` | pages in micrometers, and their three formats |
+//!  `page_clip` | lines clipped to the rectangles of views |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
-//!  `overlay`, `chart`, `panels` | teaching material: axes, vanishing points, curves, figures |
+//!  `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
 //!  `z_buffer_check` | a drawing checked against the z-buffer image of its scene |
 //!
 //! All geometry is f64 and runs through the stages of the pictures (`camera`, `projection`, `clip`,
@@ -44,6 +45,7 @@ mod options;
 mod overlap_removal;
 mod overlay;
 mod page;
+mod page_clip;
 pub mod palette;
 mod panels;
 mod parallel;
@@ -69,7 +71,9 @@ pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths
 pub use line_type::{IsoLineGroup, LineType};
 pub use markup::escape_markup;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges};
-pub use overlay::{Overlay, overlay_layers};
+pub use overlay::{
+    LabelFault, Overlay, PointLabel, label_warnings, missing_glyph_warning, overlay_layers,
+};
 pub use page::{
     Cap, Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint, Pen, PlacedImage,
     Polyline, to_micrometers, to_millimeters,

@@ -1,4 +1,5 @@
-//! Overlays: axes, ground grid, horizon, vanishing points and view volumes, drawn over a picture.
+//! Overlays: axes, ground grid, horizon, vanishing points, view volumes and labels, drawn over a
+//! picture.
 //!
 //! ```text
 //!    ──────────●─ · ─ · ─ horizon ─ · ─ · ─●──     axes of the world, a grid on the ground,
@@ -12,7 +13,10 @@
 //! near and the far plane do not clip.
 
 mod perspective;
+mod point_label;
 mod view_volume;
+
+pub use point_label::{LabelFault, PointLabel, label_warnings, missing_glyph_warning};
 
 use super::edges::WeldedSurface;
 use super::hidden_line::Occluders;
@@ -44,6 +48,8 @@ pub enum Overlay {
     Volume(Box<ViewProjection>),
     /// The visible feature edges of the surfaces; line drawings have them anyway.
     Edges,
+    /// Text at a point of the world.
+    Label(PointLabel),
 }
 
 /// The axes of the world, their names and their colors.
@@ -78,6 +84,7 @@ pub fn overlay_layers(
             Overlay::Volume(view_projection) => glass.view_volume_layers(view_projection),
             // Feature edges are drawn with the surfaces, not here.
             Overlay::Edges => Vec::new(),
+            Overlay::Label(label) => glass.point_label_layers(label, subject),
         };
         layers
             .into_iter()

@@ -37,3 +37,15 @@ pub const GRAY: Ink = [150, 156, 163];
 
 /// Grid lines of charts.
 pub const LIGHT_GRAY: Ink = [222, 225, 229];
+
+/// The ink that contrasts with paper: dark without paper, light on dark paper.
+///
+/// Paper is dark if its luma (Rec. 601 weights) is below 118 of 255.
+#[must_use]
+pub fn ink_on_paper(paper: Option<Ink>) -> Ink {
+    let is_dark = paper.is_some_and(|[r, g, b]| {
+        let [r, g, b] = [r, g, b].map(u32::from);
+        r * 299 + g * 587 + b * 114 < 118_000
+    });
+    if is_dark { LIGHT_INK } else { INK }
+}

@@ -59,6 +59,24 @@ pub(super) fn typeset_line(text: &str) -> Glyph {
     line
 }
 
+/// The characters of a text that the font lacks, each once in the order of the text.
+pub(super) fn missing_glyphs(text: &str) -> String {
+    let mut missing = String::new();
+    for character in text.chars().filter(|character| !has_glyph(*character)) {
+        if !missing.contains(character) {
+            missing.push(character);
+        }
+    }
+    missing
+}
+
+/// Whether the font has a character; white space is empty.
+fn has_glyph(character: char) -> bool {
+    character.is_whitespace()
+        || glyphs::GLYPHS.iter().any(|(c, ..)| *c == character)
+        || accents::accented_glyph(character).is_some()
+}
+
 /// The glyph of a character; a box for characters that the font lacks.
 fn glyph_for_char(character: char) -> Glyph {
     if character.is_whitespace() {
@@ -161,6 +179,7 @@ mod tests {
             assert!(glyph.strokes != tofu && !glyph.strokes.is_empty(), "{character}");
         }
         assert_eq!(glyph_for_char('漢').strokes, tofu);
+        assert_eq!(missing_glyphs("Öl 漢 字 漢é"), "漢字");
     }
 
     #[test]

@@ -14,6 +14,9 @@ pub struct Subject<'a> {
     pub view_projection: ViewProjection,
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
+    /// The height in pixels of the strip at the bottom that does not show the view, but a caption;
+    /// 0 without one.
+    pub caption_height: u32,
     /// Section planes; the side to which their unit normals point is retained.
     pub sections: &'a [Plane<World>],
 }
@@ -22,5 +25,10 @@ impl Subject<'_> {
     /// The viewport of the whole image.
     pub(crate) fn viewport(&self) -> Result<Viewport, ViewportError> {
         Viewport::image(self.size[0], self.size[1])
+    }
+
+    /// The part of the image's height, from the top, that shows the view.
+    pub(crate) fn view_height(&self) -> f64 {
+        1.0 - f64::from(self.caption_height) / f64::from(self.size[1].max(1))
     }
 }

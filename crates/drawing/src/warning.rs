@@ -1,5 +1,6 @@
 //! Warnings: what a drawing leaves out, returned along with it.
 
+use crate::overlay::LabelFault;
 use core::fmt;
 
 /// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
@@ -21,8 +22,22 @@ pub enum Warning {
     },
     /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
-    /// The format has no viewports; only PNG images have.
-    ViewportsIgnored,
+    /// The format has no anaglyphs; only PNG images have.
+    AnaglyphIgnored,
+    /// The point of a label is not in the picture.
+    LabelNotDrawn {
+        /// The text of the label.
+        text: String,
+        /// Where the point is.
+        fault: LabelFault,
+    },
+    /// The stroke font lacks characters of a text.
+    GlyphsMissing {
+        /// The text.
+        text: String,
+        /// The characters, each once.
+        characters: String,
+    },
     /// The search for intersection edges was cut off.
     IntersectionsIncomplete,
     /// The hatching was cut off.
@@ -46,9 +61,21 @@ impl fmt::Display for Warning {
                 "sections cut line drawings only: this style shows whole models; \
                  choose another, such as `--style lines`",
             ),
-            Self::ViewportsIgnored => f.write_str(
-                "only PNG pictures have viewports and stereo pairs: \
+            Self::AnaglyphIgnored => f.write_str(
+                "only PNG pictures have anaglyphs: \
                  this one shows the view of the scene's camera alone",
+            ),
+            Self::LabelNotDrawn { text, fault } => write!(
+                f,
+                "the label \"{text}\" is not drawn: its point is {}",
+                match fault {
+                    LabelFault::BehindEye => "behind the eye",
+                    LabelFault::Outside => "outside of the picture",
+                }
+            ),
+            Self::GlyphsMissing { text, characters } => write!(
+                f,
+                "the letters of drawings lack {characters} of \"{text}\": boxes are in their place"
             ),
             Self::IntersectionsIncomplete => f.write_str(
                 "so many faces may intersect that not all were compared: \

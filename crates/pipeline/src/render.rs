@@ -46,8 +46,8 @@
 //! 15. **Resolve and sRGB encoding.** Translucent layers are blended back to front
 //!     (`raster/src/layer_blending.rs`), samples averaged in linear light, and the result encoded
 //!     as sRGB (`shade/src/color.rs`).
-//! 16. **Overlays and insets.** `PreparedScene::render_region` draws lines over the surfaces and
-//!     composites the insets (`render/insets.rs`).
+//! 16. **Overlays, insets, caption.** `PreparedScene::render_region` draws lines over the surfaces,
+//!     composites the insets (`render/insets.rs`) and writes the caption (`render/captions.rs`).
 //!
 //! | subject | file |
 //! | --- | --- |
@@ -60,6 +60,7 @@
 
 mod ambient_occlusion;
 mod background;
+mod captions;
 mod context;
 mod draw_call;
 mod fragment_shading;

@@ -12,6 +12,7 @@
 
 mod backdrop;
 mod camera_path;
+mod caption;
 mod classical;
 mod color;
 pub(crate) mod depth_span;
@@ -35,12 +36,14 @@ mod number;
 pub mod options;
 mod origin;
 mod outputs;
+mod overlays;
 mod parse;
 pub mod reference;
 mod resolve;
 mod schema;
 mod section;
 mod shadows;
+mod shared_scale;
 mod sheet;
 mod style;
 mod suggest;
@@ -103,6 +106,8 @@ pub struct Scene {
     pub backdrop: Option<Arc<Backdrop>>,
     /// The overlays, drawn over the picture.
     pub overlays: Vec<Overlay>,
+    /// The text below the view, in the strip at the lower border of the image.
+    pub caption: Option<String>,
     /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
     pub sections: Vec<Plane<World>>,
 }
@@ -133,6 +138,7 @@ impl Scene {
             models: &self.models,
             view_projection: self.view_projection,
             size: [self.image.width, self.image.height],
+            caption_height: self.image.caption_height,
             sections: &self.sections,
         }
     }
@@ -188,8 +194,10 @@ impl Style {
 pub struct ImageSpec {
     /// Width in pixels.
     pub width: u32,
-    /// Height in pixels.
+    /// Height in pixels, with that of the caption.
     pub height: u32,
+    /// The height in pixels of the strip for the caption, at the lower border; 0 without one.
+    pub caption_height: u32,
     /// The background color: linear, premultiplied by alpha.
     pub background: [f32; 4],
     /// How blurred the environment is as the background, from 0 to 1; `None` if it is not visible.

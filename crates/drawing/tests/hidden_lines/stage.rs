@@ -38,6 +38,7 @@ impl TestScene {
             models: &self.models,
             view_projection: self.view_projection,
             size: [IMAGE_SIDE; 2],
+            caption_height: 0,
             sections: &self.sections,
         }
     }

@@ -139,7 +139,15 @@ mod tests {
 
     fn image_spec(width: u32, height: u32) -> ImageSpec {
         let (background, environment_blur, samples) = ([0.0; 4], None, Samples::One);
-        ImageSpec { width, height, background, environment_blur, samples, max_anisotropy: 1 }
+        ImageSpec {
+            width,
+            height,
+            caption_height: 0,
+            background,
+            environment_blur,
+            samples,
+            max_anisotropy: 1,
+        }
     }
 
     #[test]

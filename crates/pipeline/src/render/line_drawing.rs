@@ -5,19 +5,21 @@
 //!  models ─► welded edges ─► exact visibility ─► chains ─► Page: layers of strokes, warnings
 //! ```
 //! The engine is the crate `drawing`; this module gives it the scene, and adds what belongs to the
-//! picture: paper, backdrop, overlays. Shaded styles with outlines (toon) and the overlay of edges
+//! picture: paper, backdrop, overlays, insets, caption. Shaded styles with outlines (toon) and the overlay of edges
 //! take the layers of such a drawing and put them over the surfaces.
 
 use super::RenderError;
-use crate::scene::{ImageSpec, Scene, Style};
+use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
+use crate::Picture;
+use crate::scene::{ImageSpec, Inset, Scene, Style};
 use drawing::{
-    Ink, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL, Overlay, Page, PlacedImage, Warning,
-    to_micrometers,
+    Group, Ink, Join, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL, Overlay, Page, Pen,
+    PlacedImage, Polyline, Warning, to_micrometers,
 };
 use glam::DVec2;
+use homog::PixelRect;
 use model::Timings;
 use shade::Backdrop;
-use shade::color::SrgbEncoder;
 
 /// The longest side in pixels of a backdrop embedded in a vector page.
 const MAX_BACKDROP_PIXELS: u32 = 4096;
@@ -27,12 +29,33 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 
 /// Draws the lines of a scene on a page of the picture's size, at 96 pixels to the inch.
 ///
-/// Styles that show surfaces are drawn with hidden lines removed. Insets are left out, with a
-/// warning. The number of threads does not change the page.
+/// Styles that show surfaces are drawn with hidden lines removed, in viewports too. An anaglyph is
+/// left out, with a warning. The number of threads does not change the page.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
 pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
+    let mut page = draw_view(scene, threads, timings)?;
+    if scene.insets.iter().any(|inset| inset.cyan_only) {
+        page.warnings.push(Warning::AnaglyphIgnored);
+    } else {
+        for (number, inset) in scene.insets.iter().enumerate() {
+            let view = draw_lines(&inset.scene, threads, timings)?;
+            paste_inset(&mut page, view, inset, number + 1);
+        }
+    }
+    write_caption(&mut page, scene);
+    page.warnings.sort_unstable();
+    page.warnings.dedup();
+    Ok(page)
+}
+
+/// Draws the lines of a scene without its insets and its caption.
+pub(super) fn draw_view(
+    scene: &Scene,
+    threads: usize,
+    timings: &Timings,
+) -> Result<Page, RenderError> {
     let style = scene.style.line_style();
     let drawing = timings.measure("lines", || {
         drawing::draw(&scene.drawing_subject(), &style.to_draw_options(), threads)
@@ -43,10 +66,68 @@ pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Pa
         page.images
             .extend(scene.backdrop.as_ref().map(|backdrop| backdrop_image(backdrop, scene.image)));
         page.layers.extend(overlay_layers(scene));
-        page.warnings.extend((!scene.insets.is_empty()).then_some(Warning::ViewportsIgnored));
+        page.warnings.extend(text_warnings(scene));
         page
     };
     Ok(timings.measure("chains", page))
+}
+
+/// Puts the drawing of an inset over what is in its rectangle, with its background and border.
+fn paste_inset(page: &mut Page, mut view: Page, inset: &Inset, number: usize) {
+    let PixelRect { x, y, width, height } = inset.rect;
+    let [low, size] =
+        [[x, y], [width, height]].map(|pair| DVec2::from(pair.map(to_page_millimeters)));
+    page.erase_rectangle(low, low + size);
+    let prefix = format!("view-{number}-");
+    if let Some(paper) = view.paper {
+        page.images.push(paper_image(format!("{prefix}paper"), low, low + size, paper));
+    }
+    view.crop_to_border();
+    page.paste_page(&view, low, &prefix);
+    if let Some((color, width)) = inset.border {
+        page.layers.push(border_layer(format!("{prefix}border"), low, size, (color, width)));
+    }
+}
+
+/// Clears the strip at the lower border of a page, and writes the caption there.
+fn write_caption(page: &mut Page, scene: &Scene) {
+    let Some(layer) = caption_layer(scene) else { return };
+    let PixelRect { y, width, height, .. } = strip_rect(scene.image);
+    let [low, high] =
+        [[0, y], [width, y + height]].map(|pair| DVec2::from(pair.map(to_page_millimeters)));
+    page.erase_rectangle(low, high);
+    if let Some(paper) = page.paper.filter(|_| !page.images.is_empty()) {
+        page.images.push(paper_image("caption-paper".to_owned(), low, high, paper));
+    }
+    page.layers.push(layer);
+}
+
+/// A rectangle in the color of paper, as an image of one pixel: it lies over the images before it
+/// and under all lines.
+fn paper_image(id: String, low: DVec2, high: DVec2, [r, g, b]: Ink) -> PlacedImage {
+    let [corner, end] = [low, high].map(to_micrometers);
+    let mut picture = Picture::default();
+    picture.resize(1, 1);
+    picture.pixels.fill([r, g, b, 255]);
+    PlacedImage { id, corner, size: [end[0] - corner[0], end[1] - corner[1]], picture }
+}
+
+/// A border of a width in pixels, inside of a rectangle in millimeters.
+fn border_layer(id: String, low: DVec2, size: DVec2, (color, width): (Ink, u32)) -> Layer {
+    let width = to_page_millimeters(width);
+    let half = DVec2::splat(0.5 * width);
+    let (low, high) = (low + half, low + size - half);
+    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    let pen = Pen { join: Join::Miter, ..Pen::solid(width, color) };
+    let mut layer = Layer::new(id, "border", pen);
+    let strokes = Polyline::through_points(&corners, true).into_iter().collect();
+    layer.groups.push(Group { strokes, ..Group::default() });
+    layer
+}
+
+/// A number of pixels in millimeters of the page.
+fn to_page_millimeters(pixels: u32) -> f64 {
+    f64::from(pixels) * MILLIMETERS_PER_PIXEL
 }
 
 impl Style {
@@ -93,8 +174,8 @@ pub(super) fn overlay_layers(scene: &Scene) -> Vec<Layer> {
 
 /// The backdrop as an image that fills the page.
 fn backdrop_image(backdrop: &Backdrop, image: ImageSpec) -> PlacedImage {
-    let side = |pixels: u32| f64::from(pixels) * MILLIMETERS_PER_PIXEL;
-    let size = to_micrometers(DVec2::new(side(image.width), side(image.height)));
+    let size = [image.width, image.height].map(to_page_millimeters);
+    let size = to_micrometers(DVec2::from(size));
     let (width, height) =
         (image.width.min(MAX_BACKDROP_PIXELS), image.height.min(MAX_BACKDROP_PIXELS));
     PlacedImage {
@@ -103,10 +184,4 @@ fn backdrop_image(backdrop: &Backdrop, image: ImageSpec) -> PlacedImage {
         size,
         picture: backdrop.to_picture(width, height),
     }
-}
-
-/// The background as the color of the paper; `None` unless it is opaque.
-fn paper_color(background: [f32; 4]) -> Option<Ink> {
-    let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
-    (alpha == 255).then_some([r, g, b])
 }

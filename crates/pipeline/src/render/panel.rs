@@ -35,6 +35,7 @@ fn picture_page(scene: &Scene, threads: usize) -> Result<Page, RenderError> {
     let mut enlarged = scene.clone();
     let [width, height] = [scene.image.width, scene.image.height];
     (enlarged.image.width, enlarged.image.height) = (width * PICTURE_SCALE, height * PICTURE_SCALE);
+    enlarged.image.caption_height *= PICTURE_SCALE;
     let textures = Textures::for_scene(&enlarged);
     let context = RenderContext::new(&enlarged, &textures, threads);
     let mut picture = Picture::default();

@@ -5,11 +5,12 @@
 //! models on, so that memory is bounded by the region and not by the picture.
 //!
 //! ```text
-//!  scene ─► prepare ─► region: surfaces of its image tiles, or lines ─► overlays ─► insets
+//!  scene ─► prepare ─► region: surfaces of its image tiles, or lines ─► overlays ─► insets, caption
 //! ```
 
 use super::RenderError;
 use super::ambient_occlusion::compute_occlusion;
+use super::captions::{draw_caption_over, text_warnings};
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
@@ -60,17 +61,16 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<Self, RenderError> {
         let scene = context.scene;
         let draws_surfaces = scene.style.draws_surfaces();
-        let draw_lines = || line_drawing::draw_lines(scene, context.threads, &context.timings());
-        let mut page = (!draws_surfaces).then(draw_lines).transpose()?;
+        let draw_view = || line_drawing::draw_view(scene, context.threads, &context.timings());
+        let mut page = (!draws_surfaces).then(draw_view).transpose()?;
         let mut warnings =
             page.as_mut().map_or(Vec::new(), |page| std::mem::take(&mut page.warnings));
-        // A vector page lacks insets, a picture has them.
-        warnings.retain(|warning| *warning != Warning::ViewportsIgnored);
         let ignores_sections = draws_surfaces && !scene.sections.is_empty();
         warnings.extend(ignores_sections.then_some(Warning::SectionsIgnored));
         let mut overlay_layers = line_drawing::surface_line_layers(scene, context.threads)?;
         if draws_surfaces {
             overlay_layers.extend(line_drawing::overlay_layers(scene));
+            warnings.extend(text_warnings(scene));
         }
         let Renderer { buffers, insets } = renderer;
         insets.resize_with(scene.insets.len(), Renderer::default);
@@ -127,6 +127,7 @@ impl<'a> PreparedScene<'a> {
                 inset.composite_into(&pixels, in_picture, region, picture);
             }
         }
+        draw_caption_over(scene, region, picture);
         Ok(())
     }
 

@@ -44,7 +44,7 @@ pub use self::shadow::ShadowsFile;
 pub use self::sheet::{
     AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile, SideView,
 };
-pub use self::viewport::{BorderFile, StereoFile, ViewportFile};
+pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
 pub use super::color::{Color, LightColor};
 use super::number::Scale;
 pub use super::number::{FieldOfView, Finite, Triple};
@@ -68,6 +68,8 @@ scene_struct! {
         pub camera_path: Option<CameraPathFile> = None,
         /// Views of their own in parts of the picture, drawn in this order. Default: none.
         pub viewports: Vec<ViewportFile> = Vec::new(),
+        /// The scale of the viewports. Default: `Individual`.
+        pub viewports_scale: ViewportsScale = ViewportsScale::Individual,
         /// A stereo pair. Default: one picture.
         pub stereo: Option<StereoFile> = None,
         /// The lights. Default: those of the models; where they have none and there is no
@@ -90,6 +92,11 @@ scene_struct! {
         pub image: ImageFile = ImageFile::default(),
         /// Explanations drawn over the picture. Default: none.
         pub overlays: Vec<OverlayFile> = Vec::new(),
+        /// A line of text below the picture, centered in a strip of 28 pixels at its lower border;
+        /// the view is in the rest. Its letters are strokes, as on drawings, and smaller if the
+        /// text is too long. The strip has the color of the background, and that of its center if that
+        /// is a gradient. Default: none.
+        pub caption: Option<String> = None,
         /// Passes: data of each pixel besides its color. Default: none.
         pub passes: PassesFile = PassesFile::default(),
         /// Section planes that cut the models open, one after the other, in line drawings and on

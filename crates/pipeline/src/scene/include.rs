@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 const MAX_INCLUDED_FILES: usize = 64;
 
 /// The fields of a scene that are replaced whole.
-const REPLACED_FIELDS: [&str; 11] = [
+const REPLACED_FIELDS: [&str; 13] = [
     "camera",
     "shadows",
     "ground",
@@ -36,6 +36,8 @@ const REPLACED_FIELDS: [&str; 11] = [
     "sheet",
     "camera_path",
     "stereo",
+    "caption",
+    "viewports_scale",
 ];
 
 /// For each list of the scene, by field name, the source of each element: index of the included
@@ -280,6 +282,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         camera,
         camera_path,
         viewports,
+        viewports_scale,
         stereo,
         lights,
         shadows,
@@ -289,6 +292,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         style,
         image,
         overlays,
+        caption,
         passes,
         sections,
         sheet,
@@ -301,6 +305,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         camera: if has("camera") { camera } else { old.camera },
         camera_path: if has("camera_path") { camera_path } else { old.camera_path },
         viewports: concat_lists(old.viewports, viewports),
+        viewports_scale: if has("viewports_scale") { viewports_scale } else { old.viewports_scale },
         stereo: if has("stereo") { stereo } else { old.stereo },
         lights: match (old.lights, lights) {
             (Some(old), Some(new)) => Some(concat_lists(old, new)),
@@ -317,6 +322,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         style: if has("style") { style } else { old.style },
         image: if has("image") { image } else { old.image },
         overlays: concat_lists(old.overlays, overlays),
+        caption: if has("caption") { caption } else { old.caption },
         passes: if has("passes") { passes } else { old.passes },
         sections: concat_lists(old.sections, sections),
         sheet: if has("sheet") { sheet } else { old.sheet },

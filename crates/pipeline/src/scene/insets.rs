@@ -7,8 +7,9 @@
 //!   └───────────────┘
 //! ```
 
-use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile};
+use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile, ViewportsScale};
 use super::number::Positive;
+use super::shared_scale::share_scale_of_viewports;
 use super::syntax::PathStep::{Field, Index};
 use super::{Origin, ResolveError, Scene, SceneError};
 use camera::ViewProjection;
@@ -46,7 +47,8 @@ pub struct Inset {
 /// Models are shared with the main view, not loaded again.
 ///
 /// # Errors
-/// If a rectangle is outside of the picture, or the scene of an inset cannot be resolved;
+/// If a rectangle is outside of the picture, the scene of an inset cannot be resolved, or there is
+/// no scale for all;
 /// the error points into the viewport.
 pub(super) fn resolve_insets(
     origin: &Origin,
@@ -63,7 +65,7 @@ pub(super) fn resolve_insets(
     }
     let numbered = file.viewports.iter().enumerate();
     let views = numbered.map(|(at, viewport)| {
-        let area = resolve_viewport_rect(origin, at, viewport, file.image.size)?;
+        let area = resolve_viewport_rect(origin, at, viewport, file.view_size())?;
         let border = resolve_border(origin, at, viewport)?;
         let inner = scene_in_viewport(file, viewport, (area.width, area.height));
         let scene = Scene::resolve_without_insets(
@@ -74,7 +76,9 @@ pub(super) fn resolve_insets(
         )?;
         Ok(Inset { rect: area, border, cyan_only: false, scene })
     });
-    views.collect()
+    let mut insets = views.collect::<Result<Vec<Inset>, ResolveError>>()?;
+    share_scale_of_viewports(origin, file, &mut insets)?;
+    Ok(insets)
 }
 
 /// The scene file as it holds within a viewport of this size: fields of the viewport replace those
@@ -85,9 +89,12 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
         camera: viewport.camera.as_ref().unwrap_or(&file.camera).clone(),
         style: viewport.style.as_ref().unwrap_or(&file.style).clone(),
         overlays: viewport.overlays.as_ref().unwrap_or(&file.overlays).clone(),
+        // The caption of the scene is that of the whole picture.
+        caption: viewport.caption.clone(),
         image: ImageFile { size, background, ..file.image.clone() },
         models: Vec::new(),
         viewports: Vec::new(),
+        viewports_scale: ViewportsScale::Individual,
         ..file.clone()
     }
 }
@@ -188,7 +195,7 @@ fn resolve_stereo(
         let help = "leave one of them out";
         return Err(fault("a scene has viewports or is in stereo, and not both", help).into());
     }
-    let (width, height) = file.image.size;
+    let (width, height) = file.view_size();
     let (beside, apart, convergence) = match stereo {
         StereoFile::SideBySide { eye_distance, convergence } => (true, eye_distance, convergence),
         StereoFile::Anaglyph { eye_distance, convergence } => (false, eye_distance, convergence),
@@ -250,7 +257,7 @@ fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<
 
 /// Whether a field of the scene exists in viewports too, so that errors in it point there.
 pub(super) fn is_viewport_field(field: &str) -> bool {
-    matches!(field, "camera" | "style" | "overlays")
+    matches!(field, "camera" | "style" | "overlays" | "caption")
 }
 
 #[cfg(test)]

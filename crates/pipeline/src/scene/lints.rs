@@ -14,10 +14,13 @@
 //! | `aspect-mismatch` | the window's aspect ratio is not the picture's |
 //! | `no-light` | a shaded style without light, environment or emission |
 //! | `flat-stereo` | a stereo pair whose eyes see the same within a pixel |
+//! | `label-not-visible` | the point of a label is not in the picture |
+//! | `missing-glyph` | the stroke font lacks a character of a label or a caption |
 //! | `sections-ignored` | section planes, and no line drawing that they cut |
 
 mod depth;
 mod stereo;
+mod text;
 mod visibility_survey;
 
 use super::file::{ProjectionFile, StyleFile, ViewFile};
@@ -63,6 +66,7 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice.extend(adviser.lint_aspect_ratio());
     advice.extend(adviser.lint_missing_light());
     advice.extend(stereo::lint_flat_stereo(&adviser));
+    advice.extend(text::lint_text(&adviser));
     advice.extend(lint_description(origin, file));
     advice.sort_by_key(|advice| advice.error.span.start);
     advice
@@ -164,7 +168,8 @@ impl Linter<'_> {
     /// pass: cameras often store 1.7778 for 16 : 9.
     fn lint_aspect_ratio(&self) -> Option<Lint> {
         let image = self.scene.image;
-        let picture = f64::from(image.width) / f64::from(image.height);
+        let view_size = image.view_size();
+        let picture = view_size.x / view_size.y;
         let (what, shape, place) = match (&self.file.camera.projection, &self.file.camera.view) {
             (Some(projection), _) => {
                 let [left, right, bottom, top] = given_window(projection)?;
@@ -197,7 +202,7 @@ impl Linter<'_> {
         };
         let message =
             format!("{what} is {shape:.3} : 1 and the picture {picture:.3} : 1: {effect}");
-        let width = libm::round(f64::from(image.height) * shape).max(1.0);
+        let width = libm::round(view_size.y * shape).max(1.0);
         let help = format!("a picture of that shape: image: (size: ({width}, {}))", image.height);
         let fault = self.origin.error_at(&[Field("camera"), Field(place)], message, Some(help));
         Some(Lint { code: "aspect-mismatch", error: fault })

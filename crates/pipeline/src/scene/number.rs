@@ -42,6 +42,16 @@ checked_number! {
     HatchSpacing, "a distance from 0.1 to 1000 millimeters", |x| (0.1..=1000.0).contains(&x)
 }
 
+checked_number! {
+    /// The height of letters in pixels, from 1 to 1000.
+    LabelSize, "a height from 1 to 1000 pixels", |x| (1.0..=1000.0).contains(&x)
+}
+
+impl LabelSize {
+    /// 12 pixels.
+    pub const DEFAULT: Self = Self(12.0);
+}
+
 impl HatchSpacing {
     /// 2 millimeters.
     pub const DEFAULT: Self = Self(2.0);

@@ -2,14 +2,16 @@
 //! the file. Models are loaded, angles are radians, and every default is decided.
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
+use super::caption::resolve_caption;
 use super::exposure::resolve_exposure;
-use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, OverlayFile, ViewFile};
+use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, ViewFile};
 use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
 use super::instances;
 use super::lights::resolve_lights;
 use super::material_overrides::override_materials;
 use super::number::Positive;
+use super::overlays::resolve_overlays;
 use super::section::resolve_sections;
 use super::style::resolve_style;
 use super::suggest::suggest_name;
@@ -18,7 +20,6 @@ use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile};
-use drawing::Overlay;
 use homog::Bounds;
 use model::Model;
 use model::ModelInstance;
@@ -94,6 +95,7 @@ impl Scene {
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
+        let caption = resolve_caption(origin, file.caption.as_ref())?;
         let style = resolve_style(origin, &file.style)?;
         let mut view_projection = resolve_view_projection(origin, &file.camera, &models, image)?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
@@ -138,6 +140,7 @@ impl Scene {
             insets: Vec::new(),
             backdrop,
             overlays,
+            caption,
             sections,
         })
     }
@@ -155,7 +158,16 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         _ => None,
     };
     let max_anisotropy = resolve_max_anisotropy(origin, file)?;
-    Ok(ImageSpec { width, height, background, environment_blur, samples, max_anisotropy })
+    let caption_height = file.caption_height();
+    Ok(ImageSpec {
+        width,
+        height,
+        caption_height,
+        background,
+        environment_blur,
+        samples,
+        max_anisotropy,
+    })
 }
 
 /// Width and height of the image.
@@ -371,26 +383,4 @@ pub fn select_animation(
         let message = format!("the model {} has no animation `{wanted}`", model.name);
         (message, suggest_name(&wanted, &names))
     })
-}
-
-/// The overlays, with the view-projection of each camera whose view volume is drawn.
-pub(super) fn resolve_overlays(
-    origin: &Origin,
-    overlays: &[OverlayFile],
-    models: &[ModelInstance],
-    image: ImageSpec,
-) -> Result<Vec<Overlay>, SceneError> {
-    let resolve = |overlay: &OverlayFile| {
-        Ok(match overlay {
-            OverlayFile::Axes { length } => Overlay::Axes(length.map(Positive::value)),
-            OverlayFile::Grid { step } => Overlay::Grid(step.map(Positive::value)),
-            OverlayFile::Horizon => Overlay::Horizon,
-            OverlayFile::Edges => Overlay::Edges,
-            OverlayFile::VanishingPoints => Overlay::VanishingPoints,
-            OverlayFile::Volume(camera) => {
-                Overlay::Volume(resolve_view_projection(origin, camera, models, image)?.into())
-            }
-        })
-    };
-    overlays.iter().map(resolve).collect()
 }

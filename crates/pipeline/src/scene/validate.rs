@@ -10,15 +10,17 @@
 //! 3. everything that stops a renderer (`errors_of_resolution`), for [`Scene::resolve`].
 
 use super::backdrop::{resolve_backdrop, resolve_background_color};
+use super::caption::resolve_caption;
 use super::error::SceneError;
 use super::file::SceneFile;
 use super::include::FileMistake;
 use super::insets::{resolve_border, resolve_insets, resolve_viewport_rect};
 use super::lights::check_light;
 use super::origin::Origin;
+use super::overlays::resolve_overlays;
 use super::resolve::{
     ModelError, load_model, missing_model_error, outside_folder_error, resolve_image,
-    resolve_image_size, resolve_max_anisotropy, resolve_overlays, resolve_samples,
+    resolve_image_size, resolve_max_anisotropy, resolve_samples,
 };
 use super::section::{check_section_count, resolve_section};
 use super::shadows::resolve_shadow;
@@ -188,6 +190,7 @@ fn errors_of_description(
     errors.extend(resolve_shadow(origin, file.shadows.as_ref(), &[Field("shadows")]).err());
     errors.extend(resolve_environment(origin, file, &[], allowed, 0.0).err());
     errors.extend(resolve_style(origin, &file.style).err());
+    errors.extend(resolve_caption(origin, file.caption.as_ref()).err());
     for (index, section) in file.sections.iter().enumerate() {
         errors.extend(resolve_section(origin, index, section).err());
     }
@@ -198,10 +201,11 @@ fn errors_of_description(
     for (index, viewport) in file.viewports.iter().enumerate() {
         let inner = origin.for_viewport(index);
         errors.extend(resolve_border(origin, index, viewport).err());
+        errors.extend(resolve_caption(&inner, viewport.caption.as_ref()).err());
         errors.extend(viewport.style.as_ref().and_then(|style| resolve_style(&inner, style).err()));
         errors.extend(viewport.camera.iter().flat_map(|camera| check_camera(&inner, camera)));
         if is_sized {
-            errors.extend(resolve_viewport_rect(origin, index, viewport, file.image.size).err());
+            errors.extend(resolve_viewport_rect(origin, index, viewport, file.view_size()).err());
         }
     }
     errors

@@ -61,7 +61,8 @@ pub(super) fn resolve_view_of_points(
     image: ImageSpec,
     shadow_points: Vec<Point<World>>,
 ) -> Result<ViewProjection, SceneError> {
-    let aspect = f64::from(image.width) / f64::from(image.height);
+    let view_size = image.view_size();
+    let aspect = view_size.x / view_size.y;
     let points = world_points(models);
     let resolver = CameraResolver { origin, models, points, shadow_points, aspect };
     let projection = file.projection.as_ref();
@@ -69,7 +70,7 @@ pub(super) fn resolve_view_of_points(
     if let Some(error) = check_lens_fields(origin, or_usual) {
         return Err(error);
     }
-    match &file.view {
+    let view = match &file.view {
         ViewFile::LookAt { eye, target, up } => {
             let camera = Camera::look_at(eye.0.into(), target.0.into(), up.0.into());
             let camera = camera.map_err(|error| resolver.camera_error(&error))?;
@@ -84,7 +85,8 @@ pub(super) fn resolve_view_of_points(
             resolver.frame_models(from.as_ref(), padding_percent.value() / 100.0, or_usual)
         }
         ViewFile::FromModel(choice) => resolver.project_from_model_camera(choice, projection),
-    }
+    };
+    view.map(|view| image.place_view(view))
 }
 
 /// The mistakes of a camera that can be found without the models: a direction that is none, planes

@@ -6,15 +6,15 @@ use super::look::StyleFile;
 use super::overlay::OverlayFile;
 use crate::scene::color::Color;
 use crate::scene::number::{Fraction, Positive};
-use crate::scene::schema::{scene_enum, scene_struct};
+use crate::scene::schema::{named_enum, scene_enum, scene_struct};
 
 scene_struct! {
-    /// A rectangle of the picture with a view of its own, drawn over what is there. PNG pictures
-    /// and frame sequences have it; SVG and PDF, passes and `explain` show the scene's own camera
-    /// alone. One of `at` and `pixels` gives its position.
+    /// A rectangle of the picture with a view of its own, drawn over what is there. Pictures, frame
+    /// sequences and line drawings have it; passes and `explain` show the scene's own camera alone.
+    /// In SVG and PDF all views are line drawings. One of `at` and `pixels` gives its position.
     pub struct ViewportFile as "Viewport" {
-        /// Left, top, width and height as fractions of the picture, from 0 to 1, from its upper
-        /// left corner. Default: by `pixels`.
+        /// Left, top, width and height as fractions of the picture without its caption, from 0 to
+        /// 1, from its upper left corner. Default: by `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
         /// Left, top, width and height in pixels. Default: by `at`.
         pub pixels: Option<(u32, u32, u32, u32)> = None,
@@ -28,6 +28,18 @@ scene_struct! {
         pub overlays: Option<Vec<OverlayFile>> = None,
         /// A border, inside of the rectangle. Default: none.
         pub border: Option<BorderFile> = None,
+        /// A line of text below the view, as `caption` of the scene; the view is in the rest of
+        /// the rectangle. Default: none.
+        pub caption: Option<String> = None,
+    }
+}
+
+named_enum! {
+    /// The scale of the parallel views among the viewports: orthographic, axonometric and oblique
+    /// ones. Perspectives have no scale, and are left as they are.
+    pub enum ViewportsScale as "ViewportsScale" {
+        Individual = "Each view fills its rectangle.",
+        Shared = "The same length is equally long in all parallel views, at the least scale at which each fits: a line parallel to the picture plane, or in an oblique projection to its front. No view may give the size of its window.",
     }
 }
 

@@ -1,0 +1,44 @@
+//! One scale for the views of `--views`: `--same-scale`.
+
+use crate::CliError;
+use crate::scene_overrides::SceneOverrideArgs;
+use camera::NamedView;
+use pipeline::scene::SceneFile;
+use pipeline::scene::file::{BackgroundFile, EnvironmentFile, ViewportsScale};
+use pipeline::{Origin, Scene};
+
+/// Gives the view of a scene the least scale of all `--views`.
+///
+/// The other views are resolved around the models of this one, without their viewports and
+/// backdrops, which have no influence on their scale.
+///
+/// # Errors
+/// If a view is a perspective, which has no scale.
+pub(super) fn share_scale(
+    views: &[NamedView],
+    origin: &Origin,
+    file: &SceneFile,
+    scene: &mut Scene,
+) -> Result<(), CliError> {
+    let mut shared = f64::INFINITY;
+    for &view in views {
+        let mut other = file.clone();
+        (other.viewports, other.stereo, other.overlays) = (Vec::new(), None, Vec::new());
+        other.viewports_scale = ViewportsScale::Individual;
+        other.image.background = BackgroundFile::Transparent;
+        if let Some(EnvironmentFile::File { .. }) = other.environment {
+            other.environment = Some(EnvironmentFile::STUDIO);
+        }
+        SceneOverrideArgs::aim_from(&mut other.camera, view);
+        let other = Scene::from_models(origin, &other, scene.models.clone())?;
+        let scale = other.pixels_per_unit().ok_or_else(|| {
+            CliError::Usage(
+                "a perspective has no scale that --same-scale could share\n  = help: add --projection orthographic, or another parallel projection"
+                    .to_owned(),
+            )
+        })?;
+        shared = shared.min(scale);
+    }
+    scene.set_pixels_per_unit(shared);
+    Ok(())
+}

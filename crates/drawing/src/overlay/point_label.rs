@@ -1,0 +1,149 @@
+//! Labels at points of the world: text beside the image of a point, with a leader line if asked
+//! for.
+//!
+//! ```text
+//!         ridge               offset (24, −24): up and to the right of the point,
+//!       ╱                     in pixels; the nearest corner of the text is there
+//!      ●  at
+//! ```
+//!
+//! Labels are over the models, also where these hide the point.
+
+use super::{LETTER_HEIGHT, LINE_WIDTH, PicturePlane, overlay_layer};
+use crate::page::{Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Polyline};
+use crate::stroke_font::missing_glyphs;
+use crate::{Label, Overlay, Subject, TextAlign, Warning};
+use camera::ViewProjection;
+use glam::{DVec2, DVec3};
+use homog::{Point, World};
+
+/// The distance between a leader line and the text, in heights of letters.
+const LEADER_GAP: f64 = 0.3;
+/// The radius of the dot at the end of a leader line, in millimeters.
+const DOT_RADIUS: f64 = 0.15 * LETTER_HEIGHT;
+/// The number of sides of the dot.
+const DOT_SIDES: u32 = 12;
+/// The least distance of a label from the border of the picture, in millimeters.
+const BORDER_DISTANCE: f64 = 0.8;
+
+/// A label at a point of the world.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PointLabel {
+    /// The point.
+    pub at: Point<World>,
+    /// The text.
+    pub text: String,
+    /// From the image of the point to the nearest corner of the text, or the middle of its nearest
+    /// side where a component is 0: pixels, y down.
+    pub offset: DVec2,
+    /// The color.
+    pub ink: Ink,
+    /// The height of capitals in pixels.
+    pub height: f64,
+    /// Whether a line with a dot leads to the point.
+    pub leader: bool,
+}
+
+/// Why a label is not in the picture.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum LabelFault {
+    /// Its point is behind the eye.
+    BehindEye,
+    /// Its point is outside of the picture.
+    Outside,
+}
+
+impl PointLabel {
+    /// Why the label is not in a picture; `None` if it is. `view_height` is the part of the
+    /// picture's height, from the top, that shows the view.
+    #[must_use]
+    pub fn fault(&self, view: &ViewProjection, view_height: f64) -> Option<LabelFault> {
+        let clip = view.world_to_clip().transform_point(self.at).raw();
+        if clip.w <= 0.0 {
+            return Some(LabelFault::BehindEye);
+        }
+        let [x, y] = [clip.x / clip.w, clip.y / clip.w];
+        let is_inside = x.abs() <= 1.0 && y <= 1.0 && y >= 1.0 - 2.0 * view_height;
+        (!is_inside).then_some(LabelFault::Outside)
+    }
+}
+
+/// The warnings about labels: those that are not in the picture, and characters that the font
+/// lacks.
+#[must_use]
+pub fn label_warnings(subject: &Subject<'_>, overlays: &[Overlay]) -> Vec<Warning> {
+    let labels = overlays.iter().filter_map(|overlay| match overlay {
+        Overlay::Label(label) => Some(label),
+        _ => None,
+    });
+    let warnings = labels.flat_map(|label| {
+        let text = || label.text.clone();
+        let fault = label.fault(&subject.view_projection, subject.view_height());
+        let fault = fault.map(|fault| Warning::LabelNotDrawn { text: text(), fault });
+        fault.into_iter().chain(missing_glyph_warning(&label.text))
+    });
+    warnings.collect()
+}
+
+/// The warning about the characters of a text that the font lacks; `None` if it has all.
+#[must_use]
+pub fn missing_glyph_warning(text: &str) -> Option<Warning> {
+    let characters = missing_glyphs(text);
+    (!characters.is_empty()).then(|| Warning::GlyphsMissing { text: text.to_owned(), characters })
+}
+
+impl PicturePlane {
+    /// The leader line and the text of a label; nothing if its point is not in the picture.
+    pub(super) fn point_label_layers(
+        &self,
+        label: &PointLabel,
+        subject: &Subject<'_>,
+    ) -> Vec<Layer> {
+        if label.fault(&subject.view_projection, subject.view_height()).is_some() {
+            return Vec::new();
+        }
+        let image: DVec3 = self.project_point(label.at);
+        let at = self.ndc_to_page(image.truncate() / image.z);
+        let height = label.height * MILLIMETERS_PER_PIXEL;
+        let offset = label.offset * MILLIMETERS_PER_PIXEL;
+        let line = Label::new(&label.text, at, height);
+        let extent = DVec2::new(line.width(), height);
+        // From the corner at the offset to the upper left one.
+        let back = |offset: f64, extent: f64| match offset {
+            x if x > 0.0 => 0.0,
+            x if x < 0.0 => -extent,
+            _ => -0.5 * extent,
+        };
+        let back = DVec2::new(back(offset.x, extent.x), back(offset.y, extent.y));
+        let low = DVec2::splat(BORDER_DISTANCE);
+        let high = self.half * 2.0 * DVec2::new(1.0, subject.view_height()) - low - extent;
+        // Kept in the picture; what is too large for it begins at its left.
+        let corner = (at + offset + back).min(high).max(low);
+        let mut text = overlay_layer("label", &format!("label: {}", label.text), label.ink);
+        text.pen = line.pen(label.ink);
+        let line = Label { anchor: corner + DVec2::new(0.0, height), ..line };
+        let strokes = line.with_align(TextAlign::Start).strokes();
+        text.groups.push(Group { strokes, ..Group::default() });
+        let leader = label.leader.then(|| leader_layer(label, [at, corner - back]));
+        leader.into_iter().chain([text]).collect()
+    }
+}
+
+/// A line from a point to its label, less a gap, with a dot at the point.
+fn leader_layer(label: &PointLabel, [at, end]: [DVec2; 2]) -> Layer {
+    let gap = LEADER_GAP * label.height * MILLIMETERS_PER_PIXEL;
+    let end = end - (end - at).normalize_or_zero() * gap;
+    let title = format!("leader line: {}", label.text);
+    let mut layer = overlay_layer("label-leader", &title, label.ink);
+    layer.pen.width = LINE_WIDTH * 0.7;
+    let strokes = Polyline::through_points(&[at, end], false).into_iter().collect();
+    let corner = |k: u32| {
+        let angle = core::f64::consts::TAU * f64::from(k) / f64::from(DOT_SIDES);
+        let (sin, cos) = libm::sincos(angle);
+        at + DVec2::new(cos, sin) * DOT_RADIUS
+    };
+    let dot: Vec<DVec2> = (0..DOT_SIDES).map(corner).collect();
+    let fills = Polyline::through_points(&dot, true).into_iter().collect();
+    layer.groups.push(Group { strokes, fills, ..Group::default() });
+    layer
+}

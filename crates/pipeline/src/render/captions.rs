@@ -1,0 +1,71 @@
+//! Captions: the strip at the lower border of a picture, with a line of text.
+
+use crate::Picture;
+use crate::scene::{ImageSpec, Scene};
+use drawing::palette::ink_on_paper;
+use drawing::{
+    Group, Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, Warning, draw_layers_over,
+    label_warnings, missing_glyph_warning,
+};
+use glam::DVec2;
+use homog::PixelRect;
+use shade::Channel;
+use shade::color::SrgbEncoder;
+
+/// The height of capitals, and the room at each end of the text, as parts of the strip's height.
+const LETTER_HEIGHT: f64 = 12.0 / 28.0;
+const TEXT_MARGIN: f64 = 0.25;
+
+/// The caption of a scene as a layer of its page; `None` without one.
+pub(super) fn caption_layer(scene: &Scene) -> Option<Layer> {
+    let text = scene.caption.as_deref().filter(|_| scene.image.caption_height > 0)?;
+    let [width, height, strip] =
+        [scene.image.width, scene.image.height, scene.image.caption_height]
+            .map(|pixels| f64::from(pixels) * MILLIMETERS_PER_PIXEL);
+    let letters = LETTER_HEIGHT * strip;
+    let middle = DVec2::new(0.5 * width, height - 0.5 * strip);
+    let label = Label::new(text, middle, letters).with_align(TextAlign::Middle);
+    let label = label.fit_to_width((width - 2.0 * TEXT_MARGIN * strip).max(0.0));
+    let label = Label { anchor: middle + DVec2::new(0.0, 0.5 * label.height), ..label };
+    let pen = label.pen(ink_on_paper(paper_color(scene.image.background)));
+    let mut layer = Layer::new("caption", format!("caption: {text}"), pen);
+    layer.groups.push(Group { strokes: label.strokes(), ..Group::default() });
+    Some(layer)
+}
+
+/// Draws the caption of a scene over a region of its picture: the strip in the color of the
+/// background, and the text.
+pub(super) fn draw_caption_over<C: Channel>(
+    scene: &Scene,
+    region: PixelRect,
+    picture: &mut Picture<C>,
+) {
+    let Some(layer) = caption_layer(scene) else { return };
+    let image = scene.image;
+    let color = SrgbEncoder::shared().encode_pixel(image.background).map(C::from_byte);
+    let rows = strip_rect(image).y.saturating_sub(region.y);
+    if rows >= region.height {
+        return;
+    }
+    picture.pixels[rows as usize * region.width as usize..].fill(color);
+    draw_layers_over(picture, [image.width, image.height], region, &[layer]);
+}
+
+/// The pixels of the strip.
+pub(super) const fn strip_rect(image: ImageSpec) -> PixelRect {
+    let ImageSpec { width, height, caption_height, .. } = image;
+    PixelRect { x: 0, y: height - caption_height, width, height: caption_height }
+}
+
+/// The warnings about the texts of a scene: labels beyond the picture, characters without a glyph.
+pub(super) fn text_warnings(scene: &Scene) -> Vec<Warning> {
+    let mut warnings = label_warnings(&scene.drawing_subject(), &scene.overlays);
+    warnings.extend(scene.caption.as_deref().and_then(missing_glyph_warning));
+    warnings
+}
+
+/// The background as the color of the paper; `None` unless it is opaque.
+pub(super) fn paper_color(background: [f32; 4]) -> Option<Ink> {
+    let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
+    (alpha == 255).then_some([r, g, b])
+}
