@@ -51,6 +51,11 @@ pub(super) fn draw_caption_over<C: Channel>(
     draw_layers_over(picture, [image.width, image.height], region, &[layer]);
 }
 
+/// The pixels above the strip.
+pub(super) const fn view_rect(image: ImageSpec) -> PixelRect {
+    PixelRect::from_size(image.width, image.height - image.caption_height)
+}
+
 /// The pixels of the strip.
 pub(super) const fn strip_rect(image: ImageSpec) -> PixelRect {
     let ImageSpec { width, height, caption_height, .. } = image;

@@ -10,7 +10,7 @@
 
 use super::RenderError;
 use super::ambient_occlusion::compute_occlusion;
-use super::captions::{draw_caption_over, text_warnings};
+use super::captions::{draw_caption_over, text_warnings, view_rect};
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
@@ -115,7 +115,9 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), RenderError> {
         let scene = self.context.scene;
         validate_region(scene.image, region)?;
-        if Inset::covers_region(&scene.insets, region) {
+        // The caption covers its strip, the insets may cover the view above it.
+        let view = region.intersection(view_rect(scene.image));
+        if view.is_none_or(|view| Inset::covers_region(&scene.insets, view)) {
             picture.resize(region.width, region.height);
         } else {
             self.render_below_insets(region, picture)?;

@@ -47,9 +47,8 @@ pub struct Inset {
 /// Models are shared with the main view, not loaded again.
 ///
 /// # Errors
-/// If a rectangle is outside of the picture, the scene of an inset cannot be resolved, or there is
-/// no scale for all;
-/// the error points into the viewport.
+/// If a rectangle is outside of the picture, the scene of an inset cannot be resolved, or the views
+/// cannot share a scale; the error points into the viewport.
 pub(super) fn resolve_insets(
     origin: &Origin,
     file: &SceneFile,

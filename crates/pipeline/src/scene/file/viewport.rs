@@ -16,7 +16,8 @@ scene_struct! {
         /// Left, top, width and height as fractions of the picture without its caption, from 0 to
         /// 1, from its upper left corner. Default: by `pixels`.
         pub at: Option<(Fraction, Fraction, Fraction, Fraction)> = None,
-        /// Left, top, width and height in pixels. Default: by `at`.
+        /// Left, top, width and height in pixels, above the caption of the picture. Default: by
+        /// `at`.
         pub pixels: Option<(u32, u32, u32, u32)> = None,
         /// The camera. Default: that of the scene.
         pub camera: Option<CameraFile> = None,
