@@ -58,6 +58,7 @@ impl Render {
             image: ImageSpec {
                 width,
                 height,
+                caption_height: 0,
                 background: [0.0; 4],
                 environment_blur: None,
                 samples,
@@ -66,6 +67,7 @@ impl Render {
             insets: Vec::new(),
             backdrop: None,
             overlays: Vec::new(),
+            caption: None,
             sections: Vec::new(),
         };
         // As long as the process: there are few, and their textures refer to them.
