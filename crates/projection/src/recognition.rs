@@ -20,6 +20,7 @@ mod convention_list;
 mod meaning;
 mod parallel;
 mod perspective;
+mod pixels;
 mod placed;
 mod planar;
 mod rigid;
@@ -35,13 +36,16 @@ pub use viewport::{IntrinsicsReading, ViewportReading};
 
 use alloc::vec::Vec;
 use glam::DMat4;
-use rounded::{Entries, Rounded, measure_entries};
+use rounded::{Entries, Rounded, coarser_measures, measure_entries};
 
 /// The cost of a matrix that nothing is known of.
 const UNNAMED: u32 = 1000;
 
 /// Readings that differ in cost by at most this are equally sensible.
 const EQUAL: u32 = 3;
+
+/// How much less a reading must cost before some entries are taken for rounded and others are not.
+const COARSER: u32 = 8;
 
 /// One meaning of a matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -116,10 +120,30 @@ impl Recognition {
 /// ```
 #[must_use]
 pub fn recognize(matrix: DMat4) -> Recognition {
-    let entries = measure_entries(matrix.transpose().to_cols_array_2d());
+    let rows = matrix.transpose().to_cols_array_2d();
+    let mut entries = measure_entries(rows);
+    let mut cost = least_cost(&entries);
+    // One entry with more digits than the others does not make the others exact.
+    for coarser in coarser_measures(rows) {
+        let found = least_cost(&coarser);
+        if found + COARSER <= cost {
+            (entries, cost) = (coarser, found);
+        }
+    }
     let readings = readings_of(&entries);
     let suspicions = suspicion::suspicions_of(&entries, &readings);
     Recognition { readings, suspicions }
+}
+
+/// The cost of the most sensible reading, also for row vectors.
+fn least_cost(entries: &Entries<4>) -> u32 {
+    let cost = |entries| readings_of(entries).first().map_or(UNNAMED, |first| first.cost);
+    cost(entries).min(cost(&transpose(entries)) + suspicion::SLIP)
+}
+
+/// Rows and columns exchanged.
+fn transpose(entries: &Entries<4>) -> Entries<4> {
+    [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entries[j][i]))
 }
 
 /// All readings, the most sensible first.
@@ -127,7 +151,7 @@ fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     let mut found = Vec::new();
     let moderate = entries.as_flattened().iter().all(|entry| is_moderate(entry.value));
     if moderate {
-        let readers: [fn(&Entries<4>, &mut Vec<MatrixReading>); 12] = [
+        let readers: [fn(&Entries<4>, &mut Vec<MatrixReading>); 13] = [
             affine::read_affine,
             rigid::read_rigid,
             viewport::read_viewport,
@@ -140,6 +164,7 @@ fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
             parallel::read_boxes,
             placed::read_placed_box,
             placed::read_placed_perspective,
+            pixels::read_perspective_to_pixels,
         ];
         for reader in readers {
             reader(entries, &mut found);

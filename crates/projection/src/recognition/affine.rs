@@ -1,7 +1,7 @@
 //! Readings of affine matrices as maps of space: translation, scale, windowing, shear, and a model
 //! transform of translation, rotation and scale.
 
-use super::rigid::{axis_angle, is_square_frame};
+use super::rigid::{axis_angle, is_square_frame, largest_error};
 use super::rounded::{Entries, Rounded, divide_entries};
 use super::{MatrixMeaning, MatrixReading, factor_cost};
 use alloc::vec::Vec;
@@ -33,7 +33,9 @@ pub(super) fn read_affine(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         read_diagonal(diagonal, offset, &mut push);
     } else if diagonal.into_iter().all(|entry| entry.is(1.0)) && slanted <= 2 {
         let entries = off_diagonal.map(|(i, j)| unit[i][j]);
-        let cost = 4 + 2 * (total_digits(&entries) + total_digits(&offset));
+        // x and y are added to z in matrices for row vectors: an oblique projection of columns.
+        let rare = if unit[2][0].is_zero() || unit[2][1].is_zero() { 0 } else { 4 };
+        let cost = 4 + rare + 2 * (total_digits(&entries) + total_digits(&offset));
         let linear = [0, 1, 2].map(|i| [0, 1, 2].map(|j| unit[i][j].simplest()));
         push(MatrixMeaning::Shear { linear, offset: offset.map(Rounded::simplest) }, cost);
     }
@@ -98,7 +100,8 @@ fn read_model_transform(unit: &Entries<4>, push: &mut impl FnMut(MatrixMeaning, 
     if DMat3::from_cols_array_2d(&vectors.map(|v| v.to_array())).determinant() < 0.0 {
         (vectors[2], scale[2]) = (-vectors[2], -scale[2]);
     }
-    let (axis, angle_degrees) = axis_angle(DMat3::from_cols(vectors[0], vectors[1], vectors[2]));
+    let rotation = DMat3::from_cols(vectors[0], vectors[1], vectors[2]);
+    let (axis, angle_degrees) = axis_angle(rotation, largest_error(&axes));
     let offset = [unit[0][3], unit[1][3], unit[2][3]];
     let uniform = lengths[0].equals(lengths[1]) && lengths[1].equals(lengths[2]);
     let digits = if uniform { lengths[0].digits() } else { total_digits(&lengths) };

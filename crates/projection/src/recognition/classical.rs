@@ -21,6 +21,7 @@ pub(super) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let reading = if affine {
         read_principal_view(&unit)
             .or_else(|| read_oblique(&unit))
+            .or_else(|| read_planometric(&unit))
             .or_else(|| read_axonometric(&unit))
     } else {
         read_n_point(&unit)
@@ -90,6 +91,33 @@ fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     Some((meaning, cost))
 }
 
+/// A ground plan turned in the picture, with heights added to y' (Planometric; C79): heights are y,
+/// as in the library, or z, as on a map.
+fn read_planometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
+    let [x, y, z, _] = m;
+    let moved = [x[3], y[3], z[3]].into_iter().any(|offset| !offset.is_zero());
+    let (up, away) = if x[1].is_zero() { (1, -y[2]) } else { (2, y[1]) };
+    let across = if up == 1 { x[2] } else { -x[1] };
+    let (cos, sin) = (x[0], y[0]);
+    let turned = cos.equals(away) && sin.equals(across) && x[up].is_zero();
+    let unit = (cos * cos + sin * sin).is_within(1.0, cos.error + sin.error + 1e-12);
+    let (flat, kept) = (is_zero_row(z), is_unit_row(z, up));
+    let height = y[up];
+    if moved || !turned || !unit || !(flat || kept) || height.is_zero() || height.value < 0.0 {
+        return None;
+    }
+    let value = libm::atan2(sin.value, cos.value).to_degrees();
+    let error = (sin.error + cos.error).to_degrees() + 8.0 * f64::EPSILON * value.abs();
+    let turn = Rounded { value, error };
+    let meaning = MatrixMeaning::Planometric {
+        turn_degrees: turn.simplest(),
+        height: height.simplest(),
+        z_up: up == 2,
+        onto_plane: flat,
+    };
+    Some((meaning, 5 + 2 * (turn.digits() + height.digits())))
+}
+
 /// Two rows of a rotation and a row of zeros: onto the picture plane (AX-1).
 fn read_axonometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
@@ -132,5 +160,8 @@ fn read_n_point(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
         term => term.digits().min((Rounded::ONE / term).digits()),
     };
     let digits: u32 = terms.into_iter().map(fewest).sum();
-    Some((MatrixMeaning::NPoint { projection, onto_plane: flat }, 3 + 2 * digits))
+    // Vanishing points inside of the unit cube: rather a translation for row vectors.
+    let close = kept && terms.into_iter().any(|term| term.value.abs() > 1.0);
+    let cost = if close { 11 } else { 3 };
+    Some((MatrixMeaning::NPoint { projection, onto_plane: flat }, cost + 2 * digits))
 }

@@ -167,6 +167,18 @@ pub enum MatrixMeaning {
         /// Isometric, dimetric or trimetric.
         projection: Axonometric,
     },
+    /// A plan oblique projection: the ground plan keeps its shape, heights rise straight up. With
+    /// height 1 it is the military projection.
+    Planometric {
+        /// The angle by which the plan is turned, counterclockwise.
+        turn_degrees: f64,
+        /// How many times its length a height is drawn.
+        height: f64,
+        /// True if heights are z and the plan is that of x and y; otherwise heights are y.
+        z_up: bool,
+        /// True if the height is dropped.
+        onto_plane: bool,
+    },
     /// A one-, two- or three-point perspective (ONE-1, TWO-1, THREE-1).
     NPoint {
         /// Its p, q and r.
@@ -189,6 +201,20 @@ pub enum MatrixMeaning {
         /// Its angles.
         lens: Lens,
         /// The convention in which it has these parameters; view space looks along −z.
+        convention: Convention,
+    },
+    /// A perspective and a viewport in one, of a window around the line of sight: view or world
+    /// space to pixels (PL-1).
+    PerspectiveToPixels {
+        /// The pixels; depth is left as it is.
+        viewport: ViewportReading,
+        /// Where the camera is, unless the map begins in view space.
+        camera: Option<CameraReading>,
+        /// Window on the near plane, near and far as distances.
+        frustum: Frustum,
+        /// Its angles.
+        lens: Lens,
+        /// The convention in which it has these parameters.
         convention: Convention,
     },
     /// A camera and an orthographic box; the eye, which may be anywhere, is taken at the origin.
@@ -224,6 +250,7 @@ impl MatrixMeaning {
             | Self::Orthographic { convention, .. }
             | Self::ObliqueVolume { convention, .. }
             | Self::CameraPerspective { convention, .. }
+            | Self::PerspectiveToPixels { convention, .. }
             | Self::CameraOrthographic { convention, .. } => Some(*convention),
             _ => None,
         }

@@ -85,15 +85,31 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
     }
 }
 
-/// The oblique projection with x' = x + slant z, y' alike, onto z = `plane_z`.
+/// The oblique projection with x' = x + slant z, y' alike, onto z = `plane_z`: by length and angle
+/// if these have fewer digits.
 pub(super) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
-    let direction = homog::Vector::new(x.simplest(), y.simplest(), -1.0);
-    Oblique::by_direction(direction, plane_z).ok()
+    let (length, phi) = length_and_angle(x, y);
+    let direction = if length.digits() + phi.digits() < x.digits() + y.digits() {
+        let (sin, cos) = libm::sincos(phi.simplest().to_radians());
+        [length.simplest() * cos, length.simplest() * sin]
+    } else {
+        [x.simplest(), y.simplest()]
+    };
+    Oblique::by_direction(homog::Vector::new(direction[0], direction[1], -1.0), plane_z).ok()
+}
+
+/// The drawn length of a unit of depth, and its angle in degrees.
+fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
+    let length = (x * x + y * y).sqrt();
+    let value = libm::atan2(y.value, x.value).to_degrees();
+    let across = (x.error + y.error) / length.value.max(f64::MIN_POSITIVE);
+    let error = across.to_degrees() + 4.0 * f64::EPSILON * value.abs();
+    (length, Rounded { value, error })
 }
 
 /// Twice the digits of length and angle, or of the two slants.
 pub(super) fn oblique_cost(x: Rounded, y: Rounded) -> u32 {
-    let length = (x * x + y * y).sqrt().digits();
-    let angle = if x.is_zero() { 1 } else { (y / x).atan_degrees().digits() };
-    2 * (length + angle).min(x.digits() + y.digits())
+    let (length, angle) = length_and_angle(x, y);
+    let angle = if x.is_zero() { 1 } else { angle.digits() };
+    2 * (length.digits() + angle).min(x.digits() + y.digits())
 }

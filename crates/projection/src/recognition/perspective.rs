@@ -187,7 +187,10 @@ fn p_reading(
     factor: Rounded,
     printed: bool,
 ) -> Option<MatrixReading> {
-    let cost = 2 * (n.digits() + f.digits()) + if printed { 0 } else { factor_cost(factor) };
+    // The textbook's planes are ahead of the eye: 0 > n > f.
+    let behind = if n.value > 0.0 { 4 } else { 0 };
+    let cost =
+        behind + 2 * (n.digits() + f.digits()) + if printed { 0 } else { factor_cost(factor) };
     let (n, f) = (n.simplest(), f.simplest());
     if n * f <= 0.0 || n == f {
         return None;

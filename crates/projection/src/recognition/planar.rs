@@ -1,7 +1,7 @@
 //! Readings of 3×3 matrices: maps of the plane in homogeneous coordinates, camera intrinsics, and
 //! rotations of space.
 
-use super::rigid::{axis_angle, orthonormal_rows};
+use super::rigid::{axis_angle, largest_error, orthonormal_rows};
 use super::rounded::{Entries, Rounded, measure_entries};
 use super::viewport::intrinsics_of;
 use super::{IntrinsicsReading, MatrixMeaning, UNNAMED, is_moderate, readings_of};
@@ -127,7 +127,8 @@ fn spatial_rotation(entries: &Entries<3>) -> Option<PlanarReading> {
     if u.cross(v).dot(w) < 0.0 {
         return None;
     }
-    let (axis, angle_degrees) = axis_angle(DMat3::from_cols(u, v, w).transpose());
+    let rotation = DMat3::from_cols(u, v, w).transpose();
+    let (axis, angle_degrees) = axis_angle(rotation, largest_error(entries));
     let meaning = PlanarMatrix::SpatialRotation { axis, angle_degrees };
     Some(PlanarReading { meaning, factor: 1.0, cost: 6 })
 }

@@ -27,7 +27,7 @@ pub(super) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
 }
 
 /// The largest error of an entry: ±1 may be rounded, too.
-fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
+pub(super) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
@@ -73,7 +73,7 @@ pub(super) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let reading = if w.dot(u.cross(v)) < 0.0 {
         reflection(&linear, offset)
     } else if stays && turned {
-        let (axis, angle_degrees) = axis_angle(rotation);
+        let (axis, angle_degrees) = axis_angle(rotation, largest_error(&linear));
         Some((MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6))
     } else if turned {
         let cost = 6 + 2 * eye.iter().map(|x| x.digits()).sum::<u32>();
@@ -122,9 +122,9 @@ fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixM
     along.then_some((MatrixMeaning::Reflection { normal, distance }, cost))
 }
 
-/// Axis of length 1 and angle in degrees, 0 to 180, of a rotation (Shoemake 1994, by the largest
-/// component of the quaternion).
-pub(super) fn axis_angle(rotation: DMat3) -> ([f64; 3], f64) {
+/// Axis of length 1 and angle in degrees, 0 to 180, of a rotation whose entries have this error
+/// (Shoemake 1994, by the largest component of the quaternion).
+pub(super) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let m = |i: usize, j: usize| rotation.col(j)[i];
     let trace = m(0, 0) + m(1, 1) + m(2, 2);
     let skew = DVec3::new(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
@@ -140,6 +140,6 @@ pub(super) fn axis_angle(rotation: DMat3) -> ([f64; 3], f64) {
         let length = libm::sqrt(along.length_squared());
         if length > 0.0 { along / length } else { DVec3::Z }
     };
-    let shorter = |x: f64| shorten(x, 1e-12);
-    (axis.to_array().map(shorter), shorten(angle.to_degrees(), 1e-10))
+    let shorter = |x: f64| shorten(x, error.max(1e-12));
+    (axis.to_array().map(shorter), shorten(angle.to_degrees(), error.to_degrees().max(1e-10)))
 }

@@ -4,6 +4,7 @@
 //! other precision. The precision is estimated from the entries and carried through sums, products
 //! and quotients to first order, so that near = 0.0999 ± 0.0002 is read as 0.1.
 
+use alloc::vec::Vec;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Digits a parameter counts that no short decimal describes.
@@ -136,6 +137,32 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
             Rounded { value, error }
         })
     })
+}
+
+/// The same entries with the precision of the coarser ones, for matrices put together from numbers
+/// of different precision; finer ones first.
+///
+/// At least three entries, and two thirds of those with more than two decimals, must have no more
+/// than the assumed number of decimals. Entries with more keep their own precision.
+pub(crate) fn coarser_measures<const N: usize>(rows: [[f64; N]; N]) -> Vec<Entries<N>> {
+    let decimals = |x: f64| (0..=12).find(|&n| has_decimals(x, n)).unwrap_or(13);
+    let mut found: Vec<u32> = rows.as_flattened().iter().map(|&x| decimals(x)).collect();
+    found.retain(|&n| n > 2);
+    found.sort_unstable();
+    let (count, most) = (found.len(), found.last().copied().unwrap_or_default());
+    let usual = |n: u32| {
+        let as_coarse = found.iter().filter(|&&other| other <= n).count();
+        as_coarse >= 3 && 3 * as_coarse >= 2 * count
+    };
+    let measure = |assumed: u32| {
+        let error = |x: f64| match decimals(x).max(assumed) {
+            _ if x == 0.0 || x.abs() == 1.0 => 0.0,
+            13 => 1e-14 * x.abs(),
+            n => 0.6 / power_of_ten(n),
+        };
+        rows.map(|row| row.map(|value| Rounded { value, error: error(value) }))
+    };
+    (3..most).rev().filter(|&n| found.contains(&n) && usual(n)).map(measure).collect()
 }
 
 /// True if x has at most so many decimals.

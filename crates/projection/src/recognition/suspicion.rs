@@ -5,13 +5,13 @@
 //! right matrix of something less likely.
 
 use super::rounded::{Entries, Rounded};
-use super::{MatrixMeaning, MatrixReading, is_moderate, readings_of};
+use super::{MatrixMeaning, MatrixReading, is_moderate, readings_of, transpose};
 use crate::{Convention, Frustum, Misprint};
 use alloc::vec::Vec;
 use glam::DMat4;
 
 /// How much better a reading must be before a slip is assumed.
-const SLIP: u32 = 6;
+pub(super) const SLIP: u32 = 6;
 /// The margin below which a misprint is as good a reading as the right matrix, and above which it
 /// is the better one.
 const MARGIN: u32 = 4;
@@ -100,7 +100,7 @@ fn is_central(meaning: &MatrixMeaning) -> bool {
 
 /// (24) Rows and columns exchanged: for row vectors, or stored column by column.
 fn undo_transposition(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
-    let transposed = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| m[j][i]));
+    let transposed = transpose(m);
     let symmetric = (0..4).all(|i| (0..4).all(|j| m[i][j].equals(m[j][i])));
     // (p, q, r, 1) with vanishing points beyond the unit cube is no translation of row vectors.
     let distant = matches!(best.meaning, MatrixMeaning::NPoint { .. })

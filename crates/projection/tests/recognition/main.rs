@@ -4,6 +4,7 @@
 #![allow(missing_docs)]
 
 mod formulas;
+mod hand_typed;
 mod planar;
 mod random_matrices;
 mod right_matrices;

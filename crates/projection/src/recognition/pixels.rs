@@ -1,0 +1,87 @@
+//! Readings of a perspective and a viewport in one matrix: view or world space to pixels (PL-1).
+//!
+//! Sixteen numbers do not tell the size of the image from the window. With a window around the line
+//! of sight they do: that line meets the image in its center.
+
+use super::perspective::read_frusta;
+use super::placed::read_placed_perspective;
+use super::rounded::{Entries, Rounded};
+use super::{MatrixMeaning, MatrixReading, ViewportReading};
+use alloc::vec::Vec;
+
+/// The smallest image that is told apart from a window beside the line of sight, in pixels.
+const LEAST_SIZE: f64 = 16.0;
+
+/// Adds the readings as a perspective to pixels, with integer centers or half-integer ones.
+pub(super) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+    let [x, y, _, w] = m;
+    let dot = |a: &[Rounded; 4], b: &[Rounded; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let square = dot(w, w);
+    if square.is_zero() {
+        return;
+    }
+    let center = [dot(x, w) / square, dot(y, w) / square];
+    for (shift, integer_centers) in [(0.5, true), (0.0, false)] {
+        let size = center.map(|c| (c + Rounded::exact(shift)) * Rounded::exact(2.0));
+        let whole = |side: Rounded| side.is_within(libm::round(side.value), 1e-9 * side.value);
+        if size.iter().any(|&side| side.value < LEAST_SIZE || !whole(side)) {
+            continue;
+        }
+        let [width, height] = size.map(|side| libm::round(side.value));
+        for y_down in [false, true] {
+            let pixels = ViewportReading {
+                x: 0.0,
+                y: 0.0,
+                width,
+                height,
+                y_down,
+                integer_centers,
+                depth: [-1.0, 1.0],
+            };
+            let digits: u32 =
+                [width, height].map(|side| Rounded::exact(side).digits()).iter().sum();
+            let cost = 8 + 2 * digits + if y_down { 1 } else { 0 };
+            found.extend(best_reading(&without_viewport(m, &pixels), pixels, cost));
+        }
+    }
+}
+
+/// M_vp⁻¹ M, the depth row as it is. The offsets of what lies on the line of sight are exactly 0.
+fn without_viewport(m: &Entries<4>, pixels: &ViewportReading) -> Entries<4> {
+    let shift = if pixels.integer_centers { 0.5 } else { 0.0 };
+    let sign = if pixels.y_down { -1.0 } else { 1.0 };
+    let row = |at: usize, size: f64, sign: f64| {
+        let (scale, center) =
+            (Rounded::exact(sign * 2.0 / size), Rounded::exact(size / 2.0 - shift));
+        [0, 1, 2, 3].map(|j| {
+            let entry = m[at][j] - center * m[3][j];
+            // Pixels are large beside what is left: their rounding is its error.
+            let noise = 4.0 * f64::EPSILON * (size * m[3][j].value).abs();
+            Rounded { error: entry.error + noise, ..entry } * scale
+        })
+    };
+    [row(0, pixels.width, 1.0), row(1, pixels.height, sign), m[2], m[3]]
+}
+
+/// The most sensible perspective that is left, of a window around the line of sight.
+fn best_reading(clip: &Entries<4>, viewport: ViewportReading, cost: u32) -> Option<MatrixReading> {
+    let mut left = Vec::new();
+    read_frusta(clip, &mut left);
+    read_placed_perspective(clip, &mut left);
+    left.sort_by_key(|reading| reading.cost);
+    left.into_iter().find_map(|reading| {
+        let (camera, frustum, lens, convention) = match reading.meaning {
+            MatrixMeaning::Perspective { frustum, lens, convention } => {
+                (None, frustum, lens, convention)
+            }
+            MatrixMeaning::CameraPerspective { camera, frustum, lens, convention } => {
+                (Some(camera), frustum, lens, convention)
+            }
+            _ => return None,
+        };
+        let meaning =
+            MatrixMeaning::PerspectiveToPixels { viewport, camera, frustum, lens, convention };
+        let ordered = frustum.window().width() > 0.0 && frustum.window().height() > 0.0;
+        ordered.then_some(MatrixReading { meaning, cost: reading.cost + cost, ..reading })
+    })
+}
