@@ -45,7 +45,7 @@ pub use bare_map::BareMap;
 pub use conventions::ApiConventions;
 pub use homogeneous_point::explain_homogeneous_point;
 pub use json::{SCHEMA_NAME, SCHEMA_VERSION};
-pub use matrix::{explain_matrix, explain_planar_matrix};
+pub use matrix::{explain_matrix, explain_planar_matrix, without_rounding};
 pub use node::explain_node;
 pub use pixel::explain_pixel;
 pub use point::{VertexRef, explain_point, explain_transforms, explain_vertex};

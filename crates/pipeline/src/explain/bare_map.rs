@@ -57,7 +57,7 @@ impl BareMap {
     /// If the four numbers of a point are all 0.
     pub fn explain_points(&self, points: &[HPoint<View>]) -> Result<Explanation, String> {
         let mut steps = self.steps.clone();
-        let labels: &[&str] = if let [_] = points { &[""] } else { &["_a", "_b"] };
+        let labels: &[&str] = if let [_] = points { &[""] } else { &["a", "b"] };
         let images: Vec<HPoint<Clip>> =
             points.iter().map(|point| self.map.transform_hpoint(*point)).collect();
         if points.iter().any(|point| <[f64; 4]>::from(*point) == [0.0; 4]) {
@@ -66,7 +66,9 @@ impl BareMap {
         if let [point] = points {
             steps.push(homogeneous_step(*point));
         }
-        steps.push(image_step(labels, points, &images));
+        if !points.is_empty() {
+            steps.push(image_step(labels, points, &images));
+        }
         if let [start, end] = images[..] {
             steps.push(foreshortening_step(start, end));
         }
@@ -83,13 +85,19 @@ impl BareMap {
 fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>]) -> Step {
     let mut step = Step::new("image", "The image: M p, divided by its w", Some("HO-1, HO-3"));
     for ((label, point), image) in labels.iter().zip(points).zip(images) {
-        step.add_item(format!("point{label}"), "p", <[f64; 4]>::from(*point));
-        step.add_item(format!("image{label}"), "M p", <[f64; 4]>::from(*image));
+        let id = |what: &str| match *label {
+            "" => what.to_owned(),
+            label => format!("{what}_{label}"),
+        };
+        let (p, divided) = match *label {
+            "" => ("p", "divided".to_owned()),
+            label => (label, format!("M {label}, divided")),
+        };
+        step.add_item(id("point"), p, <[f64; 4]>::from(*point));
+        step.add_item(id("image"), format!("M {p}"), <[f64; 4]>::from(*image));
         match image.divide() {
-            Some(divided) => {
-                step.add_item(format!("divided{label}"), "divided", <[f64; 3]>::from(divided));
-            }
-            None => step.add_item(format!("divided{label}"), "divided", "w is 0: at infinity"),
+            Some(image) => step.add_item(id("divided"), divided, <[f64; 3]>::from(image)),
+            None => step.add_item(id("divided"), divided, "w is 0: at infinity"),
         }
     }
     step

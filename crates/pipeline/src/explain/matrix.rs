@@ -13,6 +13,7 @@ pub use planar::explain_planar_matrix;
 
 use super::plain_text::format_number;
 use super::{Explanation, Step};
+use glam::DMat4;
 use homog::{Clip, HPointKind, Projective, View};
 use meaning::{describe_meaning, meaning_steps};
 use projection::{
@@ -39,11 +40,28 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     let mut steps = vec![kind_step(rows, map), inverse_step(map)];
     steps.extend(affine_step(map, &found.first().meaning));
     steps.push(vanishing_points_step(map));
-    steps.extend(meaning_steps(&found.first()));
+    match transposed_reading(&found) {
+        Some(turned) => steps.extend(meaning_steps(&turned).map(|step| {
+            Step {
+                title:
+                    "Its most sensible reading, transposed: it is for row vectors, or stored by \
+                    columns"
+                        .to_owned(),
+                ..step
+            }
+        })),
+        None => steps.extend(meaning_steps(&found.first())),
+    }
     steps.extend(other_readings_step(&found));
     steps.extend(found.suspicions.iter().enumerate().map(|(at, slip)| misprint_step(at, slip)));
     let verdict = matrix_verdict(map, &found);
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
+}
+
+/// The reading of the transposed matrix, if it is clearly the more sensible one.
+fn transposed_reading(found: &Recognition) -> Option<MatrixReading> {
+    let slip = found.misprint().filter(|slip| slip.misprint == Misprint::Transposed)?;
+    slip.remedied.map(|matrix| recognize(matrix).first())
 }
 
 /// Names the first entry that is not a finite number, counted from 1.
@@ -61,9 +79,22 @@ fn check_finite<const N: usize>(rows: &[[f64; N]; N]) -> Result<(), String> {
 fn inverse_step(map: Projective<View, Clip>) -> Step {
     let step = Step::new("inverse", "Its inverse", Some("IV-1"));
     match map.inverse() {
-        Some(inverse) => step.with_item("inverse", "inverse", inverse.rows()),
+        Some(inverse) => {
+            step.with_item("inverse", "inverse", without_rounding(map.raw(), inverse.raw()))
+        }
         None => step.with_item("none", "none", "a dimension is lost: the matrix has no inverse"),
     }
+}
+
+/// The rows of an inverse, with 0 for entries that are rounding: below the bound of the error of
+/// Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14).
+#[must_use]
+pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
+    let size = |m: DMat4| DMat4::from_cols_array(&m.to_cols_array().map(f64::abs));
+    let bound = size(inverse) * size(matrix) * size(inverse) * (4.0 * f64::EPSILON);
+    let (entries, errors) = (inverse.to_cols_array(), bound.to_cols_array());
+    let clean = |at: usize| if entries[at].abs() <= errors[at] { 0.0 } else { entries[at] };
+    std::array::from_fn(|row| std::array::from_fn(|column| clean(4 * column + row)))
 }
 
 /// The kind of map: affine, projective, its rank and determinant.
@@ -141,17 +172,23 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
 
 /// The readings beside the first, those as sensible as it before the others.
 fn other_readings_step(found: &Recognition) -> Option<Step> {
-    let equal = found.equal_readings().count();
+    let turned = transposed_reading(found).is_some();
+    let equal = if turned { 0 } else { found.equal_readings().count() };
     let most = found.first().cost + LESS_LIKELY;
     let told = |reading: &&MatrixReading| reading.meaning.is_named() && reading.cost <= most;
-    let named = found.readings.iter().skip(1).filter(told);
+    let first_stands = usize::from(!turned);
+    let named = found.readings.iter().skip(first_stands).filter(told);
     let others: Vec<_> = named.take(OTHER_READINGS).collect();
     if others.is_empty() {
         return None;
     }
     let step = Step::new("readings", "It can also be read as", None);
     Some((0..).zip(others).fold(step, |step, (at, reading): (usize, _)| {
-        let name = if at < equal { "equally sensible" } else { "less likely" };
+        let name = match at < equal {
+            true => "equally sensible",
+            false if turned => "less likely, as it stands",
+            false => "less likely",
+        };
         step.with_item(at.to_string(), name, describe_meaning(reading))
     }))
 }
@@ -201,12 +238,13 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
         let transposed = slip.remedied.map(|matrix| recognize(matrix).first());
         transposed.map_or(String::new(), |reading| describe_meaning(&reading))
     };
+    if let Some(reading) = transposed_reading(found) {
+        let turned = describe_meaning(&reading);
+        let stands = what.replacen("It is", "As it stands, for column vectors, it is", 1);
+        return format!("Transposed, it is {turned}: row vectors, or stored by columns. {stands}");
+    }
     if let Some(slip) = found.misprint() {
-        return if slip.misprint == Misprint::Transposed {
-            format!("{what} For row vectors it is more sensible: {}.", turned(slip))
-        } else {
-            format!("{what} But it looks like a misprint: {}.", slip.misprint.description())
-        };
+        return format!("{what} But it looks like a misprint: {}.", slip.misprint.description());
     }
     match found.suspicions.first() {
         Some(slip) if slip.misprint == Misprint::Transposed => {

@@ -5,7 +5,7 @@ use super::super::conventions::volume_name;
 use super::super::plain_text::format_number;
 use projection::{
     CameraReading, Classical, Convention, Lens, MatrixMeaning, MatrixReading, Oblique,
-    PrincipalPlane, ViewportReading, Window,
+    PrincipalPlane, ProjectionClass, ViewportReading, Window,
 };
 
 /// A reading in one sentence without its full stop: meaning, parameters, convention and factor.
@@ -60,6 +60,24 @@ fn oblique_words(oblique: &Oblique) -> String {
     format!("length {length}, angle {phi}° (what recedes is drawn towards {recedes}°)")
 }
 
+/// The name of an oblique projection by its length: `an oblique projection (cabinet)`.
+fn oblique_name(oblique: &Oblique, what: &str) -> String {
+    match Classical::Oblique(*oblique).class() {
+        class @ (ProjectionClass::Cavalier | ProjectionClass::Cabinet) => {
+            format!("an oblique {what} ({})", class.name())
+        }
+        _ => format!("an oblique {what}"),
+    }
+}
+
+fn planometric_words(turn: f64, height: f64, z_up: bool, onto_plane: bool) -> String {
+    let name = if height == 1.0 { "a military projection" } else { "a planometric projection" };
+    let [turn, height] = [turn, height].map(format_number);
+    let (plan, up) = if z_up { ("x and y", "z") } else { ("x and z", "y") };
+    let depth = if onto_plane { "" } else { ", depth kept" };
+    format!("{name}{depth}: the plan of {plan} turned by {turn}°, {up} upwards times {height}")
+}
+
 /// View volumes, also behind a camera; `None` for other maps.
 fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
@@ -93,6 +111,15 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
                 camera_words(camera)
             )
         }
+        MatrixMeaning::PerspectiveToPixels { viewport, camera, frustum: f, .. } => {
+            let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
+            let first = match camera {
+                Some(camera) => format!("a camera ({}), a perspective", camera_words(camera)),
+                None => "a perspective".to_owned(),
+            };
+            let viewport = viewport_words(viewport);
+            format!("{first} and a viewport in one: {window}, {depth}, {viewport}")
+        }
         MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
             let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
             let gaze = list(camera.gaze);
@@ -107,20 +134,20 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
     Some(match meaning {
         MatrixMeaning::ObliqueVolume { projection, volume: o, .. } => {
             let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
-            format!("an oblique volume: {}, {window}, {depth}", oblique_words(projection))
+            let name = oblique_name(projection, "volume");
+            format!("{name}: {}, {window}, {depth}", oblique_words(projection))
         }
         MatrixMeaning::ObliqueShear { projection } => {
-            format!("an oblique projection with depth kept: {}", oblique_words(projection))
+            let name = oblique_name(projection, "projection");
+            format!("{name} with depth kept: {}", oblique_words(projection))
         }
         MatrixMeaning::ObliqueOntoPlane { projection } => {
             let plane = format_number(projection.plane_z());
             if projection.length() == 0.0 {
                 format!("an orthographic projection onto the plane z = {plane}")
             } else {
-                format!(
-                    "an oblique projection onto the plane z = {plane}: {}",
-                    oblique_words(projection)
-                )
+                let name = oblique_name(projection, "projection");
+                format!("{name} onto the plane z = {plane}: {}", oblique_words(projection))
             }
         }
         MatrixMeaning::PrincipalView { plane } => {
@@ -137,6 +164,9 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
                 "an axonometric projection ({name}) onto the picture plane, foreshortening {}",
                 list(projection.foreshortening())
             )
+        }
+        MatrixMeaning::Planometric { turn_degrees, height, z_up, onto_plane } => {
+            planometric_words(*turn_degrees, *height, *z_up, *onto_plane)
         }
         MatrixMeaning::CentralOntoPlane { plane_z } => {
             let plane = format_number(*plane_z);
@@ -257,6 +287,21 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
         | MatrixMeaning::ObliqueOntoPlane { projection } => add_oblique(step, projection),
         MatrixMeaning::CameraPerspective { camera, frustum: f, lens, convention } => {
             let step = add_window(add_camera(step, camera), f.window(), [f.near(), f.far()]);
+            add_lens(step, lens, *convention)
+        }
+        MatrixMeaning::PerspectiveToPixels {
+            viewport: v,
+            camera,
+            frustum: f,
+            lens,
+            convention,
+        } => {
+            let step = match camera {
+                Some(camera) => add_camera(step, camera),
+                None => step,
+            };
+            let step = step.with_item("size", "width, height", [v.width, v.height]);
+            let step = add_window(step, f.window(), [f.near(), f.far()]);
             add_lens(step, lens, *convention)
         }
         MatrixMeaning::CameraOrthographic { camera, volume, .. } => {

@@ -28,18 +28,26 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
         }
         None => inverse.with_item("none", "none", "a dimension is lost: there is no inverse"),
     };
+    let first = |readings: &[PlanarReading], rows: &[[f64; 3]; 3]| {
+        readings.first().map_or(String::new(), |first| describe_planar(first, rows))
+    };
+    let stands = first(&readings, &rows);
     let mut steps = vec![kind, inverse, points_step(map), readings_step(&readings, &rows)];
+    let mut verdict = format!("It is {stands}.");
     if transposed {
         let turned = [0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[j][i]));
-        let step = Step::new("misprint", "It looks like a matrix for row vectors", None);
-        steps.push(step.with_item("remedied", "then", ItemValue::PlanarMatrix(turned)));
+        let meant = first(&recognize_planar(turned).0, &turned);
+        verdict = format!(
+            "Transposed, it is {meant}: row vectors, or stored by columns. As it stands, for \
+             column vectors, it is {stands}."
+        );
+        let step = Step::new("misprint", "It looks like a matrix for row vectors", None).with_item(
+            "remedied",
+            "then",
+            ItemValue::PlanarMatrix(turned),
+        );
+        steps.push(step.with_item("remedied_reading", "which is", meant));
     }
-    let first = readings.first().map_or(String::new(), |first| describe_planar(first, &rows));
-    let verdict = if transposed {
-        format!("It is {first}. But it looks like a matrix for row vectors.")
-    } else {
-        format!("It is {first}.")
-    };
     Ok(Explanation { subject: "A 3 × 3 matrix for column vectors".to_owned(), steps, verdict })
 }
 
