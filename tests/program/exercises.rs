@@ -147,15 +147,30 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
         .filter_map(|line| line.strip_prefix("Command: `")?.strip_suffix('`'))
         .collect();
     assert!(commands.len() > 35, "{}", commands.len());
-    for command in commands {
+    let (with_scene, alone): (Vec<&str>, Vec<&str>) =
+        commands.into_iter().partition(|command| command.contains("docs/exercises/"));
+    for command in with_scene {
         run_command(&sandbox, command, &[]);
     }
+    // In a folder without files.
+    let empty = Sandbox::new("formulas_alone");
+    for command in alone {
+        run_command(&empty, command, &[]);
+    }
+    // Those that need a scene are named at the top, and those without a command, too.
+    let ids = |has: &dyn Fn(&str) -> bool| -> Vec<&str> {
+        let entries = page.split("\n**").skip(1).filter(|entry| has(entry));
+        entries.filter_map(|entry| entry.split(',').next()).collect()
+    };
+    let in_scenes = ids(&|entry| entry.contains("docs/exercises/"));
+    assert_eq!(in_scenes, ["CL-2", "CL-3", "IN-2", "RA-1", "RA-2", "UN-2", "HL-1"]);
+    assert_eq!(ids(&|entry| !entry.contains("\nCommand: `")), ["CL-4", "RA-3"]);
     let names = sandbox.run(&["reference", "formulas"]).stdout;
     let headings = page.lines().filter_map(|line| line.strip_prefix("**")?.split("** [").next());
     assert!(names.lines().eq(headings), "{names}");
     for (id, parts) in [
         ("PE-1", ["n + f − f n/z", "Fundamentals of Computer Graphics", "--planes 1,2"]),
-        ("ob-1", ["x' = x + z L1 cos φ", "Lecture slides", "cabinet.ron"]),
+        ("ob-1", ["x' = x + z L1 cos φ", "Lecture slides", "--oblique 1/2,45"]),
         ("D3D-1", ["−FN/(F−N)", "Common knowledge", "--conventions direct3d"]),
     ] {
         let run = sandbox.run(&["reference", id]);

@@ -209,3 +209,170 @@ fn refused_parameters_are_named() {
     }
     assert_eq!(sandbox.run(&["matrix", "--ortho", "-1,1,-1,1,0,1", "1"]).code, 2);
 }
+
+/// What comes out of `--code` goes in again.
+#[test]
+fn pasted_code_is_read_back() {
+    let sandbox = Sandbox::new("matrix_pasted");
+    for (language, order) in [
+        ("c", "column by column"),
+        ("glsl", "column by column"),
+        ("python", "row by row"),
+        ("rust", "column by column"),
+        ("latex", "row by row"),
+    ] {
+        let code = sandbox.run(&["matrix", "--look-at", "4,3,6,0,0,0", "--code", language]).stdout;
+        let run = sandbox.run(&["matrix", &code]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{language}");
+        assert!(run.stdout.contains("camera transform: eye (4, 3, 6)"), "{}", run.stdout);
+        let header = run.stdout.lines().next().expect("a header");
+        assert!(header.contains(&format!("read {order}")), "{language}: {header}");
+    }
+    let bare = "mat4(1,0,0,0, 0,1,0,0, 0,0,1,0, 2.0f,3.0f,4.0f,1)";
+    let run = sandbox.run(&["matrix", bare]);
+    assert!(run.stdout.contains("It is a translation by (2, 3, 4)."), "{}", run.stdout);
+    assert!(run.stdout.contains("column by column, as mat constructors are"), "{}", run.stdout);
+}
+
+/// Near and far are distances; the textbook's coordinates are refused with the sentence of the help.
+#[test]
+fn signed_planes_are_refused_where_distances_are_due() {
+    let sandbox = Sandbox::new("matrix_signed");
+    let sentence = "the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
+    for flags in [
+        ["--ortho=-2,2,-1,3,-1,-5", "--conventions=chapter"],
+        ["--ortho=-2,2,-1,3,-1,-5", "--conventions=opengl"],
+        ["--ortho=-2,2,-1,3,-1,5", "--conventions=chapter"],
+        ["--frustum=-2,2,-1,3,-1,-5", "--conventions=chapter"],
+        ["--moved-apex=-2,2,-1,3,-1,-5", "--conventions=opengl"],
+        ["--perspective=60,1,-1,-5", "--conventions=opengl"],
+        ["--oblique=1/2,45,-2,2,-1,3,-1,-5", "--conventions=chapter"],
+    ] {
+        let run = sandbox.run(&["matrix", flags[0], flags[1]]);
+        assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{flags:?}");
+        assert!(run.stderr.contains(sentence), "{flags:?}: {}", run.stderr);
+    }
+    let help = sandbox.run(&["matrix", "-h"]).stdout.replace("\n", " ");
+    assert!(help.contains(sentence), "{help}");
+    // glOrtho's box around the eye.
+    assert_eq!(sandbox.run(&["matrix", "--ortho", "-1,1,-1,1,-1,1"]).code, 0);
+}
+
+#[test]
+fn flags_that_change_nothing_are_refused_by_name() {
+    let sandbox = Sandbox::new("matrix_conflicts");
+    for (flags, reason) in [
+        (&["--p", "-1,-3", "--reversed"][..], "--reversed changes nothing of --p"),
+        (&["--translate", "1,2,3", "--onto-plane"], "--onto-plane changes nothing of --translate"),
+        (&["--scale", "1,2,3", "--conventions", "vulkan"], "--conventions changes nothing of"),
+        (&["--oblique", "1,45", "--reversed"], "--reversed changes nothing of --oblique"),
+        (&["--oblique", "1,45,-1,1,-1,1,1,5", "--onto-plane"], "--onto-plane drops z"),
+        (&["--reversed", "1 0 0 0 1 0 0 0 1"], "--reversed is for matrices from parameters"),
+        (&["--conventions", "vulkan", "1 0 0 0 1 0 0 0 1"], "--conventions is for matrices"),
+        (&["--point", "1,2,3", "1 0 0 0 1 0 0 0 1"], "--point needs a 4 × 4 matrix"),
+    ] {
+        let run = sandbox.run(&[&["matrix"], flags].concat());
+        assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{flags:?}");
+        assert!(run.stderr.contains(reason), "{flags:?}: {}", run.stderr);
+    }
+}
+
+/// Exercises 2, 7 and 10: M_vp M_orth P M_cam, as written, the rightmost applied first.
+#[test]
+fn several_builders_are_multiplied_as_written() {
+    let sandbox = Sandbox::new("matrix_product");
+    let chain = "--viewport 4,3 --ortho -2,2,-1,3,1,5 --p -1,-5 --translate 0,0,-1";
+    let flags: Vec<&str> = chain.split(' ').chain(["--conventions", "chapter"]).collect();
+    let run = sandbox.run(&[&["matrix", "--json", "--point", "1,1,-2"], &flags[..]].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let found: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    let factors = found["steps"][1]["items"].as_array().expect("factors");
+    let names: Vec<&str> = factors.iter().filter_map(|item| item["name"].as_str()).collect();
+    let expected = ["--translate 0,0,-1", "--p -1,-5", "--ortho -2,2,-1,3,1,5", "--viewport 4,3"];
+    assert_eq!(names, expected);
+    // (1, 1, −2) moves to (1, 1, −3); P divides x and y by 3 and takes z to −6 + 5/3.
+    let steps = found["steps"].as_array().expect("steps");
+    let image = steps.iter().find(|step| step["id"] == "image").expect("an image");
+    let divided: Vec<f64> = image["items"][2]["value"]
+        .as_array()
+        .expect("x, y, z")
+        .iter()
+        .flat_map(Value::as_f64)
+        .collect();
+    // xs = 2 x/2 + 3/2, ys = 3/2 (y − 1)/2 + 1, z = (2 z + 6)/4
+    let third = 1.0 / 3.0;
+    let expected =
+        [third + 1.5, 0.75 * (third - 1.0) + 1.0, (2.0 * (5.0 * third - 6.0) + 6.0) / 4.0];
+    assert!(divided.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{divided:?}");
+    let subject = found["subject"].as_str().expect("a subject");
+    assert!(subject.contains("--viewport · --ortho · --p · --translate"), "{subject}");
+    let [look_at, look_to] =
+        [["--look-at", "0,1,0,0,0,0,1,1,0"], ["--look-to", "0,1,0,0,-1,0,1,1,0"]]
+            .map(|flags| sandbox.run(&["matrix", "--code", "c", flags[0], flags[1]]).stdout);
+    assert_eq!(look_at, look_to);
+}
+
+#[test]
+fn formulas_are_those_of_the_matrix_that_is_printed() {
+    let sandbox = Sandbox::new("matrix_formulas");
+    for (flags, title) in [
+        ("--viewport 4,3 --conventions chapter", "The matrix (VP-1)"),
+        ("--viewport 4,3 --conventions chapter-y-down", "The matrix (VP-2)"),
+        ("--viewport 4,3 --conventions vulkan", "The matrix (VP-3)"),
+        ("--ortho -1,1,-1,1,1,3 --conventions chapter", "The matrix (OR-1)"),
+        ("--ortho -1,1,-1,1,1,3", "The matrix (GL-3)"),
+        ("--frustum -1,1,-1,1,1,3", "The matrix (GL-1)"),
+        ("--perspective 60,1,1,3", "The matrix (GL-2)"),
+        ("--perspective 60,1,1,inf --conventions webgpu --reversed", "The matrix (IF-3)"),
+        ("--perspective 60,1,1,3 --conventions direct3d", "The matrix (D3D-1)"),
+        ("--frustum -1,1,-1,1,1,3 --conventions chapter", "-M_per: w is the distance ahead"),
+        ("--n-point 0,0.2,0.1", "The matrix (TWO-1)"),
+    ] {
+        let run = sandbox.run(&[&["matrix"], &flags.split(' ').collect::<Vec<_>>()[..]].concat());
+        assert!(run.code == 0 && run.stdout.contains(title), "{flags}: {}", run.stdout);
+    }
+    let header = |flags: &[&str]| sandbox.run(flags).stdout.lines().next().map(str::to_owned);
+    let opengl = header(&["matrix", "--frustum", "-1,1,-1,1,1,3"]).expect("a header");
+    assert!(opengl.ends_with("(conventions: opengl)"), "{opengl}");
+}
+
+/// What is stored by columns is read transposed first; classical projections have their names.
+#[test]
+fn first_readings_are_sensible() {
+    let sandbox = Sandbox::new("matrix_first");
+    for (numbers, verdict) in [
+        ("1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1", "\nTransposed, it is a translation by (3, 4, 5)"),
+        (
+            "0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -1 0 0 -0.2002 0",
+            "\nTransposed, it is a perspective: left -0.1026, right 0.1026, bottom -0.05773, top \
+             0.05773, near 0.1, far 100",
+        ),
+        ("320 0 0 0 0 240 0 0 0 0 1 0 319.5 239.5 0 1", "\nTransposed, it is the viewport"),
+        ("525 0 0 0 525 0 319.5 239.5 1", "\nTransposed, it is camera intrinsics"),
+        (
+            "1 0 .25 0 0 1 .433 0 0 0 0 0 0 0 0 1",
+            "(cabinet) onto the plane z = 0: length 0.5, angle 60°",
+        ),
+        (
+            "1 0 .5 0 0 1 .866 0 0 0 0 0 0 0 0 1",
+            "(cavalier) onto the plane z = 0: length 1, angle 60°",
+        ),
+        (
+            ".866 0 .5 0 .5 1 -.866 0 0 0 0 0 0 0 0 1",
+            "It is a military projection: the plan of x and z turned by 30°",
+        ),
+        (
+            "0.707107 0 -0.707107 0 -0.408248 0.816497 -0.408248 0 0.57735 0.57735 0.57735 \
+             -8.660254037844387 0 0 0 1",
+            "It is a camera transform: eye (5, 5, 5)",
+        ),
+        ("-200 0 199.5 0 0 -150 149.5 0 0 0 -2 -6 0 0 1 0", "and a viewport in one"),
+    ] {
+        let run = sandbox.run(&words(numbers));
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{numbers}");
+        assert!(run.stdout.contains(verdict), "{numbers}: {}", run.stdout);
+    }
+    // No 5.6e-17 in the place of 0.
+    let inverse = sandbox.run(&["matrix", "--rotate", "1,2,3,40", "--translate", "1,1,1"]).stdout;
+    assert!(!inverse.contains("e-1"), "{inverse}");
+}

@@ -86,3 +86,22 @@ fn the_reference_can_be_read_elsewhere() {
         assert_eq!(count(format!("<{tag}>")), count(format!("</{tag}>")), "{tag}");
     }
 }
+
+/// Words of titles and texts, in any case and form.
+#[test]
+fn formulas_are_found_by_their_words() {
+    let sandbox = Sandbox::new("reference_words");
+    for (word, names) in [
+        ("windowing", &["WI-2 and WI-3, windowing", "OR-1, orthographic box"][..]),
+        ("homogenize", &["HO-1, lift and divide"]),
+        ("Basis", &["CA-1, basis from gaze and view-up"]),
+        ("inverse", &["IV-1, inverses in closed form", "CA-2, world to view"]),
+        ("order", &["PE-1, the perspective matrix P"]),
+    ] {
+        let run = sandbox.run(&["reference", word]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{word}");
+        for name in names {
+            assert!(run.stdout.contains(name), "{word}: {}", run.stdout);
+        }
+    }
+}

@@ -153,6 +153,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
         let eyes = [eye_chain(left, args.conventions)?, eye_chain(right, args.conventions)?];
         explanation = explanation.with_stereo_pair(&eyes, args.subject.stereo_point());
     }
+    explanation.subject += &format!(" (conventions: {})", args.conventions.name());
     write_explanation(args, &explanation, |explanation| match args.html {
         true => Ok(explanation.to_html(&chain, Some(&render_page_picture(scene)?))),
         false => Ok(explanation.to_string()),
@@ -280,7 +281,7 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
 
 /// A point of the command line: three coordinates, or four homogeneous ones.
 #[derive(Clone, Copy, Debug)]
-enum SubjectPoint {
+pub(super) enum SubjectPoint {
     /// x, y, z.
     Cartesian([f64; 3]),
     /// x, y, z, w.
@@ -289,7 +290,7 @@ enum SubjectPoint {
 
 impl SubjectPoint {
     /// Four homogeneous coordinates.
-    fn numbers(self) -> [f64; 4] {
+    pub(super) fn numbers(self) -> [f64; 4] {
         match self {
             Self::Cartesian([x, y, z]) => [x, y, z, 1.0],
             Self::Homogeneous(numbers) => numbers,
@@ -322,7 +323,7 @@ fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
 ///
 /// # Errors
 /// If there are more or fewer numbers, one is not finite, or all four are 0.
-fn parse_point(text: &str) -> Result<SubjectPoint, String> {
+pub(super) fn parse_point(text: &str) -> Result<SubjectPoint, String> {
     let numbers = parse_number_list(text)?;
     match numbers[..] {
         [x, y, z] => Ok(SubjectPoint::Cartesian([x, y, z])),

@@ -5,24 +5,33 @@
 //! that makes sense of them. With a flag such as `--perspective` the matrix is built instead.
 
 mod build;
+mod builders;
 mod code;
+mod parse;
 
+use super::explain::{SubjectPoint, parse_point};
 use super::{CliError, print_stdout};
-use build::{BuildArgs, BuildOptions, BuiltMatrix};
+use build::{BuildArgs, BuildOptions, BuiltMatrix, DISTANCES};
 use clap::{Args as _, FromArgMatches as _};
 use code::CodeLanguage;
 use glam::DMat4;
+use homog::HPoint;
+use parse::{GivenMatrix, parse_matrix};
 use pipeline::explain::{
-    ApiConventions, Explanation, ExplanationEntry, Step, explain_matrix, explain_planar_matrix,
+    ApiConventions, BareMap, Explanation, ExplanationEntry, ItemValue, Step, explain_matrix,
+    explain_planar_matrix, without_rounding,
 };
 use std::io::Read as _;
 
 /// Arguments of `alberti matrix`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = format!("In all matrices from parameters but --p, {DISTANCES}."))]
 pub(crate) struct MatrixArgs {
     /// Sixteen or nine numbers, row by row [default: read from the standard input]
     ///
-    /// Brackets and commas between them are ignored; fractions such as 2/3 are numbers.
+    /// Brackets and commas between them are ignored; fractions such as 2/3 are numbers. Source code
+    /// of C, GLSL, Python and Rust is accepted as --code prints it: mat constructors are read
+    /// column by column, other code as its comments say or else row by row.
     #[arg(allow_hyphen_values = true, conflicts_with = "BuildArgs")]
     numbers: Vec<String>,
     /// Read the numbers column by column, as OpenGL, glTF and glam store them
@@ -34,19 +43,27 @@ pub(crate) struct MatrixArgs {
     /// Print the matrix alone, as source code or LaTeX
     #[arg(long, value_name = "LANGUAGE", conflicts_with = "json")]
     code: Option<CodeLanguage>,
-    /// API conventions of the matrix that is built from parameters
+    /// Map a point by the matrix; with W a homogeneous point, or a direction if W is 0
+    #[arg(
+        long,
+        value_name = "X,Y,Z[,W]",
+        value_parser = parse_point,
+        allow_hyphen_values = true,
+        conflicts_with = "code"
+    )]
+    point: Option<SubjectPoint>,
+    /// API conventions of the matrix that is built from parameters [default: opengl]
     #[arg(
         long,
         value_name = "NAME",
-        default_value = "opengl",
         value_parser = super::explain::conventions_parser()
     )]
-    conventions: ApiConventions,
+    conventions: Option<ApiConventions>,
     /// Exchange the depths of near and far (reversed z)
-    #[arg(long, requires = "BuildArgs")]
+    #[arg(long)]
     reversed: bool,
     /// Drop z, as the projections of the textbooks do: --oblique, --axonometric, --n-point
-    #[arg(long, requires = "BuildArgs")]
+    #[arg(long)]
     onto_plane: bool,
     #[command(flatten)]
     build: BuildArgs,
@@ -83,7 +100,7 @@ fn flags_after_numbers(words: &[String]) -> Option<MatrixArgs> {
 
 fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
     let options = BuildOptions {
-        conventions: args.conventions,
+        given_conventions: args.conventions,
         reversed: args.reversed,
         onto_plane: args.onto_plane,
     };
@@ -92,26 +109,47 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
         if let Some(language) = args.code {
             return print_stdout(language.format_matrix(rows_of(built.matrix)).as_bytes());
         }
-        return print_explanation(&explain_built(&built), args.json);
+        let found = explain_built(&built);
+        return print_explanation(map_point(found, rows_of(built.matrix), args)?, args.json);
     }
+    options.check_unused()?;
     let text = if args.numbers.is_empty() { read_stdin()? } else { args.numbers.join(" ") };
-    let given = parse_matrix(&text, args.column_major).map_err(CliError::Usage)?;
-    let (code, found) = match given {
+    let parsed = parse_matrix(&text, args.column_major).map_err(CliError::Usage)?;
+    let (code, found) = match parsed.matrix {
         GivenMatrix::Space(rows) => {
-            (args.code.map(|language| language.format_matrix(rows)), explain_matrix(rows))
+            let found = explain_matrix(rows).map_err(CliError::Usage)?;
+            (args.code.map(|language| language.format_matrix(rows)), map_point(found, rows, args)?)
+        }
+        GivenMatrix::Plane(_) if args.point.is_some() => {
+            let message = "--point needs a 4 × 4 matrix, or one from parameters";
+            return Err(CliError::Usage(message.to_owned()));
         }
         GivenMatrix::Plane(rows) => {
-            (args.code.map(|language| language.format_matrix(rows)), explain_planar_matrix(rows))
+            let found = explain_planar_matrix(rows).map_err(CliError::Usage)?;
+            (args.code.map(|language| language.format_matrix(rows)), found)
         }
     };
-    let found = found.map_err(CliError::Usage)?;
-    match code {
-        Some(code) => print_stdout(code.as_bytes()),
-        None => print_explanation(&found, args.json),
+    if let Some(code) = code {
+        return print_stdout(code.as_bytes());
     }
+    let order = parsed.order.map_or(String::new(), |order| format!(", read {order}"));
+    print_explanation(Explanation { subject: found.subject.clone() + &order, ..found }, args.json)
 }
 
-fn print_explanation(found: &Explanation, json: bool) -> Result<(), CliError> {
+/// The explanation with the image of `--point`.
+fn map_point(
+    found: Explanation,
+    rows: [[f64; 4]; 4],
+    args: &MatrixArgs,
+) -> Result<Explanation, CliError> {
+    let Some(point) = args.point else { return Ok(found) };
+    let mapped = BareMap::from_rows(rows).explain_points(&[HPoint::from(point.numbers())]);
+    let mapped = mapped.map_err(CliError::Usage)?;
+    let steps = found.steps.into_iter().chain(mapped.steps.into_iter().skip(1)).collect();
+    Ok(Explanation { steps, verdict: format!("{} {}", found.verdict, mapped.verdict), ..found })
+}
+
+fn print_explanation(found: Explanation, json: bool) -> Result<(), CliError> {
     let text = if json { format!("{:#}\n", found.to_json()) } else { found.to_string() };
     print_stdout(text.as_bytes())
 }
@@ -122,41 +160,41 @@ fn rows_of(matrix: DMat4) -> [[f64; 4]; 4] {
 
 /// The matrix, its factors in the order a point passes them, and its inverse.
 fn explain_built(built: &BuiltMatrix) -> Explanation {
-    let entry = |id: &str, name: &str, matrix: DMat4| ExplanationEntry {
+    let entry = |id: &str, name: &str, value: ItemValue| ExplanationEntry {
         id: id.to_owned(),
         name: name.to_owned(),
-        value: rows_of(matrix).into(),
+        value,
     };
-    let step = |id, title: &str, items: Vec<ExplanationEntry>| Step {
+    let matrix = |id: &str, name: &str, matrix: DMat4| entry(id, name, rows_of(matrix).into());
+    let step = |id, title: &str, formula, items: Vec<ExplanationEntry>| Step {
         id,
         title: title.to_owned(),
-        formula: None,
+        formula,
         items,
     };
-    let whole = step("matrix", "The matrix", vec![entry("matrix", "matrix", built.matrix)]);
-    let mut steps = vec![Step { formula: Some(built.formula), ..whole }];
-    if !built.factors.is_empty() {
-        let numbered = (1..).zip(&built.factors);
-        let items =
-            numbered.map(|(at, (name, factor))| entry(&format!("factor_{at}"), name, *factor));
+    let mut whole = vec![matrix("matrix", "matrix", built.matrix)];
+    whole.extend(built.note.map(|note| entry("note", "it is", note.into())));
+    let mut steps = vec![step("matrix", "The matrix", built.formula, whole)];
+    let factors = built.factors.iter().map(|(name, factor)| (*name, *factor));
+    let multiplied = built.product_of.iter().map(|(name, factor)| (name.as_str(), *factor));
+    let items: Vec<_> = (1..)
+        .zip(factors.chain(multiplied))
+        .map(|(at, (name, factor))| matrix(&format!("factor_{at}"), name, factor))
+        .collect();
+    if !items.is_empty() {
         let title = "Its factors, the one that is applied first at the top";
-        steps.push(step("factors", title, items.collect()));
+        steps.push(step("factors", title, built.factor_formula, items));
     }
     let inverse = built.matrix.inverse();
     let verdict = if inverse.is_finite() && built.matrix.determinant() != 0.0 {
-        steps.push(step("inverse", "Its inverse", vec![entry("inverse", "inverse", inverse)]));
+        let rows = without_rounding(built.matrix, inverse);
+        let inverse = vec![entry("inverse", "inverse", rows.into())];
+        steps.push(step("inverse", "Its inverse", None, inverse));
         "For column vectors, row by row."
     } else {
         "For column vectors, row by row. A dimension is lost: there is no inverse."
     };
     Explanation { subject: built.subject.clone(), steps, verdict: verdict.to_owned() }
-}
-
-/// A matrix of space or of the plane, by rows.
-#[derive(PartialEq, Debug)]
-enum GivenMatrix {
-    Space([[f64; 4]; 4]),
-    Plane([[f64; 3]; 3]),
 }
 
 /// Reads the standard input as text, up to a limit that sixteen numbers cannot reach.
@@ -170,67 +208,4 @@ fn read_stdin() -> Result<String, CliError> {
         |problem: String| CliError::Usage(format!("cannot read the standard input: {problem}"));
     read.map_err(|error| fault(error.to_string()))?;
     String::from_utf8(bytes).map_err(|_| fault("it is not UTF-8 text".to_owned()))
-}
-
-/// Parses the rows of a matrix from sixteen or nine numbers between any brackets, commas and
-/// spaces.
-///
-/// ```text
-/// 1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1
-/// [[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]
-/// ```
-/// Rows are for column vectors: translation is in the last column. Numbers stored column by
-/// column, as in OpenGL, are transposed here.
-fn parse_matrix(text: &str, columns: bool) -> Result<GivenMatrix, String> {
-    let between = |c: char| c.is_whitespace() || "[](){},;|".contains(c);
-    let words = text.split(between).filter(|word| !word.is_empty());
-    let numbers: Vec<f64> = words.map(parse_number).collect::<Result<_, _>>()?;
-    match numbers.len() {
-        16 => Ok(GivenMatrix::Space(arrange(&numbers, columns))),
-        9 => Ok(GivenMatrix::Plane(arrange(&numbers, columns))),
-        found => Err(format!("expected 16 numbers, or 9 of a 3 × 3 matrix, found {found}")),
-    }
-}
-
-/// The rows of N × N numbers listed by rows, or by columns.
-fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
-    let at = |row: usize, column: usize| if columns { N * column + row } else { N * row + column };
-    std::array::from_fn(|row| std::array::from_fn(|column| listed[at(row, column)]))
-}
-
-/// Parses a number or a fraction such as `2/3`, also with the minus sign of printed text.
-///
-/// A division by zero gives an infinite number, which is rejected later with all others that are
-/// not finite.
-fn parse_number(word: &str) -> Result<f64, String> {
-    let fault = || format!("`{word}` is not a number");
-    let parse = |digits: &str| digits.replace('−', "-").parse::<f64>().map_err(|_| fault());
-    match word.split_once('/') {
-        Some((above, below)) => Ok(parse(above)? / parse(below)?),
-        None => parse(word),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn brackets_commas_and_fractions_are_accepted() {
-        let rows = [
-            [1.0, 0.0, 0.0, 2.0],
-            [0.0, 1.0, 0.0, 0.5],
-            [0.0, 0.0, 1.0, -1e3],
-            [0.0, 0.0, 0.0, 1.0],
-        ];
-        let space = Ok(GivenMatrix::Space(rows));
-        assert_eq!(parse_matrix("1 0 0 2 0 1 0 1/2 0 0 1 −1e3 0 0 0 1", false), space);
-        assert_eq!(parse_matrix("[[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]", false), space);
-        assert_eq!(parse_matrix("(1 0 0 0) (0 1 0 0) (0 0 1 0) (2 0.5 -1000 1)", true), space);
-        let plane = GivenMatrix::Plane([[1.0, 0.0, -0.5], [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]]);
-        assert_eq!(parse_matrix("1 0 -.5 0 1 2 0 0 1", false), Ok(plane));
-        let message = "expected 16 numbers, or 9 of a 3 × 3 matrix, found 3";
-        assert_eq!(parse_matrix("1 2 3", false), Err(message.to_owned()));
-        assert_eq!(parse_matrix("1 x", false), Err("`x` is not a number".to_owned()));
-    }
 }

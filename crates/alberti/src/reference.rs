@@ -19,15 +19,15 @@ mod text;
 
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
-use pipeline::formulas::{entries, find_formula};
+use pipeline::formulas::{entries, find_formula, find_formulas};
 
 /// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReferenceArgs {
     /// Flag, command, type, field, path of fields or formula [default: all flags and fields]
     ///
-    /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula.
-    /// `formulas` lists all of these.
+    /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula; a word of
+    /// a formula's name or text, such as inverse, lists the ids. `formulas` lists all of these.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
     /// Output format
@@ -86,36 +86,45 @@ pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), CliError
         return print_stdout(names.collect::<String>().as_bytes());
     }
     let flags = flags::command_sections(program);
-    print_reference(
-        args,
-        "Reference of Alberti",
-        flags.into_iter().chain(fields::type_sections()).collect(),
-    )
+    let sections: Vec<ReferenceSection> =
+        flags.into_iter().chain(fields::type_sections()).collect();
+    let found = match &args.word {
+        Some(word) => match (search::find_sections(&sections, word), find_formulas(word)) {
+            (Ok(found), formulas) => {
+                let titled = formulas.into_iter().filter(|(_, in_name)| *in_name);
+                found.into_iter().chain(formula::list_section(titled)).collect()
+            }
+            (Err(_), formulas) if !formulas.is_empty() => {
+                formula::list_section(formulas.into_iter()).into_iter().collect()
+            }
+            (Err(message), _) => return Err(CliError::Usage(message)),
+        },
+        None => sections,
+    };
+    print_sections(args, "Reference of Alberti", &found)
 }
 
 /// Prints the reference of scene files.
 pub(crate) fn run_fields(args: &ReferenceArgs) -> Result<(), CliError> {
-    print_reference(args, "Reference of scene files", fields::type_sections())
-}
-
-/// Prints some sections, or what a search finds in them.
-///
-/// # Errors
-/// If nothing has the name that is looked up.
-fn print_reference(
-    args: &ReferenceArgs,
-    title: &str,
-    sections: Vec<ReferenceSection>,
-) -> Result<(), CliError> {
+    let sections = fields::type_sections();
     let sections = match &args.word {
         Some(word) => search::find_sections(&sections, word).map_err(CliError::Usage)?,
         None => sections,
     };
+    print_sections(args, "Reference of scene files", &sections)
+}
+
+/// Prints sections in the format of the flags.
+fn print_sections(
+    args: &ReferenceArgs,
+    title: &str,
+    sections: &[ReferenceSection],
+) -> Result<(), CliError> {
     print_stdout(
         match args.format {
-            ReferenceFormat::Text => text::format_text(&sections),
-            ReferenceFormat::Markdown => markdown::format_markdown(title, &sections),
-            ReferenceFormat::Html => html::format_html(title, &sections),
+            ReferenceFormat::Text => text::format_text(sections),
+            ReferenceFormat::Markdown => markdown::format_markdown(title, sections),
+            ReferenceFormat::Html => html::format_html(title, sections),
         }
         .as_bytes(),
     )

@@ -43,6 +43,47 @@ pub fn entries() -> impl Iterator<Item = Formula> {
     })
 }
 
+/// The formulas with these words in their names, and then those with them in their texts; true for
+/// a name.
+///
+/// Words are compared by their stems, in any case: `homogenize` finds `homogeneous`.
+#[must_use]
+pub fn find_formulas(words: &str) -> Vec<(Formula, bool)> {
+    let wanted: Vec<String> = stems(words).collect();
+    let has = |text: &str| {
+        let found: Vec<String> = stems(text).collect();
+        !wanted.is_empty() && wanted.iter().all(|stem| found.contains(stem))
+    };
+    let (named, others): (Vec<Formula>, Vec<Formula>) =
+        entries().partition(|entry| has(entry.name));
+    let told = others.into_iter().filter(|entry| has(entry.text)).map(|entry| (entry, false));
+    named.into_iter().map(|entry| (entry, true)).chain(told).collect()
+}
+
+/// The stems of the words of a text, of three letters or more.
+fn stems(text: &str) -> impl Iterator<Item = String> {
+    let words = text.split(|c: char| !c.is_alphabetic()).filter(|word| word.len() >= 3);
+    words.map(|word| stem(&word.to_lowercase()))
+}
+
+/// A word in lower case without its ending, so that forms of one word are equal.
+fn stem(word: &str) -> String {
+    const ENDINGS: [&str; 28] = [
+        "izations", "ization", "ations", "eously", "ation", "ating", "izing", "eous", "ates",
+        "ated", "ized", "izes", "ings", "ions", "ible", "ing", "ion", "ize", "ate", "ive", "ed",
+        "es", "is", "ly", "al", "s", "e", "y",
+    ];
+    let cut = ENDINGS.iter().filter_map(|ending| word.strip_suffix(ending));
+    let stem = cut.filter(|stem| stem.len() >= 3).next().unwrap_or(word);
+    // clipping is of clip
+    let doubled = stem.len() > 3
+        && stem != word
+        && stem.is_ascii()
+        && stem.as_bytes()[stem.len() - 1] == stem.as_bytes()[stem.len() - 2]
+        && !stem.ends_with(['l', 's']);
+    stem[..stem.len() - usize::from(doubled)].to_owned()
+}
+
 impl Formula {
     /// Whether the entry has an id, in any case.
     fn has_id(&self, id: &str) -> bool {
@@ -132,6 +173,26 @@ mod tests {
         assert!(row.text.contains("0 0 A B") && row.command.is_some());
         assert_eq!(find_formula("UNKNOWN-1"), None);
         assert_eq!(find_formula("and"), None);
+    }
+
+    #[test]
+    fn words_are_found_by_their_stems() {
+        for (word, id, in_name) in [
+            ("windowing", "WI-2", true),
+            ("Windows", "OR-1", false),
+            ("homogenize", "HO-1", false),
+            ("basis", "CA-1", true),
+            ("INVERSE", "IV-1", true),
+            ("inverses", "CA-2", false),
+            ("order", "PE-1", false),
+            ("clip", "CL-1", false),
+            ("vanishing points", "VN-1", true),
+        ] {
+            let formula = find_formula(id).expect("an entry");
+            let found = find_formulas(word);
+            assert!(found.contains(&(formula, in_name)), "{word}: {found:?}");
+        }
+        assert!(find_formulas("zebra").is_empty() && find_formulas("PE-1").is_empty());
     }
 
     #[test]

@@ -3,8 +3,8 @@
 //! The words are those of `docs/formulas.md`, which the program contains; paragraphs are wrapped,
 //! matrices and tables stay as they are.
 
-use super::ReferenceFormat;
 use super::text::wrap_paragraphs;
+use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
 use drawing::escape_markup;
 use pipeline::formulas::Formula;
 
@@ -55,4 +55,22 @@ fn push_paragraph(page: &mut String, paragraph: &mut String) {
         page.push('\n');
         paragraph.clear();
     }
+}
+
+/// The section that lists formulas; `None` without any.
+pub(super) fn list_section(
+    formulas: impl Iterator<Item = (Formula, bool)>,
+) -> Option<ReferenceSection> {
+    let entry = |(formula, _): (Formula, bool)| ReferenceEntry {
+        term: formula.name.to_owned(),
+        about: formula.equations().next().unwrap_or_default().to_owned(),
+        ..ReferenceEntry::default()
+    };
+    let entries: Vec<ReferenceEntry> = formulas.map(entry).collect();
+    let section = ReferenceSection {
+        title: "Formulas".to_owned(),
+        about: "alberti reference ID, such as PE-1, prints one.".to_owned(),
+        entries,
+    };
+    (!section.entries.is_empty()).then_some(section)
 }

@@ -143,6 +143,17 @@ impl ApiConventions {
         }
     }
 
+    /// The ids of the formulas of the viewport and its depth.
+    #[must_use]
+    pub const fn viewport_formulas(self) -> &'static str {
+        match self {
+            Self::Chapter => "VP-1",
+            Self::ChapterYDown => "VP-2",
+            Self::Alberti | Self::OpenGl => "VP-3, DP-1",
+            Self::Vulkan | Self::Direct3d | Self::WebGpu => "VP-3",
+        }
+    }
+
     /// The viewport that covers an image.
     ///
     /// # Errors

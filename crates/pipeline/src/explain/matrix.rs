@@ -241,7 +241,9 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
     if let Some(reading) = transposed_reading(found) {
         let turned = describe_meaning(&reading);
         let stands = what.replacen("It is", "As it stands, for column vectors, it is", 1);
-        return format!("Transposed, it is {turned}: row vectors, or stored by columns. {stands}");
+        return format!(
+            "Transposed, it is {turned}: it is for row vectors, or stored by columns. {stands}"
+        );
     }
     if let Some(slip) = found.misprint() {
         return format!("{what} But it looks like a misprint: {}.", slip.misprint.description());

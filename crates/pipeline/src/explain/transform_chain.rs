@@ -286,7 +286,7 @@ impl TransformChain {
         let mut screen = Step::new(
             "viewport",
             "Viewport: to pixels",
-            Some("VP-1, VP-2, VP-3, DP-1"),
+            Some(self.conventions.viewport_formulas()),
         )
         .with_item("ndc_to_screen", "M_vp", self.ndc_to_screen().rows());
         let page = self.chapter_matrices();

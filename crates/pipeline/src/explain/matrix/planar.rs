@@ -38,8 +38,8 @@ pub fn explain_planar_matrix(rows: [[f64; 3]; 3]) -> Result<Explanation, String>
         let turned = [0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[j][i]));
         let meant = first(&recognize_planar(turned).0, &turned);
         verdict = format!(
-            "Transposed, it is {meant}: row vectors, or stored by columns. As it stands, for \
-             column vectors, it is {stands}."
+            "Transposed, it is {meant}: it is for row vectors, or stored by columns. As it stands, \
+             for column vectors, it is {stands}."
         );
         let step = Step::new("misprint", "It looks like a matrix for row vectors", None).with_item(
             "remedied",

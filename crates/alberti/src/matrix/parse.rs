@@ -1,0 +1,178 @@
+//! Sixteen or nine numbers as people and programs write them, source code included.
+//!
+//! ```text
+//!  1 0 0 2  0 1 0 1/2  0 0 1 -1e3  0 0 0 1              row by row
+//!  [[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]       row by row
+//!  mat4(1.0, 0.0, …)   DMat4::from_cols_array(&[…])      column by column
+//!  const double m[16] = { /* column by column */ … };    as the comment says
+//! ```
+
+/// A matrix of space or of the plane, by rows.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum GivenMatrix {
+    Space([[f64; 4]; 4]),
+    Plane([[f64; 3]; 3]),
+}
+
+/// A matrix, and for source code the order in which it was read.
+#[derive(PartialEq, Debug)]
+pub(super) struct ParsedMatrix {
+    pub(super) matrix: GivenMatrix,
+    /// Such as `column by column, as mat constructors are`; `None` for plain numbers.
+    pub(super) order: Option<&'static str>,
+}
+
+/// What tells the order of numbers in source code, in lower case; the first that is found counts.
+const ORDERS: [(&str, bool, &str); 13] = [
+    ("column by column", true, "column by column, as its comment says"),
+    ("row by row", false, "row by row, as its comment says"),
+    ("column-major", true, "column by column, as its comment says"),
+    ("row-major", false, "row by row, as its comment says"),
+    ("from_cols", true, "column by column, as from_cols is"),
+    ("fromarray", true, "column by column, as fromArray is"),
+    ("bmatrix", false, "row by row, as LaTeX is"),
+    ("mat4x4", true, "column by column, as mat constructors are"),
+    ("mat3x3", true, "column by column, as mat constructors are"),
+    ("mat4(", true, "column by column, as mat constructors are"),
+    ("mat3(", true, "column by column, as mat constructors are"),
+    ("=", false, "row by row, which is assumed of source code; --column-major reads columns"),
+    ("(", false, "row by row, which is assumed of source code; --column-major reads columns"),
+];
+
+/// Parses the rows of a matrix from sixteen or nine numbers between any brackets, commas and
+/// spaces, or from source code.
+///
+/// Rows are for column vectors: translation is in the last column. Numbers stored column by
+/// column, as in OpenGL, are transposed here.
+///
+/// # Errors
+/// If there are not sixteen or nine numbers.
+pub(super) fn parse_matrix(text: &str, column_major: bool) -> Result<ParsedMatrix, String> {
+    if !is_code(text) {
+        let matrix = matrix_of(&split_words(text), column_major)?;
+        return Ok(ParsedMatrix { matrix, order: None });
+    }
+    let lower = text.to_lowercase();
+    let known = ORDERS.iter().find(|(sign, ..)| lower.contains(sign));
+    let (columns, order) = match known {
+        _ if column_major => (true, "column by column, as --column-major says"),
+        Some((_, columns, order)) => (*columns, *order),
+        None => (false, "row by row"),
+    };
+    let body = without_comments(text).replace(" \\cdot 10^{", "e");
+    let body = body.split_once('=').map_or(body.as_str(), |(_, value)| value);
+    let is_name = |word: &&str| word.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let words = split_words(body).into_iter().filter(|word| !is_name(word)).map(without_suffix);
+    let matrix = matrix_of(&words.collect::<Vec<_>>(), columns)?;
+    Ok(ParsedMatrix { matrix, order: Some(order) })
+}
+
+/// Whether a text has names or comments beside its numbers.
+fn is_code(text: &str) -> bool {
+    let signs = ["=", "mat", "Mat", "vec", "array", "Array", "//", "/*", "#", "\\begin", "set("];
+    signs.iter().any(|sign| text.contains(sign))
+}
+
+/// The text without comments of C, Rust and Python.
+fn without_comments(text: &str) -> String {
+    let mut kept = String::new();
+    let mut rest = text;
+    while let Some((before, comment)) = rest.split_once("/*") {
+        kept += before;
+        rest = comment.split_once("*/").map_or("", |(_, after)| after);
+    }
+    kept += rest;
+    let line = |line: &str| {
+        let end = [line.find("//"), line.find('#')].into_iter().flatten().min();
+        line[..end.unwrap_or(line.len())].to_owned()
+    };
+    kept.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn split_words(text: &str) -> Vec<&str> {
+    let between = |c: char| c.is_whitespace() || "[](){}<>,;|&\\:!".contains(c);
+    text.split(between).filter(|word| !word.is_empty()).collect()
+}
+
+/// A number of source code without its type: `1.0f`, `1_f64`.
+fn without_suffix(word: &str) -> &str {
+    let suffixes = ["_f32", "_f64", "f32", "f64", "lf", "LF", "f", "F"];
+    suffixes.iter().find_map(|suffix| word.strip_suffix(suffix)).unwrap_or(word)
+}
+
+fn matrix_of(words: &[&str], columns: bool) -> Result<GivenMatrix, String> {
+    let numbers: Vec<f64> =
+        words.iter().map(|word| parse_number(word)).collect::<Result<_, _>>()?;
+    match numbers.len() {
+        16 => Ok(GivenMatrix::Space(arrange(&numbers, columns))),
+        9 => Ok(GivenMatrix::Plane(arrange(&numbers, columns))),
+        found => Err(format!("expected 16 numbers, or 9 of a 3 × 3 matrix, found {found}")),
+    }
+}
+
+/// The rows of N × N numbers listed by rows, or by columns.
+fn arrange<const N: usize>(listed: &[f64], columns: bool) -> [[f64; N]; N] {
+    let at = |row: usize, column: usize| if columns { N * column + row } else { N * row + column };
+    std::array::from_fn(|row| std::array::from_fn(|column| listed[at(row, column)]))
+}
+
+/// Parses a number or a fraction such as `2/3`, also with the minus sign of printed text.
+///
+/// A division by zero gives an infinite number, which is rejected later with all others that are
+/// not finite.
+pub(super) fn parse_number(word: &str) -> Result<f64, String> {
+    let fault = || format!("`{word}` is not a number");
+    let parse = |digits: &str| digits.replace('−', "-").parse::<f64>().map_err(|_| fault());
+    match word.split_once('/') {
+        Some((above, below)) => Ok(parse(above)? / parse(below)?),
+        None => parse(word),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: [[f64; 4]; 4] =
+        [[1.0, 0.0, 0.0, 2.0], [0.0, 1.0, 0.0, 0.5], [0.0, 0.0, 1.0, -1e3], [0.0, 0.0, 0.0, 1.0]];
+
+    fn parse(text: &str, columns: bool) -> Result<GivenMatrix, String> {
+        parse_matrix(text, columns).map(|parsed| parsed.matrix)
+    }
+
+    #[test]
+    fn brackets_commas_and_fractions_are_accepted() {
+        let space = Ok(GivenMatrix::Space(ROWS));
+        assert_eq!(parse("1 0 0 2 0 1 0 1/2 0 0 1 −1e3 0 0 0 1", false), space);
+        assert_eq!(parse("[[1,0,0,2],[0,1,0,.5],[0,0,1,-1000],[0,0,0,1]]", false), space);
+        assert_eq!(parse("(1 0 0 0) (0 1 0 0) (0 0 1 0) (2 0.5 -1000 1)", true), space);
+        let plane = GivenMatrix::Plane([[1.0, 0.0, -0.5], [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(parse("1 0 -.5 0 1 2 0 0 1", false), Ok(plane));
+        let message = "expected 16 numbers, or 9 of a 3 × 3 matrix, found 3";
+        assert_eq!(parse("1 2 3", false), Err(message.to_owned()));
+        assert_eq!(parse("1 x", false), Err("`x` is not a number".to_owned()));
+    }
+
+    #[test]
+    fn code_is_read_in_the_order_of_its_language() {
+        let space = GivenMatrix::Space(ROWS);
+        for (code, order) in [
+            ("mat4(1.0, 0., 0, 0, 0,1,0,0, 0,0,1,0, 2.0, .5, -1e3, 1)", "mat constructors"),
+            (
+                "glm::mat4 m = mat4(vec4(1,0,0,0), vec4(0,1,0,0), vec4(0,0,1,0), vec4(2,.5f,-1e3f,1));",
+                "mat",
+            ),
+            ("mat4x4<f32>(1,0,0,0, 0,1,0,0, 0,0,1,0, 2,0.5,-1000,1)", "column by column"),
+            (
+                "DMat4::from_cols_array(&[1.,0.,0.,0.,0.,1.,0.,0.,0.,0.,1.,0.,2.,0.5_f64,-1e3,1.])",
+                "from_cols",
+            ),
+            ("float m[4][4] = {{1,0,0,2},{0,1,0,.5f},{0,0,1,-1e3f},{0,0,0,1}}; // m", "row by row"),
+            ("m = np.array([[1,0,0,2],[0,1,0,.5],[0,0,1,-1e3],[0,0,0,1]], dtype=float)", "assumed"),
+        ] {
+            let parsed = parse_matrix(code, false).expect(code);
+            assert_eq!(parsed.matrix, space, "{code}");
+            assert!(parsed.order.is_some_and(|words| words.contains(order)), "{code}: {parsed:?}");
+        }
+    }
+}
