@@ -297,7 +297,7 @@ fn several_builders_are_multiplied_as_written() {
         .as_array()
         .expect("x, y, z")
         .iter()
-        .flat_map(Value::as_f64)
+        .filter_map(Value::as_f64)
         .collect();
     // xs = 2 x/2 + 3/2, ys = 3/2 (y − 1)/2 + 1, z = (2 z + 6)/4
     let third = 1.0 / 3.0;

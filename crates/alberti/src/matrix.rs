@@ -110,7 +110,7 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
             return print_stdout(language.format_matrix(rows_of(built.matrix)).as_bytes());
         }
         let found = explain_built(&built);
-        return print_explanation(map_point(found, rows_of(built.matrix), args)?, args.json);
+        return print_explanation(&map_point(found, rows_of(built.matrix), args)?, args.json);
     }
     options.check_unused()?;
     let text = if args.numbers.is_empty() { read_stdin()? } else { args.numbers.join(" ") };
@@ -133,7 +133,8 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
         return print_stdout(code.as_bytes());
     }
     let order = parsed.order.map_or(String::new(), |order| format!(", read {order}"));
-    print_explanation(Explanation { subject: found.subject.clone() + &order, ..found }, args.json)
+    let subject = found.subject.clone() + &order;
+    print_explanation(&Explanation { subject, ..found }, args.json)
 }
 
 /// The explanation with the image of `--point`.
@@ -149,7 +150,7 @@ fn map_point(
     Ok(Explanation { steps, verdict: format!("{} {}", found.verdict, mapped.verdict), ..found })
 }
 
-fn print_explanation(found: Explanation, json: bool) -> Result<(), CliError> {
+fn print_explanation(found: &Explanation, json: bool) -> Result<(), CliError> {
     let text = if json { format!("{:#}\n", found.to_json()) } else { found.to_string() };
     print_stdout(text.as_bytes())
 }

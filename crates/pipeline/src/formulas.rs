@@ -73,8 +73,8 @@ fn stem(word: &str) -> String {
         "ated", "ized", "izes", "ings", "ions", "ible", "ing", "ion", "ize", "ate", "ive", "ed",
         "es", "is", "ly", "al", "s", "e", "y",
     ];
-    let cut = ENDINGS.iter().filter_map(|ending| word.strip_suffix(ending));
-    let stem = cut.filter(|stem| stem.len() >= 3).next().unwrap_or(word);
+    let mut cut = ENDINGS.iter().filter_map(|ending| word.strip_suffix(ending));
+    let stem = cut.find(|stem| stem.len() >= 3).unwrap_or(word);
     // clipping is of clip
     let doubled = stem.len() > 3
         && stem != word

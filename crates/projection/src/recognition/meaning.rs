@@ -206,8 +206,12 @@ pub enum MatrixMeaning {
     /// A perspective and a viewport in one, of a window around the line of sight: view or world
     /// space to pixels (PL-1).
     PerspectiveToPixels {
-        /// The pixels; depth is left as it is.
-        viewport: ViewportReading,
+        /// Width and height in pixels; depth is left as it is.
+        size: [f64; 2],
+        /// True if rows count from the top.
+        y_down: bool,
+        /// True if pixel centers have integer coordinates.
+        integer_centers: bool,
         /// Where the camera is, unless the map begins in view space.
         camera: Option<CameraReading>,
         /// Window on the near plane, near and far as distances.

@@ -6,11 +6,19 @@
 use super::perspective::read_frusta;
 use super::placed::read_placed_perspective;
 use super::rounded::{Entries, Rounded};
-use super::{MatrixMeaning, MatrixReading, ViewportReading};
+use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 
 /// The smallest image that is told apart from a window beside the line of sight, in pixels.
 const LEAST_SIZE: f64 = 16.0;
+
+/// An image and its pixel convention.
+#[derive(Clone, Copy)]
+struct Pixels {
+    size: [f64; 2],
+    y_down: bool,
+    integer_centers: bool,
+}
 
 /// Adds the readings as a perspective to pixels, with integer centers or half-integer ones.
 pub(super) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
@@ -27,27 +35,18 @@ pub(super) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixR
         if size.iter().any(|&side| side.value < LEAST_SIZE || !whole(side)) {
             continue;
         }
-        let [width, height] = size.map(|side| libm::round(side.value));
+        let size = size.map(|side| libm::round(side.value));
+        let digits: u32 = size.map(|side| Rounded::exact(side).digits()).iter().sum();
         for y_down in [false, true] {
-            let pixels = ViewportReading {
-                x: 0.0,
-                y: 0.0,
-                width,
-                height,
-                y_down,
-                integer_centers,
-                depth: [-1.0, 1.0],
-            };
-            let digits: u32 =
-                [width, height].map(|side| Rounded::exact(side).digits()).iter().sum();
-            let cost = 8 + 2 * digits + if y_down { 1 } else { 0 };
+            let pixels = Pixels { size, y_down, integer_centers };
+            let cost = 8 + 2 * digits + u32::from(y_down);
             found.extend(best_reading(&without_viewport(m, &pixels), pixels, cost));
         }
     }
 }
 
 /// M_vp⁻¹ M, the depth row as it is. The offsets of what lies on the line of sight are exactly 0.
-fn without_viewport(m: &Entries<4>, pixels: &ViewportReading) -> Entries<4> {
+fn without_viewport(m: &Entries<4>, pixels: &Pixels) -> Entries<4> {
     let shift = if pixels.integer_centers { 0.5 } else { 0.0 };
     let sign = if pixels.y_down { -1.0 } else { 1.0 };
     let row = |at: usize, size: f64, sign: f64| {
@@ -60,11 +59,11 @@ fn without_viewport(m: &Entries<4>, pixels: &ViewportReading) -> Entries<4> {
             Rounded { error: entry.error + noise, ..entry } * scale
         })
     };
-    [row(0, pixels.width, 1.0), row(1, pixels.height, sign), m[2], m[3]]
+    [row(0, pixels.size[0], 1.0), row(1, pixels.size[1], sign), m[2], m[3]]
 }
 
 /// The most sensible perspective that is left, of a window around the line of sight.
-fn best_reading(clip: &Entries<4>, viewport: ViewportReading, cost: u32) -> Option<MatrixReading> {
+fn best_reading(clip: &Entries<4>, pixels: Pixels, cost: u32) -> Option<MatrixReading> {
     let mut left = Vec::new();
     read_frusta(clip, &mut left);
     read_placed_perspective(clip, &mut left);
@@ -79,8 +78,16 @@ fn best_reading(clip: &Entries<4>, viewport: ViewportReading, cost: u32) -> Opti
             }
             _ => return None,
         };
-        let meaning =
-            MatrixMeaning::PerspectiveToPixels { viewport, camera, frustum, lens, convention };
+        let Pixels { size, y_down, integer_centers } = pixels;
+        let meaning = MatrixMeaning::PerspectiveToPixels {
+            size,
+            y_down,
+            integer_centers,
+            camera,
+            frustum,
+            lens,
+            convention,
+        };
         let ordered = frustum.window().width() > 0.0 && frustum.window().height() > 0.0;
         ordered.then_some(MatrixReading { meaning, cost: reading.cost + cost, ..reading })
     })

@@ -111,13 +111,20 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
                 camera_words(camera)
             )
         }
-        MatrixMeaning::PerspectiveToPixels { viewport, camera, frustum: f, .. } => {
+        MatrixMeaning::PerspectiveToPixels {
+            size,
+            y_down,
+            integer_centers,
+            camera,
+            frustum: f,
+            ..
+        } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
             let first = match camera {
                 Some(camera) => format!("a camera ({}), a perspective", camera_words(camera)),
                 None => "a perspective".to_owned(),
             };
-            let viewport = viewport_words(viewport);
+            let viewport = image_words(*size, "", *y_down, *integer_centers);
             format!("{first} and a viewport in one: {window}, {depth}, {viewport}")
         }
         MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
@@ -190,10 +197,15 @@ fn camera_words(camera: &CameraReading) -> String {
 }
 
 fn viewport_words(v: &ViewportReading) -> String {
-    let [x, y, width, height] = [v.x, v.y, v.width, v.height].map(format_number);
+    let [x, y] = [v.x, v.y].map(format_number);
     let origin = if v.x == 0.0 && v.y == 0.0 { String::new() } else { format!(" at ({x}, {y})") };
-    let rows = if v.y_down { "y down" } else { "y up" };
-    let centers = if v.integer_centers { "at whole numbers" } else { "at halves" };
+    image_words([v.width, v.height], &origin, v.y_down, v.integer_centers)
+}
+
+fn image_words(size: [f64; 2], origin: &str, y_down: bool, integer_centers: bool) -> String {
+    let [width, height] = size.map(format_number);
+    let rows = if y_down { "y down" } else { "y up" };
+    let centers = if integer_centers { "at whole numbers" } else { "at halves" };
     format!("the viewport of {width} × {height} pixels{origin}, {rows}, pixel centers {centers}")
 }
 
@@ -267,47 +279,9 @@ pub(super) fn meaning_steps(reading: &MatrixReading) -> Option<Step> {
 
 fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
     match meaning {
-        MatrixMeaning::Perspective { frustum: f, lens, convention }
-        | MatrixMeaning::InversePerspective { frustum: f, lens, convention } => {
-            let step = add_window(step, f.window(), [f.near(), f.far()]);
-            add_lens(step, lens, *convention)
-        }
-        MatrixMeaning::ApexMoved { frustum: f, .. } => {
-            let step = add_window(step, f.window(), [f.near(), f.far()]);
-            step.with_item("apex", "apex", <[f64; 3]>::from(f.apex()))
-        }
-        MatrixMeaning::Orthographic { volume, .. } => {
-            add_window(step, volume.window(), [volume.near(), volume.far()])
-        }
-        MatrixMeaning::ObliqueVolume { projection, volume, .. } => {
-            let step = add_window(step, volume.window(), [volume.near(), volume.far()]);
-            add_oblique(step, projection)
-        }
+        meaning if meaning.convention().is_some() => add_view_parameters(step, meaning),
         MatrixMeaning::ObliqueShear { projection }
         | MatrixMeaning::ObliqueOntoPlane { projection } => add_oblique(step, projection),
-        MatrixMeaning::CameraPerspective { camera, frustum: f, lens, convention } => {
-            let step = add_window(add_camera(step, camera), f.window(), [f.near(), f.far()]);
-            add_lens(step, lens, *convention)
-        }
-        MatrixMeaning::PerspectiveToPixels {
-            viewport: v,
-            camera,
-            frustum: f,
-            lens,
-            convention,
-        } => {
-            let step = match camera {
-                Some(camera) => add_camera(step, camera),
-                None => step,
-            };
-            let step = step.with_item("size", "width, height", [v.width, v.height]);
-            let step = add_window(step, f.window(), [f.near(), f.far()]);
-            add_lens(step, lens, *convention)
-        }
-        MatrixMeaning::CameraOrthographic { camera, volume, .. } => {
-            let step = step.with_item("gaze", "gaze", camera.gaze).with_item("up", "up", camera.up);
-            add_window(step, volume.window(), [volume.near(), volume.far()])
-        }
         MatrixMeaning::Camera(camera) | MatrixMeaning::Rotation { camera, .. } => {
             add_camera(step, camera)
         }
@@ -335,6 +309,48 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
             step.with_item("low", "(-1, -1, -1) goes to", ends(-1.0))
                 .with_item("origin", "(0, 0, 0) goes to", ends(0.0))
                 .with_item("high", "(1, 1, 1) goes to", ends(1.0))
+        }
+        _ => step,
+    }
+}
+
+/// Of view volumes, also behind a camera and below a viewport.
+fn add_view_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
+    match meaning {
+        MatrixMeaning::Perspective { frustum: f, lens, convention }
+        | MatrixMeaning::InversePerspective { frustum: f, lens, convention } => {
+            let step = add_window(step, f.window(), [f.near(), f.far()]);
+            add_lens(step, lens, *convention)
+        }
+        MatrixMeaning::ApexMoved { frustum: f, .. } => {
+            let step = add_window(step, f.window(), [f.near(), f.far()]);
+            step.with_item("apex", "apex", <[f64; 3]>::from(f.apex()))
+        }
+        MatrixMeaning::Orthographic { volume, .. } => {
+            add_window(step, volume.window(), [volume.near(), volume.far()])
+        }
+        MatrixMeaning::ObliqueVolume { projection, volume, .. } => {
+            let step = add_window(step, volume.window(), [volume.near(), volume.far()]);
+            add_oblique(step, projection)
+        }
+        MatrixMeaning::CameraPerspective { camera, frustum: f, lens, convention } => {
+            let step = add_window(add_camera(step, camera), f.window(), [f.near(), f.far()]);
+            add_lens(step, lens, *convention)
+        }
+        MatrixMeaning::PerspectiveToPixels {
+            size, camera, frustum: f, lens, convention, ..
+        } => {
+            let step = match camera {
+                Some(camera) => add_camera(step, camera),
+                None => step,
+            };
+            let step = step.with_item("size", "width, height", *size);
+            let step = add_window(step, f.window(), [f.near(), f.far()]);
+            add_lens(step, lens, *convention)
+        }
+        MatrixMeaning::CameraOrthographic { camera, volume, .. } => {
+            let step = step.with_item("gaze", "gaze", camera.gaze).with_item("up", "up", camera.up);
+            add_window(step, volume.window(), [volume.near(), volume.far()])
         }
         _ => step,
     }
