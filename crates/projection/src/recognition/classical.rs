@@ -91,7 +91,7 @@ fn read_oblique(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     Some((meaning, cost))
 }
 
-/// A ground plan turned in the picture, with heights added to y' (Planometric; C79): heights are y,
+/// A ground plan turned in the picture, with heights added to y' (`Planometric`): heights are y,
 /// as in the library, or z, as on a map.
 fn read_planometric(m: &Entries<4>) -> Option<(MatrixMeaning, u32)> {
     let [x, y, z, _] = m;
