@@ -16,9 +16,22 @@
 //! | `flat-stereo` | a stereo pair whose eyes see the same within a pixel |
 //! | `label-not-visible` | the point of a label is not in the picture |
 //! | `missing-glyph` | the stroke font lacks a character of a label or a caption |
+//! | `wide-stereo` | a stereo pair whose eyes are too far apart for the distance of the models |
 //! | `sections-ignored` | section planes, and no line drawing that they cut |
+//! | `section-removes-all`, `section-misses` | a section plane with all models on one side |
+//! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
+//! | `coincident-instances` | instances of a model in one place |
+//! | `ground-above-models` | a ground above the lowest point of the models |
+//! | `camera-path-turns-over` | a path through its target or parallel to up |
+//!
+//! Viewports with cameras of their own are looked at as pictures for the first and `tiny-picture`.
 
+mod camera_path;
+mod coverage;
 mod depth;
+mod ground;
+mod instances;
+mod sections;
 mod stereo;
 mod text;
 mod visibility_survey;
@@ -47,44 +60,72 @@ pub struct Lint {
 
 /// The lints of a scene that could be resolved, in the order of the file.
 ///
-/// The cost is that of one pass over all vertices, O(vertices + primitives), without rendering.
-/// Lints never make a scene invalid.
+/// The cost is that of a pass over all vertices, O(vertices + primitives), for the scene and for
+/// each viewport with a camera of its own, without rendering. Lints never make a scene invalid.
 #[must_use]
 pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
-    let viewer = scene.view_projection.viewer().divide();
-    let surveys: Vec<VisibilitySurvey> = scene
-        .models
-        .iter()
-        .map(|placed| VisibilitySurvey::from_model(&scene.view_projection, placed, viewer))
-        .collect();
+    let surveys = survey_scene(scene);
     let adviser = Linter { origin, file, scene, surveys: &surveys };
     let mut advice = Vec::new();
     advice.extend(adviser.lint_visibility());
+    let viewer = scene.view_projection.viewer().divide();
     advice.extend(viewer.and_then(|eye| adviser.lint_camera_inside(eye)));
+    advice.extend(coverage::lint_tiny_picture(&adviser));
+    advice.extend(coverage::lint_tiny_models(&adviser));
     advice.extend(depth::lint_depth_clipping(&adviser));
     advice.extend(depth::lint_depth_range(&adviser));
     advice.extend(adviser.lint_aspect_ratio());
     advice.extend(adviser.lint_missing_light());
     advice.extend(stereo::lint_flat_stereo(&adviser));
     advice.extend(text::lint_text(&adviser));
+    advice.extend(stereo::lint_wide_stereo(&adviser));
+    advice.extend(sections::lint_idle_sections(&adviser));
+    advice.extend(instances::lint_coincident_instances(&adviser));
+    advice.extend(ground::lint_high_ground(&adviser));
+    advice.extend(lint_viewports(origin, file, scene));
     advice.extend(lint_description(origin, file));
     advice.sort_by_key(|advice| advice.error.span.start);
+    advice
+}
+
+/// The visibility survey of each model of a scene, in its order.
+fn survey_scene(scene: &Scene) -> Vec<VisibilitySurvey> {
+    let viewer = scene.view_projection.viewer().divide();
+    let survey = |placed| VisibilitySurvey::from_model(&scene.view_projection, placed, viewer);
+    scene.models.iter().map(survey).collect()
+}
+
+/// Viewports whose own cameras see nothing, or almost nothing.
+fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
+    if file.viewports.len() != scene.insets.len() {
+        return Vec::new();
+    }
+    let mut advice = Vec::new();
+    let numbered = file.viewports.iter().zip(&scene.insets).enumerate();
+    for (number, (_, inset)) in numbered.filter(|(_, (own, _))| own.camera.is_some()) {
+        let origin = &origin.for_viewport(number);
+        let surveys = survey_scene(&inset.scene);
+        let adviser = Linter { origin, file, scene: &inset.scene, surveys: &surveys };
+        advice.extend(adviser.lint_nothing_visible());
+        advice.extend(coverage::lint_tiny_picture(&adviser));
+    }
     advice
 }
 
 /// The lints that a scene file without its models has, also one with mistakes.
 #[must_use]
 pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
+    let mut advice: Vec<Lint> = camera_path::lint_camera_path(origin, file).into_iter().collect();
     let is_drawn = |style: &StyleFile| matches!(style, StyleFile::Lines(_));
     let insets = file.viewports.iter().filter_map(|viewport| viewport.style.as_ref());
     let cuts_drawing = file.sheet.is_some() || insets.chain([&file.style]).any(is_drawn);
-    if file.sections.is_empty() || cuts_drawing {
-        return Vec::new();
+    if !file.sections.is_empty() && !cuts_drawing {
+        let message = "sections cut line drawings, and this scene has none";
+        let help = "choose style: Lines(), or draw the scene with `alberti sheet`".to_owned();
+        let error = origin.error_at(&[Field("sections")], message, Some(help));
+        advice.push(Lint { code: "sections-ignored", error });
     }
-    let message = "sections cut line drawings, and this scene has none";
-    let help = "choose style: Lines(), or draw the scene with `alberti sheet`".to_owned();
-    let error = origin.error_at(&[Field("sections")], message, Some(help));
-    vec![Lint { code: "sections-ignored", error }]
+    advice
 }
 
 /// The scene under inspection, in every form that the lints need.
@@ -126,17 +167,11 @@ impl Linter<'_> {
     /// Models outside of the view volume. If that holds for all of them, one warning at the camera
     /// replaces one for each model, since the camera is the likelier cause.
     fn lint_visibility(&self) -> Vec<Lint> {
-        let is_unseen = |survey: &VisibilitySurvey| survey.total > 0 && survey.inside == 0;
-        if !self.surveys.is_empty() && self.surveys.iter().all(is_unseen) {
-            let whole =
-                self.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
-            let message = format!("nothing is in the picture: {}", self.describe_rejection(&whole));
-            let help = self.suggest_visibility_fix(&whole);
-            let error = self.origin.error_at(&[Field("camera")], message, Some(help));
-            return vec![Lint { code: "nothing-visible", error }];
+        if let Some(lint) = self.lint_nothing_visible() {
+            return vec![lint];
         }
         let models = self.survey_models().into_iter();
-        let unseen = models.filter(|(_, _, survey)| is_unseen(survey));
+        let unseen = models.filter(|(_, _, survey)| survey.is_unseen());
         let advice = unseen.map(|(number, instance, survey)| {
             let what = self.describe_rejection(&survey);
             let message = format!("{} is not in the picture: {what}", self.model_name(instance));
@@ -146,6 +181,18 @@ impl Linter<'_> {
             Lint { code: "model-not-visible", error: fault }
         });
         advice.collect()
+    }
+
+    /// A camera that sees none of the models.
+    fn lint_nothing_visible(&self) -> Option<Lint> {
+        if self.surveys.is_empty() || !self.surveys.iter().all(VisibilitySurvey::is_unseen) {
+            return None;
+        }
+        let whole = self.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
+        let message = format!("nothing is in the picture: {}", self.describe_rejection(&whole));
+        let help = self.suggest_visibility_fix(&whole);
+        let error = self.origin.error_at(&[Field("camera")], message, Some(help));
+        Some(Lint { code: "nothing-visible", error })
     }
 
     /// An eye inside of a closed model, of which only back faces would be visible. The first such

@@ -1,10 +1,14 @@
-//! Lint of stereo pairs without depth: eyes that see the same.
+//! Lints of stereo pairs: eyes that see the same, and eyes too far apart to see one thing.
 
 use super::{Lint, Linter};
 use crate::scene::syntax::PathStep::Field;
+use homog::{Bounds, Point};
 
 /// Positions in the two pictures that differ by less than this many pixels look equal.
 const LEAST_PARALLAX: f64 = 1.0;
+/// Eyes farther apart than this fraction of the distance of what they look at cannot fuse it: they
+/// would see it from directions 14° apart. The rule of stereography is a thirtieth.
+const WIDEST_BASE: f64 = 0.25;
 
 /// A stereo pair whose parallax varies by less than a pixel over all vertices: a flat picture.
 ///
@@ -35,4 +39,29 @@ pub(super) fn lint_flat_stereo(adviser: &Linter<'_>) -> Option<Lint> {
     let help = "set a larger eye_distance, or leave it out: a thirtieth of the convergence";
     let error = adviser.origin.error_at(&[Field("stereo")], message, Some(help.to_owned()));
     Some(Lint { code: "flat-stereo", error })
+}
+
+/// A stereo pair whose eyes are too far apart for the distance of the models, such as 65 for the 65
+/// millimeters of a person's eyes in a scene of meters.
+pub(super) fn lint_wide_stereo(adviser: &Linter<'_>) -> Option<Lint> {
+    adviser.file.stereo.as_ref()?;
+    let [left, right] = adviser.scene.insets.as_slice() else { return None };
+    let eye_of = |scene: &crate::Scene| scene.view_projection.viewer().divide();
+    let base = (eye_of(&right.scene)?.raw() - eye_of(&left.scene)?.raw()).length();
+    let center = Bounds::from_points(adviser.scene.world_points())?.center();
+    let camera = adviser.scene.view_projection.camera;
+    let away = -camera.world_to_view().transform_point(Point::from_raw(center.raw())).z();
+    if away <= 0.0 || base <= WIDEST_BASE * away {
+        return None;
+    }
+    let message = format!(
+        "the eyes are {base:.4} apart and the models {away:.4} away: nobody sees one thing in both pictures"
+    );
+    let help = format!(
+        "lengths are in the scene's units, meters in glTF: leave eye_distance out, or set it to {:.4}, a thirtieth of the distance",
+        away / 30.0
+    );
+    let path = [Field("stereo"), Field("eye_distance")];
+    let error = adviser.origin.error_at(&path, message, Some(help));
+    Some(Lint { code: "wide-stereo", error })
 }

@@ -34,6 +34,8 @@ pub(super) struct VisibilitySurvey {
     pub(super) behind_far: usize,
     /// The least and the greatest distance of a vertex along the gaze.
     depth_range: Option<(f64, f64)>,
+    /// The least x and y and the greatest in the window, from −1 to 1, of what is inside.
+    window: Option<[f64; 4]>,
     /// For each ray from the eye the number of exits minus the number of entries.
     crossings: [i64; 3],
 }
@@ -63,11 +65,19 @@ impl VisibilitySurvey {
         for (sum, count) in self.outside.iter_mut().zip(other.outside) {
             *sum += count;
         }
+        if let Some(window) = other.window {
+            self.extend_window(window);
+        }
         if let Some((near, far)) = other.depth_range {
             self.extend_depth_range(near);
             self.extend_depth_range(far);
         }
         self
+    }
+
+    /// Whether there is something, and none of it is in the picture.
+    pub(super) fn is_unseen(&self) -> bool {
+        self.total > 0 && self.inside == 0
     }
 
     /// The least and the greatest distance of a vertex along the line of sight; `None` without
@@ -80,6 +90,19 @@ impl VisibilitySurvey {
     /// open surface, and a room that shows its faces to the inside, surround nothing.
     pub(super) fn encloses_eye(&self) -> bool {
         self.crossings.iter().all(|count| *count >= 1)
+    }
+
+    /// Width and height of the rectangle around what is visible, as fractions of the picture's;
+    /// `None` if nothing is. What is partly behind the eye counts as filling the picture.
+    pub(super) fn window_part(&self) -> Option<[f64; 2]> {
+        self.window.map(|[left, bottom, right, top]| [(right - left) / 2.0, (top - bottom) / 2.0])
+    }
+
+    /// Extends the rectangle in the window to another.
+    fn extend_window(&mut self, other: [f64; 4]) {
+        let own = self.window.unwrap_or(other);
+        let least = [own[0].min(other[0]), own[1].min(other[1])];
+        self.window = Some([least[0], least[1], own[2].max(other[2]), own[3].max(other[3])]);
     }
 
     /// Extends the depth range to a distance.
@@ -163,6 +186,11 @@ impl VisibilitySurvey {
             _ => false,
         };
         self.inside += usize::from(is_left);
+        for &at in item.iter().filter(|_| is_left) {
+            let place = clip[at].divide().filter(|_| clip[at].w() > 0.0);
+            let around = place.map(|place| [place.x(), place.y()].map(|c| c.clamp(-1.0, 1.0)));
+            self.extend_window(around.map_or([-1.0, -1.0, 1.0, 1.0], |[x, y]| [x, y, x, y]));
+        }
     }
 }
 
