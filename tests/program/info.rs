@@ -17,6 +17,20 @@ fn a_model_is_described_line_by_line() {
     assert!(run.stdout.contains("triangles "), "{}", run.stdout);
 }
 
+/// Names that overrides in scene files choose by.
+#[test]
+fn materials_and_nodes_are_listed_by_their_names() {
+    let sandbox = Sandbox::new("info_names");
+    let mut document = GltfBuilder::square();
+    document.json["materials"] = json!([{"name": "glaze"}, {}]);
+    document.json["nodes"][0]["name"] = json!("plate");
+    document.write_file(&sandbox, "model");
+    let run = sandbox.run(&["info", "model.gltf"]);
+    let lines: Vec<&str> = run.stdout.lines().map(str::trim).collect();
+    assert!(lines.contains(&"0 glaze; 1 unnamed"), "{}", run.stdout);
+    assert!(lines.iter().any(|line| line.starts_with("0 plate")), "{}", run.stdout);
+}
+
 #[test]
 fn a_file_that_is_no_model_is_refused() {
     let sandbox = Sandbox::new("info_refused");

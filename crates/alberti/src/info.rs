@@ -55,6 +55,9 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     Ok(model)
 }
 
+/// The most nodes whose names are listed.
+const LISTED_NODES: usize = 20;
+
 /// The report as text, one line per subject. Writing to a `String` cannot fail.
 ///
 /// Lines about things that most models lack (scenes, lights, variants) are omitted if there are
@@ -70,16 +73,20 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
 fn describe_model(model: &Model) -> String {
     let mut text = format!("{}\n", model.name);
     let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "  {name:<12}{value}");
+        if !value.is_empty() {
+            let _ = writeln!(text, "  {name:<12}{value}");
+        }
     };
     if model.scenes.len() > 1 {
         line("scenes", scenes_line(model));
     }
     line("nodes", model.nodes.len().to_string());
+    line("", node_names(model));
     line("meshes", meshes_line(model));
     line("shown", shown_line(model));
     line("bounds", bounds_line(model));
     line("materials", materials_line(model));
+    line("", material_names(model));
     line("textures", format!("{}, images {}", model.textures.len(), model.images.len()));
     line("cameras", cameras_line(model));
     if !model.lights.is_empty() {
@@ -97,6 +104,27 @@ fn describe_model(model: &Model) -> String {
         line("warning", warning.sentence());
     }
     text
+}
+
+/// The materials by index and name: what overrides in scene files and `--material` choose by.
+fn material_names(model: &Model) -> String {
+    let name = |(at, material): (usize, &model::Material)| {
+        format!("{at} {}", material.name.as_deref().unwrap_or("unnamed"))
+    };
+    model.materials.iter().enumerate().map(name).collect::<Vec<_>>().join("; ")
+}
+
+/// The first nodes by index and name; `--json` lists all.
+fn node_names(model: &Model) -> String {
+    let name = |(at, node): (usize, &model::Node)| {
+        format!("{at} {}", node.name.as_deref().unwrap_or("unnamed"))
+    };
+    let mut names: Vec<String> =
+        model.nodes.iter().enumerate().take(LISTED_NODES).map(name).collect();
+    if let Some(others) = model.nodes.len().checked_sub(LISTED_NODES).filter(|more| *more > 0) {
+        names.push(format!("and {others} more in --json"));
+    }
+    names.join("; ")
 }
 
 /// The number of meshes, primitives and vertices in the file.

@@ -47,7 +47,7 @@ enum ReferenceFormat {
 }
 
 /// A section of the reference: a command, or a type of scene files.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 struct ReferenceSection {
     /// The command, or the name of the type.
     title: String,
@@ -58,7 +58,7 @@ struct ReferenceSection {
 }
 
 /// An entry of the reference: a flag, a field, a variant or a possible value.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 struct ReferenceEntry {
     /// The name, as it is written.
     term: String,

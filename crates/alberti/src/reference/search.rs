@@ -25,7 +25,44 @@ pub(super) fn find_sections(
         [name] => find_entries(sections, name),
         steps => find_by_path(sections, steps),
     };
+    let found = if found.is_empty() { find_related(sections, word) } else { found };
     if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
+}
+
+/// What a word means that is no name: names in other cases or with more words, such as `Depth` and
+/// `depth_cue_percent` for `depth`; the fields that other programs call so, such as `camera_path`
+/// for `turntable`; else all entries that speak of it.
+fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
+    let word = word.to_lowercase();
+    let is_part = |entry: &ReferenceEntry| {
+        entry_names(entry).any(|name| {
+            let name = name.trim_start_matches('-').to_lowercase();
+            name == word || name.split(['_', '-']).any(|part| part == word)
+        })
+    };
+    let mut found = filter_entries(sections, &is_part);
+    for path in pipeline::scene::reference::meanings_of(&word) {
+        let steps: Vec<&str> = path.split('.').collect();
+        for section in find_by_path(sections, &steps) {
+            if !found.contains(&section) {
+                found.push(section);
+            }
+        }
+    }
+    // Words of three letters and less are part of too many sentences.
+    if found.is_empty() && word.len() > 3 {
+        found = filter_entries(sections, &|entry| mentions(&entry.about, &word));
+    }
+    found
+}
+
+/// Whether a text has a word, or its plural.
+fn mentions(text: &str, word: &str) -> bool {
+    let is_word = |part: &str| {
+        let part = part.to_lowercase();
+        part == word || part.strip_suffix('s') == Some(word)
+    };
+    text.split(|c: char| !c.is_alphanumeric()).any(is_word)
 }
 
 /// A step of a path without the indices of elements: `models` of `models[0]`.
@@ -45,9 +82,17 @@ fn is_titled(section: &ReferenceSection, word: &str) -> bool {
 
 /// The sections reduced to entries of this name.
 fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
+    filter_entries(sections, &|entry| is_named(entry, word))
+}
+
+/// The sections reduced to the entries that are wanted.
+fn filter_entries(
+    sections: &[ReferenceSection],
+    is_wanted: &dyn Fn(&ReferenceEntry) -> bool,
+) -> Vec<ReferenceSection> {
     let with = |section: &ReferenceSection| {
         let entries: Vec<ReferenceEntry> =
-            section.entries.iter().filter_map(|entry| prune_entry(entry, word)).collect();
+            section.entries.iter().filter_map(|entry| prune_entry(entry, is_wanted)).collect();
         (!entries.is_empty()).then(|| ReferenceSection {
             entries,
             about: String::new(),
@@ -57,16 +102,19 @@ fn find_entries(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSecti
     sections.iter().filter_map(with).collect()
 }
 
-/// An entry of this name, or an entry reduced to inner entries of this name.
+/// An entry that is wanted, or an entry reduced to inner entries that are.
 ///
 /// An entry that matches itself keeps all of its inner entries; one that only contains a match
 /// keeps the matches.
-fn prune_entry(entry: &ReferenceEntry, word: &str) -> Option<ReferenceEntry> {
-    if is_named(entry, word) {
+fn prune_entry(
+    entry: &ReferenceEntry,
+    is_wanted: &dyn Fn(&ReferenceEntry) -> bool,
+) -> Option<ReferenceEntry> {
+    if is_wanted(entry) {
         return Some(entry.clone());
     }
     let inner: Vec<ReferenceEntry> =
-        entry.inner.iter().filter_map(|inner| prune_entry(inner, word)).collect();
+        entry.inner.iter().filter_map(|inner| prune_entry(inner, is_wanted)).collect();
     (!inner.is_empty()).then(|| ReferenceEntry { inner, ..entry.clone() })
 }
 
@@ -192,7 +240,9 @@ mod tests {
         ] {
             let found = find_sections(&sections, path);
             let last = without_index(path.rsplit('.').next().unwrap_or(path));
-            let has_entry = |entry: &ReferenceEntry| prune_entry(entry, last).is_some();
+            let has_entry = |entry: &ReferenceEntry| {
+                prune_entry(entry, &|entry| is_named(entry, last)).is_some()
+            };
             let is_found = found
                 .as_ref()
                 .is_ok_and(|found| found.iter().any(|part| part.entries.iter().any(has_entry)));
@@ -200,6 +250,31 @@ mod tests {
         }
         assert!(find_sections(&sections, "models[0].nothing").is_err());
         assert!(find_sections(&sections, "Nothing.path").is_err());
+    }
+
+    /// Words of other programs, and words that only descriptions have, lead to entries.
+    #[test]
+    fn words_that_are_no_names_are_answered_with_what_they_mean() {
+        let sections = type_sections();
+        for (word, expected) in [
+            ("turntable", "camera_path"),
+            ("forest", "instances"),
+            ("scatter", "instances"),
+            ("depth", "depth_cue_percent"),
+            ("depth", "Depth"),
+            ("fov", "fov_y_degrees"),
+            ("msaa", "samples"),
+            ("shadow catcher", "Shadow"),
+            ("section", "sections"),
+            ("glasses", "Anaglyph"),
+        ] {
+            let found = find_sections(&sections, word);
+            let is_meant = |entry: &ReferenceEntry| is_named(entry, expected);
+            let is_found =
+                found.as_ref().is_ok_and(|found| !filter_entries(found, &is_meant).is_empty());
+            assert!(is_found, "{word}: {found:?}");
+        }
+        assert!(find_sections(&sections, "qwertz").is_err());
     }
 
     /// Every field of every type is found by the name of its type.
