@@ -141,6 +141,44 @@ fn suspicious_values_are_warnings_with_their_location() {
             "stretched",
         ),
         ("lights: []", "no-light", "3:11", "black"),
+        (
+            "style: Lines(), sections: [(point: (0, 0, 9), normal: (0, 0, 1))]",
+            "section-misses",
+            "3:30",
+            "point: (0.000, 0.500, 0.000)",
+        ),
+        (
+            "style: Lines(), sections: [(point: (0, 0, -9), normal: (0, 0, 1))]",
+            "section-removes-all",
+            "3:30",
+            "removes everything",
+        ),
+        (
+            "viewports: [(at: (0, 0, 0.3, 0.3), camera: (view: LookAt(eye: (0, 0, 9), target: (0, 0, 20))))]",
+            "nothing-visible",
+            "3:46",
+            "behind the eye",
+        ),
+        (
+            "camera: (view: LookAt(eye: (0, 0, 200), target: (0, 0, 0)))",
+            "tiny-picture",
+            "3:11",
+            "less than a thousandth",
+        ),
+        ("stereo: Anaglyph(eye_distance: 65)", "wide-stereo", "3:34", "the scene's units"),
+        ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "leave `height` out"),
+        (
+            "camera_path: (keys: [(time: 0, eye: (0, 0, 9), target: (0, 0, 0)), (time: 2, eye: (0, 0, -9), target: (0, 0, 0))])",
+            "camera-path-turns-over",
+            "3:24",
+            "at 1.000 s the camera passes through its target",
+        ),
+        (
+            "camera_path: (keys: [(time: 0, eye: (0, 9, 9), target: (0, 0, 0)), (time: 2, eye: (0, 9, -9), target: (0, 0, 0))])",
+            "camera-path-turns-over",
+            "3:24",
+            "along its view-up vector",
+        ),
     ];
     for (rest, code, location, words) in cases {
         let (exit, output) = check_with_fields(&sandbox, rest);
@@ -157,6 +195,64 @@ fn suspicious_values_are_warnings_with_their_location() {
     {
         assert!(!check_with_fields(&sandbox, good).1.contains("warning["), "{good}");
     }
+}
+
+#[test]
+fn models_that_hide_each_other_or_are_specks_are_named() {
+    let sandbox = Sandbox::new("scene_advice_instances_coincide");
+    sandbox.copy_model("crate.glb");
+    let check = |models: &str| {
+        sandbox.write_file("scene.ron", format!("Scene(\n  models: [{models}],\n)"));
+        sandbox.run(&["scene", "check", "scene.ron"]).stdout
+    };
+    let grid = |step: &str| {
+        format!("(path: \"crate.glb\", instances: Grid(count: (2, 1, 2), step: {step}))")
+    };
+    let output = check(&grid("(3, 0, 0)"));
+    let told = "warning[coincident-instances]: of 4 instances 2 stand where another one is";
+    assert!(output.contains(told) && output.contains("scene.ron:2:72"), "{output}");
+    assert!(!check(&grid("(3, 0, 3)")).contains("warning["));
+    let output = check(
+        "(path: \"crate.glb\"), (path: \"crate.glb\", scale: 0.0001, translation: (1, 0, 0))",
+    );
+    assert!(
+        output.contains("warning[tiny-model]") && output.contains("scene.ron:2:33"),
+        "{output}"
+    );
+}
+
+#[test]
+fn missing_names_come_at_once_and_missing_files_with_their_folders() {
+    let sandbox = Sandbox::new("scene_missing_names");
+    sandbox.copy_model("crate.glb");
+    std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
+    std::fs::rename(sandbox.path_of("crate.glb"), sandbox.path_of("models/crate.glb"))
+        .expect("moved");
+    for path in ["models/crat.glb", "crate.glb"] {
+        sandbox.write_file("scene.ron", format!("Scene(models: [(path: \"{path}\")])"));
+        let output = sandbox.run(&["scene", "check", "scene.ron"]).stdout;
+        assert!(output.contains("did you mean \"models/crate.glb\"?"), "{output}");
+    }
+    let materials = "materials: [(of: Name(\"one\")), (of: Index(77)), (of: Name(\"two\"))]";
+    let text = format!("Scene(models: [(path: \"models/crate.glb\", {materials})])");
+    sandbox.write_file("scene.ron", text);
+    let output = sandbox.run(&["scene", "check", "scene.ron"]).stdout;
+    let told = ["`one`", "`77`", "`two`"];
+    assert!(told.iter().all(|name| output.contains(&format!("no material {name}"))), "{output}");
+}
+
+#[test]
+fn viewports_in_pixels_say_how_to_follow_the_size() {
+    let sandbox = Sandbox::new("scene_pixels");
+    sandbox.copy_model("crate.glb");
+    let scene =
+        |place: &str| format!("Scene(models: [(path: \"crate.glb\")], viewports: [({place})])");
+    sandbox.write_file("scene.ron", scene("pixels: (400, 0, 400, 400)"));
+    let render = ["render", "scene.ron", "--size", "40x30", "-o", "out.png"];
+    let run = sandbox.run(&render);
+    assert!(run.code == 1 && run.stderr.contains("at: (0.5, 0, 0.5, 0.5)"), "{}", run.stderr);
+    sandbox.write_file("scene.ron", scene("at: (0.5, 0, 0.5, 0.5)"));
+    assert_eq!(sandbox.run(&render).code, 0);
 }
 
 #[test]

@@ -145,10 +145,12 @@ pub(super) fn resolve_viewport_rect(
     let message = format!(
         "the viewport of {across} x {down} pixels at ({x}, {y}) is empty or not in the picture of {width} x {height}"
     );
-    let help =
+    let help = if field == "at" {
         "left, top, width and height; left and width together are 1 at most, as are top and height"
-            .to_owned();
-    Err(origin.error_at(&place(field), message, Some(help).filter(|_| field == "at")))
+    } else {
+        "pixels fit one size of the picture; fractions fit all, also with --size: at: (0.5, 0, 0.5, 0.5) is the upper right quarter"
+    };
+    Err(origin.error_at(&place(field), message, Some(help.to_owned())))
 }
 
 /// The color of a viewport's border, and its width of 1 to 1000 pixels.

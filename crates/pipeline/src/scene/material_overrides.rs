@@ -6,27 +6,34 @@
 use super::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
 use super::suggest::suggest_name;
 use super::syntax::PathStep::{self, Field, Index};
-use super::{Origin, SceneError};
+use super::{Origin, SceneError, SceneErrors};
 use model::{AlphaMode, Emission, Material, Model};
 
 /// Changes the materials of the model with this number in the scene.
+///
+/// # Errors
+/// Every override of materials that the model does not have.
 pub(super) fn override_materials(
     origin: &Origin,
     number: usize,
     changes: &[MaterialFile],
     model: &mut Model,
-) -> Result<(), SceneError> {
+) -> Result<(), SceneErrors> {
+    let mut errors = Vec::new();
     for (at, change) in changes.iter().enumerate() {
         let place = OverridePath {
             origin,
             path: [Field("models"), Index(number), Field("materials"), Index(at)],
         };
         let change = MaterialOverride { file: change };
-        for material in select_materials(&place, &change.file.of, model)? {
-            change.apply_to(&mut model.materials[material]);
+        match select_materials(&place, &change.file.of, model) {
+            Ok(selected) => {
+                selected.into_iter().for_each(|at| change.apply_to(&mut model.materials[at]));
+            }
+            Err(error) => errors.push(error),
         }
     }
-    Ok(())
+    SceneErrors::from_list(errors).map_or(Ok(()), Err)
 }
 
 /// Where a change is written.

@@ -1,5 +1,6 @@
 //! Tests: mistakes that people make in scene files, and the messages they get.
 
+mod hints;
 mod vocabulary;
 
 use super::{SceneErrors, format_source, parse_scene};
@@ -51,8 +52,8 @@ fn near_misses_are_answered_with_the_name_that_was_meant() {
         "did you mean `Perspective`?",
     );
     check(
-        &scene_with("style: Hatched"),
-        "unexpected `Hatched` for `Style`",
+        &scene_with("style: Blueprint"),
+        "unexpected `Blueprint` for `Style`",
         (3, 10),
         "possible here: `Shaded`, `Flat`, `Gouraud`, `Clay`, `Matcap`, `Normals`, `Depth`, `UvChecker`, `Ids`, `Toon`, `XRay`, `Wireframe`, `Lines`",
     );

@@ -155,10 +155,29 @@ impl SceneValue for Triple {
         match unnamed_group(node) {
             Some(group) => read_three_numbers(node, group, checker).map(Self),
             None => {
-                checker.report_type(node, "three numbers, such as (1, 2, 3)", None);
+                let help = axis_vector(node).map(|axis| format!("write {axis}"));
+                checker.report_type(node, "three numbers, such as (1, 2, 3)", help);
                 None
             }
         }
+    }
+}
+
+/// The direction of an axis that is given by its name.
+fn axis_vector(node: &Node<'_>) -> Option<&'static str> {
+    let name = match node.kind {
+        NodeKind::Word(name) => name,
+        NodeKind::String(name) => name.trim_matches('"'),
+        _ => return None,
+    };
+    match name {
+        "x" | "X" => Some("(1, 0, 0)"),
+        "y" | "Y" => Some("(0, 1, 0)"),
+        "z" | "Z" => Some("(0, 0, 1)"),
+        "-x" | "-X" => Some("(-1, 0, 0)"),
+        "-y" | "-Y" => Some("(0, -1, 0)"),
+        "-z" | "-Z" => Some("(0, 0, -1)"),
+        _ => None,
     }
 }
 
@@ -220,7 +239,8 @@ pub(super) fn read_three_numbers(
 ) -> Option<[f64; 3]> {
     if group.items.len() != 3 {
         let problem = format!("expected three numbers, found {}", group.items.len());
-        checker.report_value(node, &problem, None);
+        let help = checker.suggest_three_axes(group);
+        checker.report_value(node, &problem, help);
         return None;
     }
     let mut numbers = group.items.iter().enumerate();

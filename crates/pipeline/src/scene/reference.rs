@@ -17,6 +17,13 @@ pub fn all_types() -> Vec<&'static TypeEntry> {
     types
 }
 
+/// The fields and variants that a word of other programs means, as paths such as
+/// `Perspective.near`, the likeliest first.
+#[must_use]
+pub fn meanings_of(word: &str) -> Vec<String> {
+    super::vocabulary::meanings_of(word)
+}
+
 /// Adds a type and those that it needs, unless they are there already.
 fn collect_types(entry: &'static TypeEntry, types: &mut Vec<&'static TypeEntry>) {
     if types.iter().any(|known| known.name == entry.name) {

@@ -14,12 +14,12 @@ use super::number::Positive;
 use super::overlays::resolve_overlays;
 use super::section::resolve_sections;
 use super::style::resolve_style;
-use super::suggest::suggest_name;
+use super::suggest::{closest_name, suggest_name};
 use super::surrounding_light::{has_lights, resolve_environment};
 use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
-use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneFile};
+use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
 use homog::Bounds;
 use model::Model;
 use model::ModelInstance;
@@ -260,13 +260,19 @@ fn load_models(
 /// Why there is no model: the scene asks for something that makes no sense, or the model's file is
 /// at fault.
 pub(super) enum ModelError {
-    Scene(SceneError),
+    Scene(SceneErrors),
     File(ImportError),
 }
 
 impl From<SceneError> for ModelError {
     fn from(error: SceneError) -> Self {
-        Self::Scene(error)
+        Self::Scene(error.into())
+    }
+}
+
+impl From<SceneErrors> for ModelError {
+    fn from(errors: SceneErrors) -> Self {
+        Self::Scene(errors)
     }
 }
 
@@ -283,28 +289,47 @@ impl ModelError {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
-                let help = suggest_model_file(&origin.folder.join(&entry.path));
+                let help = suggest_model_file(&origin.folder, &entry.path);
                 origin
                     .error_at(&at, format!("{}: {}", entry.path, error.diagnostic.sentence()), help)
                     .into()
             }
-            Self::Scene(error) => error.into(),
+            Self::Scene(errors) => ResolveError::Scene(errors),
         }
     }
 }
 
-/// For a model that is not there, one in the same folder with a similar name.
-fn suggest_model_file(path: &Path) -> Option<String> {
-    let folder = path.parent().filter(|_| !path.exists())?;
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let names = std::fs::read_dir(here)
-        .ok()?
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let is_model = |name: &String| name.ends_with(".glb") || name.ends_with(".gltf");
-    let mut names: Vec<String> = names.filter(is_model).collect();
-    names.sort();
+/// For a model that is not there, the path of one in the same folder with a similar name, or of one
+/// in a folder beside the scene with the same name.
+fn suggest_model_file(folder: &Path, path: &str) -> Option<String> {
+    let path = Path::new(path);
+    if folder.join(path).exists() {
+        return None;
+    }
     let wanted = path.file_name()?.to_str()?;
-    suggest_name(wanted, &names).filter(|hint| hint.starts_with("did you mean"))
+    let beside = path.parent().unwrap_or(Path::new(""));
+    let is_model = |name: &String| name.ends_with(".glb") || name.ends_with(".gltf");
+    let models: Vec<String> =
+        names_in_folder(&folder.join(beside)).into_iter().filter(is_model).collect();
+    let names: Vec<&str> = models.iter().map(String::as_str).collect();
+    let similar = closest_name(wanted, &names).map(|name| beside.join(name));
+    let elsewhere = || {
+        let folders = names_in_folder(folder).into_iter().map(PathBuf::from);
+        folders.map(|inner| inner.join(wanted)).find(|path| folder.join(path).is_file())
+    };
+    let found = similar.or_else(elsewhere)?;
+    Some(format!("did you mean \"{}\"?", found.to_str()?.replace('\\', "/")))
+}
+
+/// The names of the files and folders in a folder, in the order of the alphabet; none if it cannot
+/// be read.
+fn names_in_folder(folder: &Path) -> Vec<String> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(here).into_iter().flatten();
+    let mut names: Vec<String> =
+        entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    names.sort();
+    names
 }
 
 /// Loads a model and poses it.

@@ -24,7 +24,7 @@ pub(crate) use declare::{
     default_value, field_entry, inner_type, named_enum, named_values, scene_enum, scene_struct,
     scene_variant,
 };
-pub(super) use search::{example_of, fields_where};
+pub(super) use search::{example_of, fields_where, variants_where};
 pub(crate) use values::checked_number;
 
 use super::syntax::Node;

@@ -121,12 +121,13 @@ fn load_valid_models(
     let (mut models, mut errors, mut is_complete) = (Vec::new(), Vec::new(), true);
     for (index, entry) in file.models.iter().enumerate() {
         let instances = match load_model(origin, index, entry, options) {
-            Ok(model) => instances::instantiate_model(origin, index, entry, &Arc::new(model)),
-            Err(ModelError::Scene(error)) => Err(error),
+            Ok(model) => {
+                let placed = instances::instantiate_model(origin, index, entry, &Arc::new(model));
+                placed.map_err(Into::into)
+            }
+            Err(ModelError::Scene(errors)) => Err(errors),
             Err(error) => match error.into_resolve_error(origin, index, entry) {
-                ResolveError::Scene(scene_errors) if with_files => {
-                    Err(scene_errors.first().clone())
-                }
+                ResolveError::Scene(scene_errors) if with_files => Err(scene_errors),
                 _ => {
                     is_complete = false;
                     continue;
@@ -135,7 +136,7 @@ fn load_valid_models(
         };
         match instances {
             Ok(instances) => models.extend(instances),
-            Err(error) => errors.push(error),
+            Err(found) => errors.extend(Vec::from(found)),
         }
     }
     let is_complete = is_complete && errors.is_empty();

@@ -5,14 +5,16 @@
 //! that is meant, the answer is its name; if another part of the scene has it, the answer shows
 //! where.
 
+mod advice;
 mod foreign;
 mod legacy;
 
 pub(super) use legacy::{LEGACY_WORDS, LegacyWord};
 
 use super::SceneFile;
-use super::schema::{Declared, Shape, TypeEntry, example_of, fields_where};
+use super::schema::{Declared, Shape, TypeEntry, example_of, fields_where, variants_where};
 use super::suggest::{closest_name, list_names};
+use advice::find_advice;
 use foreign::FOREIGN_WORDS;
 
 /// An answer to a name that is not declared.
@@ -53,6 +55,9 @@ pub(super) fn suggest_field(
     word: &str,
     top_level: Option<&str>,
 ) -> Suggestion {
+    if let Some(help) = find_advice(owner, &normalize(word)) {
+        return Suggestion { help: help.to_owned(), sibling: None, kind: SuggestionKind::Known };
+    }
     let targets = targets_of(word);
     let own = targets.iter().find(|(target, _)| *target == owner);
     if let Some(&(_, name)) = own.filter(|(_, name)| siblings.contains(name)) {
@@ -108,6 +113,9 @@ pub(super) fn suggest_variant(
         _ => Vec::new(),
     };
     let known = |help: String| Suggestion { help, sibling: None, kind: SuggestionKind::Known };
+    if let Some(help) = find_advice(entry.name, &normalize(word)) {
+        return known(help.to_owned());
+    }
     let targets = targets_of(word);
     let own = targets.iter().find(|(target, name)| *target == entry.name && names.contains(name));
     if let Some((_, name)) = own {
@@ -127,8 +135,22 @@ pub(super) fn suggest_variant(
             let help = format!("did you mean `{name}`?");
             Suggestion { help, sibling: None, kind: SuggestionKind::Similar }
         }
-        _ => Suggestion { help: list_names(&names), sibling: None, kind: SuggestionKind::List },
+        _ => match variant_inside(entry, word)
+            .or_else(|| nearest_example(&variants_elsewhere(word), top_level))
+        {
+            Some(example) => known(format!("write it as {example}")),
+            None => {
+                Suggestion { help: list_names(&names), sibling: None, kind: SuggestionKind::List }
+            }
+        },
     }
+}
+
+/// The fields and variants that a word of other programs means, as paths: `Perspective.near`.
+pub(super) fn meanings_of(word: &str) -> Vec<String> {
+    let path =
+        |(owner, name): Target| format!("{}.{name}", owner.rsplit("::").next().unwrap_or(owner));
+    targets_of(word).into_iter().map(path).collect()
 }
 
 /// The meanings of a word in the tables, in their order: older words first.
@@ -167,6 +189,24 @@ fn declared_elsewhere(word: &str) -> Vec<String> {
     let example =
         |(owner, field): &(String, &'static str)| example_of(SceneFile::ENTRY, owner, field);
     fields.iter().filter_map(example).collect()
+}
+
+/// How a variant of this name is written within an enum, such as `Frame(from: Left)` for a `Left`
+/// that stands for a whole view.
+fn variant_inside(entry: &'static TypeEntry, word: &str) -> Option<String> {
+    let Shape::Variants(_) = entry.shape else { return None };
+    let owners = variants_where(entry, word);
+    owners.iter().find_map(|owner| example_of(entry, owner, word))
+}
+
+/// How a variant of this very name is written where there is one.
+fn variants_elsewhere(word: &str) -> Vec<String> {
+    // What stands for nothing everywhere is no variant that was misplaced.
+    if matches!(word, "None" | "Some" | "All" | "Name" | "Index" | "On" | "Off") {
+        return Vec::new();
+    }
+    let owners = variants_where(SceneFile::ENTRY, word);
+    owners.iter().filter_map(|owner| example_of(SceneFile::ENTRY, owner, word)).collect()
 }
 
 /// The first example in the same field of the scene, else the first of all.

@@ -11,9 +11,10 @@
 //! field or element around it: a later resolution skips errors in a scope that already has one.
 
 mod fields;
+mod lists;
 mod variant;
 
-use super::{FieldEntry, SceneValue, Shape, TypeEntry, VariantEntry};
+use super::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
 use crate::scene::syntax::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
@@ -47,6 +48,8 @@ pub(in crate::scene) struct Checker<'a> {
     scopes: Vec<Range<usize>>,
     /// For each list of the whole scene the indices of the elements that could be read.
     retained: BTreeMap<&'static str, Vec<usize>>,
+    /// The beginnings of values that are known to lack the brackets of a list.
+    told_lists: Vec<usize>,
 }
 
 /// The results of a check besides the value.
@@ -137,6 +140,14 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// The name of the innermost field around the value.
+    pub(in crate::scene) fn innermost_field(&self) -> Option<&'static str> {
+        self.path.iter().rev().find_map(|segment| match segment {
+            Segment::Field(name) => Some(*name),
+            _ => None,
+        })
+    }
+
     /// A value as a message names it: quoted up to 40 bytes, its kind in words beyond that.
     fn describe(&self, node: &Node<'_>) -> String {
         let text = &self.source[node.span.clone()];
@@ -179,7 +190,13 @@ impl<'a> Checker<'a> {
                 None
             }
             _ => {
-                let help = format!("write {0}(…), or just (…), with its fields inside", entry.name);
+                let example = bracket_string(node, entry);
+                let help = match example.or_else(|| self.bracket_list(node, entry)) {
+                    Some(example) => format!("write {example}"),
+                    None => {
+                        format!("write {0}(…), or just (…), with its fields inside", entry.name)
+                    }
+                };
                 self.report_type(node, &format!("`{}`", entry.name), Some(help));
                 None
             }
@@ -220,6 +237,7 @@ impl<'a> Checker<'a> {
     ) -> Option<Fields<'n>> {
         let mut found: Vec<(&'static str, &'n SyntaxItem<'n>)> = Vec::new();
         let mut meant: Vec<&'static str> = Vec::new();
+        let mut misspelt: Vec<(&'static str, &'n SyntaxItem<'n>)> = Vec::new();
         let mut unknown = 0;
         for item in &group.items {
             self.scopes.push(item.span());
@@ -234,7 +252,11 @@ impl<'a> Checker<'a> {
                 Some(key) => match declared.iter().find(|field| field.name == key.name) {
                     None => {
                         unknown += 1;
-                        meant.extend(self.report_unknown_field(key, owner, declared));
+                        let sibling = self.report_unknown_field(item, key, owner, declared);
+                        // Mistakes inside of what a misspelt field holds are told in the same run.
+                        let structured = sibling.filter(|_| has_named_parts(&item.value));
+                        misspelt.extend(structured.map(|name| (name, item)));
+                        meant.extend(sibling);
                     }
                     Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
@@ -259,8 +281,11 @@ impl<'a> Checker<'a> {
                 self.report(span.clone(), message, Some(help));
             }
         }
+        misspelt.retain(|(name, _)| found.iter().all(|(other, _)| other != name));
+        found.extend(misspelt);
         Some(Fields { items: found })
     }
+
     /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
     fn report_keyless_item(&mut self, item: &SyntaxItem<'_>) {
         if item.value.kind == NodeKind::Invalid {
@@ -279,13 +304,20 @@ impl<'a> Checker<'a> {
     /// programs and of older versions of this one.
     fn report_unknown_field(
         &mut self,
+        item: &SyntaxItem<'_>,
         key: &Key<'_>,
         owner: &Owner,
         declared: &'static [FieldEntry],
     ) -> Option<&'static str> {
         let names: Vec<&'static str> = declared.iter().map(|field| field.name).collect();
-        let Suggestion { help, sibling, .. } =
+        let Suggestion { mut help, sibling, .. } =
             suggest_field(&owner.key, &names, key.name, self.top_level_field());
+        let meant = declared.iter().find(|field| Some(field.name) == sibling);
+        let list = meant.and_then(|field| self.write_as_list(&item.value, &(field.value_type)()));
+        if let (Some(name), Some(list)) = (sibling, list) {
+            help.push_str(&format!(" write {name}: {list}"));
+            self.told_lists.push(item.value.span.start);
+        }
         let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
         self.report(key.span.clone(), message, Some(help));
         sibling
@@ -340,73 +372,46 @@ impl<'a> Checker<'a> {
         let text = &self.source[node.span.clone()];
         let inner =
             |variant: &VariantEntry| variant.value_type.map(|value_type| value_type().words());
-        let kinds: &[&str] = match node.kind {
+        let kinds: &[&str] = match &node.kind {
             NodeKind::String(_) => &["string", "Color"],
             NodeKind::Number(_) => &["whole number", "Positive"],
+            NodeKind::Group(group) if group.items.len() == 3 => &["Triple"],
             _ => &[],
         };
         let fitting = variants
             .iter()
             .find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
-        let help = match fitting {
-            Some(variant) => format!("did you mean `{}({text})`?", variant.name),
-            None => format!("`alberti scene doc {}` lists the words that are possible", entry.name),
+        let help = match (fitting, &node.kind) {
+            (Some(variant), _) => format!("did you mean `{}({text})`?", variant.name),
+            (None, NodeKind::String(_)) => {
+                suggest_variant(entry, text.trim_matches('"'), self.top_level_field()).help
+            }
+            (None, _) => {
+                format!("`alberti scene doc {}` lists the words that are possible", entry.name)
+            }
         };
         let quotes =
             if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
         let expected = format!("one of the words of `{}`{quotes}", entry.name);
         self.report_type(node, &expected, Some(help));
     }
+}
 
-    /// Reads the elements of a list.
-    ///
-    /// In lists of the whole scene, such as `models`, elements that cannot be read are left out and
-    /// the indices of the others recorded, so that the rest of the scene can be checked in the same
-    /// run. Any other list is read whole or not at all.
-    pub(in crate::scene) fn read_list<T: SceneValue>(
-        &mut self,
-        items: &[SyntaxItem<'_>],
-    ) -> Option<Vec<T>> {
-        let mut values = Vec::new();
-        let mut indices = Vec::new();
-        for (index, item) in items.iter().enumerate() {
-            if let Some(value) = self.read_element(index, item) {
-                values.push(value);
-                indices.push(index);
-            }
-        }
-        if let [Segment::Field(name)] = *self.path.as_slice() {
-            self.retained.insert(name, indices);
-            return Some(values);
-        }
-        (values.len() == items.len()).then_some(values)
-    }
+/// Whether a value is a list, or has fields in brackets.
+fn has_named_parts(node: &Node<'_>) -> bool {
+    node.group()
+        .is_some_and(|group| group.open == '[' || group.items.iter().any(|item| item.key.is_some()))
+}
 
-    /// Reads an element of a list or a tuple.
-    ///
-    /// The element is a scope of its own: a mistake in it does not hide those of its neighbors.
-    pub(in crate::scene) fn read_element<T: SceneValue>(
-        &mut self,
-        index: usize,
-        item: &SyntaxItem<'_>,
-    ) -> Option<T> {
-        self.path.push(Segment::Index(index));
-        self.scopes.push(item.span());
-        let value = if let Some(key) = &item.key {
-            let message = format!("elements of lists have no names, found `{}: …`", key.name);
-            self.report(
-                key.span.clone(),
-                message,
-                Some("remove the name, or put it in round brackets".to_owned()),
-            );
-            None
-        } else {
-            T::from_node(&item.value, self)
-        };
-        self.scopes.pop();
-        self.path.pop();
-        value
-    }
+/// A string as a struct whose only required field is a string: `(path: "a.glb")`.
+fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
+    let (NodeKind::String(text), Shape::Fields(fields)) = (&node.kind, entry.shape) else {
+        return None;
+    };
+    let mut required = fields.iter().filter(|field| !field.is_optional);
+    let (first, other) = (required.next()?, required.next());
+    let is_string = matches!((first.value_type)(), ValueType::Plain("string"));
+    (is_string && other.is_none()).then(|| format!("({}: {text})", first.name))
 }
 
 /// The owner of fields: a struct, or a variant of an enum.

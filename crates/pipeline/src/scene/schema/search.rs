@@ -38,6 +38,12 @@ pub(in crate::scene) fn fields_where(
     found
 }
 
+/// The enums that have a variant of this name, those nearest to the scene's own brackets first.
+pub(in crate::scene) fn variants_where(root: &'static TypeEntry, name: &str) -> Vec<String> {
+    let has_it = sites(root).into_iter().filter(|site| site.variants.contains(&name));
+    has_it.map(|site| site.owner).collect()
+}
+
 /// How a field or a variant is written in a scene, from the scene's own brackets on: `camera:
 /// (view: LookAt(eye: …))`. `None` if the owner has none of this name.
 ///

@@ -208,14 +208,47 @@ impl<T: SceneValue> SceneValue for Vec<T> {
     }
 
     fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
-        match node.group() {
-            Some(group) if group.open == '[' => checker.read_list(&group.items),
-            _ => {
-                let help = "lists are written in square brackets, also those of one element: [ … ]";
-                checker.report_type(node, "a list", Some(help.to_owned()));
-                None
-            }
+        checker.read_list_value(node)
+    }
+}
+
+/// A value that is no tuple, as one: `"320x240"` and `"1:20"` as their numbers, and one number in
+/// the place of two.
+fn suggest_tuple(node: &Node<'_>, count: usize, checker: &Checker<'_>) -> Option<String> {
+    let parts: Vec<&str> = match node.kind {
+        NodeKind::String(text) => {
+            text.trim_matches('"').split(['x', '×', ':', ',', '/', '*']).map(str::trim).collect()
         }
+        NodeKind::Number(number) if count == 2 => match checker.innermost_field() {
+            Some("scale") => vec!["1", number],
+            _ => vec![number, number],
+        },
+        _ if count == 4 => {
+            return Some("such as (0, 0, 0.5, 0.5): left, top, width and height".to_owned());
+        }
+        _ => return None,
+    };
+    let is_number = |part: &&str| parse_number(part).is_some();
+    let fits = parts.len() == count && parts.iter().all(is_number);
+    fits.then(|| format!("write ({})", parts.join(", ")))
+}
+
+impl Checker<'_> {
+    /// For counts and steps of a grid along two axes only, those along all three.
+    pub(in crate::scene) fn suggest_three_axes(
+        &self,
+        group: &crate::scene::syntax::Group<'_>,
+    ) -> Option<String> {
+        let [x, z] = group.items.as_slice() else { return None };
+        let (NodeKind::Number(x), NodeKind::Number(z)) = (&x.value.kind, &z.value.kind) else {
+            return None;
+        };
+        let height = match self.innermost_field()? {
+            "count" => "1",
+            "step" => "0",
+            _ => return None,
+        };
+        Some(format!("along x, y and z, and y is up; on the ground write ({x}, {height}, {z})"))
     }
 }
 
@@ -231,12 +264,13 @@ fn tuple_items<'n, 'a>(
     let group = node.group().filter(|group| group.name.is_none() && group.open != '{');
     let expected = format!("{count} values in brackets");
     let Some(group) = group else {
-        checker.report_type(node, &expected, None);
+        checker.report_type(node, &expected, suggest_tuple(node, count, checker));
         return None;
     };
     if group.items.len() != count {
         let problem = format!("expected {expected}, found {}", group.items.len());
-        checker.report_value(node, &problem, None);
+        let help = checker.suggest_three_axes(group);
+        checker.report_value(node, &problem, help);
         return None;
     }
     Some(&group.items)

@@ -159,7 +159,7 @@ impl<'a> Parser<'a> {
             }
             TokenKind::Word if looks_like_number(token.text) => {
                 self.at += 1;
-                Node { span: token.span(), kind: NodeKind::Number(token.text) }
+                self.parse_ratio(token)
             }
             TokenKind::Word if !matches!(token.text, "=" | ";") => {
                 self.at += 1;
@@ -170,6 +170,22 @@ impl<'a> Parser<'a> {
                 Node { span: token.span(), kind: NodeKind::Word(name) }
             }
             _ => self.missing_value(token),
+        }
+    }
+
+    /// A number; a ratio such as 1:20 is reported, with the form that it has here.
+    fn parse_ratio(&mut self, number: Token<'a>) -> Node<'a> {
+        let colon = self.peek_kind() == Some(TokenKind::Colon);
+        let second = self.tokens.get(self.at + 1).copied();
+        match second.filter(|second| colon && looks_like_number(second.text)) {
+            Some(second) => {
+                self.at += 2;
+                let span = number.start..second.span().end;
+                let help = format!("write ({}, {})", number.text, second.text);
+                self.report(span.clone(), "two numbers stand in brackets here", help);
+                Node { span, kind: NodeKind::Invalid }
+            }
+            None => Node { span: number.span(), kind: NodeKind::Number(number.text) },
         }
     }
 
