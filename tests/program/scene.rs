@@ -392,7 +392,7 @@ fn a_misspelt_model_is_answered_with_the_one_beside_it() {
     sandbox.copy_model("crate.glb");
     sandbox.write_file("scene.ron", "Scene(models: [(path: \"crato.glb\")])");
     let run = sandbox.run(&["render", "scene.ron"]);
-    assert!(run.code == 1 && run.stderr.contains("did you mean `crate.glb`?"), "{}", run.stderr);
+    assert!(run.code == 1 && run.stderr.contains("did you mean \"crate.glb\"?"), "{}", run.stderr);
 }
 
 /// Values that are valid and still not meant are warned of, in the first run and beside errors.
