@@ -103,84 +103,91 @@ fn check_with_fields(sandbox: &Sandbox, rest: &str) -> (i32, String) {
     (run.code, run.stdout)
 }
 
+/// Fields of a scene of a crate that are valid and still not meant: the code of the warning, where
+/// it points (empty: anywhere), and words of it.
+const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
+    (
+        "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))",
+        "nothing-visible",
+        "3:11",
+        "all of it is behind the eye",
+    ),
+    (
+        "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",
+        "nothing-visible",
+        "3:11",
+        "all of it is outside of the far plane",
+    ),
+    (
+        "camera: (view: LookAt(eye: (0.1, 0.3, 0.1), target: (0, 0.2, -5)), projection: Perspective(near: 0.01, far: 9))",
+        "camera-inside",
+        "3:18",
+        "is inside of crate",
+    ),
+    (
+        "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 0.001, far: 50))",
+        "wasteful-depth-range",
+        "",
+        "times nearer than the nearest thing",
+    ),
+    (
+        "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 1, far: 7))",
+        "cut-by-far",
+        "",
+        "the far plane cuts off",
+    ),
+    (
+        "camera: (projection: Frustum(left: -0.3, right: 0.3, bottom: -0.3, top: 0.3, near: 0.5))",
+        "aspect-mismatch",
+        "3:24",
+        "stretched",
+    ),
+    ("lights: []", "no-light", "3:11", "black"),
+    (
+        "style: Lines(), sections: [(point: (0, 0, 9), normal: (0, 0, 1))]",
+        "section-misses",
+        "3:30",
+        "point: (0.000, 0.500, 0.000)",
+    ),
+    (
+        "style: Lines(), sections: [(point: (0, 0, -9), normal: (0, 0, 1))]",
+        "section-removes-all",
+        "3:30",
+        "removes everything",
+    ),
+    (
+        "viewports: [(at: (0, 0, 0.3, 0.3), camera: (view: LookAt(eye: (0, 0, 9), target: (0, 0, 20))))]",
+        "nothing-visible",
+        "3:46",
+        "behind the eye",
+    ),
+    (
+        "camera: (view: LookAt(eye: (0, 0, 200), target: (0, 0, 0)))",
+        "tiny-picture",
+        "3:11",
+        "less than a thousandth",
+    ),
+    ("stereo: Anaglyph(eye_distance: 65)", "wide-stereo", "3:34", "the scene's units"),
+    ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "leave `height` out"),
+    (
+        "camera_path: (keys: [(time: 0, eye: (0, 0, 9), target: (0, 0, 0)), (time: 2, eye: (0, 0, -9), target: (0, 0, 0))])",
+        "camera-path-turns-over",
+        "3:24",
+        "at 1.000 s the camera passes through its target",
+    ),
+    (
+        "camera_path: (keys: [(time: 0, eye: (0, 9, 9), target: (0, 0, 0)), (time: 2, eye: (0, 9, -9), target: (0, 0, 0))])",
+        "camera-path-turns-over",
+        "3:24",
+        "along its view-up vector",
+    ),
+];
+
 #[test]
 fn suspicious_values_are_warnings_with_their_location() {
     let sandbox = Sandbox::new("scene_advice");
     sandbox.copy_model("crate.glb");
-    let away = "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))";
-    let cases = [
-        (away, "nothing-visible", "3:11", "all of it is behind the eye"),
-        (
-            "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",
-            "nothing-visible",
-            "3:11",
-            "all of it is outside of the far plane",
-        ),
-        (
-            "camera: (view: LookAt(eye: (0.1, 0.3, 0.1), target: (0, 0.2, -5)), projection: Perspective(near: 0.01, far: 9))",
-            "camera-inside",
-            "3:18",
-            "is inside of crate",
-        ),
-        (
-            "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 0.001, far: 50))",
-            "wasteful-depth-range",
-            "",
-            "times nearer than the nearest thing",
-        ),
-        (
-            "camera: (view: LookAt(eye: (4, 3, 5), target: (0, 0, 0)), projection: Perspective(near: 1, far: 7))",
-            "cut-by-far",
-            "",
-            "the far plane cuts off",
-        ),
-        (
-            "camera: (projection: Frustum(left: -0.3, right: 0.3, bottom: -0.3, top: 0.3, near: 0.5))",
-            "aspect-mismatch",
-            "3:24",
-            "stretched",
-        ),
-        ("lights: []", "no-light", "3:11", "black"),
-        (
-            "style: Lines(), sections: [(point: (0, 0, 9), normal: (0, 0, 1))]",
-            "section-misses",
-            "3:30",
-            "point: (0.000, 0.500, 0.000)",
-        ),
-        (
-            "style: Lines(), sections: [(point: (0, 0, -9), normal: (0, 0, 1))]",
-            "section-removes-all",
-            "3:30",
-            "removes everything",
-        ),
-        (
-            "viewports: [(at: (0, 0, 0.3, 0.3), camera: (view: LookAt(eye: (0, 0, 9), target: (0, 0, 20))))]",
-            "nothing-visible",
-            "3:46",
-            "behind the eye",
-        ),
-        (
-            "camera: (view: LookAt(eye: (0, 0, 200), target: (0, 0, 0)))",
-            "tiny-picture",
-            "3:11",
-            "less than a thousandth",
-        ),
-        ("stereo: Anaglyph(eye_distance: 65)", "wide-stereo", "3:34", "the scene's units"),
-        ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "leave `height` out"),
-        (
-            "camera_path: (keys: [(time: 0, eye: (0, 0, 9), target: (0, 0, 0)), (time: 2, eye: (0, 0, -9), target: (0, 0, 0))])",
-            "camera-path-turns-over",
-            "3:24",
-            "at 1.000 s the camera passes through its target",
-        ),
-        (
-            "camera_path: (keys: [(time: 0, eye: (0, 9, 9), target: (0, 0, 0)), (time: 2, eye: (0, 9, -9), target: (0, 0, 0))])",
-            "camera-path-turns-over",
-            "3:24",
-            "along its view-up vector",
-        ),
-    ];
-    for (rest, code, location, words) in cases {
+    for &(rest, code, location, words) in SUSPICIOUS {
         let (exit, output) = check_with_fields(&sandbox, rest);
         let head = format!("warning[{code}]: ");
         let pointed = location.is_empty() || output.contains(&format!("scene.ron:{location}\n"));

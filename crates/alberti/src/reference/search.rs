@@ -265,7 +265,7 @@ mod tests {
             ("fov", "fov_y_degrees"),
             ("msaa", "samples"),
             ("shadow catcher", "Shadow"),
-            ("section", "sections"),
+            ("cutaway", "sections"),
             ("glasses", "Anaglyph"),
         ] {
             let found = find_sections(&sections, word);
