@@ -45,7 +45,7 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("fit autofit zoomtofit resetcamera", "View", "Frame"),
     ("padding margin bounds", "View::Frame", "padding_percent"),
     ("modelcamera cameraindex", "View", "FromModel"),
-    ("position location", "CameraKey", "eye"),
+    ("position location pos from camera", "CameraKey", "eye"),
     ("lookat center focalpoint", "CameraKey", "target"),
     // Lights: three.js lights, Blender's light types, KHR_lights_punctual.
     (
@@ -179,6 +179,11 @@ pub(super) const FOREIGN_WORDS: &[(&str, &str, &str)] = &[
     ("origin position constant", "Section", "point"),
     ("direction", "Section", "normal"),
     ("aov aovs renderpasses layers viewlayers", "Scene", "passes"),
+    ("mm millimeters millimetres", "Unit", "Millimeter"),
+    ("cm centimeters centimetres", "Unit", "Centimeter"),
+    ("m meters metres", "Unit", "Meter"),
+    ("in inches", "Unit", "Inch"),
+    ("ft feet", "Unit", "Foot"),
     ("depthmap zpass depthpass", "Scene", "passes"),
     ("depthcueing", "Lines", "depth_cue_percent"),
     ("views insets splitscreen fourviews quadview", "Scene", "viewports"),
