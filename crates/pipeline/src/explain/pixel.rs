@@ -69,7 +69,7 @@ fn fragment_step(scene: &Scene, at: usize, seen: &ShadedFragment) -> Step {
     let mut step =
         Step::new(if at == 0 { "fragment" } else { "other_fragment" }, title, Some("RA-1, IN-2"))
             .with_item("weights", "weights of its corners", seen.weights.map(f64::from))
-            .with_item("color", "colour, linear, times alpha", seen.color.map(f64::from));
+            .with_item("color", "color, linear, times alpha", seen.color.map(f64::from));
     if let Some(position) = fragment_position(scene, seen) {
         step.add_item("world", "place in the world", <[f64; 3]>::from(position));
     }
