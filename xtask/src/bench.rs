@@ -1,15 +1,18 @@
-//! `cargo xtask bench`: how fast it is, as ratios to others in the same process; and how many
-//! instructions it takes.
+//! `cargo xtask bench`: how fast it is, as ratios to others in the same process or to another
+//! commit; and how many instructions it takes.
 //!
 //! ```text
-//! bench                 both of the following
+//! bench                 the two that follow
 //! bench maths [NAME…]   bulk operations against plain loops (tests/bench); or `bench NAME…`
 //! bench raster [NAME…]  the rasterizer against other rasterizers (tests/peers)
+//! bench compare REV     the program of another commit beside this one's: stages, features, memory
 //! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!
-//! The first two print; they judge nothing, for times are no fact about the code alone. Counts are.
+//! All but the last print; they judge nothing, for times are no fact about the code alone. Counts
+//! are.
 
+mod compare;
 mod instructions;
 mod raster;
 
@@ -22,6 +25,7 @@ pub fn run_bench(arguments: &[String]) -> Outcome {
         None => bench_maths(&[]).and_then(|()| raster::bench_raster(&[])),
         Some((part, rest)) if part == "maths" => bench_maths(rest),
         Some((part, rest)) if part == "raster" => raster::bench_raster(rest),
+        Some((part, rest)) if part == "compare" => compare::bench_compare(rest),
         Some((part, rest)) if part == "--instructions" => instructions::run_instructions(rest),
         Some((flag, _)) if flag.starts_with('-') => Err(format!("unknown flag `{flag}`")),
         Some(_) => bench_maths(arguments),

@@ -85,8 +85,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "bench",
-        arguments: "[maths|raster] [NAME…] | --instructions",
-        about: "Measure speed relative to other programs, or count instructions",
+        arguments: "maths|raster|compare|--instructions …",
+        about: "Measure speed relative to other programs or commits, or count instructions",
         run: bench::run_bench,
     },
     Command {

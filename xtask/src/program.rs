@@ -50,6 +50,18 @@ impl Program {
         Ok(Self { path: folder.join(profile).join(name) })
     }
 
+    /// Builds the release program of another checkout of the workspace, in its own target folder.
+    pub fn build_checkout(root: &Path) -> Result<Self, String> {
+        let folder = root.join("target");
+        // The program was once part of the library.
+        let package = if root.join("crates/alberti").is_dir() { "alberti" } else { "pipeline" };
+        let mut cargo = cargo_command(&["build", "--quiet", "--release", "--locked"]);
+        cargo.args(["--package", package, "--bin", "alberti"]);
+        run_command(cargo.current_dir(root).env("CARGO_TARGET_DIR", &folder))?;
+        let name = format!("alberti{}", std::env::consts::EXE_SUFFIX);
+        Ok(Self { path: folder.join("release").join(name) })
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path

@@ -1,0 +1,184 @@
+//! `cargo xtask bench compare REV`: the program as it is now beside that of another commit.
+//!
+//! ```text
+//! cargo xtask bench compare main~20 --quick
+//! cargo xtask bench compare v0.1 --models flight-helmet cave --runs 9 --out target/bench/v0.1
+//! cargo xtask bench compare HEAD~1 --models ../models
+//! ```
+//!
+//! Both programs render the same models, by turns: old, new, old, new. What is printed are ratios
+//! of times of the same round, as medians with the least and the greatest, because a machine that is
+//! slow for a second is slow for both: new/old for each stage of `--timings`, and on/off for
+//! features, styles and threads in either program. Peak memory and wall time stand beside them. A
+//! variant that a program refuses, because it lacks a flag, has a dash, and the reason below.
+//!
+//! | module | holds |
+//! | --- | --- |
+//! | `revision` | the program of another commit |
+//! | `models` | which models are rendered |
+//! | `variants` | settings, features, styles and commands that are measured |
+//! | `patched_model` | models with a material extension or a light added |
+//! | `run` | one run of a program and its figures |
+//! | `measurement` | rounds of runs, and ratios between them |
+//! | `spread` | median, least and greatest |
+//! | `summary` | what the report and the chart show |
+//! | `table` `chart` `json` | text, SVG and JSON |
+//! | `machine` | where it was measured |
+//!
+//! It judges nothing: times are no fact about the code alone.
+
+mod chart;
+mod json;
+mod machine;
+mod measurement;
+mod models;
+mod patched_model;
+mod revision;
+mod run;
+mod spread;
+mod summary;
+mod table;
+mod variants;
+
+use crate::Outcome;
+use crate::program::{Build, Program};
+use crate::workspace::{create_folder, target_folder};
+use machine::Machine;
+use measurement::{Measurement, Measurer};
+use models::ModelSelection;
+use revision::Commit;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+const USAGE: &str =
+    "say `bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]`";
+
+/// Rounds of runs, and frames of the turntable.
+const RUNS: usize = 5;
+const FRAMES: usize = 120;
+/// The same with `--quick`.
+const QUICK_RUNS: usize = 3;
+const QUICK_FRAMES: usize = 12;
+
+/// The parsed command line.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Request {
+    revision: String,
+    models: ModelSelection,
+    runs: usize,
+    frames: usize,
+    out: Option<PathBuf>,
+}
+
+impl Request {
+    fn parse_request(arguments: &[String]) -> Result<Self, String> {
+        let mut words = arguments.iter().peekable();
+        let (mut revision, mut names) = (None, Vec::new());
+        let (mut runs, mut quick, mut out) = (None, false, None);
+        while let Some(word) = words.next() {
+            match word.as_str() {
+                "--models" => {
+                    while let Some(name) = words.next_if(|word| !word.starts_with('-')) {
+                        names.push(name.clone());
+                    }
+                    if names.is_empty() {
+                        return Err("--models needs a folder or names of models".into());
+                    }
+                }
+                "--runs" => {
+                    let count = words.next().and_then(|count| count.parse().ok());
+                    runs = Some(count.filter(|count| *count > 0).ok_or("--runs needs a number")?);
+                }
+                "--quick" => quick = true,
+                "--out" => out = Some(words.next().ok_or("--out needs a folder")?.into()),
+                flag if flag.starts_with('-') => {
+                    return Err(format!("unknown flag `{flag}`: {USAGE}"));
+                }
+                name if revision.is_none() => revision = Some(name.to_owned()),
+                other => return Err(format!("unexpected argument `{other}`: {USAGE}")),
+            }
+        }
+        Ok(Self {
+            revision: revision.ok_or(format!("a commit to compare with is missing: {USAGE}"))?,
+            models: ModelSelection::parse_words(names),
+            runs: runs.unwrap_or(if quick { QUICK_RUNS } else { RUNS }),
+            frames: if quick { QUICK_FRAMES } else { FRAMES },
+            out,
+        })
+    }
+}
+
+/// Builds both programs, measures, prints the tables and writes the files of `--out`.
+pub fn bench_compare(arguments: &[String]) -> Outcome {
+    let request = Request::parse_request(arguments)?;
+    let measured = measure(&request);
+    // Whatever comes next begins its own line.
+    show_progress("");
+    let (machine, measurements) = measured?;
+    println!("{}", table::report(&machine, &measurements));
+    match &request.out {
+        Some(out) => write_files(out, &machine, &measurements),
+        None => Ok(()),
+    }
+}
+
+fn measure(request: &Request) -> Result<(Machine, Vec<Measurement>), String> {
+    let old_commit = Commit::resolve(&request.revision)?;
+    let models = request.models.list_models()?;
+    show_progress(&format!("building {}", old_commit.short()));
+    let old = old_commit.build_program()?;
+    show_progress("building this commit");
+    let new = Program::build(Build::Release)?;
+    let machine = Machine::describe(&old_commit)?;
+    let folder = target_folder().join("bench/compare");
+    let measurer = Measurer::new([old.path(), new.path()], &folder, request.runs);
+    Ok((machine, measurer.measure_all(&models, request.frames)?))
+}
+
+fn write_files(out: &Path, machine: &Machine, measurements: &[Measurement]) -> Outcome {
+    create_folder(out)?;
+    let write = |name: &str, text: String| {
+        let path = out.join(name);
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    write("compare.json", format!("{:#}\n", json::to_json(machine, measurements)))?;
+    write("compare.svg", chart::to_svg(machine, measurements))?;
+    println!("{} and compare.svg hold the same figures", out.join("compare.json").display());
+    Ok(())
+}
+
+/// Replaces the line of progress on a terminal; elsewhere there is none.
+fn show_progress(message: &str) {
+    if std::io::stderr().is_terminal() {
+        eprint!("\r\x1b[K{message}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(line: &str) -> Result<Request, String> {
+        Request::parse_request(&line.split(' ').map(str::to_owned).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn arguments_are_read_in_any_order() {
+        let request = parsed("main --models no_such_folder b --quick --out o").unwrap();
+        assert_eq!(request, parsed("--quick main --out o --models no_such_folder b").unwrap());
+        assert_eq!((request.runs, request.frames), (QUICK_RUNS, QUICK_FRAMES));
+        assert_eq!(request.out, Some("o".into()));
+        let names = vec!["no_such_folder".to_owned(), "b".to_owned()];
+        assert_eq!(request.models, ModelSelection::Names(names));
+        assert_eq!(parsed("main --quick --runs 7").unwrap().runs, 7);
+    }
+
+    #[test]
+    fn a_commit_is_needed_and_numbers_are_checked() {
+        assert!(parsed("--quick").unwrap_err().contains("a commit"));
+        assert!(parsed("main --runs 0").unwrap_err().contains("--runs"));
+        assert!(parsed("main --models --quick").unwrap_err().contains("--models"));
+        assert!(parsed("main other").unwrap_err().contains("`other`"));
+        assert!(parsed("main --fast").unwrap_err().contains("`--fast`"));
+    }
+}

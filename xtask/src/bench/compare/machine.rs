@@ -1,0 +1,82 @@
+//! Where and when it was measured.
+
+use super::revision::{Commit, current_commit};
+use crate::program::capture_output;
+use crate::workspace::{project_root, read_text};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::Command;
+
+/// The programs and the machine they ran on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Machine {
+    /// The old commit: what the user called it, and its hash.
+    pub old: String,
+    /// The new commit: its hash, and whether files have changed since.
+    pub new: String,
+    /// The model of the processor.
+    pub processor: String,
+    /// Threads that run at a time.
+    pub cores: usize,
+    /// `rustc --version`.
+    pub compiler: String,
+    /// The date and time of the system, in UTC.
+    pub date: Option<String>,
+}
+
+impl Machine {
+    /// Asks git, the compiler and the system.
+    pub fn describe(old: &Commit) -> Result<Self, String> {
+        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+        let compiler = Command::new(rustc).arg("--version").current_dir(project_root()).output();
+        let compiler = compiler.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
+        let date = capture_output(Command::new("date").args(["-u", "+%Y-%m-%dT%H:%M:%SZ"]));
+        let cores = std::thread::available_parallelism();
+        Ok(Self {
+            old: format!("{} ({})", old.revision, old.hash),
+            new: current_commit()?,
+            processor: processor_model(&read_text(Path::new("/proc/cpuinfo")).unwrap_or_default()),
+            cores: cores.map_or(1, std::num::NonZeroUsize::get),
+            compiler: compiler.unwrap_or_default().trim().to_owned(),
+            date: date.ok().map(|date| date.trim().to_owned()),
+        })
+    }
+
+    /// As an object.
+    pub fn to_json(&self) -> Value {
+        let Self { old, new, processor, cores, compiler, date } = self;
+        json!({
+            "old": old, "new": new, "processor": processor, "cores": cores, "rustc": compiler,
+            "date": date,
+        })
+    }
+}
+
+fn processor_model(cpuinfo: &str) -> String {
+    let model = cpuinfo.lines().find_map(|line| line.strip_prefix("model name"));
+    let model = model.and_then(|rest| rest.split_once(':'));
+    model.map_or("unknown processor", |(_, model)| model.trim()).to_owned()
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    pub fn machine() -> Machine {
+        Machine {
+            old: "an old commit".into(),
+            new: "a new commit".into(),
+            processor: "a processor".into(),
+            cores: 4,
+            compiler: "rustc 1.0".into(),
+            date: None,
+        }
+    }
+
+    #[test]
+    fn processors_have_a_model() {
+        let cpuinfo = "processor\t: 0\nmodel name\t: Some Processor @ 2 GHz\nmodel\t: 1\n";
+        assert_eq!(processor_model(cpuinfo), "Some Processor @ 2 GHz");
+        assert_eq!(processor_model(""), "unknown processor");
+    }
+}

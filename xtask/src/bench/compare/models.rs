@@ -1,0 +1,155 @@
+//! Which models are rendered: shared ones, those of a folder, or those of the scenes.
+
+use crate::workspace::{list_files, project_root};
+use std::path::{Path, PathBuf};
+
+/// The shared models that are rendered by default: textures, many triangles, skins, many meshes,
+/// large surfaces.
+const DEFAULT_NAMES: [&str; 6] =
+    ["flight-helmet", "cave", "cesium-man", "many-cubes", "house", "carbon-sphere"];
+
+/// The models of the scenes that stand in for them where there are none.
+const COMMITTED_NAMES: [&str; 4] = ["teapot", "crate", "floor", "finishes"];
+
+/// A model to render.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct BenchModel {
+    /// Its name in tables.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+}
+
+/// The models that were asked for.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ModelSelection {
+    /// Nothing was said.
+    Default,
+    /// All models of a folder and of the folders in it.
+    Folder(PathBuf),
+    /// Shared models, or models of the scenes.
+    Names(Vec<String>),
+}
+
+impl ModelSelection {
+    /// One word that is a folder stands for what it holds; other words are names.
+    pub fn parse_words(words: Vec<String>) -> Self {
+        match words.as_slice() {
+            [] => Self::Default,
+            [word] if Path::new(word).is_dir() => Self::Folder(word.into()),
+            _ => Self::Names(words),
+        }
+    }
+
+    /// The files; default models that are missing are named on the standard output.
+    pub fn list_models(&self) -> Result<Vec<BenchModel>, String> {
+        match self {
+            Self::Default => default_models(&shared_folder()),
+            Self::Folder(folder) => {
+                // The program runs at the root, wherever this one was started.
+                let folder = std::fs::canonicalize(folder)
+                    .map_err(|error| format!("{}: {error}", folder.display()))?;
+                models_below(&folder)
+            }
+            Self::Names(names) => {
+                names.iter().map(|name| named_model(&shared_folder(), name)).collect()
+            }
+        }
+    }
+}
+
+/// The folder of models beside the repository, or of the variable `ASSETS`.
+fn shared_folder() -> PathBuf {
+    let assets = std::env::var_os("ASSETS").unwrap_or_else(|| "../shared/assets".into());
+    project_root().join(assets).join("models")
+}
+
+fn default_models(shared: &Path) -> Result<Vec<BenchModel>, String> {
+    let mut models = Vec::new();
+    for name in DEFAULT_NAMES {
+        match shared_model(shared, name) {
+            Some(model) => models.push(model),
+            None => println!("SKIPPED {name}: no model in {}", shared.join(name).display()),
+        }
+    }
+    if models.is_empty() {
+        println!("The models of the scenes are rendered instead: {}", COMMITTED_NAMES.join(", "));
+        return COMMITTED_NAMES.into_iter().map(|name| named_model(shared, name)).collect();
+    }
+    Ok(models)
+}
+
+fn named_model(shared: &Path, name: &str) -> Result<BenchModel, String> {
+    let committed = project_root().join("scenes/models").join(format!("{name}.glb"));
+    let committed = || {
+        let path = committed.is_file().then_some(committed)?;
+        Some(BenchModel { name: name.to_owned(), path })
+    };
+    shared_model(shared, name).or_else(committed).ok_or_else(|| {
+        format!("no model `{name}`: neither in {} nor in scenes/models", shared.display())
+    })
+}
+
+/// The first model in the folder of that name.
+fn shared_model(shared: &Path, name: &str) -> Option<BenchModel> {
+    let path = models_in(&shared.join(name)).ok()?.into_iter().next()?;
+    Some(BenchModel { name: name.to_owned(), path })
+}
+
+/// The models of a folder and of its folders, sorted by name.
+fn models_below(folder: &Path) -> Result<Vec<BenchModel>, String> {
+    let mut paths = models_in(folder)?;
+    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    for inner in entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()) {
+        paths.extend(models_in(&inner)?);
+    }
+    let named = |path: PathBuf| {
+        let name = path.strip_prefix(folder).unwrap_or(&path);
+        let name = name.to_string_lossy().replace('\\', "/");
+        BenchModel { name, path }
+    };
+    let mut models: Vec<BenchModel> = paths.into_iter().map(named).collect();
+    models.sort();
+    if models.is_empty() {
+        return Err(format!("{}: no .glb and no .gltf in it", folder.display()));
+    }
+    Ok(models)
+}
+
+fn models_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    Ok([list_files(folder, "gltf")?, list_files(folder, "glb")?].concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn committed_models_stand_in_for_missing_ones() {
+        let models = default_models(Path::new("/no/such/folder")).unwrap();
+        assert_eq!(models.len(), COMMITTED_NAMES.len());
+        assert!(models.iter().all(|model| model.path.is_file()));
+    }
+
+    #[test]
+    fn folders_are_searched_and_unknown_names_are_errors() {
+        let models = models_below(&project_root().join("scenes")).unwrap();
+        assert!(models.iter().any(|model| model.name == "models/teapot.glb"), "{models:?}");
+        let error = named_model(Path::new("/no/such/folder"), "unicorn").unwrap_err();
+        assert!(error.contains("`unicorn`"), "{error}");
+        assert!(models_below(&project_root().join("crates/clip")).unwrap_err().contains("no .glb"));
+    }
+
+    #[test]
+    fn a_single_folder_is_no_name() {
+        let folder = project_root().join("scenes").to_string_lossy().into_owned();
+        assert_eq!(
+            ModelSelection::parse_words(vec![folder.clone()]),
+            ModelSelection::Folder(folder.into())
+        );
+        assert_eq!(
+            ModelSelection::parse_words(vec!["teapot".into()]),
+            ModelSelection::Names(vec!["teapot".into()])
+        );
+    }
+}
