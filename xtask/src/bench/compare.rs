@@ -12,6 +12,10 @@
 //! features, styles and threads in either program. Peak memory and wall time stand beside them. A
 //! variant that a program refuses, because it lacks a flag, has a dash, and the reason below.
 //!
+//! Models are by default six of the shared ones, for which it takes half an hour; `--models` names
+//! others, of the shared ones or of the scenes, or a folder. `--quick` has fewer rounds and frames.
+//! `--out` leaves `compare.json`, with every figure of every run, and the chart `compare.svg`.
+//!
 //! | module | holds |
 //! | --- | --- |
 //! | `revision` | the program of another commit |
@@ -50,8 +54,7 @@ use revision::Commit;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-const USAGE: &str =
-    "say `bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]`";
+const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quick] [--out FOLDER]";
 
 /// Rounds of runs, and frames of the turntable.
 const RUNS: usize = 5;
@@ -110,6 +113,10 @@ impl Request {
 
 /// Builds both programs, measures, prints the tables and writes the files of `--out`.
 pub fn bench_compare(arguments: &[String]) -> Outcome {
+    if arguments.iter().any(|word| word == "--help" || word == "-h") {
+        println!("{USAGE}");
+        return Ok(());
+    }
     let request = Request::parse_request(arguments)?;
     let measured = measure(&request);
     // Whatever comes next begins its own line.

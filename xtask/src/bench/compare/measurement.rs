@@ -119,12 +119,13 @@ impl Measurer {
         });
         let turns: Vec<(&TimedProgram, Vec<String>)> = turns.collect();
         let mut series: Vec<Series> = vec![Ok(Vec::new()); turns.len()];
-        // The first round warms up the caches of files, and shows what is refused.
-        for round in 0..=self.runs {
+        // Settings are the first that is measured of a model: its files are not in memory yet.
+        let warm_up = usize::from(variant.group == Group::Settings);
+        for round in 0..self.runs + warm_up {
             for ((program, arguments), series) in turns.iter().zip(&mut series) {
                 let Ok(rounds) = series else { continue };
                 match program.run(arguments) {
-                    Ok(_) if round == 0 => {}
+                    Ok(_) if round < warm_up => {}
                     Ok(figures) => rounds.push(figures),
                     Err(reason) => *series = Err(reason),
                 }
