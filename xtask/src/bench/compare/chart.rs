@@ -43,8 +43,9 @@ pub fn to_svg(machine: &Machine, measurements: &[Measurement]) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
          font-family=\"sans-serif\" font-size=\"12\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <text x=\"16\" y=\"24\" font-size=\"15\">Ratios of times over all models: medians and \
-         spread</text>\n<text x=\"16\" y=\"44\">old: {}</text>\n<text x=\"16\" y=\"60\">new: {}</text>\n\
+         <text x=\"16\" y=\"24\" font-size=\"15\">Ratios of times and memory over all models: \
+         medians and spread</text>\n<text x=\"16\" y=\"44\">old: {}</text>\n\
+         <text x=\"16\" y=\"60\">new: {}</text>\n\
          <text x=\"16\" y=\"76\">{}, {} cores</text>\n",
         escape_xml(&machine.old),
         escape_xml(&machine.new),
