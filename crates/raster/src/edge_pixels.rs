@@ -46,7 +46,8 @@ impl EdgePixels {
     }
 
     /// Adds a block of eight pixels: the colors of their first samples' triangles, weighted by the
-    /// number of samples that see the same triangle. Other triangles become contributions.
+    /// number of samples that see the same triangle, or one that `continues` its surface. Other
+    /// triangles become contributions.
     ///
     /// `planes` are the triangles of all samples; those of pixels outside `lanes` are ignored.
     #[inline(always)]
@@ -56,19 +57,14 @@ impl EdgePixels {
         lanes: Range<usize>,
         planes: &[[u32; LANES]],
         colors: &[F32x8; 4],
+        continues: impl Fn(u32, u32) -> bool,
     ) {
         // Coverage of the first sample's triangle in each pixel.
-        let masks = first_sample_masks(planes);
+        let mut masks = first_sample_masks(planes);
         self.blocks |= 1 << block;
-        // Weight each color by its number of samples, a block of eight at once.
-        for (sums, color) in self.color_sums.iter_mut().zip(colors) {
-            let sums = &mut sums[block * LANES..(block + 1) * LANES];
-            for lane in 0..LANES {
-                sums[lane] = color[lane] * masks[lane].count_ones() as f32;
-            }
-        }
         let all = u32::MAX >> (32 - planes.len());
         for lane in lanes {
+            let first = planes[0][lane];
             // Group the remaining samples of the pixel by triangle.
             let mut remaining = all & !masks[lane];
             while remaining != 0 {
@@ -78,8 +74,19 @@ impl EdgePixels {
                     mask |= u16::from(triangles[lane] == triangle) << sample;
                 }
                 remaining &= !u32::from(mask);
+                if continues(first, triangle) {
+                    masks[lane] |= u32::from(mask);
+                    continue;
+                }
                 let x = (block * LANES + lane) as u32;
                 self.contributions.push(Contribution { x, triangle, mask, translucent: false });
+            }
+        }
+        // Weight each color by its number of samples, a block of eight at once.
+        for (sums, color) in self.color_sums.iter_mut().zip(colors) {
+            let sums = &mut sums[block * LANES..(block + 1) * LANES];
+            for lane in 0..LANES {
+                sums[lane] = color[lane] * masks[lane].count_ones() as f32;
             }
         }
     }

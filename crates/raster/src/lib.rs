@@ -103,7 +103,7 @@ pub use primitive::{CullMode, Opacity, SourceWeights};
 pub use samples::Samples;
 pub use screen_vertex::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use simd_level::{Kernel, SimdLevel};
-pub use surface::{Encode, Surface, TranslucentColors};
+pub use surface::{Encode, Surface, TranslucentColors, shade_each};
 pub use surface_depth::SurfaceDepth;
 pub use vertex_projection::VertexProjection;
 pub use visibility_buffer::VisibilityBuffer;

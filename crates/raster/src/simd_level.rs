@@ -5,6 +5,9 @@
 //! every operation used is exact or correctly rounded (no fused multiply-add, no approximate
 //! reciprocal), so each lane has the bits of the scalar computation.
 //!
+//! Shading is compiled for AVX2 alone on x86 ([`SimdLevel::run_wide_kernel`]); without it fragments
+//! are shaded one by one.
+//!
 //! More levels were tried and given up. SSE4.2 saves little over SSE2 here and adds a third to the
 //! code that is compiled; AVX-512 pays only for filling large triangles, while shading, which runs
 //! eight lanes wide, takes a tenth to a third longer with it (`cargo xtask bench raster`).
@@ -62,6 +65,24 @@ impl SimdLevel {
             );
         }
         kernel.run()
+    }
+
+    /// Runs a kernel if the processor has better instructions than the oldest of its kind: AVX2 on
+    /// x86, and anything elsewhere. `None` otherwise: there is no copy of the kernel for SSE2.
+    ///
+    /// For kernels so large that a second copy costs more than the few processors without AVX2 are
+    /// worth; their callers go on fragment by fragment, with the same bits.
+    #[inline(always)]
+    pub fn run_wide_kernel<K: Kernel>(self, kernel: K) -> Option<K::Output> {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        return self.level.as_avx2().map(|avx2| {
+            avx2.vectorize(
+                #[inline(always)]
+                || kernel.run(),
+            )
+        });
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        Some(kernel.run())
     }
 
     pub(crate) const fn level(self) -> Level {

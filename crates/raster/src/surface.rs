@@ -34,15 +34,18 @@ pub trait Surface: Sync {
     /// instructions of the processor and several times as fast.
     #[inline(always)]
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
-        let mut colors = [[0.0; LANES]; 4];
-        let weights = fragments.weights();
-        for lane in 0..LANES {
-            let color = self.shade(&fragments.fragment(lane, &weights));
-            for (channel, value) in colors.iter_mut().zip(color) {
-                channel[lane] = value;
-            }
-        }
-        colors
+        shade_each(fragments, |fragment| self.shade(fragment))
+    }
+
+    /// Whether two opaque primitives are neighbors in one smooth surface, so that within a pixel
+    /// that shows both the color of one stands for the other.
+    ///
+    /// Asked of primitives that show the same side in one pixel; the ids are those that they were
+    /// submitted with. The default is `false`: each primitive is shaded by itself.
+    #[inline(always)]
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        let _ = (first_id, second_id);
+        false
     }
 
     /// The colors of eight fragments that may be translucent, and what they let through.
@@ -56,6 +59,23 @@ pub trait Surface: Sync {
         let transmittance = [color[3].map(|alpha| 1.0 - alpha); 3];
         TranslucentColors { color, transmittance }
     }
+}
+
+/// The colors of eight fragments, each by itself: all reds, all greens, all blues, all alphas.
+#[inline(always)]
+pub fn shade_each(
+    fragments: &Fragments<'_>,
+    shade: impl Fn(&Fragment<'_>) -> [f32; 4],
+) -> [F32x8; 4] {
+    let mut colors = [[0.0; LANES]; 4];
+    let weights = fragments.weights();
+    for lane in 0..LANES {
+        let color = shade(&fragments.fragment(lane, &weights));
+        for (channel, value) in colors.iter_mut().zip(color) {
+            channel[lane] = value;
+        }
+    }
+    colors
 }
 
 /// The colors of eight fragments that may be translucent.
@@ -84,6 +104,10 @@ impl<S: Surface + ?Sized> Surface for &S {
 
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         (**self).shade_eight(fragments)
+    }
+
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        (**self).is_continuous(first_id, second_id)
     }
 
     fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {

@@ -11,12 +11,15 @@
 //!
 //! Resolving is the mean of the samples of a pixel in linear light, before the target's encoding: a
 //! mean of encoded values would darken edges. Each triangle is shaded at most once per pixel, and
-//! the color is weighted by the number of its samples (multisampling, not supersampling).
+//! the color is weighted by the number of its samples (multisampling, not supersampling). Triangles
+//! that are neighbors in one smooth surface share one color per pixel (fragment merging: Fatahalian
+//! and others, *Reducing shading on GPUs using quad-fragment merging*, 2010): of a mesh as fine as
+//! the pixels most are.
 
 use crate::edge_pixels::EdgePixels;
 use crate::fragment_lanes::{F32x8, LANES};
 use crate::layer_blending::LayeredPixels;
-use crate::primitive::ScreenTriangle;
+use crate::primitive::{ScreenTriangle, WeightSource};
 use crate::sample_plane::{NO_TRIANGLE, pixel_index};
 use crate::tile_grid::{TILE, TileRect};
 use crate::tile_visibility::{TileVisibility, TranslucentLayer};
@@ -297,7 +300,25 @@ impl<S: Surface> TileResolve<'_, S> {
         }
         let lanes = run.lanes.start - run.block_start()..run.lanes.end - run.block_start();
         let lanes = lanes.start as usize..lanes.end as usize;
-        edges.add_first_samples(run.block_start() as usize / LANES, lanes, planes, &colors);
+        let continues = |first, other| self.is_one_surface(first, other);
+        let block = run.block_start() as usize / LANES;
+        edges.add_first_samples(block, lanes, planes, &colors, continues);
+    }
+
+    /// Whether two triangles of one pixel, or the background, are parts of one smooth surface, of
+    /// which one color is enough.
+    ///
+    /// Both must face the viewer with the same side; parts of clipped triangles stand alone.
+    #[inline(always)]
+    fn is_one_surface(&self, first: u32, other: u32) -> bool {
+        if first == NO_TRIANGLE || other == NO_TRIANGLE {
+            return false;
+        }
+        let (first, other) = (self.triangle(first), self.triangle(other));
+        let is_clipped = matches!(first.source, WeightSource::Clipped(_));
+        !is_clipped
+            && first.source == other.source
+            && self.surface.is_continuous(first.id, other.id)
     }
 
     /// Shades the gathered contributions to a row's edge pixels, resolves the samples and writes

@@ -52,6 +52,41 @@ fn a_pixel_is_the_mean_of_its_samples() {
     }
 }
 
+/// Colors by id, of which the first two are one smooth surface.
+struct Continuous(Colors);
+
+impl Surface for Continuous {
+    fn passes_alpha_test(&self, _: &Fragment<'_>) -> bool {
+        true
+    }
+    fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
+        self.0.shade(fragment)
+    }
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        first_id.max(second_id) < 2
+    }
+}
+
+#[test]
+fn neighbors_in_one_surface_share_a_color_where_they_face_the_same_way() {
+    let mut frame = Frame::new(3, 1, Samples::Four).expect("a small frame");
+    rectangle(&mut frame, [0.0, 0.0, 0.5, 1.0], 0.5, 0, Opacity::Opaque);
+    rectangle(&mut frame, [0.5, 0.0, 1.5, 1.0], 0.5, 1, Opacity::Opaque);
+    rectangle(&mut frame, [1.5, 0.0, 2.5, 1.0], 0.5, 2, Opacity::Opaque);
+    // The same on the right, but seen from behind: the last pixel is half of it.
+    let [a, b] = [vertex(2.5, 0.0, 0.5), vertex(9.0, 0.0, 0.5)];
+    let [c, d] = [vertex(9.0, 1.0, 0.5), vertex(2.5, 1.0, 0.5)];
+    frame.add_triangle([a, c, b], 0, Opacity::Opaque);
+    frame.add_triangle([a, d, c], 0, Opacity::Opaque);
+    let colors = vec![RED, BLUE, BLUE];
+    let mut target = [CLEAR; 3];
+    frame.draw(&Continuous(Colors(colors)), CLEAR, 1, &mut target, |color| color);
+    let half = [0.5, 0.0, 0.5, 1.0];
+    // Red and blue are one surface in the first pixel, and in the others they are not.
+    assert!(target[0] == RED || target[0] == BLUE, "{target:?}");
+    assert_eq!(target[1..], [BLUE, half], "{target:?}");
+}
+
 #[test]
 fn neighbouring_triangles_show_nothing_of_the_background_between_them() {
     let mut frame = Frame::new(40, 40, Samples::Eight).expect("a small frame");

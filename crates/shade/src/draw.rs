@@ -99,6 +99,28 @@ impl<'a> DrawList<'a> {
         let end = self.draws.get(after).map_or(u32::MAX, |next| next.first_id);
         (&self.draws[after - 1], end)
     }
+
+    /// Whether two triangles of a smooth draw have an edge in common, with the same vertices:
+    /// normals, colors and texture coordinates are then continuous across it.
+    ///
+    /// Vertices that only lie at one place, as at creases and at seams of textures, are not the
+    /// same.
+    pub(crate) fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        let (draw, end) = self.find_draw(first_id);
+        if !(draw.first_id..end).contains(&second_id) || !draw.is_smooth {
+            return false;
+        }
+        if draw.primitive.topology != Topology::Triangles {
+            return false;
+        }
+        let [first, second] =
+            [first_id, second_id].map(|id| draw.primitive_vertices((id - draw.first_id) as usize));
+        let mut shared = 0;
+        for vertex in first {
+            shared += usize::from(second.contains(&vertex));
+        }
+        shared >= 2
+    }
 }
 
 impl Draw<'_> {
@@ -139,7 +161,10 @@ impl Draw<'_> {
         &self,
         primitives: &PrimitiveIndices<N>,
     ) -> VertexIndices<N> {
-        primitives.vertex_indices(|primitive| self.primitive_vertices(primitive))
+        primitives.vertex_indices(
+            #[inline(always)]
+            |primitive| self.primitive_vertices(primitive),
+        )
     }
 
     /// The interpolated tangents, of any length; zero where the draw has none.

@@ -27,7 +27,9 @@ use super::{
 };
 use homog::{HPoint, World};
 use model::{AlphaMode, Topology};
-use raster::{F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface, TranslucentColors};
+use raster::{
+    F32x8, Fragment, Fragments, Kernel, LANES, SimdLevel, Surface, TranslucentColors, shade_each,
+};
 
 /// The draws, lights and settings that the fragments of a frame are shaded with.
 #[derive(Debug)]
@@ -68,20 +70,34 @@ impl Surface for Shading<'_> {
     }
 
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
-        let (draw, _) = self.draws.find_draw(fragment.id);
-        let primitive = draw.primitive_indices(&[fragment.id], true);
-        self.shade_lanes(draw, &primitive, fragment).color.map(|channel| channel[0])
+        self.shade_one(fragment).color.map(|channel| channel[0])
     }
 
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
-        self.simd_level.run_kernel(ShadeEight { shading: self, fragments, transmittance: None })
+        let kernel = ShadeEight { shading: self, fragments, transmittance: None };
+        let colors = self.simd_level.run_wide_kernel(kernel);
+        colors.unwrap_or_else(|| shade_each(fragments, |fragment| self.shade(fragment)))
+    }
+
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        self.draws.is_continuous(first_id, second_id)
     }
 
     fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
         let mut transmittance = Default::default();
         let kernel =
             ShadeEight { shading: self, fragments, transmittance: Some(&mut transmittance) };
-        let color = self.simd_level.run_kernel(kernel);
+        let color = self.simd_level.run_wide_kernel(kernel);
+        let color = color.unwrap_or_else(|| {
+            let weights = fragments.weights();
+            for lane in 0..LANES {
+                let shaded = self.shade_one(&fragments.fragment(lane, &weights));
+                for (channel, one) in transmittance.iter_mut().zip(shaded.transmittance) {
+                    channel[lane] = one[0];
+                }
+            }
+            shade_each(fragments, |fragment| self.shade(fragment))
+        });
         TranslucentColors { color, transmittance }
     }
 }
@@ -225,6 +241,14 @@ struct SurfaceLight<const N: usize> {
 }
 
 impl Shading<'_> {
+    /// Shades one fragment by itself, with the bits that it has among eight.
+    #[inline(never)]
+    fn shade_one(&self, fragment: &Fragment<'_>) -> ShadedLanes<1> {
+        let (draw, _) = self.draws.find_draw(fragment.id);
+        let primitive = draw.primitive_indices(&[fragment.id], true);
+        self.shade_lanes(draw, &primitive, fragment)
+    }
+
     /// Shades fragments of one draw.
     #[inline(always)]
     fn shade_lanes<const N: usize>(
