@@ -20,6 +20,7 @@ mod irradiance;
 mod octahedral_map;
 mod prefilter;
 
+use super::approximations::floor_to_int;
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use irradiance::IrradianceHarmonics;
 use octahedral_map::{OctahedralMap, sample_trilinear};
@@ -84,10 +85,11 @@ impl Environment {
         let level = roughness.clamp(0.0, 1.0) * (LEVEL_COUNT - 1) as f32;
         let mut near_levels = [0; N];
         for (near, level) in near_levels.iter_mut().zip(&level.0) {
-            *near = (*level as i32).min(LEVEL_COUNT as i32 - 2) as usize;
+            *near = floor_to_int(*level).min(LEVEL_COUNT as i32 - 2) as usize;
         }
         let fractions = Lanes::from_fn(|lane| level[lane] - near_levels[lane] as f32);
         let texels = sample_trilinear(
+            #[inline(always)]
             |level| self.prefiltered.level(level),
             &near_levels,
             fractions,

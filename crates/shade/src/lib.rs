@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod ambient_occlusion;
+mod approximations;
 mod attributes;
 mod backdrop;
 mod brdf;

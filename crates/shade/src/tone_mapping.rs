@@ -16,8 +16,9 @@
 //! All three curves work on linear sRGB and return linear sRGB: the encoding to the picture's codes
 //! comes later. Values are unbounded above on the way in, and at most 1 on the way out.
 
+use super::approximations::{exp2_approx, log2_approx};
 use super::color::multiply_matrix;
-use super::lanes::Rgb;
+use super::lanes::{Lanes, Rgb};
 
 /// The curve that brings light beyond 1 into the range of a display.
 ///
@@ -72,15 +73,13 @@ impl ToneMapper {
         if self.curve == ToneMapping::None {
             return light;
         }
-        Rgb::from_fn(|lane| {
-            let light = light.lane(lane).map(|c| c.max(0.0));
-            match self.curve {
-                ToneMapping::None => light,
-                ToneMapping::Neutral => khronos_neutral(light),
-                ToneMapping::Aces => aces_filmic(light),
-                ToneMapping::AgX => agx_tone_map(light),
-            }
-        })
+        let light = light.map(|channel| channel.max(0.0));
+        match self.curve {
+            ToneMapping::None => light,
+            ToneMapping::Neutral => khronos_neutral(light),
+            ToneMapping::Aces => aces_filmic(light),
+            ToneMapping::AgX => agx_tone_map(light),
+        }
     }
 }
 
@@ -94,21 +93,26 @@ impl ToneMapper {
 ///
 /// Below the start of compression the curve is the identity less the offset.
 #[inline(always)]
-fn khronos_neutral(light: [f32; 3]) -> [f32; 3] {
+fn khronos_neutral<const N: usize>(light: Rgb<N>) -> Rgb<N> {
     /// Where compression of highlights begins: 0.8, less the reflectance of dielectrics.
     const START: f32 = 0.8 - 0.04;
     const DESATURATION: f32 = 0.15;
     // Take away the Fresnel reflection of dielectrics, so that base colors come out as they are.
-    let least = light[0].min(light[1]).min(light[2]);
-    let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
-    let color = light.map(|c| c - offset);
+    let least = light.r.min_lanes(light.g).min_lanes(light.b);
+    let is_dark = least.is_below(0.08);
+    let offset = (least - 6.25 * least * least).select(&is_dark, Lanes::splat(0.04));
+    let color = light.map(|channel| channel - offset);
     // Compress the peak hyperbolically, and fade to white.
-    let peak = color[0].max(color[1]).max(color[2]);
+    let peak = color.max_channel();
     let headroom = 1.0 - START;
     let compressed = 1.0 - headroom * headroom / (peak + headroom - START);
     let fade = 1.0 - 1.0 / (DESATURATION * (peak - compressed) + 1.0);
     let scale = compressed / peak.max(START);
-    color.map(|c| if peak < START { c } else { c * scale * (1.0 - fade) + compressed * fade })
+    let is_kept = peak.is_below(START);
+    color.map(|channel| {
+        let mapped = channel * scale * (1.0 - fade) + compressed * fade;
+        channel.select(&is_kept, mapped)
+    })
 }
 
 /// sRGB to the primaries of the ACES fit, with the saturation of its reference rendering transform.
@@ -124,14 +128,16 @@ const ACES_TO_SRGB: [[f32; 3]; 3] =
 /// The two matrices hold change of primaries and of saturation together; per channel it is a
 /// quotient of quadratics.
 #[inline(always)]
-fn aces_filmic(light: [f32; 3]) -> [f32; 3] {
-    let curve = |x: f32| {
+fn aces_filmic<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
+    let [r, g, b] = multiply_matrix(&SRGB_TO_ACES, [r, g, b]);
+    let mapped = Rgb { r, g, b }.map(|x| {
+        // Bounded, or the squares of very bright light would be infinite, and their quotient NaN.
+        let x = x.min(1e9);
         let numerator = x * (x + 0.024_578_6) - 0.000_090_537;
         numerator / (x * (0.983_729 * x + 0.432_951) + 0.238_081)
-    };
-    // Bounded, or the squares of very bright light would be infinite, and their quotient NaN.
-    let mapped = multiply_matrix(&SRGB_TO_ACES, light).map(|x| curve(x.min(1e9)));
-    multiply_matrix(&ACES_TO_SRGB, mapped).map(|c| c.clamp(0.0, 1.0))
+    });
+    let [r, g, b] = multiply_matrix(&ACES_TO_SRGB, [mapped.r, mapped.g, mapped.b]);
+    Rgb { r, g, b }.map(|channel| channel.clamp(0.0, 1.0))
 }
 
 /// sRGB to AgX's inset primaries.
@@ -152,25 +158,33 @@ const AGX_TO_SRGB: [[f32; 3]; 3] = [
 ///
 /// 16.5 stops become 0 … 1. Channels mix through the inset, so saturated bright light fades to
 /// white by itself.
-fn agx_tone_map(light: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+fn agx_tone_map<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> Rgb<N> {
+    let [r, g, b] = multiply_matrix(&SRGB_TO_AGX, [r, g, b]);
+    let mapped = Rgb { r, g, b }.map(agx_sigmoid);
+    let [r, g, b] = multiply_matrix(&AGX_TO_SRGB, [mapped.r, mapped.g, mapped.b]);
+    // The curve ends in codes of a display with gamma 2.2; a picture needs linear light.
+    Rgb { r, g, b }.map(|code| {
+        code.clamp(0.0, 1.0).max(f32::MIN_POSITIVE).map(|code| exp2_approx(2.2 * log2_approx(code)))
+    })
+}
+
+/// The curve of AgX from light to codes: a polynomial of the logarithm.
+#[inline(always)]
+fn agx_sigmoid<const N: usize>(light: Lanes<N>) -> Lanes<N> {
     /// The range of light in stops.
     const MIN_EV: f32 = -12.473_93;
     const MAX_EV: f32 = 4.026_069;
-    let curve = |x: f32| {
-        // Log encoding.
-        let stops = libm::log2f(x.max(1e-10)).clamp(MIN_EV, MAX_EV);
-        let x = (stops - MIN_EV) / (MAX_EV - MIN_EV);
-        let square = x * x;
-        let fourth = square * square;
-        // The sigmoid, a polynomial of degree six.
-        15.5 * fourth * square - 40.14 * fourth * x + 31.96 * fourth - 6.868 * square * x
-            + 0.4298 * square
-            + 0.1191 * x
-            - 0.002_32
-    };
-    let mapped = multiply_matrix(&SRGB_TO_AGX, light).map(curve);
-    // The curve ends in codes of a display with gamma 2.2; a picture needs linear light.
-    multiply_matrix(&AGX_TO_SRGB, mapped).map(|code| libm::powf(code.clamp(0.0, 1.0), 2.2))
+    // Log encoding.
+    let stops = light.max(1e-10).map(log2_approx).clamp(MIN_EV, MAX_EV);
+    let x = (stops - MIN_EV) / (MAX_EV - MIN_EV);
+    let square = x * x;
+    let fourth = square * square;
+    // The sigmoid, a polynomial of degree six.
+    15.5 * fourth * square - 40.14 * fourth * x + 31.96 * fourth - 6.868 * square * x
+        + 0.4298 * square
+        + 0.1191 * x
+        - 0.002_32
 }
 
 #[cfg(test)]

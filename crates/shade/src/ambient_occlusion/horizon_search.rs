@@ -1,6 +1,7 @@
 //! The horizon search: the visible arcs around the surfaces of eight pixels.
 
 use super::screen_space::{PixelGrid, ScreenSpace};
+use crate::approximations::floor_to_int;
 use crate::lanes::{Lanes, Vec3Lanes};
 use raster::{Kernel, LANES};
 
@@ -198,15 +199,13 @@ impl SearchEight<'_> {
                 let height = found.dot(surfaces.views) / squared.sqrt() - surface_horizons[side];
                 let light = height.max(0.0) * height;
                 let radii = squared * (inv_radius * inv_radius);
-                for lane in 0..LANES {
-                    // `&` instead of `&&`: all conditions are computed, without branches.
-                    let occludes = (depths[lane] > 0.0)
-                        & (radii[lane] < 1.0)
-                        & (light[lane] > highest[side][lane]);
-                    let taken = (light[lane] - highest[side][lane]) * (1.0 - radii[lane]);
-                    occluded[side][lane] += if occludes { taken } else { 0.0 };
-                    highest[side][lane] = if occludes { light[lane] } else { highest[side][lane] };
-                }
+                // Of what is too far away, or not there, no light is taken: less than the highest.
+                let is_near = radii.is_below(1.0);
+                let light = light.select(&depths.is_above(0.0), Eight::ZERO);
+                let light = light.select(&is_near, Eight::ZERO);
+                let taken = (light - highest[side]).max(0.0) * (1.0 - radii.min(1.0));
+                occluded[side] += taken;
+                highest[side] = highest[side].max_lanes(light);
             }
         }
         [0, 1].map(|side| surface_horizons[side] + occluded[side].sqrt())
@@ -241,7 +240,7 @@ fn containing_pixels(coordinates: Eight, side: u32) -> [i32; LANES] {
     let mut pixels = [0; LANES];
     for (pixel, value) in pixels.iter_mut().zip(coordinates.0) {
         let is_inside = (value >= 0.0) & (value < side as f32);
-        *pixel = if is_inside { value } else { -1.0 } as i32;
+        *pixel = floor_to_int(if is_inside { value } else { -1.0 });
     }
     pixels
 }

@@ -1,5 +1,6 @@
 //! The mapping between a depth buffer and the world, and grids of pixels with a margin.
 
+use crate::approximations::floor_to_int;
 use crate::lanes::{Lanes, Vec3Lanes};
 use glam::{DMat4, DVec3};
 use raster::LANES;
@@ -135,9 +136,9 @@ impl ScreenSpace {
         let [width, height] = self.size.map(|side| side as f32);
         for (lane, pixel) in pixels.iter_mut().enumerate() {
             let [x, y, depth] = projected.lane(lane);
-            if x >= 0.0 && x < width && y >= 0.0 && y < height && depth > 0.0 {
-                *pixel = [x as i32, y as i32];
-            }
+            // `&` instead of `&&`: all conditions are computed, without branches.
+            let is_inside = (x >= 0.0) & (x < width) & (y >= 0.0) & (y < height) & (depth > 0.0);
+            *pixel = [x, y].map(|c| if is_inside { floor_to_int(c) } else { -2 });
         }
         pixels
     }

@@ -149,12 +149,8 @@ impl<const N: usize> BaseBrdf<N> {
         geometry: &SurfaceGeometry<N>,
     ) {
         let LayerInputs { iridescence, iridescence_thickness, .. } = inputs.layers;
-        // Thin-film interference, Belcour and Barla 2017, lane by lane: `libm` has no vector
-        // functions.
-        let film_f0 = Rgb::from_fn(|lane| {
-            let cosine = geometry.n_dot_v[lane];
-            thin_film_f0(self.f0.lane(lane), film_ior, iridescence_thickness[lane], cosine)
-        });
+        // Thin-film interference, Belcour and Barla 2017.
+        let film_f0 = thin_film_f0(self.f0, film_ior, iridescence_thickness, geometry.n_dot_v);
         self.f0 = self.f0.zip(film_f0, |bare, film| bare.lerp(film, iridescence));
         // The film covers the dielectric part of a surface too, which lets less light through to
         // the diffuse part where the film reflects more.

@@ -23,6 +23,7 @@
 
 mod table;
 
+use crate::approximations::floor_to_int;
 use crate::lanes::Lanes;
 use table::TABLE;
 
@@ -49,12 +50,10 @@ impl<const N: usize> DirectionalAlbedo<N> {
         let (rows, s) = locate_entries(roughness * 16.0 - 0.5);
         let (columns, t) = locate_entries(n_dot_v.sqrt() * 15.0);
         // Gather `A` and `B` of the four entries around each lane: upper left and right, then
-        // lower.
+        // lower. One index and one bound for the quad of each lane.
         let mut entries = [[Lanes::ZERO; 2]; 4];
         for lane in 0..N {
-            let (row, column) = (rows[lane] as usize, columns[lane] as usize);
-            let (upper, lower) = (&TABLE[row], &TABLE[row + 1]);
-            let quad = [upper[column], upper[column + 1], lower[column], lower[column + 1]];
+            let quad = &QUADS[(rows[lane] * 15 + columns[lane]) as usize & 255];
             for (entry, value) in entries.iter_mut().zip(quad) {
                 entry[0][lane] = value[0];
                 entry[1][lane] = value[1];
@@ -73,6 +72,22 @@ impl<const N: usize> DirectionalAlbedo<N> {
     }
 }
 
+/// The four entries around each position of the table, side by side: upper left and right, then
+/// lower. The table has 15 × 15 of them, and padding that makes any byte an index.
+static QUADS: [[[f32; 2]; 4]; 256] = quads();
+
+const fn quads() -> [[[f32; 2]; 4]; 256] {
+    let mut quads = [[[0.0; 2]; 4]; 256];
+    let mut index = 0;
+    while index < 15 * 15 {
+        let (row, column) = (index / 15, index % 15);
+        let (upper, lower) = (&TABLE[row], &TABLE[row + 1]);
+        quads[index] = [upper[column], upper[column + 1], lower[column], lower[column + 1]];
+        index += 1;
+    }
+    quads
+}
+
 /// Splits positions in a table of 16 entries into the entry before and the fraction to the next;
 /// positions beyond the ends are clamped.
 ///
@@ -82,7 +97,7 @@ pub(super) fn locate_entries<const N: usize>(positions: Lanes<N>) -> ([i32; N], 
     let positions = positions.clamp(0.0, 15.0);
     let mut entries = [0; N];
     for (entry, position) in entries.iter_mut().zip(&positions.0) {
-        *entry = (*position as i32).min(14);
+        *entry = floor_to_int(*position).min(14);
     }
     let fractions = Lanes::from_fn(|lane| positions[lane] - entries[lane] as f32);
     (entries, fractions)

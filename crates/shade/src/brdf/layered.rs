@@ -151,9 +151,10 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
         // albedo.
         // Split-sum approximation, Karis 2013.
         let roughness = self.base.roughness;
-        let mirrors = self.anisotropy.as_ref();
-        let mirrors =
-            mirrors.map_or(normals, |frame| frame.bent_normals(normals, views, roughness));
+        let mirrors = match &self.anisotropy {
+            Some(frame) => frame.bent_normals(normals, views, roughness),
+            None => normals,
+        };
         let light = environment.specular_radiance(mirrors, views, roughness);
         // Specular occlusion from ambient occlusion, Lagarde and de Rousiers 2014: at grazing
         // angles the mirror direction is less occluded than the hemisphere.
@@ -212,7 +213,10 @@ impl<'a, const N: usize> LayeredBrdf<'a, N> {
     /// The fraction of light from all directions that sheen leaves for the base.
     #[inline(always)]
     fn base_scale(&self) -> Lanes<N> {
-        self.sheen.as_ref().map_or(Lanes::ONE, Sheen::base_scale)
+        match &self.sheen {
+            Some(sheen) => sheen.base_scale(),
+            None => Lanes::ONE,
+        }
     }
 
     /// The radiance of all layers, the clearcoat over the rest.

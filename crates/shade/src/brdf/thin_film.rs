@@ -16,17 +16,25 @@
 //! Gaussians. The result is handed on as the F0 that leads to it under Schlick's approximation.
 
 use super::microfacet::pow5;
+use crate::approximations::{cosine_of_turns, exp2_approx};
 use crate::color::{XYZ_TO_SRGB, multiply_matrix};
-use std::f32::consts::PI;
+use crate::lanes::{Lanes, Rgb};
+use std::f32::consts::{LOG2_E, PI};
 
-/// The F0 of a surface under a thin film, at the cosine of the view.
+/// The F0 of surfaces under a thin film, at the cosines of the view.
 ///
 /// `f0` is that of the surface without the film, `ior` the film's index of refraction, `thickness`
 /// in nanometers. As the thickness goes to 0 the film's index goes to that of air.
 ///
 /// Each channel of F0 gives the index of refraction of the base, so a colored metal interferes by
 /// channel. The cost is two harmonics with four Gaussians and cosines each.
-pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
+#[inline(always)]
+pub(super) fn thin_film_f0<const N: usize>(
+    f0: Rgb<N>,
+    ior: f32,
+    thickness: Lanes<N>,
+    cosine: Lanes<N>,
+) -> Rgb<N> {
     // Without a film its index of refraction is that of air.
     let start = (thickness / 0.03).clamp(0.0, 1.0);
     let ior = 1.0 + (ior - 1.0) * start * start * (3.0 - 2.0 * start);
@@ -34,37 +42,28 @@ pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) 
     let sine_squared = (1.0 - cosine * cosine) / (ior * ior);
     let film_cosine = (1.0 - sine_squared).max(0.0).sqrt();
     // First interface, air to film.
-    let r12 = schlick_fresnel(normal_reflectance(ior, 1.0), cosine);
+    let r12 = schlick_fresnel(normal_reflectance(ior, Lanes::ONE), cosine);
     let t121 = 1.0 - r12;
-    // Optical path difference, 2 n d cosθ in the film.
+    // Second interface, film to base: the base's index of refraction from its F0.
+    let base_ior = f0.map(|f0| {
+        let root = (f0 + 1e-4).clamp(0.0, 0.9999).sqrt();
+        (1.0 + root) / (1.0 - root)
+    });
+    let r23 = base_ior.map(|base| schlick_fresnel(normal_reflectance(base, ior), film_cosine));
+    // The constant term and the first two harmonics of the series of reflections.
+    let r123 = r23.map(|r23| (r12 * r23).clamp(1e-5, 0.9999));
+    let rs = r23.zip(r123, |r23, r123| t121 * t121 * r23 / (1.0 - r123));
+    let root = r123.map(Lanes::sqrt);
+    let first = rs.map(|rs| rs - t121) * root;
+    // Half a wave is lost where light is reflected by a denser medium: in turns.
+    let half = Lanes::splat(0.5);
+    let shifts = base_ior.map(|base| Lanes::ONE.select(&(base - ior).is_below(0.0), half));
+    // Airy summation in Fourier space: each harmonic times the eye's response to its optical path
+    // difference, 2 n d cosθ in the film.
     let path = 2.0 * ior * thickness * film_cosine;
-    let mut reflectance = [0.0; 3];
-    let mut harmonics = [[0.0; 3]; 2];
-    let mut phase_shifts = [0.0; 3];
-    for channel in 0..3 {
-        // Second interface, film to base: the base's index of refraction from its F0.
-        let root = (f0[channel] + 1e-4).clamp(0.0, 0.9999).sqrt();
-        let base_ior = (1.0 + root) / (1.0 - root);
-        let r23 = schlick_fresnel(normal_reflectance(base_ior, ior), film_cosine);
-        let r123 = (r12 * r23).clamp(1e-5, 0.9999);
-        let rs = t121 * t121 * r23 / (1.0 - r123);
-        // The constant term and the first two harmonics of the series of reflections.
-        reflectance[channel] = r12 + rs;
-        harmonics[0][channel] = (rs - t121) * r123.sqrt();
-        harmonics[1][channel] = harmonics[0][channel] * r123.sqrt();
-        // Half a wave is lost where light is reflected by a denser medium.
-        phase_shifts[channel] = PI + if base_ior < ior { PI } else { 0.0 };
-    }
-    // Airy summation in Fourier space: each harmonic times the eye's response to its path
-    // difference.
-    for (index, amplitudes) in harmonics.iter().enumerate() {
-        let order = (index + 1) as f32;
-        let sensitivity =
-            spectral_sensitivity(order * path, phase_shifts.map(|shift| order * shift));
-        for channel in 0..3 {
-            reflectance[channel] += 2.0 * amplitudes[channel] * sensitivity[channel];
-        }
-    }
+    let once = spectral_sensitivity(path, shifts);
+    let twice = spectral_sensitivity(2.0 * path, shifts * 2.0);
+    let reflectance = rs.map(|rs| r12 + rs) + (first * once + first * root * twice) * 2.0;
     // The F0 from which Schlick's approximation gives this reflectance at the cosine.
     let schlick = pow5(1.0 - cosine).clamp(0.0, 0.9999);
     reflectance.map(|total| ((total.clamp(0.0, 1.0) - schlick) / (1.0 - schlick)).clamp(0.0, 1.0))
@@ -73,7 +72,8 @@ pub(super) fn thin_film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) 
 /// Fresnel reflectance at normal incidence between media with these indices of refraction.
 ///
 /// ((a − b) / (a + b))², for media that do not absorb.
-fn normal_reflectance(a: f32, b: f32) -> f32 {
+#[inline(always)]
+fn normal_reflectance<const N: usize>(a: Lanes<N>, b: Lanes<N>) -> Lanes<N> {
     let root = (a - b) / (a + b);
     root * root
 }
@@ -81,40 +81,52 @@ fn normal_reflectance(a: f32, b: f32) -> f32 {
 /// Schlick's approximation with F90 = 1.
 ///
 /// Schlick 1994, for an interface that reflects everything at grazing angles.
-fn schlick_fresnel(f0: f32, cosine: f32) -> f32 {
+#[inline(always)]
+fn schlick_fresnel<const N: usize>(f0: Lanes<N>, cosine: Lanes<N>) -> Lanes<N> {
     f0 + (1.0 - f0) * pow5(1.0 - cosine)
 }
 
 /// The response of the eye to waves with an optical path difference in nanometers, in linear sRGB:
 /// the Fourier transform of the CIE 1931 curves, fitted by Gaussians (Belcour and Barla 2017).
 ///
-/// XYZ are weighted by their own phase shifts, one per channel of the base, then converted to sRGB.
-fn spectral_sensitivity(path: f32, shifts: [f32; 3]) -> [f32; 3] {
-    let phase = 2.0 * PI * path * 1e-9;
-    let gaussian = |value: f32, center: f32, variance: f32, shift: f32| {
-        let wave = libm::cosf(center * phase + shift) * libm::expf(-phase * phase * variance);
-        value * (2.0 * PI * variance).sqrt() * wave / 1.068_5e-7
+/// XYZ are weighted by their own phase shifts, in turns, one per channel of the base, then
+/// converted to sRGB.
+#[inline(always)]
+fn spectral_sensitivity<const N: usize>(path: Lanes<N>, shifts: Rgb<N>) -> Rgb<N> {
+    // In waves per meter of wave number; the phase is 2π times as large.
+    let path = path * 1e-9;
+    let gaussian = |value: f32, center: f32, variance: f32, shift: Lanes<N>| {
+        let wave = (path * center + shift).map(cosine_of_turns);
+        let exponent = path * path * (-4.0 * PI * PI * variance * LOG2_E);
+        let height = value * (2.0 * PI * variance).sqrt() / 1.068_5e-7;
+        wave * exponent.map(exp2_approx) * height
     };
-    let x = gaussian(5.4856e-13, 1.681e6, 4.3278e9, shifts[0])
-        + gaussian(9.747e-14, 2.2399e6, 4.5282e9, shifts[0]);
-    let y = gaussian(4.4201e-13, 1.7953e6, 9.3046e9, shifts[1]);
-    let z = gaussian(5.2481e-13, 2.2084e6, 6.6121e9, shifts[2]);
-    multiply_matrix(&XYZ_TO_SRGB, [x, y, z])
+    let x = gaussian(5.4856e-13, 1.681e6, 4.3278e9, shifts.r)
+        + gaussian(9.747e-14, 2.2399e6, 4.5282e9, shifts.r);
+    let y = gaussian(4.4201e-13, 1.7953e6, 9.3046e9, shifts.g);
+    let z = gaussian(5.2481e-13, 2.2084e6, 6.6121e9, shifts.b);
+    let [r, g, b] = multiply_matrix(&XYZ_TO_SRGB, [x, y, z]);
+    Rgb { r, g, b }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The F0 of one surface.
+    fn film_f0(f0: [f32; 3], ior: f32, thickness: f32, cosine: f32) -> [f32; 3] {
+        thin_film_f0(Rgb::<1>::splat(f0), ior, Lanes([thickness]), Lanes([cosine])).lane(0)
+    }
+
     #[test]
     fn without_thickness_f0_is_that_of_the_base_and_no_film_creates_light() {
         for f0 in [0.02, 0.04, 0.3, 0.9] {
-            let bare = thin_film_f0([f0; 3], 1.3, 0.0, 0.8);
+            let bare = film_f0([f0; 3], 1.3, 0.0, 0.8);
             assert!(bare.iter().all(|actual| (actual - f0).abs() < 0.03), "{f0} {bare:?}");
             for step in 0..200 {
                 let thickness = step as f32 * 6.0;
                 for cosine in [1.0, 0.7, 0.3, 0.05, 0.0] {
-                    let actual = thin_film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
+                    let actual = film_f0([f0, f0 * 0.5, 0.0], 1.4, thickness, cosine);
                     assert!(actual.iter().all(|c| (0.0..=1.0).contains(c)), "{actual:?}");
                 }
             }

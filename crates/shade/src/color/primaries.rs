@@ -1,5 +1,7 @@
 //! Color spaces by matrices: CIE XYZ and linear sRGB.
 
+use std::ops::{Add, Mul};
+
 /// CIE XYZ to linear sRGB, with the white point D65 (IEC 61966-2-1; digits by Lindbloom, *RGB/XYZ
 /// matrices*).
 pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
@@ -8,8 +10,12 @@ pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
     [0.055_643_4, -0.204_025_9, 1.057_225_2],
 ];
 
-/// A color times a matrix of rows.
+/// A color times a matrix of rows: one color, or the lanes of several.
 #[inline(always)]
-pub(crate) fn multiply_matrix(matrix: &[[f32; 3]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
-    [0, 1, 2].map(|row: usize| matrix[row][0] * x + matrix[row][1] * y + matrix[row][2] * z)
+pub(crate) fn multiply_matrix<T>(matrix: &[[f32; 3]; 3], [x, y, z]: [T; 3]) -> [T; 3]
+where
+    T: Copy + Mul<f32, Output = T> + Add<Output = T>,
+{
+    let row = |[a, b, c]: [f32; 3]| x * a + y * b + z * c;
+    [row(matrix[0]), row(matrix[1]), row(matrix[2])]
 }

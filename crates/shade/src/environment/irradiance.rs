@@ -10,7 +10,7 @@
 //! ```
 
 use super::octahedral_map::{OctahedralMap, decode_octahedral, node_coordinate};
-use crate::lanes::{Rgb, Vec3Lanes, map_to_lanes};
+use crate::lanes::{Lanes, Rgb, Vec3Lanes};
 use crate::vector::normalize;
 use std::f64::consts::PI;
 
@@ -83,15 +83,22 @@ impl IrradianceHarmonics {
     /// Irradiance over π for unit normals; never below 0, where the truncated series rings.
     #[inline(always)]
     pub(super) fn irradiance_over_pi<const N: usize>(&self, normals: Vec3Lanes<N>) -> Rgb<N> {
-        let Vec3Lanes { x, y, z } = normals;
-        let [r, g, b] = map_to_lanes(&[0, 1, 2], |channel: usize| {
-            let f = &self.coefficients[channel];
-            // Bands 0 and 1, then the five functions of band 2.
-            let linear = f[0] + f[1] * x + f[2] * y + f[3] * z;
-            let mixed = f[4] * x * y + f[5] * y * z + f[7] * x * z;
-            let squares = f[6] * (3.0 * z * z - 1.0) + f[8] * (x * x - y * y);
-            (linear + mixed + squares).max(0.0)
-        });
-        Rgb { r, g, b }
+        let [r, g, b] = &self.coefficients;
+        Rgb {
+            r: sum_harmonics(r, normals),
+            g: sum_harmonics(g, normals),
+            b: sum_harmonics(b, normals),
+        }
     }
+}
+
+/// The sum of the nine functions with these coefficients, or 0 where it is below.
+#[inline(always)]
+fn sum_harmonics<const N: usize>(f: &[f32; 9], normals: Vec3Lanes<N>) -> Lanes<N> {
+    let Vec3Lanes { x, y, z } = normals;
+    // Bands 0 and 1, then the five functions of band 2.
+    let linear = f[0] + f[1] * x + f[2] * y + f[3] * z;
+    let mixed = f[4] * x * y + f[5] * y * z + f[7] * x * z;
+    let squares = f[6] * (3.0 * z * z - 1.0) + f[8] * (x * x - y * y);
+    (linear + mixed + squares).max(0.0)
 }

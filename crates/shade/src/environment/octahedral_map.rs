@@ -10,6 +10,7 @@
 //!   └────┴────┘
 //! ```
 
+use crate::approximations::floor_to_int;
 use crate::lanes::{Lanes, Vec3Lanes, map_to_lanes};
 use crate::vector::normalize;
 
@@ -36,12 +37,17 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
     fractions: Lanes<N>,
     directions: Vec3Lanes<N>,
 ) -> [Texel; N] {
-    // Gather the two maps of each lane; their sizes become lanes too.
-    let mut maps = [[level(near_levels[0]); N]; 2];
-    for (lane, &near_level) in near_levels.iter().enumerate() {
-        maps[0][lane] = level(near_level);
-        maps[1][lane] = level(near_level + usize::from(fractions[lane] != 0.0));
+    // The two maps of each lane: most often the same in all, as roughness seldom varies much.
+    let first = near_levels[0];
+    let has_next = fractions.0.iter().any(|fraction| *fraction != 0.0);
+    let mut maps = [[level(first); N], [level(first + usize::from(has_next)); N]];
+    if near_levels.iter().any(|near_level| *near_level != first) {
+        for (lane, &near_level) in near_levels.iter().enumerate() {
+            maps[0][lane] = level(near_level);
+            maps[1][lane] = level(near_level + usize::from(fractions[lane] != 0.0));
+        }
     }
+    // Their sizes become lanes too.
     let last_nodes =
         map_to_lanes(&maps, |maps| Lanes::from_fn(|lane| (maps[lane].side - 1) as f32));
     let positions = encode_octahedral(directions);
@@ -59,7 +65,7 @@ pub(super) fn sample_trilinear<'a, const N: usize>(
 
 /// The positions of directions on the square, between 0 and 1.
 #[inline(always)]
-fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
+pub(super) fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] {
     let Vec3Lanes { x, y, z } = directions;
     let sum = x.abs() + y.abs() + z.abs();
     let inv_sum = sum.map(|sum| if sum > 0.0 { 1.0 / sum } else { 0.0 });
@@ -74,7 +80,7 @@ fn encode_octahedral<const N: usize>(directions: Vec3Lanes<N>) -> [Lanes<N>; 2] 
 
 /// The four nodes around a position, in all lanes: column and row of the first, and the fractions
 /// of the way to the next.
-struct BilinearNodes<const N: usize> {
+pub(super) struct BilinearNodes<const N: usize> {
     columns: [i32; N],
     rows: [i32; N],
     column_fractions: Lanes<N>,
@@ -84,19 +90,10 @@ struct BilinearNodes<const N: usize> {
 impl<const N: usize> BilinearNodes<N> {
     /// The nodes around positions between 0 and 1, in maps with these last columns and rows.
     #[inline(always)]
-    fn locate([u, v]: [Lanes<N>; 2], last_nodes: Lanes<N>) -> Self {
-        let mut nodes = Self {
-            columns: [0; N],
-            rows: [0; N],
-            column_fractions: Lanes::ZERO,
-            row_fractions: Lanes::ZERO,
-        };
-        for lane in 0..N {
-            let last = last_nodes[lane];
-            (nodes.columns[lane], nodes.column_fractions[lane]) = split_coordinate(u[lane], last);
-            (nodes.rows[lane], nodes.row_fractions[lane]) = split_coordinate(v[lane], last);
-        }
-        nodes
+    pub(super) fn locate([u, v]: [Lanes<N>; 2], last_nodes: Lanes<N>) -> Self {
+        let (columns, column_fractions) = split_coordinates(u, last_nodes);
+        let (rows, row_fractions) = split_coordinates(v, last_nodes);
+        Self { columns, rows, column_fractions, row_fractions }
     }
 }
 
@@ -113,7 +110,11 @@ impl OctahedralMap {
 
     /// Bilinear interpolation between the nodes of a lane.
     #[inline(always)]
-    fn sample_bilinear<const N: usize>(&self, nodes: &BilinearNodes<N>, lane: usize) -> Texel {
+    pub(super) fn sample_bilinear<const N: usize>(
+        &self,
+        nodes: &BilinearNodes<N>,
+        lane: usize,
+    ) -> Texel {
         let first = nodes.rows[lane] as usize * self.side + nodes.columns[lane] as usize;
         let [a, b] = [self.texels[first], self.texels[first + 1]];
         let [c, d] = [self.texels[first + self.side], self.texels[first + self.side + 1]];
@@ -183,12 +184,21 @@ fn sign_not_zero(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// The node before a position between 0 and 1, and the fraction of the way to the next.
+/// The nodes before positions between 0 and 1, and the fractions of the way to the next.
+///
+/// `max` and `min` instead of `clamp`, which checks its bounds: the loops are vectorized.
 #[inline(always)]
-fn split_coordinate(position: f32, last: f32) -> (i32, f32) {
-    let position = (position * last).clamp(0.0, last);
-    let node = (position as i32).min(last as i32 - 1);
-    (node, position - node as f32)
+fn split_coordinates<const N: usize>(
+    positions: Lanes<N>,
+    last_nodes: Lanes<N>,
+) -> ([i32; N], Lanes<N>) {
+    let positions = (positions * last_nodes).max(0.0).min_lanes(last_nodes);
+    let mut nodes = [0; N];
+    for ((node, position), last) in nodes.iter_mut().zip(&positions.0).zip(&last_nodes.0) {
+        *node = floor_to_int(*position).min(floor_to_int(*last) - 1);
+    }
+    let fractions = Lanes::from_fn(|lane| positions[lane] - nodes[lane] as f32);
+    (nodes, fractions)
 }
 
 #[cfg(test)]

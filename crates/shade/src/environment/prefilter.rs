@@ -12,7 +12,7 @@
 //! large as the solid angle of the sample (filtered importance sampling: Křivánek and Colbert
 //! 2008).
 
-use super::octahedral_map::{OctahedralMap, sample_trilinear};
+use super::octahedral_map::{BilinearNodes, OctahedralMap, encode_octahedral};
 use crate::lanes::{Lanes, Vec3Lanes};
 use crate::vector::{cross, normalize};
 use raster::{Kernel, SimdLevel};
@@ -21,8 +21,9 @@ use std::sync::OnceLock;
 
 /// The number of prefiltered levels: of roughness 0, 0.2 and so on to 1.
 pub(super) const LEVEL_COUNT: usize = 6;
-/// Nodes along the sides of the levels but the first, which is the environment itself.
-const LEVEL_SIDES: [usize; LEVEL_COUNT - 1] = [129, 65, 33, 33, 17];
+/// Nodes along the sides of the levels but the first, which is the environment itself. A node of
+/// the sharpest is half as far from the next as the lobe of its roughness is wide.
+const LEVEL_SIDES: [usize; LEVEL_COUNT - 1] = [65, 65, 33, 33, 17];
 /// Levels of the mip chain that samples are read from.
 const MIP_COUNT: usize = 7;
 /// Samples for each texel of a level.
@@ -89,25 +90,24 @@ struct SamplePacket {
     /// How many lanes are in use.
     count: usize,
     directions: Vec3Lanes<SAMPLE_LANES>,
-    /// The sharper of the two mip levels of each sample.
-    near_levels: [usize; SAMPLE_LANES],
-    /// The weights of the next levels.
-    level_fractions: Lanes<SAMPLE_LANES>,
+    /// The mip level of each sample.
+    levels: [usize; SAMPLE_LANES],
+    /// The last columns and rows of these levels.
+    last_nodes: Lanes<SAMPLE_LANES>,
 }
 
 impl SamplePacket {
-    /// Up to eight directions, each with its mip level, in a chain with this last level.
-    fn new(samples: &[([f32; 3], f32)], last_level: usize) -> Self {
-        let mut near_levels = [0; SAMPLE_LANES];
-        let mut level_fractions = Lanes::ZERO;
+    /// Up to eight directions, each with its mip level in a chain: the nearest one, as the samples
+    /// of a lobe blend their levels by themselves.
+    fn new(samples: &[([f32; 3], f32)], mip_chain: &[OctahedralMap]) -> Self {
+        let mut levels = [0; SAMPLE_LANES];
         for (lane, (_, level)) in samples.iter().enumerate() {
-            let level = level.min(last_level as f32);
-            near_levels[lane] = (level as usize).min(last_level - 1);
-            level_fractions[lane] = level - near_levels[lane] as f32;
+            levels[lane] = ((level + 0.5) as usize).min(mip_chain.len() - 1);
         }
+        let last_nodes = Lanes::from_fn(|lane| (mip_chain[levels[lane]].side - 1) as f32);
         let direction = |lane: usize| samples.get(lane).map_or([0.0; 3], |sample| sample.0);
         let directions = Vec3Lanes::from_fn(direction);
-        Self { count: samples.len(), directions, near_levels, level_fractions }
+        Self { count: samples.len(), directions, levels, last_nodes }
     }
 }
 
@@ -139,8 +139,7 @@ fn importance_sample_ggx(alpha: f32, mip_chain: &[OctahedralMap]) -> Vec<SampleP
         (direction, level)
     };
     let samples: Vec<_> = (0..SAMPLE_COUNT).map(sample).filter(|([_, _, z], _)| *z > 0.0).collect();
-    let last_level = mip_chain.len() - 1;
-    samples.chunks(SAMPLE_LANES).map(|packet| SamplePacket::new(packet, last_level)).collect()
+    samples.chunks(SAMPLE_LANES).map(|packet| SamplePacket::new(packet, mip_chain)).collect()
 }
 
 /// The kernel that computes one texel of a level: the light around one normal.
@@ -167,13 +166,10 @@ impl Kernel for PrefilterKernel<'_> {
             let Vec3Lanes { x, y, z } = packet.directions;
             let directions = t * x + b * y + n * z;
             let n_dot_l = directions.dot(n).max(0.0);
-            let radiance = sample_trilinear(
-                |level| &mip_chain[level],
-                &packet.near_levels,
-                packet.level_fractions,
-                directions,
-            );
-            for (texel, weight) in radiance.iter().zip(n_dot_l.0).take(packet.count) {
+            let nodes = BilinearNodes::locate(encode_octahedral(directions), packet.last_nodes);
+            for lane in 0..packet.count {
+                let texel = mip_chain[packet.levels[lane]].sample_bilinear(&nodes, lane);
+                let weight = n_dot_l[lane];
                 for (sum, channel) in sum.iter_mut().zip(texel) {
                     *sum += channel * weight;
                 }

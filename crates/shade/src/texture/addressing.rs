@@ -8,6 +8,7 @@
 //! This depends on the size of an image and on its sampler, not on its texels, so that the textures
 //! of a material, most often alike in both, share the work.
 
+use crate::approximations::{floor_to_int, log2_approx};
 use crate::lanes::Lanes;
 use model::{MipmapMode, Sampler, TextureFilter, WrapMode};
 
@@ -93,7 +94,7 @@ impl TexelAddressing {
             let is_minified = (square > 1.0) & (square < f32::INFINITY);
             let lambda = 0.5 * log2_approx(if is_minified { square } else { 1.0 });
             // Level of detail, rounded down for trilinear filtering and to nearest for one level.
-            let level = ((lambda + round) as i32).min(self.last_level);
+            let level = floor_to_int(lambda + round).min(self.last_level);
             let is_between = (mipmap_mode == MipmapMode::Linear) & (level < self.last_level);
             let is_magnified = (mag_filter != min_filter) & (lambda <= 0.0);
             let near = if is_magnified { 0 } else { 1 + level };
@@ -188,13 +189,6 @@ impl<const N: usize> TexelAxis<N> {
     }
 }
 
-/// The largest integer not above `x`, with coordinates clamped to the range of `i32`.
-#[inline(always)]
-fn floor_to_int(x: f32) -> i32 {
-    let truncated = x.clamp(-1e9, 1e9) as i32;
-    truncated - i32::from((truncated as f32) > x)
-}
-
 /// Applies a wrap mode: indices of texels, anywhere, to indices within rows of these sizes.
 #[inline(always)]
 fn wrap_texels<const N: usize>(
@@ -239,32 +233,6 @@ fn wrap_texels<const N: usize>(
     wrapped
 }
 
-/// The base-2 logarithm of a normal number not below 1, to about six digits: enough to select mip
-/// levels. A polynomial of the mantissa, which becomes vector instructions where `libm` does not.
-#[inline(always)]
-fn log2_approx(x: f32) -> f32 {
-    // log2(1 + t) / t between 0 and 1, fitted at the zeros of a Chebyshev polynomial.
-    const COEFFICIENTS: [f32; 7] = [
-        1.442_693_2,
-        -0.721_162_74,
-        0.477_705_93,
-        -0.339_247_76,
-        0.215_588_54,
-        -0.096_066_25,
-        0.020_490_346,
-    ];
-    // Exponent and mantissa of an IEEE 754 number: x = 2^exponent · (1 + t).
-    let bits = x.to_bits();
-    let exponent = (bits >> 23) as i32 - 127;
-    let t = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000) - 1.0;
-    // Horner's scheme.
-    let mut sum = COEFFICIENTS[6];
-    for k in (0..6).rev() {
-        sum = sum * t + COEFFICIENTS[k];
-    }
-    exponent as f32 + sum * t
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -282,16 +250,6 @@ mod tests {
         assert_eq!(row(WrapMode::MirroredRepeat, 2), [0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1]);
         for mode in [WrapMode::Repeat, WrapMode::ClampToEdge, WrapMode::MirroredRepeat] {
             assert_eq!(row(mode, 1), [0; 11]);
-        }
-    }
-
-    #[test]
-    fn logarithms_are_right_to_six_digits() {
-        assert_eq!(log2_approx(1.0), 0.0);
-        for step in 0..100_000 {
-            let x = 1.0 + step as f32 * step as f32 * 0.01;
-            let exact = libm::log2(f64::from(x));
-            assert!((f64::from(log2_approx(x)) - exact).abs() < 3e-6 + exact * 1e-7, "{x}");
         }
     }
 }

@@ -66,10 +66,13 @@ impl MipChain<'_> {
         quads: &TexelQuads<N>,
         needs_alpha: bool,
     ) -> TexelLanes<N> {
+        if let Some(table) = self.srgb_table {
+            return self.filter_srgb_texels(quads, table, needs_alpha);
+        }
         let texels = self.fetch_texels(quads);
-        let r = self.filter_color_channel(&texels, 0, quads);
-        let g = self.filter_color_channel(&texels, 1, quads);
-        let b = self.filter_color_channel(&texels, 2, quads);
+        let r = filter_linear_channel(&texels, 0, quads);
+        let g = filter_linear_channel(&texels, 1, quads);
+        let b = filter_linear_channel(&texels, 2, quads);
         let mut alpha = Lanes::ONE;
         if needs_alpha {
             alpha = filter_linear_channel(&texels, 3, quads);
@@ -77,22 +80,34 @@ impl MipChain<'_> {
         TexelLanes { color: Rgb { r, g, b }, alpha }
     }
 
-    /// Red, green or blue, decoded from sRGB if the texture holds colors.
+    /// Bilinear interpolation of colors, decoded from sRGB before they are mixed.
+    ///
+    /// The codes go from the texel to the table byte by byte: packed into vectors they would have
+    /// to be extracted again.
     #[inline(always)]
-    fn filter_color_channel<const N: usize>(
+    fn filter_srgb_texels<const N: usize>(
         &self,
-        texels: &[[u32; N]; 4],
-        channel: usize,
         quads: &TexelQuads<N>,
-    ) -> Lanes<N> {
-        let Some(table) = self.srgb_table else {
-            return filter_linear_channel(texels, channel, quads);
-        };
-        // sRGB decoding before filtering.
-        let linear = map_to_lanes(texels, |texels| {
-            Lanes::from_fn(|lane| table[channel_code(texels[lane], channel) as usize])
-        });
-        bilinear(linear, quads)
+        table: &[f32; 256],
+        needs_alpha: bool,
+    ) -> TexelLanes<N> {
+        let mut linear = [[Lanes::ZERO; 4]; 3];
+        for lane in 0..N {
+            let texels: &[[u8; 4]] = &self.levels[quads.levels[lane] as usize].texels;
+            for (corner, indices) in quads.texels.iter().enumerate() {
+                let texel = &texels[indices[lane] as usize];
+                for (channel, corners) in linear.iter_mut().enumerate() {
+                    corners[corner][lane] = table[usize::from(texel[channel])];
+                }
+            }
+        }
+        let [r, g, b] = linear;
+        let color = Rgb { r: bilinear(r, quads), g: bilinear(g, quads), b: bilinear(b, quads) };
+        let mut alpha = Lanes::ONE;
+        if needs_alpha {
+            alpha = filter_linear_channel(&self.fetch_texels(quads), 3, quads);
+        }
+        TexelLanes { color, alpha }
     }
 
     /// The four texels of each quad, packed with red in the lowest byte.

@@ -17,6 +17,7 @@
 
 use super::UvLanes;
 use super::addressing::{LevelOfDetail, TexelAddressing, TexelQuads};
+use crate::approximations::floor_to_int;
 use crate::lanes::Lanes;
 
 /// The footprints of pixels on textures with one addressing: taps on a line, all on the same
@@ -126,7 +127,8 @@ impl TexelAddressing {
             let longer = (0.5 * (trace + root)).sqrt();
             let shorter = area.abs() / longer;
             // An axis shorter than a texel is magnified and asks for no more taps.
-            let count = floor_positive(longer / shorter.max(1.0) + 0.5).min(most);
+            let ratio = (longer / shorter.max(1.0) + 0.5).max(0.0);
+            let count = (floor_to_int(ratio) as f32).min(most);
             let is_long = (count > 1.0) & (longer < 1e6);
             // Of the two forms of the eigenvector the one that does not vanish.
             let x = if uu > vv { 0.5 * (uu - vv + root) } else { uv };
@@ -145,13 +147,6 @@ impl TexelAddressing {
             dy[1][lane] = if is_long { 0.0 } else { dy[1][lane] };
         }
     }
-}
-
-/// The largest integer not above a positive number, at most a million: enough for any count of
-/// taps.
-#[inline(always)]
-fn floor_positive(x: f32) -> f32 {
-    x.clamp(0.0, 1e6) as i32 as f32
 }
 
 #[cfg(test)]
