@@ -5,17 +5,20 @@
 //! these to a color, is another one. False colors are decoded so that the sRGB code in the picture
 //! is the number, as long as a pixel has one sample's color.
 
-use super::fragment_lanes::FragmentLanes;
-use super::lanes::{Lanes, Rgb};
+mod false_colors;
+
+use super::attributes::PrimitiveIndices;
+use super::fragment_lanes::{FragmentLanes, FragmentPacket};
+use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use super::material_inputs::MaterialInputs;
+use super::shading::DrawSelection;
 use super::surface_geometry::SurfaceGeometry;
 use super::transmission::luminance;
-use super::vector::{cross, dot, normalize_or_zero, subtract};
+use super::vector::dot;
 use super::{Draw, DrawKind, Shading};
-use crate::color::srgb_to_linear;
-use model::TextureInfo;
-use raster::{Fragment, Surface};
-use std::f32::consts::PI;
+use false_colors::{checker_color, decode_codes, matcap_ball_color, part_color};
+use raster::{F32x8, Fragment, Fragments, Kernel, LANES, Surface, shade_each};
+use std::f32::consts::FRAC_1_PI;
 
 /// The look of surfaces that are not shaded by their material.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -62,8 +65,6 @@ pub struct StyledShading<'a> {
 
 /// The diffuse albedo of clay.
 const CLAY_ALBEDO: [f32; 3] = [0.58, 0.52, 0.46];
-/// The squares of a checkerboard in a unit of texture coordinates.
-const CHECKER_SQUARES: f32 = 8.0;
 /// The steps of toon light: the luminance up to which each reaches, and its brightness.
 const TOON_TONES: [(f32, f32); 3] = [(0.18, 0.3), (0.55, 0.62), (f32::INFINITY, 1.0)];
 /// The color of x-ray surfaces where they are densest.
@@ -98,53 +99,158 @@ impl Surface for StyledShading<'_> {
         self.shading.passes_alpha_test(fragment)
     }
 
+    fn alpha_test_eight(&self, fragments: &Fragments<'_>) -> [bool; LANES] {
+        self.shading.alpha_test_eight(fragments)
+    }
+
     // Not a part of the loops over eight fragments, of which there is one for each kind of pixel:
     // a fragment in a style takes far longer than the call.
     #[inline(never)]
     fn shade(&self, fragment: &Fragment<'_>) -> [f32; 4] {
         let (draw, _) = self.shading.draws.find_draw(fragment.id);
-        let is_surface = draw.primitive.topology == model::Topology::Triangles;
-        let is_false_color = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
-        if draw.kind != DrawKind::Surface || !(is_surface || is_false_color) {
+        if !self.is_styled(draw) {
             return self.shading.shade(fragment);
         }
         let primitive = draw.primitive_indices(&[fragment.id], true);
+        if !self.style.needs_material() {
+            return self.shade_lanes(draw, &primitive, fragment).map(|channel| channel[0]);
+        }
         let geometry = self.shading.surface_geometry(draw, &primitive, fragment);
         match self.style {
             ShadingStyle::Gouraud => self.shade_gouraud(draw, fragment),
-            ShadingStyle::Clay => self.shade_clay(&geometry),
-            ShadingStyle::Matcap => opaque_color(self.matcap_color(&geometry)),
-            ShadingStyle::Normals => decode_codes(geometry.normals.lane(0).map(|c| 0.5 * c + 0.5)),
-            ShadingStyle::Depth { near, far } => {
-                let depth = self.view_depth(&geometry);
-                let nearness = if far > near { (far - depth) / (far - near) } else { 1.0 };
-                decode_codes([0.1 + 0.9 * nearness.clamp(0.0, 1.0); 3])
-            }
-            ShadingStyle::UvChecker => checker_color(draw, fragment, geometry.n_dot_v[0]),
-            ShadingStyle::Ids => decode_codes(part_color(draw.part_id)),
             ShadingStyle::Toon => self.shade_toon(draw, fragment, &geometry),
-            ShadingStyle::XRay => self.shade_xray(fragment, &geometry),
+            _ => self.shade_xray(fragment, &geometry),
         }
+    }
+
+    fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
+        let draws = &self.shading.draws;
+        let is_styled = |lane| self.is_styled(draws.find_draw(fragments.id(lane)).0);
+        if self.style.needs_material() || !(0..LANES).all(is_styled) {
+            return shade_each(fragments, |fragment| self.shade(fragment));
+        }
+        if self.style == ShadingStyle::Ids {
+            return self.part_colors(fragments);
+        }
+        let colors =
+            self.shading.simd_level.run_wide_kernel(StyleEight { styled: self, fragments });
+        colors.unwrap_or_else(|| shade_each(fragments, |fragment| self.shade(fragment)))
+    }
+}
+
+impl ShadingStyle {
+    /// Whether textures of the material, or its alpha, have a part in the style. These styles are
+    /// shaded fragment by fragment.
+    const fn needs_material(self) -> bool {
+        matches!(self, Self::Gouraud | Self::Toon | Self::XRay)
+    }
+}
+
+/// The kernel that shades eight fragments in a style without materials.
+struct StyleEight<'a> {
+    styled: &'a StyledShading<'a>,
+    fragments: &'a Fragments<'a>,
+}
+
+impl Kernel for StyleEight<'_> {
+    type Output = [F32x8; 4];
+
+    #[inline(always)]
+    fn run(self) -> [F32x8; 4] {
+        let Self { styled, fragments } = self;
+        let packet = FragmentPacket::new(fragments);
+        let mut colors = [Lanes::ZERO; 4];
+        let mut is_done = [false; LANES];
+        // One draw after the other: most often there is only one.
+        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
+            let DrawSelection { draw, ids, mask } =
+                styled.shading.draws.select_draw_lanes(fragments, first);
+            let primitives = draw.primitive_indices(&ids, fragments.is_single_primitive());
+            let shaded = styled.shade_lanes(draw, &primitives, &packet);
+            for (channel, draw_channel) in colors.iter_mut().zip(shaded) {
+                *channel = draw_channel.select(&mask, *channel);
+            }
+            for (is_done, is_own) in is_done.iter_mut().zip(mask) {
+                *is_done |= is_own;
+            }
+        }
+        colors.map(|channel| channel.0)
     }
 }
 
 impl StyledShading<'_> {
-    /// The radiance of a white Lambert surface, by lights without their shadows and environment.
+    /// Whether a draw has the style; the background and, but for false colors, lines and points
+    /// have not.
+    fn is_styled(&self, draw: &Draw<'_>) -> bool {
+        let is_surface = draw.primitive.topology == model::Topology::Triangles;
+        let is_false_color = matches!(self.style, ShadingStyle::Depth { .. } | ShadingStyle::Ids);
+        draw.kind == DrawKind::Surface && (is_surface || is_false_color)
+    }
+
+    /// The colors of the parts that eight fragments belong to: nothing is interpolated.
+    fn part_colors(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
+        let mut colors = [[1.0; LANES]; 4];
+        let (mut last, mut color) = (None, [0.0; 3]);
+        for lane in 0..LANES {
+            let part = self.shading.draws.find_draw(fragments.id(lane)).0.part_id;
+            if last != Some(part) {
+                (last, color) =
+                    (Some(part), decode_codes(Rgb::<1>::splat(part_color(part))).lane(0));
+            }
+            for (channel, value) in colors.iter_mut().zip(color) {
+                channel[lane] = value;
+            }
+        }
+        colors
+    }
+
+    /// The colors of fragments of one draw, in a style without materials.
+    #[inline(always)]
+    fn shade_lanes<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> [Lanes<N>; 4] {
+        let geometry = self.shading.surface_geometry(draw, primitives, fragments);
+        opaque_color(match self.style {
+            ShadingStyle::Clay => {
+                let light = self.diffuse_light(&geometry);
+                self.shading.tone_mapper.map_colors(Rgb::splat(CLAY_ALBEDO) * light)
+            }
+            ShadingStyle::Matcap => self.matcap_color(&geometry),
+            ShadingStyle::Normals => {
+                let Vec3Lanes { x, y, z } = geometry.normals;
+                decode_codes(Rgb { r: x, g: y, b: z }.map(|c| 0.5 * c + 0.5))
+            }
+            ShadingStyle::Depth { near, far } => {
+                let depth = self.view_depth(&geometry);
+                let mut nearness = Lanes::ONE;
+                if far > near {
+                    nearness = ((far - depth) / (far - near)).clamp(0.0, 1.0);
+                }
+                let gray = 0.1 + 0.9 * nearness;
+                decode_codes(Rgb { r: gray, g: gray, b: gray })
+            }
+            ShadingStyle::Ids => decode_codes(Rgb::splat(part_color(draw.part_id))),
+            _ => checker_color(draw, &draw.vertex_indices(primitives), fragments, geometry.n_dot_v),
+        })
+    }
+
+    /// The radiance of white Lambert surfaces, by lights without their shadows and environment.
     ///
     /// Σ E n·l / π over the lights, plus irradiance over π of the environment.
-    fn diffuse_light(&self, geometry: &SurfaceGeometry<1>) -> [f32; 3] {
-        let normal = geometry.normals.lane(0);
-        let mut sum = [0.0; 3];
+    #[inline(always)]
+    fn diffuse_light<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Rgb<N> {
+        let mut sum = Rgb::ZERO;
         for light in self.shading.lights {
             let incident = light.incident_at(geometry.positions);
-            let n_dot_l = dot(normal, incident.to_light.lane(0)).max(0.0);
-            let lux = incident.lux.lane(0);
-            let ambient = light.ambient_lux().unwrap_or_default();
-            sum = [0, 1, 2].map(|k: usize| sum[k] + (lux[k] * n_dot_l + ambient[k]) / PI);
+            let n_dot_l = geometry.normals.dot(incident.to_light).max(0.0);
+            let ambient = Rgb::splat(light.ambient_lux().unwrap_or_default());
+            sum += (incident.lux * n_dot_l + ambient) * FRAC_1_PI;
         }
         if let Some(environment) = self.shading.environment {
-            let diffuse = environment.irradiance_over_pi(geometry.normals).lane(0);
-            sum = [0, 1, 2].map(|k: usize| sum[k] + diffuse[k]);
+            sum += environment.irradiance_over_pi(geometry.normals);
         }
         sum
     }
@@ -152,13 +258,7 @@ impl StyledShading<'_> {
     /// An opaque color from light, exposed and tone mapped.
     fn tone_mapped(&self, light: [f32; 3]) -> [f32; 4] {
         let color = self.shading.tone_mapper.map_colors(Rgb::<1>::splat(light));
-        opaque_color(color.lane(0))
-    }
-
-    /// Clay: Lambert with one albedo.
-    fn shade_clay(&self, geometry: &SurfaceGeometry<1>) -> [f32; 4] {
-        let light = self.diffuse_light(geometry);
-        self.tone_mapped([0, 1, 2].map(|k: usize| CLAY_ALBEDO[k] * light[k]))
+        opaque_color(color).map(|channel| channel[0])
     }
 
     /// Light per vertex, interpolated; the base color per fragment.
@@ -168,7 +268,7 @@ impl StyledShading<'_> {
         for vertex in 0..3 {
             let at_vertex = VertexFragment::at_vertex(vertex);
             let geometry = self.shading.surface_geometry(draw, &primitive, &at_vertex);
-            let vertex_light = self.diffuse_light(&geometry);
+            let vertex_light = self.diffuse_light(&geometry).lane(0);
             for (sum, light) in light.iter_mut().zip(vertex_light) {
                 *sum += light * fragment.weights[vertex];
             }
@@ -188,7 +288,7 @@ impl StyledShading<'_> {
         geometry: &SurfaceGeometry<1>,
     ) -> [f32; 4] {
         // The darkest tone whose limit is above the luminance.
-        let light = luminance(Rgb::<1>::splat(self.diffuse_light(geometry)))[0];
+        let light = luminance(self.diffuse_light(geometry))[0];
         let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
         let brightness = tone.map_or(1.0, |(_, brightness)| *brightness);
         let (base, emitted) = base_and_emitted(draw, fragment);
@@ -197,16 +297,27 @@ impl StyledShading<'_> {
 
     /// The matcap at the normal in a frame whose z points to the viewer of this pixel: in
     /// perspective a sphere looks alike wherever it is in the picture.
-    fn matcap_color(&self, geometry: &SurfaceGeometry<1>) -> [f32; 3] {
-        let (normal, view) = (geometry.normals.lane(0), geometry.views.lane(0));
-        let right = normalize_or_zero(cross(self.world_to_view[1], view));
-        let up = cross(view, right);
-        matcap_ball_color([dot(normal, right), dot(normal, up), dot(normal, view)])
+    #[inline(always)]
+    fn matcap_color<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Rgb<N> {
+        let SurfaceGeometry { normals, views, .. } = *geometry;
+        let right = Vec3Lanes::splat(self.world_to_view[1]).cross(views);
+        // Zero where the view is along the vertical.
+        let inv_length =
+            right.dot(right).map(|square| if square > 0.0 { 1.0 / square.sqrt() } else { 0.0 });
+        let right = right * inv_length;
+        let up = views.cross(right);
+        matcap_ball_color(Vec3Lanes {
+            x: normals.dot(right),
+            y: normals.dot(up),
+            z: normals.dot(views),
+        })
     }
 
-    /// The distance from the eye along the view axis.
-    fn view_depth(&self, geometry: &SurfaceGeometry<1>) -> f32 {
-        -dot(self.world_to_view[2], subtract(geometry.positions.lane(0), self.eye_position))
+    /// The distances from the eye along the view axis.
+    #[inline(always)]
+    fn view_depth<const N: usize>(&self, geometry: &SurfaceGeometry<N>) -> Lanes<N> {
+        let backwards = Vec3Lanes::splat(self.world_to_view[2]);
+        -backwards.dot(geometry.positions - Vec3Lanes::splat(self.eye_position))
     }
 
     /// A translucent surface, whose alpha grows with the cube of 1 − |n·v|.
@@ -223,25 +334,6 @@ impl StyledShading<'_> {
     }
 }
 
-/// The color of a ball of glazed clay at a normal, z towards the viewer: light from the upper left,
-/// a highlight and a rim.
-fn matcap_ball_color([x, y, z]: [f32; 3]) -> [f32; 3] {
-    let light = [-0.4, 0.64, 0.656];
-    // Wrapped diffuse.
-    // Half Lambert: the cosine mapped to 0 … 1, then squared.
-    let wrapped = 0.5 + 0.5 * dot([x, y, z], light);
-    let diffuse = 0.06 + 0.94 * wrapped * wrapped;
-    // Blinn-Phong highlight.
-    let half = normalize_or_zero([light[0], light[1], light[2] + 1.0]);
-    let fourth = |c: f32| c * c * c * c;
-    let gloss = 0.4 * fourth(fourth(dot([x, y, z], half).max(0.0)));
-    // Rim light.
-    let away = 1.0 - z.clamp(0.0, 1.0);
-    let rim = 0.25 * away * away * away;
-    let color = |base: f32, rim_color: f32| base * diffuse + gloss + rim * rim_color;
-    [color(0.5, 0.5), color(0.24, 0.7), color(0.16, 1.0)]
-}
-
 /// The base color of a material and the light that it emits.
 fn base_and_emitted(draw: &Draw<'_>, fragment: &Fragment<'_>) -> ([f32; 3], [f32; 3]) {
     let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
@@ -249,71 +341,8 @@ fn base_and_emitted(draw: &Draw<'_>, fragment: &Fragment<'_>) -> ([f32; 3], [f32
     (inputs.base_color.lane(0), inputs.emitted.lane(0))
 }
 
-/// A checkerboard, whose squares fade where they are smaller than pixels; gray without texture
-/// coordinates.
-fn checker_color(draw: &Draw<'_>, fragment: &Fragment<'_>, n_dot_v: f32) -> [f32; 4] {
-    let light = 0.4 + 0.6 * n_dot_v;
-    if draw.primitive.uvs.is_empty() {
-        return decode_codes([0.35 * light; 3]);
-    }
-    let info = TextureInfo { texture: 0, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
-    let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
-    let uvs = draw.texture_coordinates(&vertices, fragment, &info);
-    let [[u, v], dx, dy] = [uvs.uv, uvs.dx, uvs.dy].map(|uv| uv.map(|lanes| lanes[0]));
-    let is_odd =
-        ((u * CHECKER_SQUARES).floor() + (v * CHECKER_SQUARES).floor()).rem_euclid(2.0) >= 1.0;
-    // Squares per pixel, by which the contrast fades.
-    let step = dx[0].abs().max(dy[0].abs()).max(dx[1].abs()).max(dy[1].abs()) * CHECKER_SQUARES;
-    let contrast = 0.35 * (1.5 - step).clamp(0.0, 1.0);
-    let shade = light * if is_odd { 1.0 - contrast } else { 1.0 };
-    let ramp = |coordinate: f32| 0.35 + 0.65 * (coordinate - coordinate.floor());
-    decode_codes([ramp(u) * shade, ramp(v) * shade, 0.55 * shade])
-}
-
-/// Colors far apart for consecutive parts: hues by multiples of the golden section.
-fn part_color(part: u32) -> [f32; 3] {
-    // 2³² over the golden ratio: the fraction of a product is what is left of it in 32 bits.
-    let hue = (part.wrapping_add(1).wrapping_mul(2_654_435_769) >> 8) as f32 / 16_777_216.0;
-    let [low, high] = if part.is_multiple_of(2) { [0.35, 0.95] } else { [0.2, 0.75] };
-    // HSV to RGB.
-    [0.0, 2.0, 4.0].map(|shift| {
-        let sextant = (hue * 6.0 + shift) % 6.0;
-        low + (high - low) * ((sextant - 3.0).abs() - 1.0).clamp(0.0, 1.0)
-    })
-}
-
-/// The opaque linear color with these sRGB codes, from 0 to 1.
-fn decode_codes(codes: [f32; 3]) -> [f32; 4] {
-    opaque_color(codes.map(|code| srgb_to_linear(f64::from(code)) as f32))
-}
-
-/// A color with alpha 1.
-fn opaque_color([r, g, b]: [f32; 3]) -> [f32; 4] {
-    [r, g, b, 1.0]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn consecutive_parts_have_colors_far_apart() {
-        for part in 0..200 {
-            for next in 1..5 {
-                let [a, b] = [part_color(part), part_color(part + next)];
-                let difference = (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f32::max);
-                assert!(difference > 0.06, "{part} and {next} on: {a:?} {b:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_matcap_is_bright_towards_its_light_and_never_beyond_white() {
-        let bright = matcap_ball_color([-0.4, 0.64, 0.656]);
-        let dark = matcap_ball_color([0.4, -0.64, 0.656]);
-        for k in 0..3 {
-            assert!(bright[k] > 2.0 * dark[k], "{bright:?} {dark:?}");
-            assert!(bright[k] < 1.0 && dark[k] > 0.0);
-        }
-    }
+/// Colors with alpha 1.
+#[inline(always)]
+fn opaque_color<const N: usize>(Rgb { r, g, b }: Rgb<N>) -> [Lanes<N>; 4] {
+    [r, g, b, Lanes::ONE]
 }
