@@ -37,6 +37,10 @@ pub enum Misprint {
     HalfOfTangent,
     /// M19 (43): degrees where radians are due.
     Degrees,
+    /// The last row has the wrong sign: w is the distance behind the eye, where depth is not.
+    LastRowNegated,
+    /// One entry of a rotation has the wrong sign: lengths and angles change.
+    WrongSign,
     /// (24): the matrix is for row vectors; here they are columns.
     Transposed,
 }
@@ -54,7 +58,7 @@ pub enum IntendedProjection {
 
 impl Misprint {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::PerspectiveLeftOut,
         Self::RepeatedTranslation,
         Self::DepthReversed,
@@ -66,6 +70,8 @@ impl Misprint {
         Self::FrustumOffsetOne,
         Self::HalfOfTangent,
         Self::Degrees,
+        Self::LastRowNegated,
+        Self::WrongSign,
         Self::Transposed,
     ];
 
@@ -83,7 +89,7 @@ impl Misprint {
             Self::FrustumOffsetOne => Some("M16"),
             Self::HalfOfTangent => Some("M17"),
             Self::Degrees => Some("M19"),
-            Self::Transposed => None,
+            Self::LastRowNegated | Self::WrongSign | Self::Transposed => None,
         }
     }
 
@@ -116,6 +122,10 @@ impl Misprint {
             Self::FrustumOffsetOne => "the x offset is 1, right only for a window that begins at 0",
             Self::HalfOfTangent => "the tangent was halved instead of the angle",
             Self::Degrees => "the angle was read as radians but is in degrees",
+            Self::LastRowNegated => {
+                "last row negated: w does not go with the depth row, and no plane ahead is near or far"
+            }
+            Self::WrongSign => "one sign is wrong: with it turned, the matrix is rigid",
             Self::Transposed => "rows and columns are exchanged: this matrix is for row vectors",
         }
     }
@@ -142,6 +152,8 @@ impl Misprint {
             Self::FrustumOffsetOne => "the first row's third entry is (right+left)/(right−left)",
             Self::HalfOfTangent => "the entries are 1/(aspect tan(fovy/2)) and 1/tan(fovy/2)",
             Self::Degrees => "convert first: radians = degrees π/180",
+            Self::LastRowNegated => "negate the last row",
+            Self::WrongSign => "turn the sign of this entry",
             Self::Transposed => "transpose the matrix",
         }
     }
@@ -166,6 +178,7 @@ impl Misprint {
                 with_degrees_as_radians(lens, right)
             }
             (Self::NegativeW, _) => Some(-right),
+            (Self::LastRowNegated, _) => Some(with_entry(right, 3, 2, -right.z_axis.w)),
             (Self::BottomRowOne, _) => Some(with_entry(right, 3, 3, 1.0)),
             (Self::PerspectiveLeftOut, _) => without_p(wanted.frustum()?),
             (Self::ApexMoved, _) => apex_moved(wanted.frustum()?),
@@ -178,6 +191,7 @@ impl Misprint {
                 | Self::FrustumOffsetOne
                 | Self::HalfOfTangent
                 | Self::Degrees
+                | Self::WrongSign
                 | Self::OrthoOffsetSign,
                 _,
             ) => None,

@@ -53,7 +53,7 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
         None => steps.extend(meaning_steps(&found.first())),
     }
     steps.extend(other_readings_step(&found));
-    steps.extend(found.suspicions.iter().enumerate().map(|(at, slip)| misprint_step(at, slip)));
+    steps.extend((0..).zip(&found.suspicions).map(|(at, slip)| misprint_step(at, rows, slip)));
     let verdict = matrix_verdict(map, &found);
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
@@ -87,13 +87,20 @@ fn inverse_step(map: Projective<View, Clip>) -> Step {
 }
 
 /// The rows of an inverse, with 0 for entries that are rounding: below the bound of the error of
-/// Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14).
+/// Gaussian elimination, ε |M⁻¹| |M| |M⁻¹| by entries (Higham 2002, chapter 14), or so small that
+/// M M⁻¹ and M⁻¹ M are the identity without them.
 #[must_use]
 pub fn without_rounding(matrix: DMat4, inverse: DMat4) -> [[f64; 4]; 4] {
     let size = |m: DMat4| DMat4::from_cols_array(&m.to_cols_array().map(f64::abs));
     let bound = size(inverse) * size(matrix) * size(inverse) * (4.0 * f64::EPSILON);
     let (entries, errors) = (inverse.to_cols_array(), bound.to_cols_array());
-    let clean = |at: usize| if entries[at].abs() <= errors[at] { 0.0 } else { entries[at] };
+    let clean = |at: usize| {
+        let (row, column) = (at % 4, at / 4);
+        let reach = matrix.col(row).abs().max_element().max(matrix.row(column).abs().max_element());
+        let is_noise =
+            entries[at].abs() <= errors[at] || entries[at].abs() * reach <= 4.0 * f64::EPSILON;
+        if is_noise { 0.0 } else { entries[at] }
+    };
     std::array::from_fn(|row| std::array::from_fn(|column| clean(4 * column + row)))
 }
 
@@ -126,7 +133,7 @@ fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<S
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(glam::DVec4::truncate);
     let lengths = axes.map(glam::DVec3::length);
     let slant = |a: usize, b: usize| axes[a].dot(axes[b]).abs() > 1e-9 * lengths[a] * lengths[b];
-    let rigid = matches!(meaning, MatrixMeaning::Camera(_) | MatrixMeaning::Rotation { .. });
+    let rigid = is_rigid(meaning) || matches!(meaning, MatrixMeaning::Rotation { .. });
     let slanted = slant(0, 1) || slant(1, 2) || slant(2, 0);
     let angles = if slanted && rigid {
         "the axes stay at right angles but for the rounding of the entries: a rotation"
@@ -147,6 +154,16 @@ fn affine_step(map: Projective<View, Clip>, meaning: &MatrixMeaning) -> Option<S
         .with_item("angles", "angles", angles)
         .with_item("handedness", "handedness", handedness);
     Some(step)
+}
+
+/// A rotation with a translation: a camera, its pose or a model transform.
+fn is_rigid(meaning: &MatrixMeaning) -> bool {
+    matches!(
+        meaning,
+        MatrixMeaning::Camera(_)
+            | MatrixMeaning::CameraPose(_)
+            | MatrixMeaning::ModelTransform { scale: [1.0, 1.0, 1.0], .. }
+    )
 }
 
 /// The vanishing points of the three axes.
@@ -175,7 +192,12 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     let turned = transposed_reading(found).is_some();
     let equal = if turned { 0 } else { found.equal_readings().count() };
     let most = found.first().cost + LESS_LIKELY;
-    let told = |reading: &&MatrixReading| reading.meaning.is_named() && reading.cost <= most;
+    // Whatever their digits, programs use a rigid matrix in all three ways.
+    let rigid = is_rigid(&found.first().meaning);
+    let told = |reading: &&MatrixReading| {
+        let likely = reading.cost <= most || (rigid && is_rigid(&reading.meaning));
+        reading.meaning.is_named() && likely
+    };
     let first_stands = usize::from(!turned);
     let named = found.readings.iter().skip(first_stands).filter(told);
     let others: Vec<_> = named.take(OTHER_READINGS).collect();
@@ -193,11 +215,18 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
     }))
 }
 
+/// The first entry that the remedy changes, by row and column from 0.
+fn changed_entry(rows: [[f64; 4]; 4], slip: &Suspicion) -> Option<[usize; 2]> {
+    let remedied = slip.remedied?.transpose().to_cols_array_2d();
+    let at = (0..16).find(|at| rows[at / 4][at % 4] != remedied[at / 4][at % 4])?;
+    Some([at / 4, at % 4])
+}
+
 /// A known misprint that the matrix resembles, with the correction and what it then is.
 ///
 /// The corrected matrix is shown only where the sixteen entries determine it. The first misprint
 /// has the id `misprint`, further ones `other_misprint`.
-fn misprint_step(at: usize, slip: &Suspicion) -> Step {
+fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
     let known = slip.misprint.id().unwrap_or("not numbered");
     let title = match (slip.misprint, slip.strength) {
         (Misprint::Transposed, SuspicionStrength::Likely) => {
@@ -205,6 +234,9 @@ fn misprint_step(at: usize, slip: &Suspicion) -> Step {
         }
         (Misprint::Transposed, SuspicionStrength::Equal) => {
             "It may also be a matrix for row vectors: the numbers are the same".to_owned()
+        }
+        (_, SuspicionStrength::Likely) if slip.misprint.id().is_none() => {
+            "It looks like a slip of the sign".to_owned()
         }
         (_, SuspicionStrength::Likely) => format!("It looks like a known misprint ({known})"),
         (_, SuspicionStrength::Equal) => {
@@ -214,7 +246,20 @@ fn misprint_step(at: usize, slip: &Suspicion) -> Step {
     let step = Step::new(if at == 0 { "misprint" } else { "other_misprint" }, title, None)
         .with_item("finding", "finding", slip.misprint.description())
         .with_item("remedy", "remedy", slip.misprint.remedy());
+    let step = match (slip.misprint, changed_entry(rows, slip)) {
+        (Misprint::WrongSign, Some([row, column])) => {
+            let place = format!("row {}, column {}", row + 1, column + 1);
+            step.with_item("entry", "entry", place)
+        }
+        _ => step,
+    };
+    // The report of a transposed matrix has its reading already.
+    let is_read = at == 0
+        && (slip.misprint, slip.strength) == (Misprint::Transposed, SuspicionStrength::Likely);
     match slip.remedied {
+        Some(remedied) if is_read => {
+            step.with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
+        }
         Some(remedied) => step
             .with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
             .with_item(

@@ -33,20 +33,22 @@ pub(super) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     }));
 }
 
-/// x, y, z and w = z/d: what the eye at the origin sees, on the plane z = d.
+/// x, y, z or 0, and w = z/d: what the eye at the origin sees, on the plane z = d.
 fn read_central(m: &Entries<4>) -> Option<MatrixReading> {
     let factor = m[0][0];
     if factor.is_zero() || m[3][2].is_zero() {
         return None;
     }
     let unit = divide_entries(m, factor);
-    let is_kept = (0..3).all(|i| is_unit_row(&unit[i], i));
+    let (is_kept, is_flat) = (is_unit_row(&unit[2], 2), is_zero_row(&unit[2]));
+    let is_picture = (0..2).all(|i| is_unit_row(&unit[i], i)) && (is_kept || is_flat);
     let is_by_depth = [0, 1, 3].into_iter().all(|j| unit[3][j].is_zero());
     let plane = Rounded::ONE / unit[3][2];
-    let meaning = MatrixMeaning::CentralOntoPlane { plane_z: plane.simplest() };
+    let meaning =
+        MatrixMeaning::CentralOntoPlane { plane_z: plane.simplest(), onto_plane: is_flat };
     let cost = 4 + 2 * plane.digits() + factor_cost(factor);
     let reading = MatrixReading { meaning, factor: factor.simplest(), cost };
-    (is_kept && is_by_depth).then_some(reading)
+    (is_picture && is_by_depth).then_some(reading)
 }
 
 fn is_unit_row(row: &[Rounded; 4], one: usize) -> bool {

@@ -27,6 +27,16 @@ pub(super) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::CHAPTER.left_handed().with_ndc_y(DOWN), 10),
 ];
 
+/// The conventions of a camera in the world: all that look along −z, and those along +z with y up.
+///
+/// A view space that looks along +z with y down is a right-handed one turned about x: such a product
+/// is also one that looks along −z.
+pub(super) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
+    CONVENTIONS
+        .into_iter()
+        .filter(|(convention, _)| convention.ahead() < 0.0 || convention.top() > 0.0)
+}
+
 /// Those of the conventions whose view space looks to this side: −1 or +1.
 pub(super) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS.into_iter().filter(move |(convention, _)| convention.ahead() == ahead)

@@ -61,6 +61,8 @@ pub enum MatrixMeaning {
     },
     /// The camera transform M_cam: rotation and translation (CA-2).
     Camera(CameraReading),
+    /// The inverse of a camera transform: the pose of a camera in the world (C2W).
+    CameraPose(CameraReading),
     /// Coordinates added to others, and a translation.
     Shear {
         /// The rows of the linear part, 1 on the diagonal.
@@ -191,6 +193,8 @@ pub enum MatrixMeaning {
     CentralOntoPlane {
         /// The plane of the picture; negative ahead of a camera that looks along −z.
         plane_z: f64,
+        /// True if z is dropped.
+        onto_plane: bool,
     },
     /// A camera and a perspective: world to clip space.
     CameraPerspective {
@@ -200,7 +204,8 @@ pub enum MatrixMeaning {
         frustum: Frustum,
         /// Its angles.
         lens: Lens,
-        /// The convention in which it has these parameters; view space looks along −z.
+        /// The convention in which it has these parameters; the world is as right- or left-handed
+        /// as its view space.
         convention: Convention,
     },
     /// A perspective and a viewport in one, of a window around the line of sight: view or world
@@ -227,7 +232,8 @@ pub enum MatrixMeaning {
         camera: CameraReading,
         /// Window, near and far as distances.
         volume: Orthographic,
-        /// The convention in which it has these parameters; view space looks along −z.
+        /// The convention in which it has these parameters; the world is as right- or left-handed
+        /// as its view space.
         convention: Convention,
     },
     /// An affine map without a name.

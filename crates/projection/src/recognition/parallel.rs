@@ -30,7 +30,7 @@ pub(super) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
 
 /// Boxes gain nothing from reversed depth, and few programs reverse it; the textbook's is no
 /// reversed one.
-fn box_rarity(convention: Convention, rarity: u32) -> u32 {
+pub(super) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
     if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
 }
@@ -46,9 +46,14 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     };
     let [l, r] = edges(x[0], x[3]);
     let [b, t] = edges(y[1] * top, y[3] * top);
+    let is_screen = convention.top() > 0.0 && is_from_top_left([l, r, b, t]);
+    cost -= if is_screen { MIRRORED } else { 0 };
     let distance = |depth: f64| (Rounded::exact(depth) - z[3]) / (z[2] * ahead);
     let (near, far) = (distance(convention.near_depth()), distance(convention.far_depth()));
-    cost += pair_cost(l, r) + pair_cost(b, t) + pair_cost(near, far) + order_cost(near, far);
+    cost += pair_cost(l, r) + pair_cost(b, t) + pair_cost(near, far);
+    // The depths that glOrtho and gluOrtho2D have for plane pictures.
+    let is_plane_depth = is_screen && near.is(-1.0) && far.is(1.0);
+    cost += if is_plane_depth { 0 } else { order_cost(near, far) };
     let volume = Orthographic::new(
         l.simplest(),
         r.simplest(),
@@ -67,6 +72,12 @@ fn box_reading(unit: &Entries<4>, convention: Convention) -> Option<(MatrixMeani
     let projection = oblique_by_slants(slant_x, slant_y, 0.0)?;
     let cost = cost + 2 + oblique_cost(slant_x, slant_y);
     Some((MatrixMeaning::ObliqueVolume { projection, volume, convention }, cost))
+}
+
+/// True for a window of whole pixels from the upper left corner: left 0, top 0, bottom below it.
+fn is_from_top_left([l, r, b, t]: [Rounded; 4]) -> bool {
+    let is_side = |side: Rounded| side.value > 1.5 && side.is(libm::round(side.value));
+    l.is_zero() && t.is_zero() && is_side(r) && is_side(b)
 }
 
 /// Twice the digits of two edges, of one only if they are opposite.

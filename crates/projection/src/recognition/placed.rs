@@ -2,9 +2,13 @@
 //! near plane.
 //!
 //! With the rows x, y, w of a central matrix the line of sight is the linear part of w, what is
-//! left of x beside it points to the right, and the eye is where all three rows vanish.
+//! left of x beside it points to the right, and the eye is where all three rows vanish. What is left
+//! of y points up; whether x, y and the line of sight are those of a left-handed world (Direct3D), or
+//! of a right-handed one with y down in clip space (Vulkan), the numbers leave open: the reading
+//! whose up is upright in the world is the more sensible one.
 
-use super::convention_list::{CONVENTIONS, conventions_looking};
+use super::convention_list::placed_conventions;
+use super::parallel::box_rarity;
 use super::perspective::{MIRRORED, depth_planes, lens_digits, read_lens};
 use super::rigid::shorten;
 use super::rounded::{Entries, Rounded, divide_entries};
@@ -13,7 +17,10 @@ use crate::{Convention, Decomposed, Frustum, Orthographic, decompose};
 use alloc::vec::Vec;
 use glam::{DMat3, DMat4, DVec3};
 
-/// Adds the readings as a camera with a perspective; the view space looks along −z, y up.
+/// The cost of a camera upside down in the world, where a rival reading has it upright.
+const UPSIDE_DOWN: u32 = 6;
+
+/// Adds the readings as a camera with a perspective, in a right- or left-handed world.
 pub(super) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let linear = [m[3][0], m[3][1], m[3][2]];
     let length = length_of(linear);
@@ -27,7 +34,7 @@ pub(super) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixRead
         if frame.is_unplaced() {
             continue;
         }
-        for (convention, rarity) in conventions_looking(-1.0) {
+        for (convention, rarity) in placed_conventions() {
             let factor_digits =
                 if factor.is(1.0) || is_close(factor, 1.0) { 0 } else { factor_cost(factor) };
             let reading = frame.perspective(convention).map(|(meaning, cost)| MatrixReading {
@@ -136,7 +143,8 @@ impl PlacedFrame {
     fn perspective(&self, convention: Convention) -> Option<(MatrixMeaning, u32)> {
         let (near, far) = depth_planes(self.depth[0], self.depth[1], convention)?;
         let top = Rounded::exact(convention.top());
-        let [sx, sy] = [self.scale[0], self.scale[1] * top];
+        let camera = self.camera(convention);
+        let [sx, sy] = [self.scale[0], self.scale[1] * Rounded::exact(-convention.ahead()) * top];
         let [cx, cy] = [self.center[0], self.center[1] * top];
         let edge = |c: Rounded, s: Rounded, side: f64| {
             let sum = c + Rounded::exact(side);
@@ -153,9 +161,8 @@ impl PlacedFrame {
             + far.map_or(0, Rounded::digits)
             + lens_digits(window, near, sy, sx)
             + self.eye_digits();
-        let turned = if sy.value < 0.0 { MIRRORED } else { 0 };
-        let meaning =
-            MatrixMeaning::CameraPerspective { camera: self.camera(), frustum, lens, convention };
+        let turned = if sy.value < 0.0 { MIRRORED } else { posture_cost(&camera, convention) };
+        let meaning = MatrixMeaning::CameraPerspective { camera, frustum, lens, convention };
         Some((meaning, 12 + turned + 2 * digits))
     }
 
@@ -164,16 +171,31 @@ impl PlacedFrame {
         self.eye.to_array().into_iter().map(number).sum()
     }
 
-    fn camera(&self) -> CameraReading {
+    /// With x to the right and the line of sight, up is the other way in a left-handed world.
+    fn camera(&self, convention: Convention) -> CameraReading {
         let clean = |v: DVec3, error: f64| v.to_array().map(|x| shorten(x, error));
         let turn = self.scale[0].error / self.scale[0].value.abs();
         CameraReading {
             eye: clean(self.eye, self.eye_error),
             gaze: clean(self.gaze, turn),
-            up: clean(self.up, turn),
+            up: clean(self.up * -convention.ahead(), turn),
             right: clean(self.right, turn),
         }
     }
+}
+
+/// What a camera upside down costs where the same numbers are one upright in another convention.
+///
+/// Up is y, or z for a camera whose right is level only then.
+fn posture_cost(camera: &CameraReading, convention: Convention) -> u32 {
+    let rivaled = convention.ahead() > 0.0 || convention.top() < 0.0;
+    let level = |axis: usize| camera.right[axis].abs() < 1e-6;
+    let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {
+        camera.up[2]
+    } else {
+        camera.up[1]
+    };
+    if rivaled && upwards < 0.0 { UPSIDE_DOWN } else { 0 }
 }
 
 fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
@@ -196,9 +218,9 @@ pub(super) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         return;
     }
     let axes = [0, 1, 2].map(|i| values(rows[i]) / lengths[i].value);
-    for (convention, rarity) in CONVENTIONS.into_iter().filter(|(c, _)| c.ahead() < 0.0) {
+    for (convention, rarity) in placed_conventions() {
         let reading = placed_box(&unit, axes, lengths, convention).map(|(meaning, cost)| {
-            let cost = cost + rarity + factor_cost(factor);
+            let cost = cost + box_rarity(convention, rarity) + factor_cost(factor);
             MatrixReading { meaning, factor: factor.simplest(), cost }
         });
         found.extend(reading);
@@ -212,7 +234,7 @@ fn placed_box(
     convention: Convention,
 ) -> Option<(MatrixMeaning, u32)> {
     let up = up * convention.top();
-    let gaze = -right.cross(up);
+    let gaze = right.cross(up) * convention.ahead();
     let forwards = Rounded::exact(depth.dot(gaze).signum()) * lengths[2];
     let edge = |row: usize, side: f64| {
         let sign = if row == 1 { convention.top() } else { 1.0 };
@@ -231,7 +253,8 @@ fn placed_box(
     let clean = |v: DVec3| v.to_array().map(|x| shorten(x, error));
     let camera =
         CameraReading { eye: [0.0; 3], gaze: clean(gaze), up: clean(up), right: clean(right) };
-    Some((MatrixMeaning::CameraOrthographic { camera, volume, convention }, 14 + 2 * digits))
+    let cost = 14 + posture_cost(&camera, convention) + 2 * digits;
+    Some((MatrixMeaning::CameraOrthographic { camera, volume, convention }, cost))
 }
 
 /// Adds the reading as a perspective whose near plane is inclined (Lengyel 2005), from the origin.

@@ -111,7 +111,13 @@ fn read_affine_plane([x, y, w]: &Entries<3>, found: &mut Vec<PlanarReading>) {
             .into_iter()
             .filter(|reading| {
                 let volume = reading.meaning.convention().is_some();
-                !volume && !matches!(reading.meaning, MatrixMeaning::Projective)
+                let of_space = matches!(
+                    reading.meaning,
+                    MatrixMeaning::Projective
+                        | MatrixMeaning::CameraPose(_)
+                        | MatrixMeaning::ModelTransform { scale: [1.0, 1.0, 1.0], .. }
+                );
+                !volume && !of_space
             })
             .map(|reading| PlanarReading {
                 meaning: PlanarMatrix::Plane(reading.meaning),

@@ -1,4 +1,5 @@
-//! Readings of rigid matrices: rotations, reflections, and cameras with eye, gaze and up (CA-2).
+//! Readings of rigid matrices: rotations, reflections, cameras with eye, gaze and up (CA-2), their
+//! poses, and model transforms.
 
 use super::rounded::{Entries, Rounded, divide_entries};
 use super::{MatrixMeaning, MatrixReading, factor_cost};
@@ -70,22 +71,52 @@ pub(super) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
         up: clean(v),
         right: clean(u),
     };
-    let reading = if w.dot(u.cross(v)) < 0.0 {
-        reflection(&linear, offset)
-    } else if stays && turned {
-        let (axis, angle_degrees) = axis_angle(rotation, largest_error(&linear));
-        Some((MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6))
-    } else if turned {
-        let cost = 6 + 2 * eye.iter().map(|x| x.digits()).sum::<u32>();
-        Some((MatrixMeaning::Camera(camera), cost))
-    } else {
-        None
+    let mut push = |meaning: MatrixMeaning, cost: u32| {
+        let (factor, cost) = (factor.simplest(), cost + factor_cost(factor));
+        found.push(MatrixReading { meaning, factor, cost });
     };
-    found.extend(reading.map(|(meaning, cost)| MatrixReading {
-        meaning,
-        factor: factor.simplest(),
-        cost: cost + factor_cost(factor),
-    }));
+    let digits = |numbers: [Rounded; 3]| numbers.iter().map(|x| x.digits()).sum::<u32>();
+    if w.dot(u.cross(v)) < 0.0 {
+        if let Some((meaning, cost)) = reflection(&linear, offset) {
+            push(meaning, cost);
+        }
+        return;
+    }
+    if !turned {
+        return;
+    }
+    let error = largest_error(&linear);
+    let (axis, angle_degrees) = axis_angle(rotation, error);
+    if stays {
+        push(MatrixMeaning::Rotation { axis, angle_degrees, camera }, 6);
+        return;
+    }
+    // Few cameras roll, in a world whose y or z is up.
+    let is_level = |camera: &CameraReading| camera.right[1..].iter().any(|x| x.abs() < 1e-9);
+    let roll_cost = |camera: &CameraReading| if is_level(camera) { 0 } else { 4 };
+    push(MatrixMeaning::Camera(camera), 6 + roll_cost(&camera) + 2 * digits(eye));
+    let translation = offset.map(Rounded::simplest);
+    let angle = Rounded { value: angle_degrees, error: error.to_degrees().max(1e-10) };
+    let cost = turn_cost(axis, angle) + 2 * digits(offset);
+    push(MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale: [1.0; 3] }, cost);
+    let [right, up, backwards] = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
+    let pose = CameraReading {
+        eye: translation,
+        gaze: clean(-backwards),
+        up: clean(up),
+        right: clean(right),
+    };
+    push(MatrixMeaning::CameraPose(pose), 8 + roll_cost(&pose) + 2 * digits(offset));
+}
+
+/// The cost of a rotation in a model transform: an axis of coordinates and few digits of the angle
+/// are usual, most so the axis z of plane pictures, about which cameras seldom roll.
+fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
+    match axis.map(|x| x == 0.0) {
+        [true, true, false] => 2 + 2 * angle.digits(),
+        [true, false, true] | [false, true, true] => 6 + 2 * angle.digits(),
+        _ => 10,
+    }
 }
 
 /// A component of a unit vector without digits that its rounding does not carry.

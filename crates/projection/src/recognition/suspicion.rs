@@ -52,13 +52,15 @@ pub(super) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<S
         return Vec::new();
     }
     let Some(best) = readings.first() else { return Vec::new() };
-    let tests: [fn(&Entries<4>, &MatrixReading) -> Option<Remedy>; 9] = [
+    let tests: [fn(&Entries<4>, &MatrixReading) -> Option<Remedy>; 11] = [
         undo_transposition,
         undo_flat_third_row,
         undo_bottom_row_one,
         undo_ortho_offset_sign,
         undo_half_of_tangent,
         undo_degrees,
+        undo_last_row_sign,
+        undo_wrong_sign,
         tell_moved_apex,
         tell_frustum_offset_one,
         tell_repeated_translation,
@@ -208,6 +210,37 @@ fn undo_degrees(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
     let scale = Rounded::exact(1.0 / libm::tan(0.5 * degrees.to_radians()));
     let scale = Rounded { error: 4.0 * f64::EPSILON * scale.value, ..scale };
     remedy(Misprint::Degrees, &with_scale_y(m, [x, y], scale), is_central)
+}
+
+/// The last row (0, 0, 1, 0) below the depth row of a camera that looks along −z, or the other way
+/// round.
+fn undo_last_row_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let bare = m[3][0].is_zero() && m[3][1].is_zero() && m[3][3].is_zero();
+    // Upside down and seen from behind, it is a camera at the origin.
+    let turned = matches!(best.meaning, MatrixMeaning::CameraPerspective { .. });
+    if (best.meaning.is_named() && !(turned && best.factor < 0.0)) || !bare || m[3][2].is_zero() {
+        return None;
+    }
+    let mut remedied = *m;
+    remedied[3][2] = -m[3][2];
+    remedy(Misprint::LastRowNegated, &remedied, is_central)
+}
+
+/// A rotation, or a camera, but for the sign of one entry.
+fn undo_wrong_sign(m: &Entries<4>, best: &MatrixReading) -> Option<Remedy> {
+    let affine = m[3][..3].iter().all(|entry| entry.is_zero()) && m[3][3].is(1.0);
+    if best.meaning.is_named() || !affine {
+        return None;
+    }
+    let rigid = |meaning: &MatrixMeaning| {
+        matches!(meaning, MatrixMeaning::Rotation { .. } | MatrixMeaning::Camera(_))
+    };
+    (0..9).find_map(|at| {
+        let (row, column) = (at / 3, at % 3);
+        let mut remedied = *m;
+        remedied[row][column] = -m[row][column];
+        remedy(Misprint::WrongSign, &remedied, rigid).filter(|_| !m[row][column].is_zero())
+    })
 }
 
 /// M12: not glFrustum with the same parameters.

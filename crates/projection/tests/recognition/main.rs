@@ -5,9 +5,12 @@
 
 mod formulas;
 mod hand_typed;
+
+mod placed;
 mod planar;
 mod random_matrices;
 mod right_matrices;
+mod rigid;
 mod table;
 mod wrong_matrices;
 
@@ -42,12 +45,21 @@ fn the_perspective_from_the_origin_onto_a_plane_is_recognized() {
             DVec4::ZERO,
         );
         let found = recognize(rows * multiple);
-        let expected = MatrixMeaning::CentralOntoPlane { plane_z: plane };
+        let expected = MatrixMeaning::CentralOntoPlane { plane_z: plane, onto_plane: false };
         assert_eq!((found.first().meaning, found.first().factor), (expected, multiple));
         assert_eq!(found.misprint(), None, "{plane}");
     }
     // A third, rounded to four decimals.
     let rounded = DVec4::new(0.0, 0.0, 1.0, 0.3333);
     let found = recognize(DMat4::from_cols(DVec4::X, DVec4::Y, rounded, DVec4::ZERO));
-    assert_eq!(found.first().meaning, MatrixMeaning::CentralOntoPlane { plane_z: 3.0 });
+    let expected = MatrixMeaning::CentralOntoPlane { plane_z: 3.0, onto_plane: false };
+    assert_eq!(found.first().meaning, expected);
+}
+
+/// As textbooks of computer vision print it: the picture plane has no depth.
+#[test]
+fn the_perspective_onto_a_plane_may_drop_z() {
+    let rows = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::W, DVec4::ZERO);
+    let expected = MatrixMeaning::CentralOntoPlane { plane_z: 1.0, onto_plane: true };
+    assert_eq!(recognize(rows).first().meaning, expected);
 }

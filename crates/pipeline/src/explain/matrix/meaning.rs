@@ -106,10 +106,9 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
         }
         MatrixMeaning::CameraPerspective { camera, frustum: f, .. } => {
             let (window, depth) = (window_words(f.window()), depth_words(f.near(), f.far()));
-            format!(
-                "a camera and a perspective in one: {}, {window}, {depth}",
-                camera_words(camera)
-            )
+            let world = world_words(meaning);
+            let camera = camera_words(camera);
+            format!("a camera and a perspective in one{world}: {camera}, {window}, {depth}")
         }
         MatrixMeaning::PerspectiveToPixels {
             size,
@@ -130,10 +129,19 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
         MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
             let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
             let gaze = list(camera.gaze);
-            format!("a camera and an orthographic box in one: gaze {gaze}, {window}, {depth}")
+            let world = world_words(meaning);
+            format!(
+                "a camera and an orthographic box in one{world}: gaze {gaze}, {window}, {depth}"
+            )
         }
         _ => return None,
     })
+}
+
+/// The handedness of the world where it is not the usual one.
+fn world_words(meaning: &MatrixMeaning) -> &'static str {
+    let left_handed = meaning.convention().is_some_and(|convention| convention.ahead() > 0.0);
+    if left_handed { ", in a left-handed world" } else { "" }
 }
 
 /// Classical projections; `None` for other maps.
@@ -175,9 +183,10 @@ fn describe_classical(meaning: &MatrixMeaning) -> Option<String> {
         MatrixMeaning::Planometric { turn_degrees, height, z_up, onto_plane } => {
             planometric_words(*turn_degrees, *height, *z_up, *onto_plane)
         }
-        MatrixMeaning::CentralOntoPlane { plane_z } => {
+        MatrixMeaning::CentralOntoPlane { plane_z, onto_plane } => {
             let plane = format_number(*plane_z);
-            format!("a perspective projection from the origin onto the plane z = {plane}")
+            let depth = if *onto_plane { ", z dropped" } else { "" };
+            format!("a perspective projection from the origin onto the plane z = {plane}{depth}")
         }
         MatrixMeaning::NPoint { projection, onto_plane } => {
             let class = Classical::NPoint(*projection).class();
@@ -229,18 +238,27 @@ fn describe_transform(meaning: &MatrixMeaning) -> String {
         MatrixMeaning::Rotation { axis, angle_degrees, .. } => {
             format!("a rotation by {}° about {}", format_number(*angle_degrees), list(*axis))
         }
-        MatrixMeaning::Camera(camera) => format!("a camera transform: {}", camera_words(camera)),
+        MatrixMeaning::Camera(camera) => {
+            format!("a camera transform: {}", camera_words(camera))
+        }
+        MatrixMeaning::CameraPose(camera) => {
+            format!("a camera pose (view to world): {}", camera_words(camera))
+        }
         MatrixMeaning::Shear { linear, .. } => {
             let [x, y, z] = linear.map(list);
             format!("a shear with the rows {x}, {y}, {z}")
         }
-        MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => format!(
-            "a model transform: scale {}, rotation by {}° about {}, translation {}",
-            list(*scale),
-            format_number(*angle_degrees),
-            list(*axis),
-            list(*translation)
-        ),
+        MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => {
+            let first = match scale {
+                [1.0, 1.0, 1.0] => String::new(),
+                scale => format!("scale {}, ", list(*scale)),
+            };
+            let (turn, axis) = (format_number(*angle_degrees), list(*axis));
+            let moved = list(*translation);
+            format!(
+                "a model transform: {first}rotation by {turn}° about {axis}, translation {moved}"
+            )
+        }
         MatrixMeaning::Viewport(viewport) => viewport_words(viewport),
         MatrixMeaning::Intrinsics(k) => {
             let [fx, fy, cx, cy] = [k.fx, k.fy, k.cx, k.cy].map(format_number);
@@ -282,14 +300,21 @@ fn add_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
         meaning if meaning.convention().is_some() => add_view_parameters(step, meaning),
         MatrixMeaning::ObliqueShear { projection }
         | MatrixMeaning::ObliqueOntoPlane { projection } => add_oblique(step, projection),
-        MatrixMeaning::Camera(camera) | MatrixMeaning::Rotation { camera, .. } => {
-            add_camera(step, camera)
+        MatrixMeaning::Camera(camera)
+        | MatrixMeaning::CameraPose(camera)
+        | MatrixMeaning::Rotation { camera, .. } => {
+            add_camera(step, camera, "gaze, if it looks along -z")
         }
+        MatrixMeaning::ModelTransform { translation, axis, angle_degrees, scale } => step
+            .with_item("scale", "scale, applied first", *scale)
+            .with_item("axis", "axis of the rotation", *axis)
+            .with_item("angle", "its angle, degrees", *angle_degrees)
+            .with_item("translation", "translation", *translation),
         MatrixMeaning::NPoint { projection, .. } => match projection.eye().divide() {
             Some(eye) => step.with_item("eye", "eye", <[f64; 3]>::from(eye)),
             None => step,
         },
-        MatrixMeaning::CentralOntoPlane { plane_z } => {
+        MatrixMeaning::CentralOntoPlane { plane_z, .. } => {
             step.with_item("plane", "plane z", *plane_z).with_item("eye", "eye", [0.0; 3])
         }
         MatrixMeaning::ChapterP { n, f } | MatrixMeaning::ChapterPInverse { n, f } => {
@@ -334,14 +359,15 @@ fn add_view_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
             add_oblique(step, projection)
         }
         MatrixMeaning::CameraPerspective { camera, frustum: f, lens, convention } => {
-            let step = add_window(add_camera(step, camera), f.window(), [f.near(), f.far()]);
+            let step =
+                add_window(add_camera(step, camera, "gaze"), f.window(), [f.near(), f.far()]);
             add_lens(step, lens, *convention)
         }
         MatrixMeaning::PerspectiveToPixels {
             size, camera, frustum: f, lens, convention, ..
         } => {
             let step = match camera {
-                Some(camera) => add_camera(step, camera),
+                Some(camera) => add_camera(step, camera, "gaze"),
                 None => step,
             };
             let step = step.with_item("size", "width, height", *size);
@@ -356,9 +382,9 @@ fn add_view_parameters(step: Step, meaning: &MatrixMeaning) -> Step {
     }
 }
 
-fn add_camera(step: Step, camera: &CameraReading) -> Step {
+fn add_camera(step: Step, camera: &CameraReading, gaze: &str) -> Step {
     step.with_item("eye", "eye", camera.eye)
-        .with_item("gaze", "gaze, if it looks along -z", camera.gaze)
+        .with_item("gaze", gaze, camera.gaze)
         .with_item("up", "up", camera.up)
         .with_item("right", "right", camera.right)
 }
