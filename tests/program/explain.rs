@@ -219,7 +219,7 @@ fn the_page_introduces_itself_with_its_units() {
 fn maps_without_a_scene_say_what_they_need() {
     let sandbox = Sandbox::new("explain_map_mistakes");
     for (flags, code, words) in [
-        (&["explain"][..], 2, "<INPUT>"),
+        (&["explain"][..], 1, "name a scene or a model to explain"),
         (&["explain", "--matrix", "1 2 3"], 2, "expected 16 numbers separated by commas, found 3"),
         (&["explain", "--planes", "0,1"], 1, "--planes 0,1"),
         (&["explain", "--planes", "-1,1"], 1, "same side of the eye"),

@@ -22,6 +22,7 @@ mod light;
 mod light_leaks;
 mod manual;
 mod matrix;
+mod matrix_answers;
 mod messages;
 mod mistakes;
 mod outputs;

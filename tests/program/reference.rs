@@ -87,6 +87,40 @@ fn the_reference_can_be_read_elsewhere() {
     }
 }
 
+/// Symbols and the letters of ids lead to formulas; other words to the list of them.
+#[test]
+fn words_of_textbooks_lead_to_formulas() {
+    let sandbox = Sandbox::new("reference_symbols");
+    for (word, name) in [("HO", "HO-1, lift and divide"), ("M_vp", "VP-1, ")] {
+        let run = sandbox.run(&["reference", word]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{word}");
+        assert!(run.stdout.contains(name), "{word}: {}", run.stdout);
+    }
+    let run = sandbox.run(&["reference", "exercise"]);
+    assert!(run.stdout.contains("exercise") || run.stderr.contains("`alberti reference formulas`"));
+    let run = sandbox.run(&["reference", "qwertz"]);
+    assert_eq!((run.code, run.stdout.as_str()), (1, ""));
+    assert!(run.stderr.contains("`alberti reference formulas`"), "{}", run.stderr);
+}
+
+/// Each name of conventions with its depth range, y, handedness and pixels.
+#[test]
+fn conventions_are_explained_by_their_names() {
+    let sandbox = Sandbox::new("reference_conventions");
+    for words in [&["reference", "conventions"][..], &["help", "matrix"], &["explain", "--help"]] {
+        let text = sandbox.run(words).stdout;
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        for line in [
+            "near at z = -1, far at 1; y up; looks along -z (right-handed)",
+            "near at z = 0, far at 1; y down; looks along -z (right-handed)",
+            "near at z = 0, far at 1; y up; looks along +z (left-handed)",
+            "centers at whole numbers",
+        ] {
+            assert!(text.contains(line), "{words:?}, {line}: {text}");
+        }
+    }
+}
+
 /// Words of titles and texts, in any case and form.
 #[test]
 fn formulas_are_found_by_their_words() {
@@ -95,7 +129,14 @@ fn formulas_are_found_by_their_words() {
         ("windowing", &["WI-2 and WI-3, windowing", "OR-1, orthographic box"][..]),
         ("homogenize", &["HO-1, lift and divide"]),
         ("Basis", &["CA-1, basis from gaze and view-up"]),
-        ("inverse", &["IV-1, inverses in closed form", "CA-2, world to view"]),
+        (
+            "inverse",
+            &[
+                "PE-1, the perspective matrix P and its inverse",
+                "IV-1, inverses in closed form",
+                "CA-2, world to view",
+            ],
+        ),
         ("order", &["PE-1, the perspective matrix P"]),
     ] {
         let run = sandbox.run(&["reference", word]);

@@ -30,8 +30,7 @@ const MAX_PAGE_SIDE: f64 = 960.0;
 /// Arguments of `alberti explain`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
-    /// Scene (.ron) or model (.gltf, .glb)
-    #[arg(required_unless_present_any = ["matrix", "planes"])]
+    /// Scene (.ron) or model (.gltf, .glb); none with --matrix or --planes
     input: Option<PathBuf>,
     #[command(flatten)]
     subject: ExplainSubjectArgs,
@@ -142,7 +141,9 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
         return write_explanation(args, &explanation, |explanation| Ok(explanation.to_string()));
     }
     let Some(input) = &args.input else {
-        return Err(CliError::Usage("name a scene or a model to explain".to_owned()));
+        let message = "name a scene or a model to explain\n  = help: --point and --segment need no \
+                       scene with --planes N,F (the textbook's P) or --matrix NUMBERS";
+        return Err(CliError::Usage(message.to_owned()));
     };
     let (_, file, scene) = args.overrides.open_scene(input, &args.load_options)?;
     let size = (scene.image.width, scene.image.height);
@@ -316,7 +317,12 @@ impl BareMapArgs {
 
 /// Parses sixteen numbers, boxed to keep the arguments of the command small.
 fn parse_matrix(text: &str) -> Result<Box<[f64; 16]>, String> {
-    parse_numbers(text).map(Box::new)
+    let one_word = |problem| {
+        format!(
+            "{problem}; they are one word, with commas or in quotation marks: \"1 0 0 0  0 1 …\""
+        )
+    };
+    parse_numbers(text).map(Box::new).map_err(one_word)
 }
 
 /// Parses a point of three or four numbers.
@@ -347,7 +353,8 @@ fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
 
 /// Parses conventions by the name that the `pipeline` crate has for them.
 pub(super) fn conventions_parser() -> impl clap::builder::TypedValueParser<Value = ApiConventions> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-    PossibleValuesParser::new(ApiConventions::ALL.map(ApiConventions::name))
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
+    let value = |known: ApiConventions| PossibleValue::new(known.name()).help(known.summary());
+    PossibleValuesParser::new(ApiConventions::ALL.map(value))
         .try_map(|name| name.parse::<ApiConventions>())
 }

@@ -23,16 +23,28 @@ use pipeline::explain::{
 };
 use std::io::Read as _;
 
+/// The examples of the help.
+const EXAMPLES: &str = "\
+Examples:
+  alberti matrix 0.9743 0 0 0  0 1.7321 0 0  0 0 -1.002 -0.2002  0 0 -1 0
+                                                  what a printed matrix means
+  alberti matrix --look-at 0,2,-5,0,0,0 --conventions direct3d
+                                                  XMMatrixLookAtLH
+  alberti matrix --viewport 640,480 --perspective 60,4/3,0.1,100 --look-at 4,3,6,0,0,0 --point 0,1,0
+                                                  a point of the world to pixels";
+
 /// Arguments of `alberti matrix`.
 #[derive(Debug, clap::Args)]
-#[command(after_help = format!("In all matrices from parameters but --p, {DISTANCES}."))]
+#[command(after_help = format!(
+    "In all matrices from parameters but --p, {DISTANCES}.\n\n{EXAMPLES}"
+))]
 pub(crate) struct MatrixArgs {
     /// Sixteen or nine numbers, row by row [default: read from the standard input]
     ///
     /// Brackets and commas between them are ignored; fractions such as 2/3 are numbers. Source code
     /// of C, GLSL, Python and Rust is accepted as --code prints it: mat constructors are read
     /// column by column, other code as its comments say or else row by row.
-    #[arg(allow_hyphen_values = true, conflicts_with = "BuildArgs")]
+    #[arg(allow_hyphen_values = true)]
     numbers: Vec<String>,
     /// Read the numbers column by column, as OpenGL, glTF and glam store them
     #[arg(long, conflicts_with = "BuildArgs")]
@@ -104,6 +116,7 @@ fn run_ordered(args: &MatrixArgs) -> Result<(), CliError> {
         reversed: args.reversed,
         onto_plane: args.onto_plane,
     };
+    args.build.check_alone(&args.numbers)?;
     if let Some(built) = args.build.build(options) {
         let built = built?;
         if let Some(language) = args.code {
@@ -174,7 +187,7 @@ fn explain_built(built: &BuiltMatrix) -> Explanation {
         items,
     };
     let mut whole = vec![matrix("matrix", "matrix", built.matrix)];
-    whole.extend(built.note.map(|note| entry("note", "it is", note.into())));
+    whole.extend(built.note.map(|note| entry("note", "note", note.into())));
     let mut steps = vec![step("matrix", "The matrix", built.formula, whole)];
     let factors = built.factors.iter().map(|(name, factor)| (*name, *factor));
     let multiplied = built.product_of.iter().map(|(name, factor)| (name.as_str(), *factor));

@@ -19,7 +19,7 @@ mod text;
 
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
-use pipeline::formulas::{entries, find_formula, find_formulas};
+use pipeline::formulas::{Formula, entries, find_formula, find_formulas};
 
 /// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
@@ -27,7 +27,7 @@ pub(crate) struct ReferenceArgs {
     /// Flag, command, type, field, path of fields or formula [default: all flags and fields]
     ///
     /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula; a word of
-    /// a formula's name or text, such as inverse, lists the ids. `formulas` lists all of these.
+    /// a formula's name or text lists the ids. `formulas` lists all of these.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
     /// Output format
@@ -91,17 +91,39 @@ pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), CliError
     let found = match &args.word {
         Some(word) => match (search::find_sections(&sections, word), find_formulas(word)) {
             (Ok(found), formulas) => {
-                let titled = formulas.into_iter().filter(|(_, in_name)| *in_name);
+                // Where flags and fields only speak of the word, formulas that do are as good.
+                let spoken = search::is_only_mentioned(&found, word);
+                let titled = formulas.into_iter().filter(|(_, in_name)| *in_name || spoken);
                 found.into_iter().chain(formula::list_section(titled)).collect()
             }
             (Err(_), formulas) if !formulas.is_empty() => {
                 formula::list_section(formulas.into_iter()).into_iter().collect()
             }
-            (Err(message), _) => return Err(CliError::Usage(message)),
+            (Err(message), _) => match formula::list_section(formulas_with(word)) {
+                Some(section) => vec![section],
+                None => return Err(CliError::Usage(message + FORMULAS_HINT)),
+            },
         },
         None => sections,
     };
     print_sections(args, "Reference of Alberti", &found)
+}
+
+/// What a word that nothing has may have meant.
+const FORMULAS_HINT: &str =
+    "\n  = help: `alberti reference formulas` lists the formulas, with their ids";
+
+/// The formulas whose ids begin with these letters, such as `HO`, or that have this symbol, such as
+/// `M_vp`.
+fn formulas_with(word: &str) -> impl Iterator<Item = (Formula, bool)> {
+    let prefix = format!("{}-", word.to_uppercase());
+    let symbol = word.contains('_').then(|| word.to_owned());
+    let has = move |entry: &Formula| {
+        let in_text = |symbol: &String| entry.name.contains(symbol) || entry.text.contains(symbol);
+        let ids = entry.name.split([',', ' ']);
+        ids.into_iter().any(|id| id.starts_with(&prefix)) || symbol.as_ref().is_some_and(in_text)
+    };
+    entries().filter(has).map(|entry| (entry, true))
 }
 
 /// Prints the reference of scene files.

@@ -12,9 +12,10 @@ use glam::DMat4;
 use pipeline::explain::ApiConventions;
 use projection::Convention;
 
-/// The sentence about near and far of all flags but `--p`.
-pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far; \
-    the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
+/// The sentence about near and far of all flags but `--p`, in the help and in messages.
+pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye, 0 < near < far \
+    (--ortho and --oblique also take near = 0 and, but for the conventions alberti and chapter, a \
+    near plane behind the eye, as glOrtho's -1,1); the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
 
 /// What changes the matrix of some flags.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -95,7 +96,8 @@ const FLAGS: [BuilderFlag; 15] = [
         ("look-at", "EYE,TARGET[,UP]"),
         &[Conventions],
         build_look_at,
-        "Camera by its eye, the point it looks at and, unless it is y, the direction that is up",
+        "Camera by its eye, the point it looks at and, unless it is y, the direction that is up; \
+         with --conventions direct3d in a left-handed world (XMMatrixLookAtLH)",
     ),
     flag(
         ("look-to", "EYE,DIRECTION[,UP]"),
@@ -184,8 +186,15 @@ impl NumberList {
     pub(super) fn exactly<const N: usize>(&self, flag: &str) -> Result<[f64; N], CliError> {
         let found = self.0.len();
         <[f64; N]>::try_from(self.0.as_slice())
-            .map_err(|_| CliError::Usage(format!("--{flag} takes {N} numbers, found {found}")))
+            .map_err(|_| wrong_count(&format!("--{flag}"), &N.to_string(), found))
     }
+}
+
+/// The message for a list with too many or too few numbers.
+pub(super) fn wrong_count(flag: &str, expected: &str, found: usize) -> CliError {
+    CliError::Usage(format!(
+        "{flag} takes {expected} numbers, found {found}: one list joined by commas, without blanks"
+    ))
 }
 
 /// The modifiers of the command line.
@@ -295,6 +304,26 @@ impl BuildArgs {
     /// If the number of parameters is wrong, the builder refuses one, or a modifier changes nothing.
     pub(super) fn build(&self, options: BuildOptions) -> Option<Built> {
         (!self.calls.is_empty()).then(|| self.build_product(options))
+    }
+
+    /// Refuses numbers beside a flag that builds a matrix: a list with a blank in it, or a second
+    /// matrix.
+    pub(super) fn check_alone(&self, numbers: &[String]) -> Result<(), CliError> {
+        let (Some((at, list)), false) = (self.calls.last(), numbers.is_empty()) else {
+            return Ok(());
+        };
+        let flag = &FLAGS[*at];
+        let rest = numbers.join(" ");
+        let parts = numbers.iter().flat_map(|word| word.split([',', ' ']));
+        let count = list.0.len() + parts.filter(|word| !word.is_empty()).count();
+        let written = Self::as_written(&(*at, list.clone()));
+        let joined = numbers.join(",");
+        Err(CliError::Usage(format!(
+            "`{rest}` behind `{written}`: --{} takes one list of numbers joined by commas, without \
+             blanks\n  = help: one list of {count} numbers is `{written},{joined}`; a matrix of \
+             numbers cannot stand beside one from parameters",
+            flag.name
+        )))
     }
 
     /// A flag with its numbers.

@@ -1,7 +1,7 @@
 //! The library's builder behind each flag of `alberti matrix`, with factors and formulas.
 
 use super::super::CliError;
-use super::build::{BuildOptions, Built, BuiltMatrix, DISTANCES, NumberList};
+use super::build::{BuildOptions, Built, BuiltMatrix, DISTANCES, NumberList, wrong_count};
 use camera::Camera;
 use glam::{DMat3, DMat4};
 use homog::{Affine, Point, Space, Vector, View, World};
@@ -64,15 +64,18 @@ fn box_formula(volume: Convention) -> &'static str {
     }
 }
 
-/// The matrix with 0 for entries of its rotation that are rounding: below 1e-15 of a row of length
-/// 1.
+/// The matrix with 0 for entries that are rounding: below 1e-15 of a row of length 1, and of the
+/// largest offset.
 fn without_noise(matrix: DMat4) -> DMat4 {
     let clean = |column: glam::DVec4| {
         let kept = column.to_array().map(|entry| if entry.abs() < 1e-15 { 0.0 } else { entry });
         glam::DVec4::from_array(kept)
     };
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(clean);
-    DMat4::from_cols(x, y, z, matrix.w_axis)
+    let offset = matrix.w_axis.truncate();
+    let least = 1e-15 * offset.abs().max_element().max(1.0);
+    let kept = offset.to_array().map(|entry| if entry.abs() < least { 0.0 } else { entry });
+    DMat4::from_cols(x, y, z, glam::DVec3::from_array(kept).extend(matrix.w_axis.w))
 }
 
 fn perspective_of(subject: String, frustum: Frustum, options: BuildOptions) -> BuiltMatrix {
@@ -153,12 +156,16 @@ pub(super) fn build_ortho(list: &NumberList, options: BuildOptions) -> Built {
 pub(super) fn build_p(list: &NumberList, _: BuildOptions) -> Built {
     let [n, f] = list.exactly("p")?;
     let matrix = chapter::p(n, f).map_err(refused)?.raw();
-    Ok(built(format!("The textbook's P: n = {n}, f = {f}"), "PE-1", matrix))
+    let note = Some(
+        "the inverse below is P⁻¹ itself; the textbook prints n f P⁻¹, without fractions, as \
+         `alberti explain --planes N,F` does",
+    );
+    Ok(BuiltMatrix { note, ..built(format!("The textbook's P: n = {n}, f = {f}"), "PE-1", matrix) })
 }
 
 pub(super) fn build_oblique(list: &NumberList, options: BuildOptions) -> Built {
     let &[length, angle, ref rest @ ..] = list.0.as_slice() else {
-        return Err(CliError::Usage("--oblique takes 2 or 8 numbers".to_owned()));
+        return Err(wrong_count("--oblique", "2 or 8", list.0.len()));
     };
     let oblique = Oblique::new(length, angle.to_radians()).map_err(refused)?;
     let subject = format!("An oblique projection: length {length}, angle {angle}°");
@@ -227,8 +234,7 @@ pub(super) fn build_look_at(list: &NumberList, options: BuildOptions) -> Built {
         6 => NumberList([&list.0[..], &[0.0, 1.0, 0.0]].concat()).exactly("look-at")?,
         9 => list.exactly("look-at")?,
         found => {
-            let message = format!("--look-at takes 6 or 9 numbers, found {found}");
-            return Err(CliError::Usage(message));
+            return Err(wrong_count("--look-at", "6 or 9", found));
         }
     };
     let up = Vector::<World>::new(ux, uy, uz);
@@ -242,8 +248,7 @@ pub(super) fn build_look_to(list: &NumberList, options: BuildOptions) -> Built {
         6 => NumberList([&list.0[..], &[0.0, 1.0, 0.0]].concat()).exactly("look-to")?,
         9 => list.exactly("look-to")?,
         found => {
-            let message = format!("--look-to takes 6 or 9 numbers, found {found}");
-            return Err(CliError::Usage(message));
+            return Err(wrong_count("--look-to", "6 or 9", found));
         }
     };
     let (gaze, up) = (Vector::<World>::new(gx, gy, gz), Vector::new(ux, uy, uz));
@@ -253,22 +258,28 @@ pub(super) fn build_look_to(list: &NumberList, options: BuildOptions) -> Built {
 }
 
 fn camera_of(subject: String, camera: Camera, options: BuildOptions) -> BuiltMatrix {
-    // A view space that looks along +z has the same x and y.
-    let turn = DMat4::from_diagonal(glam::DVec4::new(1.0, 1.0, -options.volume().ahead(), 1.0));
+    // A left-handed world has the same up and line of sight, but right is the other way.
+    let left_handed = options.volume().ahead() > 0.0;
+    let side = if left_handed { -1.0 } else { 1.0 };
+    let turn = DMat4::from_diagonal(glam::DVec4::new(side, 1.0, side, 1.0));
+    let note = left_handed.then_some(
+        "XMMatrixLookAtLH: the world is left-handed, too, and z is the distance ahead; for a \
+         right-handed world (glTF) take --conventions webgpu",
+    );
     let view = camera.world_to_view().raw();
     let rotation = without_noise(DMat4::from_mat3(DMat3::from_mat4(view)));
     let factors = vec![
         ("translation, the eye to the origin", DMat4::from_translation(-camera.eye().raw())),
         ("rotation, u v w to the axes", turn * rotation),
     ];
-    BuiltMatrix { factors, ..built(subject, "CA-1, CA-2", without_noise(turn * view)) }
+    BuiltMatrix { factors, note, ..built(subject, "CA-1, CA-2", without_noise(turn * view)) }
 }
 
 pub(super) fn build_viewport(list: &NumberList, options: BuildOptions) -> Built {
     let [x, y, width, height] = match *list.0.as_slice() {
         [width, height] => [0.0, 0.0, width, height],
         [x, y, width, height] => [x, y, width, height],
-        _ => return Err(CliError::Usage("--viewport takes 2 or 4 numbers".to_owned())),
+        _ => return Err(wrong_count("--viewport", "2 or 4", list.0.len())),
     };
     let area = Rectangle::new(x, y, width, height).map_err(refused)?;
     let conventions = options.conventions();

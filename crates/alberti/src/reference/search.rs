@@ -34,13 +34,7 @@ pub(super) fn find_sections(
 /// for `turntable`; else all entries that speak of it.
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {
     let word = word.to_lowercase();
-    let is_part = |entry: &ReferenceEntry| {
-        entry_names(entry).any(|name| {
-            let name = name.trim_start_matches('-').to_lowercase();
-            name == word || name.split(['_', '-']).any(|part| part == word)
-        })
-    };
-    let mut found = filter_entries(sections, &is_part);
+    let mut found = filter_entries(sections, &|entry| has_in_name(entry, &word));
     for path in pipeline::scene::reference::meanings_of(&word) {
         let steps: Vec<&str> = path.split('.').collect();
         for section in find_by_path(sections, &steps) {
@@ -54,6 +48,23 @@ fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSecti
         found = filter_entries(sections, &|entry| mentions(&entry.about, &word));
     }
     found
+}
+
+/// Whether a word, in lower case, is the name of an entry in any case, or a part of it.
+fn has_in_name(entry: &ReferenceEntry, word: &str) -> bool {
+    entry_names(entry).any(|name| {
+        let name = name.trim_start_matches('-').to_lowercase();
+        name == word || name.split(['_', '-']).any(|part| part == word)
+    })
+}
+
+/// Whether sections were found by the words of their descriptions alone.
+pub(super) fn is_only_mentioned(found: &[ReferenceSection], word: &str) -> bool {
+    let lower = word.to_lowercase();
+    let mentioned = |entry: &ReferenceEntry| mentions(&entry.about, &lower);
+    !found.iter().any(|section| is_titled(section, word))
+        && filter_entries(found, &|entry| has_in_name(entry, &lower)).is_empty()
+        && !filter_entries(found, &mentioned).is_empty()
 }
 
 /// Whether a text has a word, or its plural.

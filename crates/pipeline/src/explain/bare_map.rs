@@ -47,7 +47,8 @@ impl BareMap {
             .with_item("f", "f", far)
             .with_item("matrix", "P", p.rows())
             .with_item("scaled_inverse", "n f times its inverse", inverse.rows())
-            .with_item("product", "P times that", inverse.then(p).rows());
+            .with_item("product", "P times that", inverse.then(p).rows())
+            .with_item("unscaled", "P⁻¹ itself", format!("alberti matrix --p {near},{far}"));
         Ok(Self { map: Projective::from_raw(p.raw()), steps: vec![step] })
     }
 
@@ -75,7 +76,8 @@ impl BareMap {
         let verdict = match images[..] {
             [image] => describe_image(image),
             [] => "--point and --segment map something by it.".to_owned(),
-            _ => "Both ends are mapped; f(t) says where the points between them go.".to_owned(),
+            [start, end] => describe_segment(start.w(), end.w()).to_owned(),
+            _ => "Every point is mapped.".to_owned(),
         };
         Ok(Explanation { subject: "A map without a scene".to_owned(), steps, verdict })
     }
@@ -101,6 +103,19 @@ fn image_step(labels: &[&str], points: &[HPoint<View>], images: &[HPoint<Clip>])
         }
     }
     step
+}
+
+/// The image of a segment in words, by w at its ends.
+fn describe_segment(start: f64, end: f64) -> &'static str {
+    if start * end > 0.0 {
+        "Both ends are mapped; f(t) says where the points between them go."
+    } else if start == 0.0 || end == 0.0 {
+        "An end with w = 0 goes to infinity, so the image has no end there: clip the segment first."
+    } else {
+        "Each end has an image, but w changes its sign between them: the segment passes the plane \
+         of the eye, where w is 0, and the line between the two images is not its image. Clip it \
+         first."
+    }
 }
 
 /// The image of one point in words.

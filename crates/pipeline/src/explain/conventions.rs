@@ -77,6 +77,40 @@ impl ApiConventions {
         }
     }
 
+    /// Depth range, direction of y, handedness and pixel centers in a line.
+    #[must_use]
+    pub const fn summary(self) -> &'static str {
+        match self {
+            Self::Alberti => {
+                "near at z = 1, far at -1; y up; looks along -z (right-handed); pixel rows from the \
+                 top, centers at halves, depth 1 to 0"
+            }
+            Self::Chapter => {
+                "the textbook: near at z = 1, far at -1; y up; looks along -z (right-handed); pixel \
+                 rows from the bottom, centers at whole numbers"
+            }
+            Self::ChapterYDown => {
+                "the textbook's with pixel rows from the top (exercise 1); centers at whole numbers"
+            }
+            Self::OpenGl => {
+                "near at z = -1, far at 1; y up; looks along -z (right-handed); pixel rows from the \
+                 bottom, centers at halves, depth 0 to 1"
+            }
+            Self::Vulkan => {
+                "near at z = 0, far at 1; y down; looks along -z (right-handed); pixel rows from the \
+                 top, centers at halves"
+            }
+            Self::Direct3d => {
+                "near at z = 0, far at 1; y up; looks along +z (left-handed); pixel rows from the \
+                 top, centers at halves"
+            }
+            Self::WebGpu => {
+                "also Metal: near at z = 0, far at 1; y up; looks along -z (right-handed); pixel \
+                 rows from the top, centers at halves"
+            }
+        }
+    }
+
     /// The canonical view volume.
     ///
     /// It holds the NDC range of z, the direction of y and the handedness of view space. None of

@@ -1,6 +1,6 @@
 //! Two sentences at the head of an explanation: what the page shows, and its units.
 
-use super::Explanation;
+use super::{Explanation, ItemValue};
 
 /// The introduction of the stages from the world to the screen.
 const PIPELINE: &str = "\
@@ -21,6 +21,11 @@ Sixteen numbers are read as a matrix that stands before column vectors, and comp
 projections of the textbooks and graphics interfaces. Windows and planes are in the units of view \
 space; near and far are distances ahead of the eye.";
 
+/// The introduction of the classification of a 3×3 matrix.
+const PLANAR_MATRIX: &str = "\
+Nine numbers are read as a matrix that stands before column vectors (x, y, w) of the plane, and \
+compared with maps of the plane, camera intrinsics and rotations of space.";
+
 impl Explanation {
     /// Two sentences for the reader of the page: what it shows, and in which units.
     ///
@@ -28,7 +33,12 @@ impl Explanation {
     #[must_use]
     pub fn introduction(&self) -> Option<&'static str> {
         let has_step = |id: &str| self.steps.iter().any(|step| step.id == id);
-        [("camera", PIPELINE), ("map", BARE_MAP), ("readings", MATRIX)]
+        let is_planar = |value: &ItemValue| matches!(value, ItemValue::PlanarMatrix(_));
+        let matrix = match self.steps.iter().flat_map(|step| &step.items).next() {
+            Some(item) if is_planar(&item.value) => PLANAR_MATRIX,
+            _ => MATRIX,
+        };
+        [("camera", PIPELINE), ("map", BARE_MAP), ("readings", matrix)]
             .into_iter()
             .find_map(|(id, words)| has_step(id).then_some(words))
     }
