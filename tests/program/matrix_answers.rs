@@ -26,11 +26,11 @@ fn the_most_sensible_reading_is_that_of_the_program_it_comes_from() {
         ("1 0 0 0 0 1 0 0 0 0 0 0 0 0 1 0", "from the origin onto the plane z = 1, z dropped."),
         (
             "0.9743 0 0 0 0 1.7321 0 0 0 0 -1.0020 -0.2002 0 0 1 0",
-            "looks like a misprint: last row negated",
+            "It looks like a misprint: with its last row negated, it is a perspective: left -0.1026",
         ),
         (
             "0.8575 0 -0.5145 0 0.291 0.8246 -0.4851 0 0.4243 0.5657 0.7071 -7.0711 0 0 0 1",
-            "row 2, column 1",
+            "with the sign of row 2, column 1 turned, it is a camera transform: eye (3, 4, 5)",
         ),
     ] {
         let found = report(&sandbox, "matrix", numbers);

@@ -40,28 +40,31 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     let mut steps = vec![kind_step(rows, map), inverse_step(map)];
     steps.extend(affine_step(map, &found.first().meaning));
     steps.push(vanishing_points_step(map));
-    match transposed_reading(&found) {
-        Some(turned) => steps.extend(meaning_steps(&turned).map(|step| {
-            Step {
-                title:
-                    "Its most sensible reading, transposed: it is for row vectors, or stored by \
-                    columns"
-                        .to_owned(),
-                ..step
-            }
-        })),
-        None => steps.extend(meaning_steps(&found.first())),
-    }
+    steps.extend(match mended_reading(&found) {
+        Some((mended, title)) => {
+            meaning_steps(&mended).map(|step| Step { title: title.to_owned(), ..step })
+        }
+        None => meaning_steps(&found.first()),
+    });
     steps.extend(other_readings_step(&found));
     steps.extend((0..).zip(&found.suspicions).map(|(at, slip)| misprint_step(at, rows, slip)));
     let verdict = matrix_verdict(map, &found);
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// The reading of the transposed matrix, if it is clearly the more sensible one.
-fn transposed_reading(found: &Recognition) -> Option<MatrixReading> {
-    let slip = found.misprint().filter(|slip| slip.misprint == Misprint::Transposed)?;
-    slip.remedied.map(|matrix| recognize(matrix).first())
+/// The reading of the matrix without its slip, if it makes clearly more sense and as it stands there
+/// is little to say of it; and the title of that reading.
+fn mended_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
+    let slip = found.misprint()?;
+    let title = match slip.misprint {
+        Misprint::Transposed => {
+            "Its most sensible reading, transposed: it is for row vectors, or stored by columns"
+        }
+        Misprint::LastRowNegated => "Its most sensible reading, with the last row negated",
+        Misprint::WrongSign => "Its most sensible reading, with one sign turned",
+        _ => return None,
+    };
+    Some((recognize(slip.remedied?).first(), title))
 }
 
 /// Names the first entry that is not a finite number, counted from 1.
@@ -189,7 +192,11 @@ fn vanishing_points_step(map: Projective<View, Clip>) -> Step {
 
 /// The readings beside the first, those as sensible as it before the others.
 fn other_readings_step(found: &Recognition) -> Option<Step> {
-    let turned = transposed_reading(found).is_some();
+    let misprint = found.misprint().map(|slip| slip.misprint);
+    if matches!(misprint, Some(Misprint::LastRowNegated | Misprint::WrongSign)) {
+        return None;
+    }
+    let turned = misprint == Some(Misprint::Transposed);
     let equal = if turned { 0 } else { found.equal_readings().count() };
     let most = found.first().cost + LESS_LIKELY;
     // Whatever their digits, programs use a rigid matrix in all three ways.
@@ -213,6 +220,17 @@ fn other_readings_step(found: &Recognition) -> Option<Step> {
         };
         step.with_item(at.to_string(), name, describe_meaning(reading))
     }))
+}
+
+/// A place in a matrix, counted from 1.
+fn place_words(row: usize, column: usize) -> String {
+    format!("row {}, column {}", row + 1, column + 1)
+}
+
+/// The entry whose sign is wrong.
+fn entry_words(rows: [[f64; 4]; 4], found: &Recognition) -> String {
+    let changed = found.misprint().and_then(|slip| changed_entry(rows, slip));
+    changed.map_or("one entry".to_owned(), |[row, column]| place_words(row, column))
 }
 
 /// The first entry that the remedy changes, by row and column from 0.
@@ -248,14 +266,14 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
         .with_item("remedy", "remedy", slip.misprint.remedy());
     let step = match (slip.misprint, changed_entry(rows, slip)) {
         (Misprint::WrongSign, Some([row, column])) => {
-            let place = format!("row {}, column {}", row + 1, column + 1);
-            step.with_item("entry", "entry", place)
+            step.with_item("entry", "entry", place_words(row, column))
         }
         _ => step,
     };
-    // The report of a transposed matrix has its reading already.
-    let is_read = at == 0
-        && (slip.misprint, slip.strength) == (Misprint::Transposed, SuspicionStrength::Likely);
+    // The report of a mended matrix has its reading already.
+    let mended = [Misprint::Transposed, Misprint::LastRowNegated, Misprint::WrongSign];
+    let likely = slip.strength == SuspicionStrength::Likely;
+    let is_read = at == 0 && likely && mended.contains(&slip.misprint);
     match slip.remedied {
         Some(remedied) if is_read => {
             step.with_item("remedied", "then", Projective::<View, Clip>::from_raw(remedied).rows())
@@ -274,6 +292,7 @@ fn misprint_step(at: usize, rows: [[f64; 4]; 4], slip: &Suspicion) -> Step {
 /// The result in a sentence: the first reading, and the misprint if that explains it better.
 fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
     let first = found.first();
+    let misprint = found.misprint().map(|slip| slip.misprint);
     let what = if first.meaning.is_named() {
         format!("It is {}.", describe_meaning(&first))
     } else {
@@ -283,7 +302,16 @@ fn matrix_verdict(map: Projective<View, Clip>, found: &Recognition) -> String {
         let transposed = slip.remedied.map(|matrix| recognize(matrix).first());
         transposed.map_or(String::new(), |reading| describe_meaning(&reading))
     };
-    if let Some(reading) = transposed_reading(found) {
+    let mended = mended_reading(found);
+    if let Some((reading, _)) = mended.filter(|_| !matches!(misprint, Some(Misprint::Transposed))) {
+        let mended = describe_meaning(&reading);
+        let slip = match misprint {
+            Some(Misprint::LastRowNegated) => "its last row negated".to_owned(),
+            _ => format!("the sign of {} turned", entry_words(map.rows(), found)),
+        };
+        return format!("It looks like a misprint: with {slip}, it is {mended}.");
+    }
+    if let Some((reading, _)) = mended {
         let turned = describe_meaning(&reading);
         let stands = what.replacen("It is", "As it stands, for column vectors, it is", 1);
         return format!(
