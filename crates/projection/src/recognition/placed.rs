@@ -161,7 +161,13 @@ impl PlacedFrame {
             + far.map_or(0, Rounded::digits)
             + lens_digits(window, near, sy, sx)
             + self.eye_digits();
-        let turned = if sy.value < 0.0 { MIRRORED } else { posture_cost(&camera, convention) };
+        // What is upside down in OpenGL's convention is so in all.
+        let rivaled = convention.ahead() > 0.0 || convention.top() < 0.0;
+        let turned = match sy.value < 0.0 {
+            true => MIRRORED,
+            false if rivaled => posture_cost(&camera),
+            false => 0,
+        };
         let meaning = MatrixMeaning::CameraPerspective { camera, frustum, lens, convention };
         Some((meaning, 12 + turned + 2 * digits))
     }
@@ -184,18 +190,17 @@ impl PlacedFrame {
     }
 }
 
-/// What a camera upside down costs where the same numbers are one upright in another convention.
+/// What a camera upside down costs where the same numbers may be one upright in another convention.
 ///
 /// Up is y, or z for a camera whose right is level only then.
-fn posture_cost(camera: &CameraReading, convention: Convention) -> u32 {
-    let rivaled = convention.ahead() > 0.0 || convention.top() < 0.0;
+fn posture_cost(camera: &CameraReading) -> u32 {
     let level = |axis: usize| camera.right[axis].abs() < 1e-6;
     let upwards = if (level(2) && !level(1)) || camera.up[1].abs() < 1e-6 {
         camera.up[2]
     } else {
         camera.up[1]
     };
-    if rivaled && upwards < 0.0 { UPSIDE_DOWN } else { 0 }
+    if upwards < 0.0 { UPSIDE_DOWN } else { 0 }
 }
 
 fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
@@ -253,7 +258,7 @@ fn placed_box(
     let clean = |v: DVec3| v.to_array().map(|x| shorten(x, error));
     let camera =
         CameraReading { eye: [0.0; 3], gaze: clean(gaze), up: clean(up), right: clean(right) };
-    let cost = 14 + posture_cost(&camera, convention) + 2 * digits;
+    let cost = 14 + posture_cost(&camera) + 2 * digits;
     Some((MatrixMeaning::CameraOrthographic { camera, volume, convention }, cost))
 }
 

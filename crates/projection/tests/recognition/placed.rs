@@ -120,3 +120,24 @@ fn a_box_of_pixels_from_the_upper_left_is_opengls() {
         }
     }
 }
+
+/// A box tells less of its camera than a pyramid: up is right side up, whatever the convention.
+#[test]
+fn a_camera_with_a_box_is_upright() {
+    let (eye, gaze) = ([4.0, 3.0, 6.0], [-4.0, -3.0, -6.0]);
+    let view = m_cam(eye, gaze, [0.0, 1.0, 0.0]);
+    let opengl = gl_ortho([-1.0, 3.0, -2.0, 1.0], 4.0, 6.0);
+    let mut vulkan = opengl;
+    vulkan[1] = vulkan[1].map(|entry| -entry);
+    (vulkan[2][2], vulkan[2][3]) = (-0.5, -2.0);
+    for (projection, convention) in [(opengl, Convention::OPENGL), (vulkan, Convention::VULKAN)] {
+        let found = recognized(product(projection, view));
+        let MatrixMeaning::CameraOrthographic { camera, convention: read, .. } =
+            found.first().meaning
+        else {
+            panic!("{:?}", found.first())
+        };
+        assert_eq!(read, convention);
+        assert!(camera.up[1] > 0.0 && camera.gaze[2] < 0.0, "{camera:?}");
+    }
+}

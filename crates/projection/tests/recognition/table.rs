@@ -206,13 +206,13 @@ fn complaint(row: &Row) -> Option<String> {
 }
 
 #[test]
-fn of_120_matrices_at_least_115_are_recognized() {
+fn of_120_matrices_at_least_118_are_recognized() {
     let rows: Vec<Row> = right_matrices::rows().into_iter().chain(wrong_matrices::rows()).collect();
     assert_eq!(rows.len(), 120);
     let complaints: Vec<String> = rows.iter().filter_map(complaint).collect();
     let list = complaints.join("\n");
     println!("{} of {} are recognized\n{list}", rows.len() - complaints.len(), rows.len());
-    assert!(complaints.len() <= 5, "{} are not recognized:\n{list}", complaints.len());
+    assert!(complaints.len() <= 2, "{} are not recognized:\n{list}", complaints.len());
 }
 
 #[test]

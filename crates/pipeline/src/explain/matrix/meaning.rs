@@ -128,10 +128,10 @@ fn describe_view(meaning: &MatrixMeaning) -> Option<String> {
         }
         MatrixMeaning::CameraOrthographic { camera, volume: o, .. } => {
             let (window, depth) = (window_words(o.window()), depth_words(o.near(), o.far()));
-            let gaze = list(camera.gaze);
-            let world = world_words(meaning);
+            let (gaze, world) = (list(camera.gaze), world_words(meaning));
             format!(
-                "a camera and an orthographic box in one{world}: gaze {gaze}, {window}, {depth}"
+                "a camera and an orthographic box in one{world}: gaze {gaze}, {window}, {depth} \
+                 from the origin of the world (the eye may be anywhere)"
             )
         }
         _ => return None,
