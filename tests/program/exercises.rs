@@ -185,4 +185,5 @@ fn every_formula_is_in_the_reference_and_its_command_works() {
     assert!(html.starts_with("<!DOCTYPE html>") && html.contains("Command: alberti"), "{html}");
     let unknown = sandbox.run(&["reference", "UNKNOWN-1"]);
     assert!(unknown.code == 1 && unknown.stderr.contains("nothing named `UNKNOWN-1`"));
+    assert!(unknown.stderr.contains("`alberti scene doc` lists"), "{}", unknown.stderr);
 }

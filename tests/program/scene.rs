@@ -11,6 +11,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
         let scene = model.replace(".glb", ".ron");
         let run = sandbox.run(&["scene", "init", model]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
+        assert_eq!(run.stdout.trim_end(), scene);
         let run = sandbox.run(&["render", &scene, "--size", "32x24", "--samples", "1"]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{model}");
         let run = sandbox.run(&["scene", "check", &scene]);
@@ -166,6 +167,12 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "tiny-picture",
         "3:11",
         "less than a thousandth",
+    ),
+    (
+        "style: Depth, image: (background: Color(\"white\"))",
+        "depth-on-white",
+        "3:37",
+        "Color(\"black\")",
     ),
     ("stereo: Anaglyph(eye_distance: 65)", "wide-stereo", "3:34", "the scene's units"),
     ("ground: Shadow(height: 1)", "ground-above-models", "3:26", "leave `height` out"),

@@ -148,6 +148,11 @@ fn a_still_of_a_camera_path_is_the_frame_of_its_time() {
         let run = sandbox.run(&["render", "scene.ron", "--time", time, "-o", name]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{time}");
     }
+    for (time, told) in [("9", "the camera path ends at 2 s"), ("-1", "begins at 0 s")] {
+        let time = format!("--time={time}");
+        let run = sandbox.run(&["render", "scene.ron", &time, "-o", "late.png"]);
+        assert!(run.code == 0 && run.stderr.contains(told), "{time}: {}", run.stderr);
+    }
     let bytes = |name: &str| std::fs::read(sandbox.path_of(name)).expect("a picture");
     assert_eq!(bytes("still.png"), bytes("f_0.png"));
     assert_ne!(bytes("still.png"), bytes("start.png"));

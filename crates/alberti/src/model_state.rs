@@ -2,7 +2,7 @@
 //!
 //! The flags apply to every model of a scene; scene files can choose the state of each.
 
-use super::CliError;
+use super::{CliError, print_message};
 use pipeline::scene::CameraPath;
 use pipeline::scene::file::{Choice, Finite, ModelFile};
 use pipeline::{Origin, ResolveError, Scene, SceneFile};
@@ -59,7 +59,19 @@ impl ModelStateArgs {
         let Some(time) = self.time else { return Ok(()) };
         let path = CameraPath::from_scene_file(origin, file).map_err(ResolveError::from)?;
         if let Some(path) = path {
-            path.place_camera(origin, time.value(), scene).map_err(ResolveError::from)?;
+            let ([begin, end], time) = (path.time_range(), time.value());
+            if time > end {
+                let message = format!(
+                    "the camera path ends at {end} s, before --time {time}: the picture shows its last key"
+                );
+                print_message("warning", &message);
+            } else if time < begin {
+                let message = format!(
+                    "the camera path begins at {begin} s, after --time {time}: the picture shows its first key"
+                );
+                print_message("warning", &message);
+            }
+            path.place_camera(origin, time, scene).map_err(ResolveError::from)?;
         }
         Ok(())
     }

@@ -120,3 +120,50 @@ fn parts_of_a_picture_with_a_contact_shadow_unite() {
         assert_eq!(part.pixels[(y * region.width + x) as usize], expected);
     }
 }
+
+/// A lamp in the light from its left on ground that shows shadows, with more fields of the scene.
+fn lamp_picture(fields: &str) -> Picture {
+    let text = format!(
+        r#"Scene(models: [(path: "lamp.glb")], ground: Shadow(), shadows: On(),
+        lights: [Directional(direction: (-1, -2, -1), intensity: 2.5)], {fields})"#
+    );
+    let file = pipeline::scene::parse_scene("lamp.ron", &text).expect("a scene");
+    let folder = model_path("lamp").parent().expect("a folder").to_path_buf();
+    let origin = Origin::from_text("lamp.ron", text, folder);
+    let scene = Scene::resolve(&origin, &file, &Default::default()).expect("a scene");
+    render(&scene, 2).expect("a picture")
+}
+
+/// The shadow reaches behind the models, beyond the far plane that encloses them.
+#[test]
+fn shadows_behind_the_models_darken_every_kind_of_background() {
+    let camera = |projection: &str| {
+        let size = "size: (160, 120), samples: 1";
+        format!("camera: (projection: {projection}), image: ({size}, background: BACKGROUND)")
+    };
+    for projection in ["Perspective()", "Orthographic()"] {
+        let fields = camera(projection);
+        let plain = lamp_picture(&fields.replace("BACKGROUND", "Color(\"white\")"));
+        let gradient = r##"Gradient(colors: ["#fff", "#fff"])"##;
+        let gradient = lamp_picture(&fields.replace("BACKGROUND", gradient));
+        let differing = count_differing(&plain, &gradient);
+        assert_eq!(differing, 0, "{projection}");
+    }
+    let around = |projection: &str| {
+        let fields = camera(projection).replace("BACKGROUND", "Environment()");
+        lamp_picture(&format!("environment: Uniform(), {fields}"))
+    };
+    for (tight, wide) in
+        [("Perspective()", "Perspective(far: 1000)"), ("Orthographic()", "Orthographic(far: 1000)")]
+    {
+        let differing = count_differing(&around(tight), &around(wide));
+        // Depths are rounded otherwise, where surfaces meet.
+        assert!(differing < 20, "{tight}: {differing}");
+    }
+}
+
+/// How many pixels differ by more than rounding.
+fn count_differing(one: &Picture, other: &Picture) -> usize {
+    let differs = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 2);
+    one.pixels.iter().zip(&other.pixels).filter(differs).count()
+}

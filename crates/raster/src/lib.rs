@@ -101,7 +101,7 @@ pub use frame::{Frame, MAX_SIDE, MeshTriangles};
 pub use parallel::for_each_parallel;
 pub use primitive::{CullMode, Opacity, SourceWeights};
 pub use samples::Samples;
-pub use screen_vertex::{GUARD_BAND, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
+pub use screen_vertex::{GUARD_BAND, MAX_DEPTH, SUBPIXEL_BITS, SUBPIXELS, ScreenVertex};
 pub use simd_level::{Kernel, SimdLevel};
 pub use surface::{Encode, Surface, TranslucentColors, shade_each};
 pub use surface_depth::SurfaceDepth;

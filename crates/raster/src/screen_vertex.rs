@@ -23,7 +23,7 @@ pub const GUARD_BAND: core::ops::RangeInclusive<f64> = -8192.0..=24576.0;
 pub(crate) const GRID_RANGE: core::ops::RangeInclusive<i32> = -8192 * SUBPIXELS..=24576 * SUBPIXELS;
 
 /// The greatest magnitude of a depth: no step in the evaluation of a depth plane overflows.
-const MAX_DEPTH: f32 = 1_048_576.0;
+pub const MAX_DEPTH: f32 = 1_048_576.0;
 
 /// A vertex after perspective divide, viewport transform and snapping. It can always be drawn.
 ///

@@ -205,7 +205,8 @@ fn open_entries(
     entries.iter().flat_map(open).collect()
 }
 
-/// The message for a word that nothing matches, with the most similar name as a hint.
+/// The message for a word that nothing matches, with the most similar name as a hint, or where to
+/// look.
 ///
 /// Similarity is that of Jaro and Winkler, which favors a common beginning; below 0.8 a suggestion
 /// would mislead. Of a path only the last step is compared.
@@ -223,8 +224,14 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     let likeness = |name: &&str| strsim::jaro_winkler(last, name);
     let best = names.into_iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
     let hint = best.filter(|name| likeness(name) > 0.8);
-    let hint = hint.map_or(String::new(), |name| format!("\n  = help: did you mean `{name}`?"));
-    format!("the reference has nothing named `{word}`{hint}")
+    let hint = hint.map_or_else(
+        || {
+            "`alberti scene doc` lists all fields of scenes, `alberti --help` all commands"
+                .to_owned()
+        },
+        |name| format!("did you mean `{name}`?"),
+    );
+    format!("the reference has nothing named `{word}`\n  = help: {hint}")
 }
 
 #[cfg(test)]

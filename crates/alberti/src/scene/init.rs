@@ -35,7 +35,7 @@ pub(crate) struct InitArgs {
     load_options: LoadArgs,
 }
 
-/// Writes the scene file, and warns if it cannot be read without further permission.
+/// Writes the scene file, prints its path, and warns if it cannot be read without further permission.
 ///
 /// The model is loaded to learn its size, cameras and lights. The text is built without indentation
 /// and formatted like by `scene fmt`, which also proves that it can be parsed.
@@ -66,6 +66,7 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
         print_stdout(text.as_bytes())?;
     } else {
         pipeline::write_file(&output, text.as_bytes())?;
+        print_stdout(format!("{}\n", output.display()).as_bytes())?;
     }
     if path.starts_with("..") || Path::new(&path).is_absolute() {
         let folder = args.model.parent().unwrap_or(Path::new(".")).display();

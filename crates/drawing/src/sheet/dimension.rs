@@ -95,10 +95,10 @@ fn overall_dimensions(layout: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDim
     all.into_iter().flatten().filter(|dimension| dimension.length > 1e-3).collect()
 }
 
-/// A length in millimeters: to a hundredth, above ten meters to a millimeter, without trailing
+/// A length in millimeters: to a hundredth, from one meter on to a millimeter, without trailing
 /// zeros.
 fn format_length(length: f64) -> String {
-    let decimals = if length < 10_000.0 { 2 } else { 0 };
+    let decimals = if length < 1000.0 { 2 } else { 0 };
     let text = format!("{length:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -202,6 +202,9 @@ mod tests {
             (0.126, "0.13"),
             (99.999, "100"),
             (12_345.6, "12346"),
+            (4520.31, "4520"),
+            (999.996, "1000"),
+            (123.45, "123.45"),
             (100.0, "100"),
         ] {
             assert_eq!(format_length(length), text);

@@ -1,8 +1,9 @@
-//! The background of a frame: environment or backdrop as two triangles at the far plane that fill
-//! the picture.
+//! The background of a frame: environment or backdrop as two triangles that fill the picture behind
+//! everything.
 //!
-//! Both are draw calls like any other: behind all models by their depth, so that translucent
-//! surfaces blend over them, and shaded for visible fragments only.
+//! Both are draw calls like any other: behind all else by their depth, so that translucent surfaces
+//! blend over them, and shaded for visible fragments only. The far plane is not far enough: the
+//! ground is not clipped against it.
 //!
 //! | kind | vertices carry | shading |
 //! | --- | --- | --- |
@@ -30,7 +31,7 @@ impl PrimitiveAssembler<'_> {
             (corner.truncate() / corner.w).as_vec3().to_array()
         };
         let corners = NDC_CORNERS.map(unproject);
-        self.add_far_quad(DrawKind::Environment(blur), corners, Opacity::Opaque)
+        self.add_screen_quad(DrawKind::Environment(blur), corners, Opacity::Opaque)
     }
 
     /// Adds a backdrop. The vertices carry fractions of the whole picture's width and height, so
@@ -46,11 +47,11 @@ impl PrimitiveAssembler<'_> {
         let (top, bottom) = (fraction(y, image.height), fraction(y + height, image.height));
         let uvs = [[left, bottom, 0.0], [right, bottom, 0.0], [right, top, 0.0], [left, top, 0.0]];
         let opacity = if backdrop.is_opaque() { Opacity::Opaque } else { Opacity::Translucent };
-        self.add_far_quad(DrawKind::Backdrop, uvs, opacity)
+        self.add_screen_quad(DrawKind::Backdrop, uvs, opacity)
     }
 
-    /// Adds a rectangle that fills the picture at the far plane, with an attribute at each corner.
-    fn add_far_quad(
+    /// Adds a rectangle that fills the picture at the least depth, with an attribute at each corner.
+    fn add_screen_quad(
         &mut self,
         kind: DrawKind,
         attributes: [[f32; 3]; 4],
@@ -62,7 +63,9 @@ impl PrimitiveAssembler<'_> {
         // With w = 1 at all corners the attributes are linear on the screen, as positions on a
         // plane parallel to the picture are.
         let corners = NDC_CORNERS.map(|(x, y)| {
-            ScreenVertex::snap(ndc_to_screen.transform_point(Point::<Ndc>::new(x, y, -1.0)), 1.0)
+            let corner = ndc_to_screen.transform_point(Point::<Ndc>::new(x, y, -1.0));
+            let least_depth = -f64::from(raster::MAX_DEPTH);
+            ScreenVertex::snap(Point::new(corner.x(), corner.y(), least_depth), 1.0)
         });
         let vertex = |position: [f32; 3]| {
             let mut vertex: Vertex = [0.0; 8];

@@ -4,7 +4,8 @@
 //!  keys (tᵢ, vᵢ) ─► v(t), ten numbers: eye, target, up, field of view ─► LookAt + projection
 //! ```
 //! Each number is interpolated alone. Eye and target are splines, the orientation follows from
-//! them, so the target stays in the center of the picture between keys too.
+//! them, so the target stays in the center of the picture between keys too. A path whose last key
+//! has the values of its first is closed: its spline is periodic, smooth at that key too.
 
 use super::file::{
     CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
@@ -162,12 +163,26 @@ impl CameraPath {
 
     /// The slope of a value at a key, per second (Catmull and Rom, 1974, at unequal times).
     ///
-    /// mᵢ = (vᵢ₊₁ − vᵢ₋₁)/(tᵢ₊₁ − tᵢ₋₁); at the first and last key the one-sided difference. Equal
-    /// slopes on both sides of a key make the motion C¹: no jump of velocity.
+    /// mᵢ = (vᵢ₊₁ − vᵢ₋₁)/(tᵢ₊₁ − tᵢ₋₁); at the first and last key of an open path the one-sided
+    /// difference, of a closed one the difference across the seam. Equal slopes on both sides of a
+    /// key make the motion C¹: no jump of velocity.
     fn catmull_rom_slope(&self, at: usize, number: usize) -> f64 {
+        let last = self.keys.len() - 1;
+        if (at == 0 || at == last) && self.is_closed() {
+            let [(first_time, _), (start, from)] = [self.keys[0], self.keys[last - 1]];
+            let [(end, to), (last_time, _)] = [self.keys[1], self.keys[last]];
+            let seconds = (last_time - start) + (end - first_time);
+            return (to[number] - from[number]) / seconds;
+        }
         let (start, from) = self.keys[at.saturating_sub(1)];
-        let (end, to) = self.keys[(at + 1).min(self.keys.len() - 1)];
+        let (end, to) = self.keys[(at + 1).min(last)];
         (to[number] - from[number]) / (end - start)
+    }
+
+    /// Whether the last key has the values of the first.
+    fn is_closed(&self) -> bool {
+        let values = |key: Option<&(f64, KeyValues)>| key.map(|key| key.1);
+        values(self.keys.first()) == values(self.keys.last())
     }
 }
 
@@ -259,6 +274,47 @@ mod tests {
         let step = 1e-6;
         let speed = |from: f64| (eye(&path, from + step)[2] - eye(&path, from)[2]) / step;
         assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);
+    }
+
+    /// A way once around the origin in the plane y = 0, of radius 1, with `count` keys a second
+    /// apart and the first one repeated.
+    fn circle(count: u32) -> CameraPath {
+        let key = |number: u32| {
+            let angle = core::f64::consts::TAU * f64::from(number % count) / f64::from(count);
+            let (sine, cosine) = libm::sincos(angle);
+            format!("(time: {number}, eye: ({sine}, 0, {cosine}), target: (0, 0, 0))")
+        };
+        let keys: Vec<String> = (0..=count).map(key).collect();
+        path(&format!("keys: [{}]", keys.join(", "))).expect("a way")
+    }
+
+    #[test]
+    fn closed_ways_are_smooth_at_their_seam() {
+        for count in [3, 4, 8, 12] {
+            let path = circle(count);
+            let distance = |time: f64| glam::DVec3::from(eye(&path, time)).length();
+            // The middle of the Hermite curve with slopes along the circle: h is half the angle
+            // between keys.
+            let (sine, cosine) = libm::sincos(core::f64::consts::PI / f64::from(count));
+            let expected = cosine * (1.0 + 0.5 * sine * sine);
+            for segment in 0..count {
+                let middle = distance(f64::from(segment) + 0.5);
+                assert!((middle - expected).abs() < 1e-9, "{count}, {segment}: {middle}");
+            }
+            // The velocity at the end is that at the beginning.
+            let (step, end) = (1e-6, f64::from(count));
+            let speed = |from: f64| {
+                let [a, b] = [from, from + step].map(|time| glam::DVec3::from(eye(&path, time)));
+                (b - a) / step
+            };
+            assert!((speed(0.0) - speed(end - step)).length() < 1e-4, "{count}");
+        }
+        // What the reference says of circles.
+        for (count, error) in [(8, 0.01), (12, 0.002)] {
+            let path = circle(count);
+            let radius = |step: u32| glam::DVec3::from(eye(&path, 0.01 * f64::from(step))).length();
+            assert!((0..100 * count).all(|step| (radius(step) - 1.0).abs() < error), "{count}");
+        }
     }
 
     #[test]

@@ -52,7 +52,8 @@ use super::schema::{scene_enum, scene_struct};
 use crate::import;
 
 scene_struct! {
-    /// A scene file.
+    /// A scene file. It begins with the name and brackets of this struct, around its fields:
+    /// `Scene(models: [(path: "model.glb")], style: Shaded)`.
     pub struct SceneFile as "Scene" {
         /// Other scene files to include, in this order. Their models, lights, overlays, sections
         /// and viewports come before those of this file; every other field of this file replaces

@@ -22,6 +22,7 @@
 //! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
 //! | `coincident-instances` | instances of a model in one place |
 //! | `ground-above-models` | a ground above the lowest point of the models |
+//! | `depth-on-white` | the style `Depth`, white where it is near, before a white background |
 //! | `camera-path-turns-over` | a path through its target or parallel to up |
 //!
 //! Viewports with cameras of their own are looked at as pictures for the first and `tiny-picture`.
@@ -29,6 +30,7 @@
 mod camera_path;
 mod coverage;
 mod depth;
+mod depth_style;
 mod ground;
 mod instances;
 mod sections;
@@ -116,6 +118,7 @@ fn lint_viewports(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
 #[must_use]
 pub fn lint_description(origin: &Origin, file: &SceneFile) -> Vec<Lint> {
     let mut advice: Vec<Lint> = camera_path::lint_camera_path(origin, file).into_iter().collect();
+    advice.extend(depth_style::lint_white_background(origin, file));
     let is_drawn = |style: &StyleFile| matches!(style, StyleFile::Lines(_));
     let insets = file.viewports.iter().filter_map(|viewport| viewport.style.as_ref());
     let cuts_drawing = file.sheet.is_some() || insets.chain([&file.style]).any(is_drawn);

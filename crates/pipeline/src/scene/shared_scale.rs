@@ -62,9 +62,9 @@ pub(super) fn share_scale_of_viewports(
     let scales: Vec<f64> =
         insets.iter().filter_map(|inset| inset.scene.pixels_per_unit()).collect();
     if scales.len() < 2 {
+        let count = if scales.is_empty() { "are none" } else { "is one" };
         let message = format!(
-            "a shared scale needs two parallel views among the viewports, and there is {}",
-            scales.len()
+            "a shared scale needs two parallel views among the viewports, and there {count}"
         );
         let help = "choose projections such as Orthographic() or Isometric, or leave `viewports_scale` out";
         return Err(origin.error_at(&[Field("viewports_scale")], message, Some(help.to_owned())));

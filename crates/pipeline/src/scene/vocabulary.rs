@@ -12,6 +12,7 @@ mod legacy;
 pub(super) use legacy::{LEGACY_WORDS, LegacyWord};
 
 use super::SceneFile;
+use super::file::{FromFile, ViewportFile};
 use super::schema::{Declared, Shape, TypeEntry, example_of, fields_where, variants_where};
 use super::suggest::{closest_name, list_names};
 use advice::find_advice;
@@ -113,6 +114,9 @@ pub(super) fn suggest_variant(
         _ => Vec::new(),
     };
     let known = |help: String| Suggestion { help, sibling: None, kind: SuggestionKind::Known };
+    if let Some(help) = suggest_viewport(entry, word) {
+        return known(help);
+    }
     if let Some(help) = find_advice(entry.name, &normalize(word)) {
         return known(help.to_owned());
     }
@@ -144,6 +148,15 @@ pub(super) fn suggest_variant(
             }
         },
     }
+}
+
+/// A whole viewport for a named view in its place.
+fn suggest_viewport(entry: &TypeEntry, word: &str) -> Option<String> {
+    let Shape::Variants(views) = FromFile::ENTRY.shape else { return None };
+    let is_view = views.iter().any(|view| view.name == word && view.value_type.is_none());
+    (is_view && entry.name == ViewportFile::ENTRY.name).then(|| {
+        format!("write (at: (0.5, 0, 0.5, 0.5), camera: (view: Frame(from: {word}))), with left, top, width and height as fractions of the picture")
+    })
 }
 
 /// The fields and variants that a word of other programs means, as paths: `Perspective.near`.

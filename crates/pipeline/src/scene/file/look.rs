@@ -24,7 +24,7 @@ scene_enum! {
         Matcap,
         /// World-space normals as colors: red, green and blue are (n + 1) / 2.
         Normals,
-        /// Depth as gray: the nearer, the brighter.
+        /// Depth as gray: the nearer, the brighter. A black background suits it.
         Depth,
         /// A checkerboard by texture coordinates, 8 squares for each unit; red grows with u, green
         /// with v.

@@ -118,7 +118,54 @@ const FIELDS: &[(&str, &str, &str)] = &[
         "lights: [Directional(direction: (-1, -2, -1), intensity: 3)]",
         "lights: [Directional(direction: (-1, -2, -1), intensity: 3)]",
     ),
+    ("stereo: True", "stereo: SideBySide()", "stereo: SideBySide()"),
+    (
+        "stereo: (eye_distance: 0.1)",
+        "write SideBySide(eye_distance: 0.1)",
+        "stereo: SideBySide(eye_distance: 0.1)",
+    ),
+    (
+        "viewports: [Top]",
+        "write (at: (0.5, 0, 0.5, 0.5), camera: (view: Frame(from: Top)))",
+        "viewports: [(at: (0.5, 0, 0.5, 0.5), camera: (view: Frame(from: Top)))]",
+    ),
+    ("viewports: [(at: (0, 0, 0.5, 50%))]", "write 0.5", "viewports: [(at: (0, 0, 0.5, 0.5))]"),
+    (
+        "camera: (view: Frame(padding_percent: 20%))",
+        "write 20",
+        "camera: (view: Frame(padding_percent: 20))",
+    ),
+    (
+        "style: DepthCued",
+        "write style: Lines(depth_cue_percent: 80)",
+        "style: Lines(depth_cue_percent: 80)",
+    ),
 ];
+
+/// Materials that are written as colors or as a map are answered with the list of them.
+#[test]
+fn materials_of_other_forms_are_answered_with_a_list() {
+    for (field, followed) in [
+        ("material: \"red\"", "materials: [(base_color: \"red\")]"),
+        ("materials: \"#aabbcc\"", "materials: [(base_color: \"#aabbcc\")]"),
+        (
+            "materials: {\"wood\": (base_color: \"red\"), \"iron\": \"gray\"}",
+            "materials: [(of: Name(\"wood\"), base_color: \"red\"), (of: Name(\"iron\"), base_color: \"gray\")]",
+        ),
+    ] {
+        let found = mistakes(&format!("(models: [(path: \"a.glb\", {field})])"));
+        assert!(matches!(found.as_slice(), [(.., help)] if help.ends_with(followed)), "{found:?}");
+        let scene = format!("(models: [(path: \"a.glb\", {followed})])");
+        assert!(parse_scene("s.ron", &scene).is_ok(), "{scene}");
+    }
+}
+
+/// A field without the brackets of a scene is one mistake.
+#[test]
+fn fields_without_a_scene_around_them_are_one_mistake() {
+    let found = mistakes("models: [\"a.glb\"]");
+    assert!(matches!(found.as_slice(), [(told, ..)] if told == "this is not a scene"), "{found:?}");
+}
 
 #[test]
 fn a_hint_that_is_followed_makes_a_scene() {

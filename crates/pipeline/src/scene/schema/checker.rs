@@ -10,11 +10,12 @@
 //! The checker holds the path to the value, for messages, and the scope, which is the innermost
 //! field or element around it: a later resolution skips errors in a scope that already has one.
 
+mod corrections;
 mod fields;
 mod lists;
 mod variant;
 
-use super::{FieldEntry, Shape, TypeEntry, ValueType, VariantEntry};
+use super::{FieldEntry, Shape, TypeEntry, VariantEntry};
 use crate::scene::mistake::Mistake;
 use crate::scene::syntax::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
@@ -22,6 +23,7 @@ use core::fmt::Write as _;
 use core::ops::Range;
 use std::collections::BTreeMap;
 
+use corrections::{bracket_map, bracket_string};
 pub(in crate::scene) use fields::Fields;
 pub(in crate::scene) use variant::Variant;
 
@@ -381,7 +383,11 @@ impl<'a> Checker<'a> {
         let fitting = variants
             .iter()
             .find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
+        let with_fields = node.group().and_then(|group| variant_with_fields(group, variants));
         let help = match (fitting, &node.kind) {
+            (None, _) if with_fields.is_some() => {
+                format!("write {}{text}", with_fields.unwrap_or_default())
+            }
             (Some(variant), _) => format!("did you mean `{}({text})`?", variant.name),
             (None, NodeKind::String(_)) => {
                 suggest_variant(entry, text.trim_matches('"'), self.top_level_field()).help
@@ -403,15 +409,16 @@ fn has_named_parts(node: &Node<'_>) -> bool {
         .is_some_and(|group| group.open == '[' || group.items.iter().any(|item| item.key.is_some()))
 }
 
-/// A string as a struct whose only required field is a string: `(path: "a.glb")`.
-fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<String> {
-    let (NodeKind::String(text), Shape::Fields(fields)) = (&node.kind, entry.shape) else {
-        return None;
+/// The first variant that has all the fields in brackets that lack its name.
+fn variant_with_fields(group: &Group<'_>, variants: &[VariantEntry]) -> Option<&'static str> {
+    let has = |variant: &VariantEntry, item: &SyntaxItem<'_>| {
+        let is_key =
+            |field: &FieldEntry| item.key.as_ref().is_some_and(|key| key.name == field.name);
+        variant.fields.iter().any(is_key)
     };
-    let mut required = fields.iter().filter(|field| !field.is_optional);
-    let (first, other) = (required.next()?, required.next());
-    let is_string = matches!((first.value_type)(), ValueType::Plain("string"));
-    (is_string && other.is_none()).then(|| format!("({}: {text})", first.name))
+    let fits = |variant: &&VariantEntry| group.items.iter().all(|item| has(variant, item));
+    let is_bare = group.open == '(' && !group.items.is_empty();
+    variants.iter().filter(|_| is_bare).find(fits).map(|variant| variant.name)
 }
 
 /// The owner of fields: a struct, or a variant of an enum.

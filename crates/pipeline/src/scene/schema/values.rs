@@ -74,7 +74,9 @@ impl Checker<'_> {
         if let NodeKind::Number(word) = node.kind {
             let number = parse_number(word);
             if number.is_none() {
-                let help = "numbers are written like 4, -1.5 or 2e-3".to_owned();
+                let help = self.suggest_fraction(word, expected);
+                let help =
+                    help.unwrap_or_else(|| "numbers are written like 4, -1.5 or 2e-3".to_owned());
                 self.report_type(node, expected, Some(help));
             }
             return number;
@@ -85,6 +87,17 @@ impl Checker<'_> {
         };
         self.report_type(node, expected, Some(help.to_owned()));
         None
+    }
+
+    /// For a number of percent what is written here: without the sign, or as a fraction.
+    fn suggest_fraction(&self, word: &str, expected: &str) -> Option<String> {
+        let percent = word.strip_suffix('%')?;
+        let number = parse_number(percent)?;
+        if self.innermost_field()?.ends_with("_percent") {
+            return Some(format!("write {percent}"));
+        }
+        let is_fraction = expected == "a number from 0 to 1";
+        is_fraction.then(|| format!("write {}", number / 100.0))
     }
 
     /// A whole number from 0 to `most`.

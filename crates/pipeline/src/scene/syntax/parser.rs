@@ -133,7 +133,9 @@ impl<'a> Parser<'a> {
             return None;
         }
         let root = self.parse_value();
-        if let Some(token) = self.peek().filter(|_| !self.is_unreliable) {
+        // What is no scene has no last bracket; the checker reports it.
+        let is_scene = matches!(root.kind, NodeKind::Group(_) | NodeKind::Invalid);
+        if let Some(token) = self.peek().filter(|_| is_scene && !self.is_unreliable) {
             let end = self.tokens.last().map_or(token.start, |last| last.span().end);
             let message = "there is something behind the scene's last bracket";
             let help = "a file has one scene: put it inside of the brackets, or remove it";

@@ -128,6 +128,16 @@ const ADVICE: &[(&str, &str, &str)] = &[
         "x y width height left top w h rect region area position size rectangle bounds",
         "write at: (0.5, 0, 0.5, 0.5): left, top, width and height as fractions of the picture",
     ),
+    (
+        "Stereo",
+        "true yes on enabled stereo",
+        "write stereo: SideBySide(), or Anaglyph() for red and cyan glasses",
+    ),
+    (
+        "Style",
+        "depthcued depthcue depthcueing",
+        "write style: Lines(depth_cue_percent: 80): the farther, the paler",
+    ),
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];
 

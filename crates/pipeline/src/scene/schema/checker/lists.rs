@@ -1,6 +1,6 @@
 //! Lists, and values that should have been in one.
 
-use super::{Checker, Segment, bracket_string};
+use super::{Checker, Segment, bracket_map, bracket_string};
 use crate::scene::schema::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType};
 use crate::scene::syntax::{Group, Node, NodeKind, SyntaxItem};
 
@@ -105,7 +105,9 @@ impl Checker<'_> {
     pub(super) fn write_as_list(&self, node: &Node<'_>, expected: &ValueType) -> Option<String> {
         let ValueType::List(element) = expected else { return None };
         let written = |node: &Node<'_>| match element.as_ref() {
-            ValueType::Declared(entry) => bracket_string(node, entry),
+            ValueType::Declared(entry) => {
+                bracket_string(node, entry).or_else(|| bracket_map(node, entry, self.source))
+            }
             _ => None,
         };
         let text = |node: &Node<'_>| {
