@@ -5,11 +5,14 @@
 //! the mantissa needs a polynomial. The cosine takes off whole turns. The same bits come out on
 //! every machine.
 
+use std::f32::consts::LN_2;
+
 /// The largest integer not above a number, which is clamped to ±4,194,303.
 ///
 /// Adding 3 · 2²² leaves the nearest integer in the low bits of the sum. All of it becomes vector
 /// instructions; `as i32` would be converted lane by lane, with a test for NaN.
 #[inline(always)]
+#[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn floor_to_int(x: f32) -> i32 {
     const SHIFT: f32 = 12_582_912.0;
     let shifted = x.max(-4_194_303.0).min(4_194_303.0) + SHIFT;
@@ -44,10 +47,11 @@ pub(crate) fn log2_approx(x: f32) -> f32 {
 
 /// Two to a power from −126 to 127, to about six digits; powers beyond are clamped.
 #[inline(always)]
+#[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn exp2_approx(power: f32) -> f32 {
     // 2^t from −½ to ½, fitted at the zeros of a Chebyshev polynomial.
     const COEFFICIENTS: [f32; 6] =
-        [1.000_000_1, 0.693_147_2, 0.240_221_07, 0.055_503_57, 0.009_676_03, 0.001_339_09];
+        [1.000_000_1, LN_2, 0.240_221_07, 0.055_503_57, 0.009_676_03, 0.001_339_09];
     let power = power.max(-126.0).min(127.0);
     // The nearest whole number: positive once it is the exponent of IEEE 754.
     let exponent = floor_to_int(power + 127.5);
@@ -63,6 +67,7 @@ pub(crate) fn exp2_approx(power: f32) -> f32 {
 /// The cosine of an angle in turns, up to a million of them: off by at most 10⁻⁶ and the rounding
 /// of the angle.
 #[inline(always)]
+#[expect(clippy::manual_clamp, reason = "a bound in place of NaN, which `clamp` keeps")]
 pub(crate) fn cosine_of_turns(turns: f32) -> f32 {
     // cos(2π √u) for u up to ¼, fitted at the zeros of a Chebyshev polynomial.
     const COEFFICIENTS: [f32; 7] =

@@ -26,6 +26,10 @@ impl Surface for ScalarShading<'_> {
         self.0.shade(fragment)
     }
 
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        self.0.is_continuous(first_id, second_id)
+    }
+
     fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
         let TranslucentColors { transmittance, .. } = self.0.shade_translucent_eight(fragments);
         TranslucentColors { color: self.shade_eight(fragments), transmittance }
