@@ -116,12 +116,12 @@ fn a_scale_that_cannot_be_shared_is_a_mistake() {
     let perspective = "view: Frame(from: Front)";
     let views = quarters([FRONT, perspective, perspective, perspective]);
     let message = mistake(&format!("viewports_scale: Shared, {views}"));
-    assert!(message.contains("there is 1"), "{message}");
+    assert!(message.contains("there is one"), "{message}");
     let own = "view: Frame(from: Top), projection: Orthographic(height: 9)";
     let message =
         mistake(&format!("viewports_scale: Shared, {}", quarters([FRONT, own, LEFT, TOP])));
     assert!(message.contains("a scale of its own"), "{message}");
-    assert!(mistake("viewports_scale: Shared").contains("there is 0"));
+    assert!(mistake("viewports_scale: Shared").contains("there are none"));
 }
 
 /// The part above the caption is the picture that a scene without caption has in that size.

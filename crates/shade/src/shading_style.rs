@@ -123,6 +123,11 @@ impl Surface for StyledShading<'_> {
         }
     }
 
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        // The steps of toon light may lie between two triangles of one surface.
+        self.style != ShadingStyle::Toon && self.shading.is_continuous(first_id, second_id)
+    }
+
     fn shade_eight(&self, fragments: &Fragments<'_>) -> [F32x8; 4] {
         let draws = &self.shading.draws;
         let is_styled = |lane| self.is_styled(draws.find_draw(fragments.id(lane)).0);

@@ -26,7 +26,8 @@ use std::sync::{Mutex, PoisonError};
 pub struct PixelFragments {
     /// The color in the picture: sRGB with straight alpha.
     pub color: [u8; 4],
-    /// The shaded fragments in scene order. With several samples per pixel, a fragment may be
+    /// The shaded fragments in scene order; of neighbors in one smooth surface, which share a color,
+    /// the one that is shaded. With several samples per pixel, a fragment may be
     /// hidden in some of them.
     pub fragments: Vec<ShadedFragment>,
 }
@@ -130,6 +131,10 @@ impl Surface for Recorder<'_> {
             fragments.push((fragment.id, fragment.weights, color));
         }
         color
+    }
+
+    fn is_continuous(&self, first_id: u32, second_id: u32) -> bool {
+        self.surface.is_continuous(first_id, second_id)
     }
 
     fn shade_translucent_eight(&self, fragments: &Fragments<'_>) -> TranslucentColors {
