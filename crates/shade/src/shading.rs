@@ -148,7 +148,15 @@ impl<'d> DrawList<'d> {
         fragments: &Fragments<'_>,
         simd_level: SimdLevel,
     ) -> [bool; LANES] {
-        simd_level.run_kernel(AlphaTestEight { draws: self, fragments })
+        let passes = simd_level.run_wide_kernel(AlphaTestEight { draws: self, fragments });
+        passes.unwrap_or_else(|| {
+            let weights = fragments.weights();
+            let mut passes = [false; LANES];
+            for (lane, passes) in passes.iter_mut().enumerate() {
+                *passes = self.passes_alpha_test(&fragments.fragment(lane, &weights));
+            }
+            passes
+        })
     }
 
     /// Selects the draw of one lane, with all lanes that are of the same draw.

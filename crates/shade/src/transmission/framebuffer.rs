@@ -61,6 +61,11 @@ pub(crate) struct LightBehind<const N: usize> {
     pub(crate) alpha: Lanes<N>,
 }
 
+impl<const N: usize> LightBehind<N> {
+    /// No light, and nothing that hides it.
+    const NONE: Self = Self { radiance: Rgb::ZERO, display: Rgb::ZERO, alpha: Lanes::ZERO };
+}
+
 impl ScreenProjection {
     /// The view of a framebuffer of `size` texels.
     ///
@@ -127,14 +132,19 @@ impl TransmissionFramebuffer {
         let ior = draw.material.extensions.ior;
         let levels = blur_levels(inputs.roughness, ior, width.max(height) as f32);
         let lengths = inputs.layers.thickness * draw.world_scale;
-        let look_up = |ior| self.sample(refracted_exits(geometry, ior, lengths), levels);
         let [red, green, blue] = channel_iors(draw);
-        let mut light = look_up(green);
-        if red != blue {
-            // Dispersion: each channel is refracted by itself; alpha is that of green.
-            let (red, blue) = (look_up(red), look_up(blue));
-            (light.radiance.r, light.display.r) = (red.radiance.r, red.display.r);
-            (light.radiance.b, light.display.b) = (blue.radiance.b, blue.display.b);
+        // Dispersion: each channel is refracted by itself; alpha is that of green. One loop, so that
+        // there is one copy of the lookup.
+        let iors = [green, red, blue];
+        let count = if red == blue { 1 } else { iors.len() };
+        let mut light = LightBehind::NONE;
+        for (index, ior) in iors.into_iter().take(count).enumerate() {
+            let found = self.sample(refracted_exits(geometry, ior, lengths), levels);
+            match index {
+                0 => light = found,
+                1 => (light.radiance.r, light.display.r) = (found.radiance.r, found.display.r),
+                _ => (light.radiance.b, light.display.b) = (found.radiance.b, found.display.b),
+            }
         }
         light
     }
@@ -143,7 +153,7 @@ impl TransmissionFramebuffer {
     #[inline(always)]
     fn sample<const N: usize>(&self, positions: Vec3Lanes<N>, levels: Lanes<N>) -> LightBehind<N> {
         let [x, y] = self.projection.project(positions);
-        let mut light = LightBehind { radiance: Rgb::ZERO, display: Rgb::ZERO, alpha: Lanes::ZERO };
+        let mut light = LightBehind::NONE;
         for lane in 0..N {
             let (place, level) = ([x[lane], y[lane]], levels[lane]);
             let [r, g, b, alpha] = self.surfaces.sample(place, level);
