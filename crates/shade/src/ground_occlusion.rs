@@ -15,6 +15,7 @@
 //! again (interleaved sampling, Keller and Heidrich 2001). What is between the lowest and the
 //! highest surface of a cell counts as solid.
 
+use super::approximations::floor_to_int;
 use raster::for_each_parallel;
 
 /// The space that models fill over one cell of the ground, as heights above it.
@@ -90,11 +91,11 @@ impl GroundOcclusion {
     pub(super) fn visibility_at(&self, [x, _, z]: [f32; 3]) -> f32 {
         let GroundGrid { corner, cell, .. } = self.grid;
         let (x, z) = ((x - corner[0]) / cell - 0.5, (z - corner[1]) / cell - 0.5);
-        let (left, top) = (x.floor(), z.floor());
-        let (fx, fz) = (x - left, z - top);
+        let [left, top] = [x, z].map(floor_to_int);
+        let (fx, fz) = (x - left as f32, z - top as f32);
         let mut sum = 0.0;
-        for (column, column_weight) in [(left, 1.0 - fx), (left + 1.0, fx)] {
-            for (row, row_weight) in [(top, 1.0 - fz), (top + 1.0, fz)] {
+        for (column, column_weight) in [(left, 1.0 - fx), (left + 1, fx)] {
+            for (row, row_weight) in [(top, 1.0 - fz), (top + 1, fz)] {
                 sum += self.cell_at(column, row) * (column_weight * row_weight);
             }
         }
@@ -103,10 +104,12 @@ impl GroundOcclusion {
 
     /// The visibility of a cell; 1 beside the grid.
     #[inline(always)]
-    fn cell_at(&self, column: f32, row: f32) -> f32 {
+    fn cell_at(&self, column: i32, row: i32) -> f32 {
         let [columns, rows] = self.grid.size;
-        let is_inside = column >= 0.0 && row >= 0.0 && column < columns as f32 && row < rows as f32;
-        if is_inside { self.visibility[row as usize * columns + column as usize] } else { 1.0 }
+        // Indices below 0 are far beyond the last.
+        let (column, row) = (column as usize, row as usize);
+        let is_inside = column < columns && row < rows;
+        if is_inside { self.visibility[row * columns + column] } else { 1.0 }
     }
 }
 
@@ -177,7 +180,7 @@ impl<'a> RayCaster<'a> {
             let far = if near == 0.0 { 0.5 } else { near + step };
             let middle = if near == 0.0 { 0.0 } else { near + 0.5 * step };
             let [column, row] =
-                [0, 1].map(|axis: usize| (from[axis] + along[axis] * middle + 0.5).floor());
+                [0, 1].map(|axis: usize| floor_to_int(from[axis] + along[axis] * middle + 0.5));
             hidden |= self.slab_sectors(column, row, [near, far]);
             near = far;
         }
@@ -197,13 +200,14 @@ impl<'a> RayCaster<'a> {
     }
 
     /// The sectors that the slab of a cell hides between two distances.
-    fn slab_sectors(&self, column: f32, row: f32, [near, far]: [f32; 2]) -> u64 {
+    fn slab_sectors(&self, column: i32, row: i32, [near, far]: [f32; 2]) -> u64 {
         let [columns, rows] = self.grid.size;
-        let is_inside = column >= 0.0 && row >= 0.0 && column < columns as f32 && row < rows as f32;
-        if !is_inside {
+        let (column, row) = (column as usize, row as usize);
+        // Indices below 0 are far beyond the last.
+        if column >= columns || row >= rows {
             return 0;
         }
-        let HeightSlab { low, high } = self.slabs[row as usize * columns + column as usize];
+        let HeightSlab { low, high } = self.slabs[row * columns + column];
         if high <= low {
             return 0;
         }

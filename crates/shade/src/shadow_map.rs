@@ -22,6 +22,7 @@
 //! maps*, 1987) averages the results of depth comparisons, not depths: a mean of depths would be
 //! the depth of no surface. Here the comparison is one of planes, and the average one over a disc.
 
+use super::approximations::floor_to_int;
 use super::vector::{dot, subtract};
 use glam::{DMat4, DVec3, DVec4};
 use raster::SurfaceDepth;
@@ -41,6 +42,8 @@ pub struct Shadow {
 ///
 /// A wider penumbra is cut off: the 48 positions of the filter would be too far apart in it.
 const MAX_FILTER_RADIUS: f32 = 64.0;
+/// The side in texels of the blocks whose nearest depths are known.
+const BLOCK_SIDE: u32 = 32;
 /// The bias for a step of depth per texel: vertices are snapped to a grid of 1/256 texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
 /// The bias for rounding, relative to the depth of the whole scene.
@@ -84,6 +87,8 @@ pub struct ShadowMap {
     penumbra_scale: f32,
     /// The nearest surface of each texel, rows from the top.
     pub texels: Vec<SurfaceDepth>,
+    /// The nearest depth of each block of texels, rows from the top; empty if it is not known.
+    block_depths: Vec<f32>,
 }
 
 /// A surface on a shadow map: its position in texels and depth, and its plane.
@@ -121,8 +126,47 @@ impl ShadowMap {
             plane_rows: [0, 1, 2].map(|k| to_f32(planes.row(k))),
         };
         self.size = size;
+        self.block_depths.clear();
         self.texels.clear();
         self.texels.resize(size[0] as usize * size[1] as usize, SurfaceDepth::EMPTY);
+    }
+
+    /// Computes the nearest depth of each block of texels, once these are set: soft shadows then
+    /// skip the search for blockers where there are none.
+    pub fn find_block_depths(&mut self) {
+        let [columns, rows] = self.size.map(|side| side.div_ceil(BLOCK_SIDE) as usize);
+        self.block_depths.clear();
+        self.block_depths.resize(columns * rows, f32::NEG_INFINITY);
+        let width = self.size[0].max(1) as usize;
+        for (row, texels) in self.texels.chunks_exact(width).enumerate() {
+            let first = row / BLOCK_SIDE as usize * columns;
+            for (column, block) in texels.chunks(BLOCK_SIDE as usize).enumerate() {
+                let nearest = &mut self.block_depths[first + column];
+                *nearest = block.iter().fold(*nearest, |nearest, texel| nearest.max(texel.depth));
+            }
+        }
+    }
+
+    /// Whether a texel within a radius may block the light of a receiver: whether some block there
+    /// reaches above the least depth of the receiver's plane.
+    fn may_be_blocked(&self, receiver: &ReceiverPlane, radius: f32) -> bool {
+        let [columns, rows] = self.size.map(|side| side.div_ceil(BLOCK_SIDE) as i32);
+        if self.block_depths.len() != (columns * rows) as usize {
+            return true;
+        }
+        // Texels are compared at their centers, up to a texel beyond the radius.
+        let reach = radius + 1.0;
+        let least = receiver.depth - (receiver.slope[0].abs() + receiver.slope[1].abs()) * reach;
+        let block = |at: f32, count: i32| {
+            floor_to_int(at * (1.0 / BLOCK_SIDE as f32)).clamp(0, count - 1) as usize
+        };
+        let [left, right] = [-reach, reach].map(|offset| block(receiver.x + offset, columns));
+        let [top, bottom] = [-reach, reach].map(|offset| block(receiver.y + offset, rows));
+        self.block_depths
+            .chunks_exact(columns as usize)
+            .take(bottom + 1)
+            .skip(top)
+            .any(|row| row[left..=right].iter().any(|depth| *depth > least))
     }
 
     /// Sets the softness of the shadows.
@@ -148,6 +192,9 @@ impl ShadowMap {
         // Blocker search: the mean depth of what is before the receiver, within the penumbra that
         // the nearest possible caster would have.
         let search_radius = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
+        if !self.may_be_blocked(&receiver, search_radius) {
+            return self.filter_bilinear(&receiver);
+        }
         let (mut depth_sum, mut blockers) = (0.0, 0.0);
         for [dx, dy] in VOGEL_DISC.iter().step_by(2) {
             // One position of the blocker search.
@@ -250,8 +297,9 @@ impl ShadowMap {
     /// fails.
     #[inline(always)]
     pub(super) fn find_blocker(&self, receiver: &ReceiverPlane, [x, y]: [f32; 2]) -> Option<f32> {
-        let (column, row) = (x.floor(), y.floor());
-        let texel = self.texel_at(column as i32, row as i32)?;
+        let [column, row] = [x, y].map(floor_to_int);
+        let texel = self.texel_at(column, row)?;
+        let [column, row] = [column, row].map(|index| index as f32);
         let (dx, dy) = (x - column - 0.5, y - row - 0.5);
         let bias = receiver.bias + SLOPE_BIAS * (texel.dx.abs() + texel.dy.abs());
         let at_center = texel.depth - receiver.depth_at(column + 0.5, row + 0.5);
@@ -263,14 +311,14 @@ impl ShadowMap {
     /// of each is continued to the receiver.
     #[inline(always)]
     pub(super) fn filter_bilinear(&self, receiver: &ReceiverPlane) -> f32 {
-        let (left, top) = ((receiver.x - 0.5).floor(), (receiver.y - 0.5).floor());
-        let (fx, fy) = (receiver.x - 0.5 - left, receiver.y - 0.5 - top);
+        let [left, top] = [receiver.x, receiver.y].map(|at| floor_to_int(at - 0.5));
+        let (fx, fy) = (receiver.x - 0.5 - left as f32, receiver.y - 0.5 - top as f32);
         let mut visible = 0.0;
         // Four comparisons, each with its bilinear weight.
-        for (column, column_weight) in [(0.0, 1.0 - fx), (1.0, fx)] {
-            for (row, row_weight) in [(0.0, 1.0 - fy), (1.0, fy)] {
-                let texel = self.texel_at((left + column) as i32, (top + row) as i32);
-                let (dx, dy) = (fx - column, fy - row);
+        for (column, column_weight) in [(0, 1.0 - fx), (1, fx)] {
+            for (row, row_weight) in [(0, 1.0 - fy), (1, fy)] {
+                let texel = self.texel_at(left + column, top + row);
+                let (dx, dy) = (fx - column as f32, fy - row as f32);
                 let is_blocked = texel.is_some_and(|texel| {
                     let bias = receiver.bias + SLOPE_BIAS * (texel.dx.abs() + texel.dy.abs());
                     let above = texel.depth - receiver.depth;
@@ -318,6 +366,26 @@ mod tests {
     }
 
     const UP: [f32; 3] = [0.0, 1.0, 0.0];
+
+    #[test]
+    fn blocks_of_depths_change_no_visibility() {
+        for (height, spread) in [(0.5, 30.0), (0.9, 200.0), (0.2, 5.0)] {
+            let searched = map(height, spread);
+            let mut indexed = searched.clone();
+            indexed.find_block_depths();
+            let mut skipped = 0;
+            for step in 0..2000 {
+                let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
+                let tilt = (step % 7) as f32 * 0.1;
+                let normal = [tilt, (1.0 - tilt * tilt).sqrt(), 0.0];
+                let expected = searched.visibility([x, 0.1, z], normal);
+                assert_eq!(indexed.visibility([x, 0.1, z], normal), expected, "{x} {z}");
+                let receiver = indexed.project_receiver([x, 0.1, z], normal);
+                skipped += usize::from(receiver.is_some_and(|r| !indexed.may_be_blocked(&r, 2.0)));
+            }
+            assert!(skipped > 100, "{skipped}");
+        }
+    }
 
     #[test]
     fn what_is_above_shades_and_what_is_below_does_not() {

@@ -110,6 +110,7 @@ impl ShadowMapRenderer {
         map.reset(transform.world_to_screen(), camera.size, camera.center);
         map.set_penumbra(camera.penumbra, camera.depth_at_infinity);
         frame.surface_depths(&DepthOnly(&draws), context.threads, &mut map.texels);
+        map.find_block_depths();
         self.frame = Some(frame);
         Ok(map)
     }
