@@ -296,6 +296,19 @@ impl SamplePlane {
         least.as_slice().iter().fold(f32::INFINITY, |a, &b| if b < a { b } else { a })
     }
 
+    /// Depth test and depth write for one sample, without a branch.
+    ///
+    /// The block's nearest bound is raised with it; its farthest bound stays, which is safe.
+    #[inline(always)]
+    pub(crate) fn depth_test_sample(&mut self, index: usize, depth: f32, triangle: u32) {
+        let (old, old_triangle) = (self.depth[index], self.triangle[index]);
+        let is_nearer = depth > old;
+        self.depth[index] = if is_nearer { depth } else { old };
+        self.triangle[index] = if is_nearer { triangle } else { old_triangle };
+        let nearest = &mut self.block_nearest[index / (BLOCK_SIDE * BLOCK_SIDE)];
+        *nearest = nearer_depth(*nearest, depth);
+    }
+
     /// Writes depth and triangle of one sample, without a test.
     ///
     /// The block's nearest bound is raised with it; its farthest bound stays, which is safe.

@@ -9,6 +9,7 @@
 //! no color. Surfaces are shaded afterwards, once per pixel, so hidden ones cost no shading.
 
 use crate::fragment_lanes::LANES;
+use crate::micro_triangles::MicroTriangles;
 use crate::rasterize::{TriangleLanes, rasterize_triangle};
 use crate::sample_plane::{BLOCK_SIDE, NO_TRIANGLE, SamplePlane};
 use crate::simd_level::dispatch;
@@ -40,6 +41,8 @@ pub(crate) struct TileVisibility {
     farthest_depth: f32,
     /// The start values of the current batch, for each plane.
     batch_starts: Vec<BatchStarts>,
+    /// The micro-triangles of the current batch.
+    micro_triangles: MicroTriangles,
 }
 
 impl TileVisibility {
@@ -110,6 +113,7 @@ impl TileVisibility {
             self.batch_starts.clear();
             let starts = frame.samples.sample_offsets().map(|offset| batch.sample_starts(offset));
             self.batch_starts.extend(starts);
+            self.micro_triangles.prepare(simd, &batch, &self.batch_starts);
             // Rasterize in submission order, which breaks ties in depth.
             for (lane, &index) in some.iter().enumerate() {
                 match triangles[lane].opacity {
@@ -169,10 +173,14 @@ impl TileVisibility {
         lane: usize,
         index: u32,
     ) {
-        let functions = batch.lane_functions(lane);
-        if batch.is_outside(lane) || functions.max_depth <= self.farthest_depth {
+        if batch.is_outside(lane) || batch.max_depth[lane] <= self.farthest_depth {
             return;
         }
+        if self.micro_triangles.contain(lane) {
+            let range = [batch.min_depth[lane], batch.max_depth[lane]];
+            return self.micro_triangles.rasterize(&mut self.planes, lane, range, index);
+        }
+        let functions = batch.lane_functions(lane);
         // The tile's depth bound stays: only triangles too large for a batch compute it anew.
         let lanes = TriangleLanes::new(simd, &functions);
         let start = |plane: usize| self.batch_starts[plane].lane_start(lane);

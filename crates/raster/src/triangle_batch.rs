@@ -49,25 +49,25 @@ pub(crate) struct TriangleBatch {
     /// Whether 32 bits are enough: the values of other triangles are meaningless.
     is_small: [bool; BATCH_SIZE],
     /// The coefficients of the edge functions: see [`TriangleFunctions`].
-    a: [Ints; 3],
-    b: [Ints; 3],
+    pub(crate) a: [Ints; 3],
+    pub(crate) b: [Ints; 3],
     /// x0, y0, x1 and y1 of [`TriangleFunctions`].
-    bounds: [Ints; 4],
+    pub(crate) bounds: [Ints; 4],
     /// The change of depth per grid step to the right and down.
     depth_gradient: [Doubles; 2],
     /// The change of depth per pixel to the right and down.
-    depth_step: [Floats; 2],
-    min_depth: Floats,
-    max_depth: Floats,
+    pub(crate) depth_step: [Floats; 2],
+    pub(crate) min_depth: Floats,
+    pub(crate) max_depth: Floats,
 }
 
 /// The start values of eight triangles in one plane of samples: see [`SampleStart`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BatchStarts {
     /// ⌊E/256⌋ at the sample of the tile's pixel (0, 0), for each edge.
-    edges: [Ints; 3],
+    pub(crate) edges: [Ints; 3],
     /// Depth at the first sample of the triangle's bounds.
-    depth: Floats,
+    pub(crate) depth: Floats,
 }
 
 impl BatchStarts {
