@@ -48,7 +48,10 @@ impl CullMode {
 pub type SourceWeights = [[f32; 3]; 3];
 
 /// A triangle of the screen with its vertices clockwise (y down), and the primitive it is part of.
+///
+/// Aligned to a cache line, which it fills: bins refer to triangles all over the buffer.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(crate) struct ScreenTriangle {
     pub(crate) vertices: [ScreenVertex; 3],
     /// The id that the primitive was submitted with.
@@ -56,6 +59,8 @@ pub(crate) struct ScreenTriangle {
     pub(crate) source: WeightSource,
     pub(crate) opacity: Opacity,
 }
+
+const _: () = assert!(size_of::<ScreenTriangle>() == 64, "one cache line");
 
 impl ScreenTriangle {
     /// The depth of the nearest vertex: no sample of the triangle is nearer.
