@@ -22,10 +22,13 @@
 //! maps*, 1987) averages the results of depth comparisons, not depths: a mean of depths would be
 //! the depth of no surface. Here the comparison is one of planes, and the average one over a disc.
 
+mod blocker_search;
+
 use super::approximations::floor_to_int;
 use super::vector::{dot, subtract};
+use blocker_search::{Blockers, CountBlockers, DiscLanes, FILTER_DISC, SEARCH_DISC};
 use glam::{DMat4, DVec3, DVec4};
-use raster::SurfaceDepth;
+use raster::{SimdLevel, SurfaceDepth};
 use std::sync::LazyLock;
 
 /// The shadows of a light.
@@ -195,31 +198,25 @@ impl ShadowMap {
         if !self.may_be_blocked(&receiver, search_radius) {
             return self.filter_bilinear(&receiver);
         }
-        let (mut depth_sum, mut blockers) = (0.0, 0.0);
-        for [dx, dy] in VOGEL_DISC.iter().step_by(2) {
-            // One position of the blocker search.
-            let position = [receiver.x + dx * search_radius, receiver.y + dy * search_radius];
-            if let Some(depth) = self.find_blocker(&receiver, position) {
-                depth_sum += depth;
-                blockers += 1.0;
-            }
-        }
-        if blockers == 0.0 {
+        let found = self.count_blockers(&receiver, search_radius, SEARCH_DISC.as_slice());
+        if found.count == 0.0 {
             return self.filter_bilinear(&receiver);
         }
         // Penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
-        let radius =
-            self.penumbra_radius(receiver.depth, depth_sum / blockers).min(MAX_FILTER_RADIUS);
+        let mean_depth = found.depth_sum / found.count;
+        let radius = self.penumbra_radius(receiver.depth, mean_depth).min(MAX_FILTER_RADIUS);
         if radius <= 1.0 {
             return self.filter_bilinear(&receiver);
         }
         // Percentage-closer filtering over the penumbra.
-        let mut visible = 0.0;
-        for [dx, dy] in VOGEL_DISC.iter() {
-            let position = [receiver.x + dx * radius, receiver.y + dy * radius];
-            visible += if self.find_blocker(&receiver, position).is_none() { 1.0 } else { 0.0 };
-        }
-        visible / VOGEL_DISC.len() as f32
+        let blocked = self.count_blockers(&receiver, radius, FILTER_DISC.as_slice()).count;
+        let positions = VOGEL_DISC.len() as f32;
+        (positions - blocked) / positions
+    }
+
+    /// Counts the blockers at the positions of a disc around a receiver.
+    fn count_blockers(&self, receiver: &ReceiverPlane, radius: f32, disc: &DiscLanes) -> Blockers {
+        SimdLevel::best().run_kernel(CountBlockers { map: self, receiver, radius, disc })
     }
 
     /// Projects a surface onto the map, with its plane; `None` beside the map or behind the light.
@@ -347,7 +344,7 @@ mod tests {
 
     /// A map of 100 × 100 texels of side 0.01 seen from above: x to the right, y is depth, z
     /// downwards. Left of x = 0.6 there is a caster at a height.
-    fn map(height: f32, spread: f64) -> ShadowMap {
+    pub(super) fn map(height: f32, spread: f64) -> ShadowMap {
         let mut map = ShadowMap::default();
         let world_to_map = DMat4::from_cols(
             DVec4::new(100.0, 0.0, 0.0, 0.0),
