@@ -109,7 +109,7 @@ pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), CliError
     print_sections(args, "Reference of Alberti", &found)
 }
 
-/// What a word that nothing has may have meant.
+/// The message for a word that nothing has: what it may have meant.
 const FORMULAS_HINT: &str =
     "\n  = help: `alberti reference formulas` lists the formulas, with their ids";
 

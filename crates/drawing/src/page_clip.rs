@@ -10,7 +10,7 @@
 use super::page::{Page, PagePoint, Polyline, to_micrometers};
 use glam::DVec2;
 
-/// What is kept of the lines of a page.
+/// The lines of a page that are kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Keep {
     /// The parts in the rectangle, its border included.

@@ -159,6 +159,25 @@ impl<'d> DrawList<'d> {
         })
     }
 
+    /// Calls `shade` with each draw that eight fragments belong to, the indices of their primitives
+    /// and the lanes of the draw; most often there is only one.
+    #[inline(always)]
+    pub(super) fn for_each_draw(
+        &self,
+        fragments: &Fragments<'_>,
+        mut shade: impl FnMut(&Draw<'_>, &PrimitiveIndices<LANES>, &Mask<LANES>),
+    ) {
+        let mut is_done = [false; LANES];
+        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
+            let DrawSelection { draw, ids, mask } = self.select_draw_lanes(fragments, first);
+            let primitives = draw.primitive_indices(&ids, fragments.is_single_primitive());
+            shade(draw, &primitives, &mask);
+            for (is_done, is_own) in is_done.iter_mut().zip(mask) {
+                *is_done |= is_own;
+            }
+        }
+    }
+
     /// Selects the draw of one lane, with all lanes that are of the same draw.
     ///
     /// Material, textures and flags are then uniform over the lanes, and need no select per lane.
@@ -198,27 +217,24 @@ impl Kernel for ShadeEight<'_> {
     fn run(mut self) -> [F32x8; 4] {
         let Self { shading, fragments, .. } = self;
         let packet = FragmentPacket::new(fragments);
-        let is_single_primitive = fragments.is_single_primitive();
         let mut colors = [Lanes::ZERO; 4];
-        let mut is_done = [false; LANES];
-        // One draw after the other: most often there is only one.
-        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
-            let DrawSelection { draw, ids, mask } =
-                shading.draws.select_draw_lanes(fragments, first);
-            let primitives = draw.primitive_indices(&ids, is_single_primitive);
-            let shaded = shading.shade_lanes(draw, &primitives, &packet);
-            for (channel, draw_channel) in colors.iter_mut().zip(shaded.color) {
-                *channel = draw_channel.select(&mask, *channel);
-            }
-            if let Some(transmittance) = &mut self.transmittance {
-                for (channel, draw_channel) in transmittance.iter_mut().zip(shaded.transmittance) {
-                    *channel = draw_channel.select(&mask, Lanes(*channel)).0;
+        shading.draws.for_each_draw(
+            fragments,
+            #[inline(always)]
+            |draw, primitives, mask| {
+                let shaded = shading.shade_lanes(draw, primitives, &packet);
+                for (channel, draw_channel) in colors.iter_mut().zip(shaded.color) {
+                    *channel = draw_channel.select(mask, *channel);
                 }
-            }
-            for (is_done, is_own) in is_done.iter_mut().zip(mask) {
-                *is_done |= is_own;
-            }
-        }
+                if let Some(transmittance) = &mut self.transmittance {
+                    for (channel, draw_channel) in
+                        transmittance.iter_mut().zip(shaded.transmittance)
+                    {
+                        *channel = draw_channel.select(mask, Lanes(*channel)).0;
+                    }
+                }
+            },
+        );
         colors.map(|channel| channel.0)
     }
 }

@@ -11,7 +11,6 @@ use super::attributes::PrimitiveIndices;
 use super::fragment_lanes::{FragmentLanes, FragmentPacket};
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use super::material_inputs::MaterialInputs;
-use super::shading::DrawSelection;
 use super::surface_geometry::SurfaceGeometry;
 use super::transmission::luminance;
 use super::vector::dot;
@@ -165,20 +164,16 @@ impl Kernel for StyleEight<'_> {
         let Self { styled, fragments } = self;
         let packet = FragmentPacket::new(fragments);
         let mut colors = [Lanes::ZERO; 4];
-        let mut is_done = [false; LANES];
-        // One draw after the other: most often there is only one.
-        while let Some(first) = is_done.iter().position(|&is_done| !is_done) {
-            let DrawSelection { draw, ids, mask } =
-                styled.shading.draws.select_draw_lanes(fragments, first);
-            let primitives = draw.primitive_indices(&ids, fragments.is_single_primitive());
-            let shaded = styled.shade_lanes(draw, &primitives, &packet);
-            for (channel, draw_channel) in colors.iter_mut().zip(shaded) {
-                *channel = draw_channel.select(&mask, *channel);
-            }
-            for (is_done, is_own) in is_done.iter_mut().zip(mask) {
-                *is_done |= is_own;
-            }
-        }
+        styled.shading.draws.for_each_draw(
+            fragments,
+            #[inline(always)]
+            |draw, primitives, mask| {
+                let shaded = styled.shade_lanes(draw, primitives, &packet);
+                for (channel, draw_channel) in colors.iter_mut().zip(shaded) {
+                    *channel = draw_channel.select(mask, *channel);
+                }
+            },
+        );
         colors.map(|channel| channel.0)
     }
 }

@@ -17,7 +17,7 @@ pub(super) const DISTANCES: &str = "near and far are distances ahead of the eye,
     (--ortho and --oblique also take near = 0 and, but for the conventions alberti and chapter, a \
     near plane behind the eye, as glOrtho's -1,1); the textbook's coordinates n and f, 0 > n > f, are near = -n and far = -f";
 
-/// What changes the matrix of some flags.
+/// Options that change the matrix of some flags.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Modifier {
     Conventions,
@@ -276,7 +276,7 @@ pub(super) struct BuiltMatrix {
     pub(super) factors: Vec<(&'static str, DMat4)>,
     /// The ids of the formulas of the factors.
     pub(super) factor_formula: Option<&'static str>,
-    /// What was multiplied, in the order a point passes it; empty for a single matrix.
+    /// The factors, in the order a point passes it; empty for a single matrix.
     pub(super) product_of: Vec<(String, DMat4)>,
 }
 

@@ -22,7 +22,7 @@ pub(super) struct ParsedMatrix {
     pub(super) order: Option<&'static str>,
 }
 
-/// What tells the order of numbers in source code, in lower case; the first that is found counts.
+/// Words by which source code tells the order of numbers, in lower case; the first found counts.
 const ORDERS: [(&str, bool, &str); 13] = [
     ("column by column", true, "column by column, as its comment says"),
     ("row by row", false, "row by row, as its comment says"),

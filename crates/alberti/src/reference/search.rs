@@ -29,7 +29,7 @@ pub(super) fn find_sections(
     if found.is_empty() { Err(unknown_word(sections, word)) } else { Ok(found) }
 }
 
-/// What a word means that is no name: names in other cases or with more words, such as `Depth` and
+/// Meanings of a word that is no name: names in other cases or with more words, such as `Depth` and
 /// `depth_cue_percent` for `depth`; the fields that other programs call so, such as `camera_path`
 /// for `turntable`; else all entries that speak of it.
 fn find_related(sections: &[ReferenceSection], word: &str) -> Vec<ReferenceSection> {

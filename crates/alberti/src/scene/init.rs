@@ -35,7 +35,8 @@ pub(crate) struct InitArgs {
     load_options: LoadArgs,
 }
 
-/// Writes the scene file, prints its path, and warns if it cannot be read without further permission.
+/// Writes the scene file, prints its path, and warns if it cannot be read without further
+/// permission.
 ///
 /// The model is loaded to learn its size, cameras and lights. The text is built without indentation
 /// and formatted like by `scene fmt`, which also proves that it can be parsed.

@@ -3,8 +3,8 @@
 //!
 //! With the rows x, y, w of a central matrix the line of sight is the linear part of w, what is
 //! left of x beside it points to the right, and the eye is where all three rows vanish. What is left
-//! of y points up; whether x, y and the line of sight are those of a left-handed world (Direct3D), or
-//! of a right-handed one with y down in clip space (Vulkan), the numbers leave open: the reading
+//! of y points up; whether x, y and the line of sight are those of a left-handed world (Direct3D),
+//! or of a right-handed one with y down in clip space (Vulkan), the numbers leave open: the reading
 //! whose up is upright in the world is the more sensible one.
 
 use super::convention_list::placed_conventions;
@@ -190,7 +190,7 @@ impl PlacedFrame {
     }
 }
 
-/// What a camera upside down costs where the same numbers may be one upright in another convention.
+/// The cost of a camera upside down where its numbers may be one upright in another convention.
 ///
 /// Up is y, or z for a camera whose right is level only then.
 fn posture_cost(camera: &CameraReading) -> u32 {

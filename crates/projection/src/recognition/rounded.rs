@@ -139,7 +139,7 @@ pub(crate) fn measure_entries<const N: usize>(rows: [[f64; N]; N]) -> Entries<N>
     })
 }
 
-/// The same entries with the precision of the coarser ones, for matrices put together from numbers
+/// All entries with the precision of the coarser ones, for matrices put together from numbers
 /// of different precision; finer ones first.
 ///
 /// At least three entries, and two thirds of those with more than two decimals, must have no more

@@ -36,7 +36,7 @@ fn one_entry_with_more_digits_does_not_hide_a_camera() {
     }
 }
 
-/// What is stored column by column has a far-fetched reading as it stands.
+/// A matrix stored column by column has a far-fetched reading as it stands.
 #[test]
 fn a_stored_translation_is_no_three_point_perspective() {
     for by in [[3.0, 4.0, 5.0], [10.0, -2.0, 0.5], [0.0, 0.0, -5.0]] {

@@ -194,7 +194,7 @@ fn models_without_lists_are_answered_with_the_whole_field() {
     assert_eq!(helps, ["write (path: \"a.glb\")", "write (path: \"b.glb\")"]);
 }
 
-/// What stands in a list that lacks its brackets is checked in the same run.
+/// The items of a list that lacks its brackets are checked in the same run.
 #[test]
 fn a_missing_list_does_not_hide_the_mistakes_in_its_element() {
     let found = mistakes("(models: (path: \"a.glb\", position: (1, 2, 3)))");
@@ -208,7 +208,7 @@ fn a_missing_list_does_not_hide_the_mistakes_in_its_element() {
     );
 }
 
-/// What a misspelt field holds is checked in the same run.
+/// The contents of a misspelt field are checked in the same run.
 #[test]
 fn a_misspelt_field_does_not_hide_the_mistakes_in_its_value() {
     let path = "camera_path: (points: [(t: 0, eye: (0, 2, 5), target: (0, 1, 0)), (time: 4, eye: (5, 2, 0), target: (0, 1, 0))])";

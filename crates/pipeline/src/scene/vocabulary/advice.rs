@@ -141,7 +141,8 @@ const ADVICE: &[(&str, &str, &str)] = &[
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];
 
-/// What to do instead of a word that stands in `owner`; `word` is without capitals and separators.
+/// Advice for a word that stands in `owner` and is no field of it; `word` is without capitals and
+/// separators.
 pub(super) fn find_advice(owner: &str, word: &str) -> Option<&'static str> {
     let is_meant = |(place, words, _): &&(&str, &str, &str)| {
         *place == owner && words.split(' ').any(|known| known == word)
