@@ -12,17 +12,16 @@ fn vertex(x: i32, y: i32) -> ScreenVertex {
 }
 
 /// Whether the triangle covers a sample, straight from RA-1: inside, or on the border and still
-/// inside after a step to the right and an infinitely smaller one down (y down). The step is made
-/// finite by scaling the grid.
+/// inside after a step to the right and an infinitely smaller one down (y down).
 fn covers(triangle: [ScreenVertex; 3], x: i64, y: i64) -> bool {
-    const FINE: i128 = 1 << 40;
-    let point = |v: ScreenVertex| (i128::from(v.x()) * FINE, i128::from(v.y()) * FINE);
-    let sample = (i128::from(x) * FINE + (1 << 20), i128::from(y) * FINE + 1);
-    let side = |a: (i128, i128), b: (i128, i128)| {
-        ((b.0 - a.0) * (sample.1 - a.1) - (b.1 - a.1) * (sample.0 - a.0)).signum()
+    let side = |a: ScreenVertex, b: ScreenVertex| {
+        let (dx, dy) = (i64::from(b.x()) - i64::from(a.x()), i64::from(b.y()) - i64::from(a.y()));
+        let here = dx * (y - i64::from(a.y())) - dy * (x - i64::from(a.x()));
+        // On the edge: the sign after the step to the right, or along it after the one down.
+        here.signum() * 4 + (-dy).signum() * 2 + dx.signum()
     };
-    let [p, q, r] = triangle.map(point);
-    let sides = [side(p, q), side(q, r), side(r, p)];
+    let [p, q, r] = triangle;
+    let sides = [side(p, q), side(q, r), side(r, p)].map(i64::signum);
     sides == [1; 3] || sides == [-1; 3]
 }
 

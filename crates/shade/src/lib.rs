@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod alpha_test;
 mod ambient_occlusion;
 mod approximations;
 mod attributes;

@@ -102,24 +102,6 @@ impl Surface for Shading<'_> {
     }
 }
 
-/// The kernel of the alpha test of eight fragments of one masked primitive.
-struct AlphaTestEight<'a> {
-    draws: &'a DrawList<'a>,
-    fragments: &'a Fragments<'a>,
-}
-
-impl Kernel for AlphaTestEight<'_> {
-    type Output = [bool; LANES];
-
-    #[inline(always)]
-    fn run(self) -> [bool; LANES] {
-        let id = self.fragments.id(0);
-        let (draw, _) = self.draws.find_draw(id);
-        let primitive = draw.primitive_indices(&[id; LANES], true);
-        draw.passes_alpha_test(&primitive, &FragmentPacket::new(self.fragments))
-    }
-}
-
 /// The fragments of a packet that belong to one draw.
 pub(super) struct DrawSelection<'a> {
     /// The draw of the selected lanes.
@@ -132,33 +114,6 @@ pub(super) struct DrawSelection<'a> {
 }
 
 impl<'d> DrawList<'d> {
-    /// The alpha test: whether a fragment of a masked primitive is there (glTF 2.0 §3.9.4).
-    pub fn passes_alpha_test(&self, fragment: &Fragment<'_>) -> bool {
-        let (draw, _) = self.find_draw(fragment.id);
-        let primitive = draw.primitive_indices(&[fragment.id], true);
-        let [passes] = draw.passes_alpha_test(&primitive, fragment);
-        passes
-    }
-
-    /// The alpha test of eight fragments of one primitive, with vector instructions of this level.
-    ///
-    /// The rasterizer asks it before depth is written: what fails the test hides nothing.
-    pub fn passes_alpha_test_eight(
-        &self,
-        fragments: &Fragments<'_>,
-        simd_level: SimdLevel,
-    ) -> [bool; LANES] {
-        let passes = simd_level.run_wide_kernel(AlphaTestEight { draws: self, fragments });
-        passes.unwrap_or_else(|| {
-            let weights = fragments.weights();
-            let mut passes = [false; LANES];
-            for (lane, passes) in passes.iter_mut().enumerate() {
-                *passes = self.passes_alpha_test(&fragments.fragment(lane, &weights));
-            }
-            passes
-        })
-    }
-
     /// Calls `shade` with each draw that eight fragments belong to, the indices of their primitives
     /// and the lanes of the draw; most often there is only one.
     #[inline(always)]
@@ -473,43 +428,5 @@ impl Draw<'_> {
     /// is.
     pub fn is_lit(&self) -> bool {
         !self.material.unlit && self.primitive.topology == Topology::Triangles
-    }
-
-    /// The alpha test at fragments; all pass unless the material is masked.
-    #[inline(always)]
-    fn passes_alpha_test<const N: usize>(
-        &self,
-        primitives: &PrimitiveIndices<N>,
-        fragments: &impl FragmentLanes<N>,
-    ) -> Mask<N> {
-        let mut passes = [true; N];
-        if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
-            let alpha = self.sample_alpha(primitives, fragments);
-            for (passes, alpha) in passes.iter_mut().zip(&alpha.0) {
-                *passes = *alpha >= cutoff;
-            }
-        }
-        passes
-    }
-
-    /// The alpha of fragments: factor × vertex color × texture (glTF 2.0 §3.9.4).
-    #[inline(always)]
-    fn sample_alpha<const N: usize>(
-        &self,
-        primitives: &PrimitiveIndices<N>,
-        fragments: &impl FragmentLanes<N>,
-    ) -> Lanes<N> {
-        let vertices = self.vertex_indices(primitives);
-        let mut alpha = Lanes::splat(self.material.base_color[3]);
-        if let Some(colors) = &self.colors {
-            let [vertex_alpha] =
-                interpolate::<N, 1>(&vertices.fetch_attributes(colors, 3), &fragments.weights());
-            alpha *= vertex_alpha;
-        }
-        if let Some(texture) = self.textures.base_color() {
-            let uvs = self.texture_coordinates(&vertices, fragments, &texture.info);
-            alpha *= texture.mip_chain.sample(&uvs, true, self.textures.anisotropy).alpha;
-        }
-        alpha
     }
 }
