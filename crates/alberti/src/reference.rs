@@ -26,8 +26,8 @@ use pipeline::formulas::{Formula, entries, find_formula, find_formulas};
 pub(crate) struct ReferenceArgs {
     /// Flag, command, type, field, path of fields or formula [default: all flags and fields]
     ///
-    /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula; a word of
-    /// a formula's name or text lists the ids. `formulas` lists all of these.
+    /// For example --size, render, LookAt, camera.projection or PE-1, the id of a formula; a word
+    /// of a formula's name or text lists the ids. `formulas` lists all of these.
     #[arg(allow_hyphen_values = true)]
     word: Option<String>,
     /// Output format

@@ -89,14 +89,16 @@ impl Surface for Shading<'_> {
             ShadeEight { shading: self, fragments, transmittance: Some(&mut transmittance) };
         let color = self.simd_level.run_wide_kernel(kernel);
         let color = color.unwrap_or_else(|| {
-            let weights = fragments.weights();
+            let (weights, mut color) = (fragments.weights(), [[0.0; LANES]; 4]);
             for lane in 0..LANES {
                 let shaded = self.shade_one(&fragments.fragment(lane, &weights));
-                for (channel, one) in transmittance.iter_mut().zip(shaded.transmittance) {
+                let channels = color.iter_mut().chain(&mut transmittance);
+                for (channel, one) in channels.zip(shaded.color.iter().chain(&shaded.transmittance))
+                {
                     channel[lane] = one[0];
                 }
             }
-            shade_each(fragments, |fragment| self.shade(fragment))
+            color
         });
         TranslucentColors { color, transmittance }
     }

@@ -301,7 +301,8 @@ impl BuildArgs {
     /// flag.
     ///
     /// # Errors
-    /// If the number of parameters is wrong, the builder refuses one, or a modifier changes nothing.
+    /// If the number of parameters is wrong, the builder refuses one, or a modifier changes
+    /// nothing.
     pub(super) fn build(&self, options: BuildOptions) -> Option<Built> {
         (!self.calls.is_empty()).then(|| self.build_product(options))
     }

@@ -52,8 +52,8 @@ pub fn explain_matrix(rows: [[f64; 4]; 4]) -> Result<Explanation, String> {
     Ok(Explanation { subject: "A matrix for column vectors".to_owned(), steps, verdict })
 }
 
-/// The reading of the matrix without its slip, if it makes clearly more sense and as it stands there
-/// is little to say of it; and the title of that reading.
+/// The reading of the matrix without its slip, if it makes clearly more sense and as it stands
+/// there is little to say of it; and the title of that reading.
 fn mended_reading(found: &Recognition) -> Option<(MatrixReading, &'static str)> {
     let slip = found.misprint()?;
     let title = match slip.misprint {

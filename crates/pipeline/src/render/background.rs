@@ -50,7 +50,8 @@ impl PrimitiveAssembler<'_> {
         self.add_screen_quad(DrawKind::Backdrop, uvs, opacity)
     }
 
-    /// Adds a rectangle that fills the picture at the least depth, with an attribute at each corner.
+    /// Adds a rectangle that fills the picture at the least depth, with an attribute at each
+    /// corner.
     fn add_screen_quad(
         &mut self,
         kind: DrawKind,

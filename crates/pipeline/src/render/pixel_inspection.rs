@@ -26,9 +26,9 @@ use std::sync::{Mutex, PoisonError};
 pub struct PixelFragments {
     /// The color in the picture: sRGB with straight alpha.
     pub color: [u8; 4],
-    /// The shaded fragments in scene order; of neighbors in one smooth surface, which share a color,
-    /// the one that is shaded. With several samples per pixel, a fragment may be
-    /// hidden in some of them.
+    /// The shaded fragments in scene order; of neighbors in one smooth surface, which share a
+    /// color, the one that is shaded. With several samples per pixel, a fragment may be hidden in
+    /// some of them.
     pub fragments: Vec<ShadedFragment>,
 }
 

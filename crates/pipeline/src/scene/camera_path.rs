@@ -47,7 +47,7 @@ impl CameraPath {
             origin.error_at(&at, message, Some(help.to_owned()))
         };
         if !(2..=MAX_KEYS).contains(&path.keys.len()) {
-            let message = format!("a camera's way cannot have {} keys", path.keys.len());
+            let message = format!("a camera path cannot have {} keys", path.keys.len());
             return Err(fault(&[], message, "from 2 to 10,000 are possible"));
         }
         for (at, pair) in (1..).zip(path.keys.windows(2)) {
@@ -117,7 +117,7 @@ impl CameraPath {
         image: ImageSpec,
     ) -> Result<ViewProjection, SceneError> {
         resolve_view_projection(origin, &self.camera_at(time), models, image).map_err(|error| {
-            let message = format!("{:.3} s along the camera's way: {}", time, error.message);
+            let message = format!("{:.3} s along the camera path: {}", time, error.message);
             origin.error_at(&[Field("camera_path"), Field("keys")], message, error.help)
         })
     }
@@ -244,7 +244,7 @@ mod tests {
 
     #[test]
     fn straight_ways_are_straight_and_end_at_their_ends() {
-        let path = path(&format!("{KEYS}, curve: Linear")).expect("a way");
+        let path = path(&format!("{KEYS}, curve: Linear")).expect("a path");
         assert_eq!(path.time_range(), [0.0, 3.0]);
         for (time, expected) in [
             (-1.0, [0.0; 3]),
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn smooth_ways_pass_through_their_keys_at_even_speed_without_jerks() {
-        let path = path(KEYS).expect("a way");
+        let path = path(KEYS).expect("a path");
         for (time, expected) in [(0.0, [0.0; 3]), (1.0, [2.0, 0.0, 1.0]), (3.0, [6.0, 0.0, 9.0])] {
             assert_eq!(eye(&path, time), expected, "{time}");
         }
@@ -276,7 +276,7 @@ mod tests {
         assert!((speed(1.0 - step) - 3.0).abs() < 1e-4 && (speed(1.0) - 3.0).abs() < 1e-4);
     }
 
-    /// A way once around the origin in the plane y = 0, of radius 1, with `count` keys a second
+    /// A path once around the origin in the plane y = 0, of radius 1, with `count` keys a second
     /// apart and the first one repeated.
     fn circle(count: u32) -> CameraPath {
         let key = |number: u32| {
@@ -285,11 +285,11 @@ mod tests {
             format!("(time: {number}, eye: ({sine}, 0, {cosine}), target: (0, 0, 0))")
         };
         let keys: Vec<String> = (0..=count).map(key).collect();
-        path(&format!("keys: [{}]", keys.join(", "))).expect("a way")
+        path(&format!("keys: [{}]", keys.join(", "))).expect("a path")
     }
 
     #[test]
-    fn closed_ways_are_smooth_at_their_seam() {
+    fn closed_paths_are_smooth_at_their_seam() {
         for count in [3, 4, 8, 12] {
             let path = circle(count);
             let distance = |time: f64| glam::DVec3::from(eye(&path, time)).length();

@@ -95,8 +95,8 @@ scene_struct! {
         pub overlays: Vec<OverlayFile> = Vec::new(),
         /// A line of text below the picture, centered in a strip of 28 pixels at its lower border;
         /// the view is in the rest. Its letters are strokes, as on drawings, and smaller if the
-        /// text is too long. The strip has the color of the background, and that of its center if that
-        /// is a gradient. Default: none.
+        /// text is too long. The strip has the color of the background, and that of its center if
+        /// that is a gradient. Default: none.
         pub caption: Option<String> = None,
         /// Passes: data of each pixel besides its color. Default: none.
         pub passes: PassesFile = PassesFile::default(),

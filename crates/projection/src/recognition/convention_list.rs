@@ -29,8 +29,8 @@ pub(super) const CONVENTIONS: [(Convention, u32); 16] = [
 
 /// The conventions of a camera in the world: all that look along −z, and those along +z with y up.
 ///
-/// A view space that looks along +z with y down is a right-handed one turned about x: such a product
-/// is also one that looks along −z.
+/// A view space that looks along +z with y down is a right-handed one turned about x: such a
+/// product is also one that looks along −z.
 pub(super) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS
         .into_iter()

@@ -2,10 +2,10 @@
 //! near plane.
 //!
 //! With the rows x, y, w of a central matrix the line of sight is the linear part of w, what is
-//! left of x beside it points to the right, and the eye is where all three rows vanish. What is left
-//! of y points up; whether x, y and the line of sight are those of a left-handed world (Direct3D),
-//! or of a right-handed one with y down in clip space (Vulkan), the numbers leave open: the reading
-//! whose up is upright in the world is the more sensible one.
+//! left of x beside it points to the right, and the eye is where all three rows vanish. What is
+//! left of y points up; whether x, y and the line of sight are those of a left-handed world
+//! (Direct3D), or of a right-handed one with y down in clip space (Vulkan), the numbers leave open:
+//! the reading whose up is upright in the world is the more sensible one.
 
 use super::convention_list::placed_conventions;
 use super::parallel::box_rarity;

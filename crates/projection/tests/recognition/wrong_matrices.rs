@@ -3,8 +3,8 @@
 //! Four are argued where they stand: a matrix that is as well the right one of something else must
 //! have both told. Slips whose matrix is the right one of other numbers have no row
 //! (`hand_typed.rs`). Two more are the table's exceptions: with four decimals near 0.1, far 100 of
-//! M15 cannot be told from a right box of near 0.1, far 50, and M17 of 45° gives the scale 2, which is
-//! what people choose for a lens.
+//! M15 cannot be told from a right box of near 0.1, far 50, and M17 of 45° gives the scale 2, which
+//! is what people choose for a lens.
 
 use crate::formulas::*;
 use crate::table::{Expected, Row, Verdict};

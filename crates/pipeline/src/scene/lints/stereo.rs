@@ -55,7 +55,7 @@ pub(super) fn lint_wide_stereo(adviser: &Linter<'_>) -> Option<Lint> {
         return None;
     }
     let message = format!(
-        "the eyes are {base:.4} apart and the models {away:.4} away: nobody sees one thing in both pictures"
+        "the eyes are {base:.4} apart and the models {away:.4} away: the two pictures cannot be fused"
     );
     let help = format!(
         "lengths are in the scene's units, meters in glTF: leave eye_distance out, or set it to {:.4}, a thirtieth of the distance",
