@@ -32,6 +32,8 @@ impl Frame {
     /// Finds the nearest opaque surface at the first sample of each pixel, with its depth there,
     /// and writes it to `target`: rows from the top, `width` × `height` of them.
     ///
+    /// Where there is no surface the target keeps its value, such as [`SurfaceDepth::EMPTY`].
+    ///
     /// The sample is at [`Samples::first_offset`](crate::Samples::first_offset) in each pixel, with
     /// one sample its center. Depths are not carried to another place: beyond the edge of a steep
     /// surface they would be far from it.
@@ -44,28 +46,28 @@ impl Frame {
         threads: usize,
         target: &mut [SurfaceDepth],
     ) {
-        let begin = |band: &mut [SurfaceDepth]| band.fill(SurfaceDepth::EMPTY);
-        self.for_each_tile(surface, threads, target, begin, |filled| {
-            let FilledTile { tile, rect, band, .. } = filled;
-            // Neighbors mostly show the same triangle: its slopes are computed once.
-            let (mut last, mut slopes) = (None, [0.0; 2]);
-            for (y, x) in
-                (rect.top..rect.bottom).flat_map(|y| (rect.left..rect.right).map(move |x| (y, x)))
-            {
+        self.for_each_tile(surface, threads, target, |_| (), |filled| self.write_depths(filled));
+    }
+
+    /// Writes the depths of a tile to its band.
+    fn write_depths(&self, filled: FilledTile<'_, SurfaceDepth>) {
+        let FilledTile { tile, rect, band, .. } = filled;
+        let left = (rect.x + rect.left - self.region.x) as usize;
+        let rows = band.chunks_mut(self.region.width.max(1) as usize);
+        // Neighbors mostly show the same triangle: its slopes are computed once.
+        let (mut last, mut slopes) = (u32::MAX, None);
+        for (y, row) in (rect.top..rect.bottom).zip(rows) {
+            for (x, target) in (rect.left..rect.right).zip(row.iter_mut().skip(left)) {
                 let at = pixel_index(x as usize, y as usize);
                 let index = tile.triangle(0, at);
-                let Some(triangle) = self.triangles.get(index) else { continue };
-                if last != Some(index) {
-                    (last, slopes) = (Some(index), clamped_depth_slopes(triangle));
+                if index != last {
+                    (last, slopes) = (index, self.triangles.get(index).map(clamped_depth_slopes));
                 }
-                let row = (y - rect.top) as usize * self.region.width as usize;
-                let target = row + (rect.x + x - self.region.x) as usize;
-                if let Some(target) = band.get_mut(target) {
-                    let [dx, dy] = slopes;
+                if let Some([dx, dy]) = slopes {
                     *target = SurfaceDepth { depth: tile.sample_depth(0, at), dx, dy };
                 }
             }
-        });
+        }
     }
 }
 
@@ -117,6 +119,7 @@ mod tests {
         let mut target = vec![SurfaceDepth::EMPTY; 7000];
         sloped(Opacity::Masked).surface_depths(&Left, 1, &mut target);
         assert!((0..7000).all(|at| (target[at].depth > 0.0) == (at % 100 < 50)));
+        target.fill(SurfaceDepth::EMPTY);
         sloped(Opacity::Translucent).surface_depths(&Left, 1, &mut target);
         assert!(target.iter().all(|nearest| *nearest == SurfaceDepth::EMPTY));
     }

@@ -8,12 +8,12 @@
 //!  ────●─────┴──────── ground
 //! ```
 //!
-//! From each cell of the ground, rays run along 16 azimuths over the slabs of the other cells and
-//! mark what these hide in a bitmask of 64 sectors of equal cosine-weighted solid angle (after
-//! Therrien, Levesque and Gilet, *Screen space indirect lighting with visibility bitmask*, 2023).
-//! Cells of a 4 × 4 block have azimuths between each other's, and their mean takes the pattern out
-//! again (interleaved sampling, Keller and Heidrich 2001). What is between the lowest and the
-//! highest surface of a cell counts as solid.
+//! From every second cell of the ground, rays run along 16 azimuths over the slabs of the other
+//! cells and mark what these hide in a bitmask of 64 sectors of equal cosine-weighted solid angle
+//! (after Therrien, Levesque and Gilet, *Screen space indirect lighting with visibility bitmask*,
+//! 2023). Neighbors in a block of 2 × 2 have azimuths between each other's, and their mean takes
+//! the pattern out again (interleaved sampling, Keller and Heidrich 2001). What is between the
+//! lowest and the highest surface of a cell counts as solid.
 
 use super::approximations::floor_to_int;
 use raster::for_each_parallel;
@@ -48,16 +48,18 @@ pub struct GroundGrid {
 /// The fraction of cosine-weighted light from the upper hemisphere that reaches level ground.
 #[derive(Clone, Debug)]
 pub struct GroundOcclusion {
-    /// The grid.
+    /// The grid of the visibility, with cells of twice the side.
     grid: GroundGrid,
-    /// The visibility, 0 to 1, at the center of each cell.
+    /// The visibility, 0 to 1, at the center of each of its cells.
     visibility: Vec<f32>,
 }
 
 /// The azimuths of one cell.
 const AZIMUTHS: usize = 16;
 /// The side of a block of cells with different azimuths.
-const BLOCK: usize = 4;
+const BLOCK: usize = 2;
+/// The cells along the side of a cell of the visibility, which is smoother than what hides it.
+const COARSENESS: usize = 2;
 /// The sectors of an azimuth.
 const SECTORS: f32 = 64.0;
 /// The growth of steps with the distance: about the width that an azimuth's wedge has there.
@@ -69,9 +71,10 @@ impl GroundOcclusion {
     /// Uses up to `threads` threads, with the same result for any number.
     #[must_use]
     pub fn compute(grid: GroundGrid, slabs: &[HeightSlab], threads: usize) -> Self {
-        let [columns, _] = grid.size;
         let rays = RayCaster::new(grid, slabs);
-        let mut noisy = vec![1.0; slabs.len()];
+        let grid = grid.coarsen();
+        let columns = grid.size[0];
+        let mut noisy = vec![1.0; columns * grid.size[1]];
         for_each_parallel(threads, noisy.chunks_mut(columns.max(1)).enumerate(), |(row, cells)| {
             for (column, cell) in cells.iter_mut().enumerate() {
                 *cell = rays.visibility_at(column, row);
@@ -114,6 +117,12 @@ impl GroundOcclusion {
 }
 
 impl GroundGrid {
+    /// The grid of the visibility.
+    fn coarsen(self) -> Self {
+        let size = self.size.map(|count| count.div_ceil(COARSENESS));
+        Self { cell: self.cell * COARSENESS as f32, size, ..self }
+    }
+
     /// 0 at the border of the grid and 1 beyond the margin, smooth at both.
     fn fade_weight(&self, index: [usize; 2]) -> f32 {
         let mut weight = 1.0;
@@ -155,13 +164,15 @@ impl<'a> RayCaster<'a> {
         Self { grid, slabs, occupied: [least, most], azimuths: azimuths.collect() }
     }
 
-    /// The visibility from the center of a cell, along the azimuths of its place in the block.
+    /// The visibility from the center of a cell of the visibility, along the azimuths of its place
+    /// in the block.
     fn visibility_at(&self, column: usize, row: usize) -> f32 {
         // An order in which neighbors are far apart, as in ordered dithering.
-        const ORDER: [usize; BLOCK * BLOCK] =
-            [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
+        const ORDER: [usize; BLOCK * BLOCK] = [0, 2, 3, 1];
         let place = ORDER[row % BLOCK * BLOCK + column % BLOCK];
-        let from = [column as f32, row as f32];
+        // The center, in cells of the slabs from the center of the first.
+        let from = [column, row]
+            .map(|index| (index * COARSENESS) as f32 + 0.5 * (COARSENESS as f32 - 1.0));
         let mut hidden = 0;
         for azimuth in 0..AZIMUTHS {
             let along = self.azimuths[azimuth * BLOCK * BLOCK + place];
@@ -226,17 +237,14 @@ const fn sectors_below(count: u32) -> u64 {
     if count >= 64 { u64::MAX } else { (1 << count) - 1 }
 }
 
-/// The mean over a block along one axis: of five cells, the outer ones with half weight.
+/// The mean over a block along one axis: of three cells, the outer ones with half weight.
 fn average_blocks(values: &[f32], [columns, rows]: [usize; 2], step: [usize; 2]) -> Vec<f32> {
-    let at = |column: usize, row: usize, offset: isize| {
-        let column = column.saturating_add_signed(offset * step[0] as isize).min(columns - 1);
-        let row = row.saturating_add_signed(offset * step[1] as isize).min(rows - 1);
-        values[row * columns + column]
-    };
+    let at = |column: usize, row: usize| values[row * columns + column];
     let mean = |index: usize| {
         let (column, row) = (index % columns, index / columns);
-        let outer = 0.5 * (at(column, row, -2) + at(column, row, 2));
-        (outer + at(column, row, -1) + at(column, row, 0) + at(column, row, 1)) / BLOCK as f32
+        let before = at(column.saturating_sub(step[0]), row.saturating_sub(step[1]));
+        let after = at((column + step[0]).min(columns - 1), (row + step[1]).min(rows - 1));
+        0.5 * at(column, row) + 0.25 * (before + after)
     };
     (0..values.len()).map(mean).collect()
 }

@@ -120,16 +120,9 @@ impl<const N: usize> IncidentLight<N> {
     /// Multiplies the light by its visibility in its shadow maps.
     #[inline(always)]
     pub(super) fn apply_shadow(&mut self, shadow: &LightShadow, receiver: &ShadowReceiver<N>) {
-        let n_dot_l = receiver.normals.dot(self.to_light);
-        let visibility = Lanes::from_fn(|lane| {
-            // No light arrives from behind, but where a normal map pretends so: no need for a
-            // lookup.
-            if n_dot_l[lane] > 0.0 {
-                shadow.visibility(receiver.positions.lane(lane), receiver.normals.lane(lane))
-            } else {
-                0.0
-            }
-        });
+        // No light arrives from behind, but where a normal map pretends so: no need for a lookup.
+        let is_facing = receiver.normals.dot(self.to_light).is_above(0.0);
+        let visibility = shadow.visibility(receiver, is_facing);
         self.lux = self.lux * visibility;
     }
 }

@@ -1,33 +1,45 @@
 //! The shadows of one light: a single shadow map, or a cube of six.
 
+use super::lanes::{Lanes, Mask};
 use super::shadow_cube::ShadowCube;
 use super::shadow_map::ShadowMap;
+use super::shadow_receiver::ShadowReceiver;
 
 /// The depths of a scene from a light, by which shading finds what is in its shadow.
 #[derive(Clone, Debug)]
 pub enum LightShadow {
     /// The map of a directional or spot light.
-    Map(ShadowMap),
+    Map(Box<ShadowMap>),
     /// The maps of a point light.
     Cube(Box<ShadowCube>),
 }
 
 impl LightShadow {
-    /// The visibility of the light, 0 to 1, from a position in the world with this unit normal.
+    /// The visibility of the light, 0 to 1, from the receivers of the lanes that are `wanted`; 0 of
+    /// the others.
     ///
     /// Where there is no map, beside the light's cone for instance, nothing is in shadow.
     #[inline(always)]
-    pub(super) fn visibility(&self, position: [f32; 3], normal: [f32; 3]) -> f32 {
+    pub(super) fn visibility<const N: usize>(
+        &self,
+        receiver: &ShadowReceiver<N>,
+        wanted: Mask<N>,
+    ) -> Lanes<N> {
         match self {
-            Self::Map(map) => map.visibility(position, normal),
-            Self::Cube(cube) => cube.visibility(position, normal),
+            Self::Map(map) => map.visibility(receiver, wanted),
+            Self::Cube(cube) => Lanes::from_fn(|lane| {
+                if !wanted[lane] {
+                    return 0.0;
+                }
+                cube.visibility(receiver.positions.lane(lane), receiver.normals.lane(lane))
+            }),
         }
     }
 
     /// Its maps, for their memory.
     pub fn into_maps(self) -> impl Iterator<Item = ShadowMap> {
         let (map, faces) = match self {
-            Self::Map(map) => (Some(map), Default::default()),
+            Self::Map(map) => (Some(*map), Default::default()),
             Self::Cube(cube) => (None, cube.faces),
         };
         map.into_iter().chain(faces.into_iter().flatten())

@@ -16,6 +16,7 @@
 //! not along the face's axis. Both make the sides of a border agree. Depth planes, biases and the
 //! penumbra's growth are those of [`ShadowMap`].
 
+use super::lanes::Vec3Lanes;
 use super::shadow_map::{ShadowMap, VOGEL_DISC};
 use super::vector::{dot, subtract};
 
@@ -78,9 +79,14 @@ impl ShadowCube {
     pub(super) fn visibility(&self, position: [f32; 3], normal: [f32; 3]) -> f32 {
         let from_light = subtract(position, self.position);
         let Some(map) = &self.faces[face_index(from_light)] else { return 1.0 };
-        let Some(receiver) = map.project_receiver(position, normal) else { return 1.0 };
+        let planes =
+            map.project_receivers::<1>(Vec3Lanes::splat(position), Vec3Lanes::splat(normal));
+        if !planes.is_on_map[0] {
+            return 1.0;
+        }
+        let receiver = planes.lane(0);
         if self.spread <= 0.0 {
-            return map.filter_bilinear(&receiver);
+            return map.filter_bilinear(&planes)[0];
         }
         let distance = dot(from_light, from_light).sqrt();
         let disc = ProjectedDisc::new(map, from_light.map(|c| c / distance));
@@ -97,14 +103,14 @@ impl ShadowCube {
             }
         }
         if blockers == 0.0 {
-            return map.filter_bilinear(&receiver);
+            return map.filter_bilinear(&planes)[0];
         }
         // Penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
         let receiver_nearness = map.nearness(receiver.depth) * disc.center[2];
         let ratio = nearness_sum / (blockers * receiver_nearness.max(1e-12));
         let radius = (self.spread * (ratio - 1.0)).min(Self::MAX_PENUMBRA);
         if radius <= self.texel {
-            return map.filter_bilinear(&receiver);
+            return map.filter_bilinear(&planes)[0];
         }
         // Percentage-closer filtering over the penumbra.
         let mut visible = 0.0;

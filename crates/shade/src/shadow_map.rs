@@ -23,13 +23,17 @@
 //! the depth of no surface. Here the comparison is one of planes, and the average one over a disc.
 
 mod blocker_search;
+mod nearest_depths;
+mod receiver_planes;
+mod visibility;
 
 use super::approximations::floor_to_int;
-use super::vector::{dot, subtract};
-use blocker_search::{Blockers, CountBlockers, DiscLanes, FILTER_DISC, SEARCH_DISC};
+use super::vector::dot;
+pub(super) use blocker_search::VOGEL_DISC;
 use glam::{DMat4, DVec3, DVec4};
-use raster::{SimdLevel, SurfaceDepth};
-use std::sync::LazyLock;
+use nearest_depths::NearestDepths;
+use raster::SurfaceDepth;
+pub(super) use receiver_planes::ReceiverPlane;
 
 /// The shadows of a light.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -44,25 +48,9 @@ pub struct Shadow {
 /// The greatest radius in texels of blocker search and filter.
 ///
 /// A wider penumbra is cut off: the 48 positions of the filter would be too far apart in it.
-const MAX_FILTER_RADIUS: f32 = 64.0;
-/// The side in texels of the blocks whose nearest depths are known.
-const BLOCK_SIDE: u32 = 32;
+const MAX_FILTER_RADIUS: f32 = 63.0;
 /// The bias for a step of depth per texel: vertices are snapped to a grid of 1/256 texel.
 const SLOPE_BIAS: f32 = 1.0 / 96.0;
-/// The bias for rounding, relative to the depth of the whole scene.
-const DEPTH_BIAS: f32 = 2e-6;
-/// The steepest receiver plane in depth per texel: light that falls more flatly has no weight.
-const MAX_PLANE_SLOPE: f32 = 4.0;
-
-/// Positions in a disc of radius 1, evenly spread: Vogel's spiral (1979), with the golden angle.
-pub(super) static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> = LazyLock::new(|| {
-    std::array::from_fn(|index| {
-        let radius = ((index as f64 + 0.5) / 48.0).sqrt();
-        let angle = index as f64 * 2.399_963_229_728_653;
-        [(radius * libm::cos(angle)) as f32, (radius * libm::sin(angle)) as f32]
-    })
-});
-
 /// The transform from the world to the texels of a shadow map.
 #[derive(Clone, Copy, Debug, Default)]
 struct WorldToShadowMap {
@@ -90,28 +78,8 @@ pub struct ShadowMap {
     penumbra_scale: f32,
     /// The nearest surface of each texel, rows from the top.
     pub texels: Vec<SurfaceDepth>,
-    /// The nearest depth of each block of texels, rows from the top; empty if it is not known.
-    block_depths: Vec<f32>,
-}
-
-/// A surface on a shadow map: its position in texels and depth, and its plane.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ReceiverPlane {
-    x: f32,
-    y: f32,
-    pub(super) depth: f32,
-    /// The growth of depth per texel, by column and row.
-    slope: [f32; 2],
-    /// The difference of depth from which on something is a blocker.
-    bias: f32,
-}
-
-impl ReceiverPlane {
-    /// The depth of the plane at a position of the map.
-    #[inline(always)]
-    fn depth_at(&self, x: f32, y: f32) -> f32 {
-        self.depth + self.slope[0] * (x - self.x) + self.slope[1] * (y - self.y)
-    }
+    /// The nearest depths around each block of texels.
+    nearest_depths: NearestDepths,
 }
 
 impl ShadowMap {
@@ -129,47 +97,15 @@ impl ShadowMap {
             plane_rows: [0, 1, 2].map(|k| to_f32(planes.row(k))),
         };
         self.size = size;
-        self.block_depths.clear();
+        self.nearest_depths.clear();
         self.texels.clear();
         self.texels.resize(size[0] as usize * size[1] as usize, SurfaceDepth::EMPTY);
     }
 
-    /// Computes the nearest depth of each block of texels, once these are set: soft shadows then
-    /// skip the search for blockers where there are none.
-    pub fn find_block_depths(&mut self) {
-        let [columns, rows] = self.size.map(|side| side.div_ceil(BLOCK_SIDE) as usize);
-        self.block_depths.clear();
-        self.block_depths.resize(columns * rows, f32::NEG_INFINITY);
-        let width = self.size[0].max(1) as usize;
-        for (row, texels) in self.texels.chunks_exact(width).enumerate() {
-            let first = row / BLOCK_SIDE as usize * columns;
-            for (column, block) in texels.chunks(BLOCK_SIDE as usize).enumerate() {
-                let nearest = &mut self.block_depths[first + column];
-                *nearest = block.iter().fold(*nearest, |nearest, texel| nearest.max(texel.depth));
-            }
-        }
-    }
-
-    /// Whether a texel within a radius may block the light of a receiver: whether some block there
-    /// reaches above the least depth of the receiver's plane.
-    fn may_be_blocked(&self, receiver: &ReceiverPlane, radius: f32) -> bool {
-        let [columns, rows] = self.size.map(|side| side.div_ceil(BLOCK_SIDE) as i32);
-        if self.block_depths.len() != (columns * rows) as usize {
-            return true;
-        }
-        // Texels are compared at their centers, up to a texel beyond the radius.
-        let reach = radius + 1.0;
-        let least = receiver.depth - (receiver.slope[0].abs() + receiver.slope[1].abs()) * reach;
-        let block = |at: f32, count: i32| {
-            floor_to_int(at * (1.0 / BLOCK_SIDE as f32)).clamp(0, count - 1) as usize
-        };
-        let [left, right] = [-reach, reach].map(|offset| block(receiver.x + offset, columns));
-        let [top, bottom] = [-reach, reach].map(|offset| block(receiver.y + offset, rows));
-        self.block_depths
-            .chunks_exact(columns as usize)
-            .take(bottom + 1)
-            .skip(top)
-            .any(|row| row[left..=right].iter().any(|depth| *depth > least))
+    /// Computes the nearest depths of blocks of texels, once these are set: soft shadows then skip
+    /// the search for blockers where there are none.
+    pub fn find_nearest_depths(&mut self) {
+        self.nearest_depths.find(&self.texels, self.size);
     }
 
     /// Sets the softness of the shadows.
@@ -180,80 +116,6 @@ impl ShadowMap {
     pub fn set_penumbra(&mut self, scale: f64, depth_at_infinity: Option<f64>) {
         self.penumbra_scale = scale as f32;
         self.depth_at_infinity = depth_at_infinity.map(|depth| depth as f32);
-    }
-
-    /// The visibility of the light, 0 to 1, from a position in the world with this unit normal.
-    ///
-    /// Without softness four texels are compared, with softness 24, and within a penumbra 48 more.
-    /// Beside the map and behind the light nothing is in shadow.
-    #[inline(never)]
-    pub(super) fn visibility(&self, position: [f32; 3], normal: [f32; 3]) -> f32 {
-        let Some(receiver) = self.project_receiver(position, normal) else { return 1.0 };
-        if self.penumbra_scale <= 0.0 {
-            return self.filter_bilinear(&receiver);
-        }
-        // Blocker search: the mean depth of what is before the receiver, within the penumbra that
-        // the nearest possible caster would have.
-        let search_radius = self.penumbra_radius(receiver.depth, 1.0).clamp(1.5, MAX_FILTER_RADIUS);
-        if !self.may_be_blocked(&receiver, search_radius) {
-            return self.filter_bilinear(&receiver);
-        }
-        let found = self.count_blockers(&receiver, search_radius, SEARCH_DISC.as_slice());
-        if found.count == 0.0 {
-            return self.filter_bilinear(&receiver);
-        }
-        // Penumbra of the mean blocker, by similar triangles (PCSS, Fernando 2005).
-        let mean_depth = found.depth_sum / found.count;
-        let radius = self.penumbra_radius(receiver.depth, mean_depth).min(MAX_FILTER_RADIUS);
-        if radius <= 1.0 {
-            return self.filter_bilinear(&receiver);
-        }
-        // Percentage-closer filtering over the penumbra.
-        let blocked = self.count_blockers(&receiver, radius, FILTER_DISC.as_slice()).count;
-        let positions = VOGEL_DISC.len() as f32;
-        (positions - blocked) / positions
-    }
-
-    /// Counts the blockers at the positions of a disc around a receiver.
-    fn count_blockers(&self, receiver: &ReceiverPlane, radius: f32, disc: &DiscLanes) -> Blockers {
-        SimdLevel::best().run_kernel(CountBlockers { map: self, receiver, radius, disc })
-    }
-
-    /// Projects a surface onto the map, with its plane; `None` beside the map or behind the light.
-    ///
-    /// Positions and planes transform by a matrix and by its inverse transpose; both are of `f32`
-    /// relative to the middle of the scene, where rounding is least.
-    #[inline(always)]
-    pub(super) fn project_receiver(
-        &self,
-        position: [f32; 3],
-        normal: [f32; 3],
-    ) -> Option<ReceiverPlane> {
-        let WorldToShadowMap { origin, rows, plane_rows } = &self.world_to_map;
-        let p = subtract(position, *origin);
-        let transform = |row: &[f32; 4]| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
-        let w = transform(&rows[3]);
-        let [x, y, depth] = [0, 1, 2].map(|k: usize| transform(&rows[k]) / w);
-        let is_inside = |at: f32, side: u32| at > 0.0 && at < side as f32;
-        let is_on_map = is_inside(x, self.size[0]) && is_inside(y, self.size[1]);
-        if !(w > 0.0 && is_on_map && depth.is_finite()) {
-            return None;
-        }
-        // The plane (n, −n·p) on the map; its slopes are ratios of the components.
-        let n = normal;
-        let offset = -dot(n, p);
-        let transform_plane =
-            |row: &[f32; 4]| row[0] * n[0] + row[1] * n[1] + row[2] * n[2] + row[3] * offset;
-        let along_depth = transform_plane(&plane_rows[2]);
-        let slope = [0, 1].map(|axis: usize| {
-            let slope = -transform_plane(&plane_rows[axis]) / along_depth;
-            if slope.is_finite() { slope.clamp(-MAX_PLANE_SLOPE, MAX_PLANE_SLOPE) } else { 0.0 }
-        });
-        // Rounding moves positions by a fraction of the scene's size; near a spot light that is a
-        // larger fraction of its range of depth.
-        let bias = DEPTH_BIAS * self.nearness(depth).max(0.1)
-            + SLOPE_BIAS * (slope[0].abs() + slope[1].abs());
-        Some(ReceiverPlane { x, y, depth, slope, bias })
     }
 
     /// Texel coordinates of a direction from the eye of a perspective map: x·w, y·w and w.
@@ -272,19 +134,6 @@ impl ShadowMap {
         self.depth_at_infinity.map_or(1.0, |infinity| (depth - infinity).max(0.0))
     }
 
-    /// The radius in texels of the penumbra at one depth of a caster at another.
-    ///
-    /// By similar triangles: the size of the light times the distance of receiver and caster over
-    /// that of caster and light. In parallel light it grows with the difference of depth alone.
-    #[inline(always)]
-    fn penumbra_radius(&self, receiver: f32, caster: f32) -> f32 {
-        let distance = match self.depth_at_infinity {
-            None => caster - receiver,
-            Some(infinity) => (caster - infinity) / (receiver - infinity).max(1e-12) - 1.0,
-        };
-        self.penumbra_scale * distance
-    }
-
     /// The depth of the surface that blocks the light of the receiver's plane at a position of the
     /// map.
     ///
@@ -295,7 +144,7 @@ impl ShadowMap {
     #[inline(always)]
     pub(super) fn find_blocker(&self, receiver: &ReceiverPlane, [x, y]: [f32; 2]) -> Option<f32> {
         let [column, row] = [x, y].map(floor_to_int);
-        let texel = self.texel_at(column, row)?;
+        let texel = self.texels.get(self.texel_index(column, row))?;
         let [column, row] = [column, row].map(|index| index as f32);
         let (dx, dy) = (x - column - 0.5, y - row - 0.5);
         let bias = receiver.bias + SLOPE_BIAS * (texel.dx.abs() + texel.dy.abs());
@@ -304,43 +153,23 @@ impl ShadowMap {
         (at_center > bias && here > bias).then_some(texel.depth)
     }
 
-    /// Percentage-closer filtering over the four nearest texels, with bilinear weights; the plane
-    /// of each is continued to the receiver.
+    /// The index of the texel in a column and a row; beyond the last texel outside of the map.
     #[inline(always)]
-    pub(super) fn filter_bilinear(&self, receiver: &ReceiverPlane) -> f32 {
-        let [left, top] = [receiver.x, receiver.y].map(|at| floor_to_int(at - 0.5));
-        let (fx, fy) = (receiver.x - 0.5 - left as f32, receiver.y - 0.5 - top as f32);
-        let mut visible = 0.0;
-        // Four comparisons, each with its bilinear weight.
-        for (column, column_weight) in [(0, 1.0 - fx), (1, fx)] {
-            for (row, row_weight) in [(0, 1.0 - fy), (1, fy)] {
-                let texel = self.texel_at(left + column, top + row);
-                let (dx, dy) = (fx - column as f32, fy - row as f32);
-                let is_blocked = texel.is_some_and(|texel| {
-                    let bias = receiver.bias + SLOPE_BIAS * (texel.dx.abs() + texel.dy.abs());
-                    let above = texel.depth - receiver.depth;
-                    let at_center = above + receiver.slope[0] * dx + receiver.slope[1] * dy;
-                    at_center > bias && above + texel.dx * dx + texel.dy * dy > bias
-                });
-                visible += if is_blocked { 0.0 } else { column_weight * row_weight };
-            }
-        }
-        visible
-    }
-
-    /// The texel in a column and a row; `None` outside of the map.
-    #[inline(always)]
-    fn texel_at(&self, column: i32, row: i32) -> Option<&SurfaceDepth> {
+    fn texel_index(&self, column: i32, row: i32) -> usize {
         let [width, height] = self.size;
-        let (column, row) = (u32::try_from(column).ok()?, u32::try_from(row).ok()?);
-        let is_inside = column < width && row < height;
-        self.texels.get(row as usize * width as usize + column as usize).filter(|_| is_inside)
+        // Indices below 0 are far beyond the last.
+        let (column, row) = (column as u32, row as u32);
+        let is_inside = (column < width) & (row < height);
+        let index = row.wrapping_mul(width).wrapping_add(column);
+        (if is_inside { index } else { u32::MAX }) as usize
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::Vec3Lanes;
+    use crate::shadow_receiver::ShadowReceiver;
 
     /// A map of 100 × 100 texels of side 0.01 seen from above: x to the right, y is depth, z
     /// downwards. Left of x = 0.6 there is a caster at a height.
@@ -364,23 +193,48 @@ mod tests {
 
     const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
+    /// The visibility from one position.
+    fn visibility(map: &ShadowMap, position: [f32; 3], normal: [f32; 3]) -> f32 {
+        let (positions, normals) = (Vec3Lanes::splat(position), Vec3Lanes::splat(normal));
+        map.visibility::<1>(&ShadowReceiver { positions, normals }, [true])[0]
+    }
+
+    /// Receivers all over the map, at one height, tilted more and less.
+    fn scattered_receiver(step: usize, y: f32) -> ([f32; 3], [f32; 3]) {
+        let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
+        let tilt = (step % 7) as f32 * 0.1;
+        ([x, y, z], [tilt, (1.0 - tilt * tilt).sqrt(), 0.0])
+    }
+
     #[test]
-    fn blocks_of_depths_change_no_visibility() {
+    fn eight_receivers_have_the_visibility_of_each() {
+        let mut map = map(0.5, 30.0);
+        map.find_nearest_depths();
+        for first in (0..2000).step_by(8) {
+            let receivers: [_; 8] =
+                std::array::from_fn(|lane| scattered_receiver(first + lane, 0.1));
+            let positions = Vec3Lanes::from_fn(|lane| receivers[lane].0);
+            let normals = Vec3Lanes::from_fn(|lane| receivers[lane].1);
+            let eight = map.visibility::<8>(&ShadowReceiver { positions, normals }, [true; 8]);
+            for (lane, (position, normal)) in receivers.into_iter().enumerate() {
+                assert_eq!(eight[lane], visibility(&map, position, normal), "{position:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nearest_depths_change_little() {
         for (height, spread) in [(0.5, 30.0), (0.9, 200.0), (0.2, 5.0)] {
             let searched = map(height, spread);
-            let mut indexed = searched.clone();
-            indexed.find_block_depths();
-            let mut skipped = 0;
+            let mut bounded = searched.clone();
+            bounded.find_nearest_depths();
             for step in 0..2000 {
-                let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
-                let tilt = (step % 7) as f32 * 0.1;
-                let normal = [tilt, (1.0 - tilt * tilt).sqrt(), 0.0];
-                let expected = searched.visibility([x, 0.1, z], normal);
-                assert_eq!(indexed.visibility([x, 0.1, z], normal), expected, "{x} {z}");
-                let receiver = indexed.project_receiver([x, 0.1, z], normal);
-                skipped += usize::from(receiver.is_some_and(|r| !indexed.may_be_blocked(&r, 2.0)));
+                let (position, normal) = scattered_receiver(step, 0.1);
+                let expected = visibility(&searched, position, normal);
+                let actual = visibility(&bounded, position, normal);
+                // The search is narrower where they are known, and sees more.
+                assert!((actual - expected).abs() < 0.25, "{position:?} {actual} {expected}");
             }
-            assert!(skipped > 100, "{skipped}");
         }
     }
 
@@ -390,10 +244,10 @@ mod tests {
         for (x, y, expected) in
             [(0.2, 0.1, 0.0), (0.2, 0.499, 0.0), (0.2, 0.501, 1.0), (0.7, 0.1, 1.0)]
         {
-            assert_eq!(map.visibility([x, y, 0.5], UP), expected, "{x} {y}");
+            assert_eq!(visibility(&map, [x, y, 0.5], UP), expected, "{x} {y}");
         }
-        assert_eq!(map.visibility([-0.1, 0.1, 0.5], UP), 1.0, "no shadow beside the map");
-        assert!((map.visibility([0.6, 0.1, 0.5], UP) - 0.5).abs() < 0.01, "half at the border");
+        assert_eq!(visibility(&map, [-0.1, 0.1, 0.5], UP), 1.0, "no shadow beside the map");
+        assert!((visibility(&map, [0.6, 0.1, 0.5], UP) - 0.5).abs() < 0.01, "half at the border");
     }
 
     #[test]
@@ -403,7 +257,7 @@ mod tests {
         let map = map(0.5, 40.0);
         for y in [0.0_f32, 0.25, 0.45] {
             let radius = (0.5 - y) * 0.4;
-            let at = |part: f32| map.visibility([0.6 + part * radius, y, 0.5], UP);
+            let at = |part: f32| visibility(&map, [0.6 + part * radius, y, 0.5], UP);
             assert!((at(0.0) - 0.5).abs() < 0.06, "{y} {}", at(0.0));
             assert_eq!((at(-1.3), at(1.3)), (0.0, 1.0), "{y}");
             // The fraction of a disc beyond a straight border at half of its radius: 0.8045.
@@ -425,7 +279,7 @@ mod tests {
             for step in 0..500 {
                 let x = 0.25 + step as f32 * 0.001;
                 let position = [x, 100.0 * slope * (x - 0.5), 0.5];
-                assert_eq!(map.visibility(position, normal), 1.0, "{slope} {x}");
+                assert_eq!(visibility(&map, position, normal), 1.0, "{slope} {x}");
             }
         }
     }

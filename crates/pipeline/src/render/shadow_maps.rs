@@ -73,7 +73,8 @@ impl ShadowMapRenderer {
         shadow: Shadow,
     ) -> Result<Option<LightShadow>, RenderError> {
         if let Some(camera) = LightCamera::fit_to_light(context.scene, light, shadow) {
-            return Ok(Some(LightShadow::Map(self.render_map(context, &camera)?)));
+            let map = self.render_map(context, &camera)?;
+            return Ok(Some(LightShadow::Map(Box::new(map))));
         }
         let Some(cameras) = CubeCameras::fit_to_light(context.scene, light, shadow) else {
             return Ok(None);
@@ -110,7 +111,7 @@ impl ShadowMapRenderer {
         map.reset(transform.world_to_screen(), camera.size, camera.center);
         map.set_penumbra(camera.penumbra, camera.depth_at_infinity);
         frame.surface_depths(&DepthOnly(&draws), context.threads, &mut map.texels);
-        map.find_block_depths();
+        map.find_nearest_depths();
         self.frame = Some(frame);
         Ok(map)
     }

@@ -1,35 +1,67 @@
 //! The search for blockers at many positions of a shadow map, eight at once.
 
-use super::{ReceiverPlane, SLOPE_BIAS, ShadowMap, VOGEL_DISC};
-use crate::approximations::floor_to_int;
+use super::visibility::floor_lanes;
+use super::{ReceiverPlane, SLOPE_BIAS, ShadowMap};
 use crate::lanes::Lanes;
-use raster::{Kernel, LANES, SurfaceDepth};
+use raster::{LANES, SurfaceDepth};
 use std::sync::LazyLock;
 
-/// Positions in a disc of radius 1, x and y of eight at a time.
-pub(super) type DiscLanes = [[Lanes<LANES>; 2]];
+/// Positions in a disc of radius 1, evenly spread, for the search and the filter of point lights.
+pub(crate) static VOGEL_DISC: LazyLock<[[f32; 2]; 48]> =
+    LazyLock::new(|| std::array::from_fn(|index| vogel_position(index, 48)));
 
-/// All positions of the disc, for the filter.
-pub(super) static FILTER_DISC: LazyLock<[[Lanes<LANES>; 2]; 6]> =
-    LazyLock::new(|| std::array::from_fn(|packet| disc_lanes(packet, 1)));
-/// Every second one, for the search.
-pub(super) static SEARCH_DISC: LazyLock<[[Lanes<LANES>; 2]; 3]> =
-    LazyLock::new(|| std::array::from_fn(|packet| disc_lanes(packet, 2)));
-
-/// Eight positions of the disc, `step` apart.
-fn disc_lanes(packet: usize, step: usize) -> [Lanes<LANES>; 2] {
-    let at = |lane: usize| VOGEL_DISC[(packet * LANES + lane) * step];
-    [Lanes::from_fn(|lane| at(lane)[0]), Lanes::from_fn(|lane| at(lane)[1])]
+/// One of `count` evenly spread positions in a disc of radius 1: Vogel's spiral (1979), with the
+/// golden angle.
+fn vogel_position(index: usize, count: usize) -> [f32; 2] {
+    let radius = ((index as f64 + 0.5) / count as f64).sqrt();
+    let angle = index as f64 * 2.399_963_229_728_653;
+    [(radius * libm::cos(angle)) as f32, (radius * libm::sin(angle)) as f32]
 }
 
-/// The kernel that counts the blockers of a receiver in a disc around it, and adds up their depths
-/// in the order of the positions.
-pub(super) struct CountBlockers<'a> {
-    pub(super) map: &'a ShadowMap,
-    pub(super) receiver: &'a ReceiverPlane,
-    /// The radius of the disc in texels.
-    pub(super) radius: f32,
-    pub(super) disc: &'a DiscLanes,
+/// Positions in a disc of radius 1, x and y of eight at a time.
+#[derive(Clone, Copy)]
+pub(super) struct Disc<'a>(&'a [[Lanes<LANES>; 2]]);
+
+impl Disc<'_> {
+    /// How many positions there are.
+    #[inline(always)]
+    pub(super) fn position_count(self) -> f32 {
+        (self.0.len() * LANES) as f32
+    }
+}
+
+/// Discs of 8, 16, 24 and 48 positions, one after the other.
+static DISCS: LazyLock<[[Lanes<LANES>; 2]; 12]> = LazyLock::new(|| {
+    let counts = [8, 16, 24, 48];
+    let mut positions = counts
+        .into_iter()
+        .flat_map(|count| (0..count).map(move |index| vogel_position(index, count)));
+    std::array::from_fn(|_| {
+        let eight: [_; LANES] = std::array::from_fn(|_| positions.next().unwrap_or_default());
+        [0, 1].map(|axis: usize| Lanes::from_fn(|lane| eight[lane][axis]))
+    })
+});
+
+/// The positions of the search: fewer in a narrow disc, which has few texels.
+#[inline(always)]
+pub(super) fn search_disc(radius: f32) -> Disc<'static> {
+    let range = match radius {
+        ..=3.0 => 0..1,
+        ..=8.0 => 1..3,
+        _ => 3..6,
+    };
+    Disc(DISCS.get(range).unwrap_or_default())
+}
+
+/// The positions of the filter.
+#[inline(always)]
+pub(super) fn filter_disc(radius: f32) -> Disc<'static> {
+    let range = match radius {
+        ..=3.0 => 1..3,
+        ..=6.0 => 3..6,
+        _ => 6..12,
+    };
+    Disc(DISCS.get(range).unwrap_or_default())
 }
 
 /// The blockers that were found.
@@ -38,50 +70,51 @@ pub(super) struct Blockers {
     pub(super) depth_sum: f32,
 }
 
-impl Kernel for CountBlockers<'_> {
-    type Output = Blockers;
-
-    /// The comparisons of [`ShadowMap::find_blocker`], bit for bit.
+impl ShadowMap {
+    /// Counts the blockers of a receiver at the positions of a disc around it, and adds up their
+    /// depths: the comparisons of [`ShadowMap::find_blocker`].
     #[inline(always)]
-    fn run(self) -> Blockers {
-        let Self { map, receiver, radius, disc } = self;
-        let mut blockers = Blockers { count: 0.0, depth_sum: 0.0 };
-        for [offset_x, offset_y] in disc {
+    pub(super) fn count_blockers(
+        &self,
+        receiver: &ReceiverPlane,
+        radius: f32,
+        disc: Disc<'_>,
+    ) -> Blockers {
+        let (mut counts, mut depth_sums) = (Lanes::<LANES>::ZERO, Lanes::ZERO);
+        for [offset_x, offset_y] in disc.0 {
             let (x, y) = (receiver.x + *offset_x * radius, receiver.y + *offset_y * radius);
-            let (columns, rows) = (floor_of(x), floor_of(y));
-            let mut texels = [Lanes::ZERO; 3];
+            let (columns, rows) = (floor_lanes(x), floor_lanes(y));
+            let mut indices = [0; LANES];
             for lane in 0..LANES {
-                let texel = map.texel_at(columns[lane], rows[lane]);
-                let SurfaceDepth { depth, dx, dy } = *texel.unwrap_or(&SurfaceDepth::EMPTY);
-                texels[0][lane] = depth;
-                texels[1][lane] = dx;
-                texels[2][lane] = dy;
+                indices[lane] = self.texel_index(columns[lane], rows[lane]);
             }
-            let [depths, texel_dx, texel_dy] = texels;
+            let texel =
+                |lane: usize| self.texels.get(indices[lane]).unwrap_or(&SurfaceDepth::EMPTY);
+            let depths = Lanes::from_fn(|lane| texel(lane).depth);
             let columns = Lanes::from_fn(|lane| columns[lane] as f32);
             let rows = Lanes::from_fn(|lane| rows[lane] as f32);
+            let at_center = depths - plane_depths(receiver, columns + 0.5, rows + 0.5);
+            // Slopes are looked at only where something is above the plane.
+            if !at_center.is_above(receiver.bias).contains(&true) {
+                continue;
+            }
+            let texel_dx = Lanes::from_fn(|lane| texel(lane).dx);
+            let texel_dy = Lanes::from_fn(|lane| texel(lane).dy);
             let (dx, dy) = (x - columns - 0.5, y - rows - 0.5);
             let bias = receiver.bias + SLOPE_BIAS * (texel_dx.abs() + texel_dy.abs());
-            let at_center = depths - plane_depths(receiver, columns + 0.5, rows + 0.5);
             let here = depths + texel_dx * dx + texel_dy * dy - plane_depths(receiver, x, y);
-            for lane in 0..LANES {
-                let blocks = (at_center[lane] > bias[lane]) & (here[lane] > bias[lane]);
-                blockers.count += if blocks { 1.0 } else { 0.0 };
-                blockers.depth_sum += if blocks { depths[lane] } else { 0.0 };
-            }
+            let is_blocker = (at_center.min_lanes(here) - bias).is_above(0.0);
+            counts += Lanes::ONE.select(&is_blocker, Lanes::ZERO);
+            depth_sums += depths.select(&is_blocker, Lanes::ZERO);
         }
-        blockers
+        Blockers { count: sum_lanes(counts), depth_sum: sum_lanes(depth_sums) }
     }
 }
 
-/// The largest integers not above some numbers.
+/// The sum of all lanes, by halves.
 #[inline(always)]
-fn floor_of(numbers: Lanes<LANES>) -> [i32; LANES] {
-    let mut integers = [0; LANES];
-    for (integer, number) in integers.iter_mut().zip(numbers.0) {
-        *integer = floor_to_int(number);
-    }
-    integers
+fn sum_lanes(Lanes([a, b, c, d, e, f, g, h]): Lanes<LANES>) -> f32 {
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
 /// The depths of the receiver's plane at positions of the map.
@@ -93,31 +126,55 @@ fn plane_depths(receiver: &ReceiverPlane, x: Lanes<LANES>, y: Lanes<LANES>) -> L
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::Vec3Lanes;
     use crate::shadow_map::tests::map;
-    use raster::SimdLevel;
 
     #[test]
     fn eight_at_once_are_those_found_one_by_one() {
         let map = map(0.5, 30.0);
         for step in 0..500 {
             let [x, z] = [step * 37 % 1000, step * 91 % 1000].map(|c| c as f32 * 0.001);
-            let receiver = map.project_receiver([x, 0.1, z], [0.1, 0.99, 0.1]);
-            let Some(receiver) = receiver else { continue };
-            let radius = 1.0 + (step % 60) as f32;
+            let (position, normal) = ([x, 0.1, z], [0.1, 0.99, 0.1]);
+            let planes =
+                map.project_receivers::<1>(Vec3Lanes::splat(position), Vec3Lanes::splat(normal));
+            if !planes.is_on_map[0] {
+                continue;
+            }
+            let receiver = planes.lane(0);
+            let radius = 1.5 + (step % 60) as f32;
+            let disc = filter_disc(radius);
             let (mut count, mut depth_sum) = (0.0, 0.0);
-            for [dx, dy] in VOGEL_DISC.iter() {
-                let position = [receiver.x + dx * radius, receiver.y + dy * radius];
-                if let Some(depth) = map.find_blocker(&receiver, position) {
-                    count += 1.0;
-                    depth_sum += depth;
+            for [dx, dy] in disc.0 {
+                for lane in 0..LANES {
+                    let position = [receiver.x + dx[lane] * radius, receiver.y + dy[lane] * radius];
+                    if let Some(depth) = map.find_blocker(&receiver, position) {
+                        count += 1.0;
+                        depth_sum += depth;
+                    }
                 }
             }
-            let receiver = &receiver;
-            let disc = FILTER_DISC.as_slice();
-            for level in SimdLevel::available() {
-                let found = level.run_kernel(CountBlockers { map: &map, receiver, radius, disc });
-                assert_eq!((found.count, found.depth_sum), (count, depth_sum), "{x} {z}");
+            let found = map.count_blockers(&receiver, radius, disc);
+            assert_eq!(found.count, count, "{x} {z}");
+            assert!((found.depth_sum - depth_sum).abs() < 1e-4, "{x} {z}");
+        }
+    }
+
+    #[test]
+    fn discs_are_evenly_spread() {
+        for (radius, count) in [(2.0, 16.0), (4.0, 24.0), (60.0, 48.0)] {
+            let disc = filter_disc(radius);
+            assert_eq!(disc.position_count(), count);
+            // The mean of x² + y² over a disc of radius 1 is ½, that of x and y is 0.
+            let (mut sums, mut squares) = ([0.0; 2], 0.0);
+            for [x, y] in disc.0 {
+                for lane in 0..LANES {
+                    sums[0] += x[lane] / count;
+                    sums[1] += y[lane] / count;
+                    squares += (x[lane] * x[lane] + y[lane] * y[lane]) / count;
+                }
             }
+            assert!((squares - 0.5).abs() < 1e-3, "{count}: {squares}");
+            assert!(sums.iter().all(|mean| mean.abs() < 0.04), "{count}: {sums:?}");
         }
     }
 }
