@@ -1,4 +1,5 @@
-//! glTF validation: every violation of the specification in a file, not only the first fatal one.
+//! Validation: every violation of the glTF specification in a file, not only the first fatal one.
+//! Of other formats, the diagnostics of the loader.
 //!
 //! Loading stops at the first error that prevents drawing. Validation goes on: it compares the JSON
 //! with the schema, resolves every reference, reads every accessor element, and finally loads the
@@ -42,10 +43,10 @@ mod usage;
 pub use report::CheckReport;
 
 use crate::diagnostic::Diagnostic;
-use crate::import::ImportOptions;
 use crate::import::gltf::document::check_json_limits;
-use crate::import::gltf::import_gltf;
+use crate::import::import_model;
 use crate::import::uri_resolver::{self, UriResolver};
+use crate::import::{FileFormat, ImportOptions};
 use data::ElementRules;
 use diagnostics::Diagnostics;
 use document::CheckedDocument;
@@ -54,7 +55,7 @@ use std::path::Path;
 use store::BufferStore;
 use usage::UsageMap;
 
-/// Validates a `.gltf` or `.glb` file with its buffers and images.
+/// Validates a file with those it refers to.
 ///
 /// There is always a report: a file that cannot be read is an error in it.
 ///
@@ -71,10 +72,12 @@ pub fn check_file(path: &Path, options: &ImportOptions) -> CheckReport {
     let findings = Diagnostics::default();
     let resolver = |length| UriResolver::new(path, length, options);
     let result = uri_resolver::read_file(path, &options.limits, "").and_then(|bytes| {
-        check_content(&bytes, &resolver(bytes.len())?, &findings);
+        if has_gltf_rules(path, &bytes) {
+            check_content(&bytes, &resolver(bytes.len())?, &findings);
+        }
         // A resolver of its own: the bytes read by the validation do not count against the
         // loader's limits.
-        import_gltf(path, &bytes, &resolver(bytes.len())?, options)
+        import_model(path, &bytes, &resolver(bytes.len())?, options)
     });
     build_report(path, result, findings)
 }
@@ -89,10 +92,18 @@ pub fn check_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> CheckRe
     let findings = Diagnostics::default();
     let resolver = || UriResolver::in_memory(bytes.len(), options);
     let result = resolver().and_then(|own| {
-        check_content(bytes, &own, &findings);
-        import_gltf(path, bytes, &resolver()?, options)
+        if has_gltf_rules(path, bytes) {
+            check_content(bytes, &own, &findings);
+        }
+        import_model(path, bytes, &resolver()?, options)
     });
     build_report(path, result, findings)
+}
+
+/// Whether the file is validated against the specification of glTF. Of other formats only the
+/// loader's diagnostics are reported.
+fn has_gltf_rules(path: &Path, bytes: &[u8]) -> bool {
+    FileFormat::recognize(path, bytes) == Ok(FileFormat::Gltf)
 }
 
 /// Adds the diagnostics of the loader, and counts.

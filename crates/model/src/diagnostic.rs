@@ -9,8 +9,10 @@
 //! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are made of
 //! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
 //!
-//! Locations are JSON pointers (RFC 6901): the path of keys and indices from the root of the
-//! document, with `~1` for `/` and `~0` for `~` inside of a key.
+//! Locations in glTF are JSON pointers (RFC 6901): the path of keys and indices from the root of
+//! the document, with `~1` for `/` and `~0` for `~` inside of a key. Those in other formats are
+//! `line 12, column 5` of a text and `byte 84` of a binary file; a part of an archive is named
+//! before: `3D/3dmodel.model: line 3, column 7`.
 
 use std::fmt;
 
@@ -20,6 +22,10 @@ pub mod codes {
     pub const IO_ERROR: &str = "IO_ERROR";
     /// A file may not be read: it lies outside of the folders that assets must stay in.
     pub const FORBIDDEN_PATH: &str = "FORBIDDEN_PATH";
+    /// Neither the content of the file nor its name says which format it is in.
+    pub const UNKNOWN_FORMAT: &str = "UNKNOWN_FORMAT";
+    /// The file's name stands for another format than its content is in.
+    pub const MISLEADING_NAME: &str = "MISLEADING_NAME";
     /// The file is not glTF, or is truncated.
     pub const NOT_GLTF: &str = "NOT_GLTF";
     /// The file is of an unsupported version of glTF.
@@ -47,8 +53,8 @@ pub struct Diagnostic {
     /// Identifier of the rule, for programs: a constant of [`codes`], or the name that the Khronos
     /// validator gives the issue.
     pub code: &'static str,
-    /// A JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`; empty if the
-    /// file as a whole is meant.
+    /// Where: in glTF a JSON pointer (RFC 6901) such as `/meshes/3/primitives/0/attributes/NORMAL`,
+    /// else `line 12, column 5` or `byte 84`; empty if the file as a whole is meant.
     pub location: String,
     /// The fault and, for a warning, its consequence: a clause without a full stop.
     pub message: String,

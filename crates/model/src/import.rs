@@ -15,12 +15,13 @@
 //! | broken shape | yes | the primitive is left out |
 //! | missing buffer file | yes | what uses it is left out |
 //! | unknown required extension | yes | it is ignored |
-//! | not glTF, other version | yes | yes |
+//! | unknown format, other version | yes | yes |
 //! | exceeded limit | yes | yes |
 //!
-//! The modules here serve every format; `gltf` reads glTF 2.0.
+//! The modules here serve every format; `gltf`, `stl`, `obj`, `ply` and `threemf` read one each.
 
 mod error;
+mod file_format;
 pub(crate) mod gltf;
 pub(crate) mod image_decoder;
 mod limits;
@@ -28,19 +29,22 @@ pub(crate) mod memory_budget;
 mod name_or_index;
 mod normals;
 mod parallel_decoding;
+mod polygons;
+mod stl;
+mod text;
 pub(crate) mod uri_resolver;
 mod warnings;
 
 pub use crate::check::{CheckReport, check_bytes, check_file};
 pub use error::ImportError;
+pub use file_format::FileFormat;
 pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;
 pub use limits::Limits;
 pub use name_or_index::NameOrIndex;
 
-use crate::Model;
-use crate::Timings;
-use gltf::import_gltf;
+use crate::diagnostic::{Diagnostic, Severity, codes};
+use crate::{LengthUnit, Model, Timings, UpAxis};
 use std::path::{Path, PathBuf};
 use uri_resolver::UriResolver;
 
@@ -63,6 +67,15 @@ pub struct ImportOptions {
     pub variant: Option<NameOrIndex>,
     /// Whether images are decoded. Default: those that are visible.
     pub images: ImageLoading,
+    /// The axis that points up in the file. Default: what the format says: z for STL and 3MF, y for
+    /// the others.
+    pub up: Option<UpAxis>,
+    /// The unit of the file's coordinates. Default: what the file declares, else the convention of
+    /// its format; see [`LengthUnit`].
+    pub length_unit: Option<LengthUnit>,
+    /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
+    /// degrees, where a file has no normals. Default: 30.
+    pub crease_angle: Option<f64>,
     /// Stopwatch for the stages of loading. Default: none.
     pub timings: Timings,
 }
@@ -77,7 +90,19 @@ pub enum ImageLoading {
     Headers,
 }
 
-/// Loads a `.gltf` or `.glb` file; its content decides which of the two it is.
+/// The crease angle where the options name none, in degrees.
+const DEFAULT_CREASE_ANGLE: f64 = 30.0;
+
+impl ImportOptions {
+    /// The crease angle in degrees, in [0, 180].
+    pub(crate) fn crease_degrees(&self) -> f64 {
+        let angle = self.crease_angle.filter(|angle| angle.is_finite());
+        angle.unwrap_or(DEFAULT_CREASE_ANGLE).clamp(0.0, 180.0)
+    }
+}
+
+/// Loads a model; its content decides which [format](FileFormat) it is, and its name only where
+/// the content does not say.
 ///
 /// Faults that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
 /// without anything to draw loads as well.
@@ -94,14 +119,14 @@ pub enum ImageLoading {
 /// ```
 ///
 /// # Errors
-/// The file, or one it refers to, cannot be read or is forbidden; is not glTF 2.0 or breaks its
-/// rules; requires an unsupported extension; exceeds a limit; has no such scene or variant as the
-/// options ask for.
+/// The file, or one it refers to, cannot be read or is forbidden; is of no known format or breaks
+/// its rules; requires an unsupported extension; exceeds a limit; has no such scene or variant as
+/// the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || uri_resolver::read_file(path, &options.limits, "");
     let loaded = options.timings.measure("read", read).and_then(|bytes| {
         let resolver = UriResolver::new(path, bytes.len(), options)?;
-        import_gltf(path, &bytes, &resolver, options)
+        import_model(path, &bytes, &resolver, options)
     });
     loaded.map_err(|diagnostic| ImportError {
         file: path.to_owned(),
@@ -119,9 +144,70 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
 pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
-        .and_then(|resolver| import_gltf(path, bytes, &resolver, options));
+        .and_then(|resolver| import_model(path, bytes, &resolver, options));
     loaded.map_err(|diagnostic| ImportError {
         file: path.to_owned(),
         diagnostic: Box::new(diagnostic),
     })
+}
+
+/// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
+///
+/// The readers give each model the up axis and unit of its file; the options replace them here, and
+/// the model is turned upright.
+pub(crate) fn import_model(
+    path: &Path,
+    bytes: &[u8],
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let format = FileFormat::recognize(path, bytes)?;
+    let import = match format {
+        FileFormat::Gltf => gltf::import_gltf,
+        FileFormat::Stl => stl::import_stl,
+        FileFormat::Obj => not_yet_read,
+        FileFormat::Ply => not_yet_read,
+        FileFormat::ThreeMf => not_yet_read,
+    };
+    let mut model = import(path, bytes, resolver, options)?;
+    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    model.length_unit = options.length_unit.unwrap_or(model.length_unit);
+    model.rotate_roots(options.up.unwrap_or(model.up_axis));
+    if format != FileFormat::Gltf {
+        check_scene_limits(&model, resolver.limits)?;
+    }
+    model.warnings.extend(misleading_name(path, format));
+    Ok(model)
+}
+
+/// The note about a file whose name stands for another format than it is in.
+fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
+    let named = FileFormat::from_extension(path).filter(|named| *named != format)?;
+    let message = format!("the name says {}, but this is {}", named.name(), format.name());
+    let help = format!("rename it to end in .{}", format.extensions().last()?);
+    Some(Diagnostic {
+        severity: Severity::Info,
+        ..Diagnostic::error(codes::MISLEADING_NAME, "", message, &help)
+    })
+}
+
+/// Checks the numbers of nodes and of items that the scene shows.
+fn check_scene_limits(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
+    let nodes = model.nodes.len();
+    if nodes > limits.nodes {
+        let what = format!("the model has {nodes} nodes");
+        return Err(Diagnostic::limit_exceeded("", &what, "nodes", limits.nodes as u64));
+    }
+    gltf::check_scene_items(model, limits)
+}
+
+/// The error for formats that have no reader yet.
+fn not_yet_read(
+    _: &Path,
+    _: &[u8],
+    _: &UriResolver<'_>,
+    _: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let message = "this format is not read yet";
+    Err(Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, "convert it to .glb"))
 }

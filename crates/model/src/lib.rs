@@ -1,7 +1,7 @@
-//! Models: glTF files read into plain arrays, with every index checked and every default decided.
+//! Models: files read into plain arrays, with every index checked and every default decided.
 //!
-//! [`load`] reads a file into a [`Model`]; [`import::check_file`] validates one as the Khronos glTF
-//! validator does. A model is posed by [`Model::apply_animation`], and its vertices are deformed by
+//! [`load`] reads a file into a [`Model`]; [`import::check_file`] validates one, glTF as the Khronos
+//! glTF validator does. A model is posed by [`Model::apply_animation`], and its vertices are deformed by
 //! [`Model::skin_primitive`].
 
 mod animation;
@@ -9,6 +9,7 @@ mod camera;
 mod check;
 mod diagnostic;
 pub mod import;
+mod length_unit;
 mod light;
 mod material;
 mod mesh;
@@ -18,6 +19,7 @@ mod scene_graph;
 mod skinning;
 mod texture;
 mod timings;
+mod up_axis;
 
 pub use animation::{
     Animation, AnimationChannel, AnimationCurve, AnimationTarget, Interpolation, NodeProperty,
@@ -26,7 +28,8 @@ pub use animation::{
 pub use camera::{CameraProjection, ModelCamera};
 pub use check::{CheckReport, check_bytes, check_file};
 pub use diagnostic::{Diagnostic, Severity, codes};
-pub use import::{ImportError, ImportOptions, Limits, load, load_bytes};
+pub use import::{FileFormat, ImportError, ImportOptions, Limits, load, load_bytes};
+pub use length_unit::LengthUnit;
 pub use light::{LightKind, PunctualLight};
 pub use material::{
     AlphaMode, Anisotropy, Clearcoat, Emission, Iridescence, Material, MaterialExtensions,
@@ -45,6 +48,7 @@ pub use texture::{
     Image, ImageHeader, ImageInfo, MipmapMode, Sampler, Texture, TextureFilter, WrapMode,
 };
 pub use timings::Timings;
+pub use up_axis::UpAxis;
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

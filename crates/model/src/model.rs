@@ -5,8 +5,8 @@
 //! is. Nothing after the importer looks at the file again.
 
 use crate::{
-    Animation, Diagnostic, Image, ImageInfo, Material, Mesh, ModelCamera, Node, PunctualLight,
-    SceneRoots, Skin, Texture, UvTransform,
+    Animation, Diagnostic, Image, ImageInfo, LengthUnit, Material, Mesh, ModelCamera, Node,
+    PunctualLight, SceneRoots, Skin, Texture, UpAxis, UvTransform,
 };
 
 /// One file's meshes, materials, textures, scene graph and animations.
@@ -17,6 +17,12 @@ use crate::{
 pub struct Model {
     /// The file's name without folder and extension, for messages.
     pub name: String,
+    /// Unit of all lengths: what the file declares, or the convention of its format, or
+    /// [what the options say](crate::ImportOptions::length_unit). Coordinates stay as they are.
+    pub length_unit: LengthUnit,
+    /// The axis that points up in the coordinates of the file. If that is not y, the root nodes
+    /// have been rotated, so that y points up in model space.
+    pub up_axis: UpAxis,
     /// Meshes, indexed as in the file.
     pub meshes: Vec<Mesh>,
     /// Materials, indexed as in the file.

@@ -99,6 +99,7 @@ codes! {
         "move it to the object that the extension's specification names" => UNEXPECTED_EXTENSION_OBJECT;
         "export the file without it, or load it with --lenient" => UNSUPPORTED_REQUIRED_EXTENSION;
         "use a .gltf or .glb file" => NOT_GLTF;
+        "use a .gltf, .glb, .stl, .obj, .ply or .3mf file" => UNKNOWN_FORMAT;
         "convert it to plain glTF 2.0" => UNSUPPORTED_VERSION;
         "raise the limit if you trust the file" => LIMIT_EXCEEDED;
         "export the file again" => NOT_LOADED;
@@ -123,6 +124,7 @@ codes! {
         "no action needed, unless it is missing in the picture" => NOT_SHOWN;
     }
     Info {
+        "rename it" => MISLEADING_NAME;
         "remove it" => ACCESSOR_INDEX_TRIANGLE_DEGENERATE NODE_EMPTY NODE_MATRIX_DEFAULT UNUSED_OBJECT;
         "no action needed: unsupported extensions are not validated" => UNSUPPORTED_EXTENSION;
     }

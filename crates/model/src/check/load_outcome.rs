@@ -25,8 +25,13 @@ pub(super) fn add_load_outcome(
             continue;
         }
         let is_extension = warning.location.starts_with("/extensions");
-        let code = if is_extension { &codes::NOT_SHOWN } else { &codes::LEFT_OUT };
-        diagnostics.add(code, &warning.location, &warning.message);
+        let code = match warning.code {
+            load::MISLEADING_NAME => &codes::MISLEADING_NAME,
+            _ if is_extension => &codes::NOT_SHOWN,
+            _ => &codes::LEFT_OUT,
+        };
+        let help = warning.help.as_deref().unwrap_or(code.remedy);
+        diagnostics.add_with_help(code, &warning.location, &warning.message, help);
     }
     None
 }
@@ -41,6 +46,7 @@ fn add_refusal(fault: &Diagnostic, diagnostics: &Diagnostics) {
         load::LIMIT_EXCEEDED => &codes::LIMIT_EXCEEDED,
         load::NOT_GLTF if has_errors => return,
         load::NOT_GLTF => &codes::NOT_GLTF,
+        load::UNKNOWN_FORMAT => &codes::UNKNOWN_FORMAT,
         _ if is_known || fault.location.is_empty() && has_errors => return,
         load::IO_ERROR | load::FORBIDDEN_PATH => &codes::IO_ERROR,
         load::UNSUPPORTED_VERSION => &codes::UNSUPPORTED_VERSION,

@@ -39,6 +39,7 @@ mod topology;
 mod untyped_members;
 
 pub use extensions::{ExtensionUse, extension_use};
+pub(super) use scene_graph::check_scene_items;
 
 use super::ImportOptions;
 use super::uri_resolver::UriResolver;
@@ -51,10 +52,9 @@ use container::Container;
 use document::GltfDocument;
 use std::path::Path;
 
-/// Imports a glTF file whose bytes have been read; the file name in `path` becomes the model's
-/// name.
-pub(crate) fn import_gltf(
-    path: &Path,
+/// Imports a glTF file whose bytes have been read.
+pub(super) fn import_gltf(
+    _path: &Path,
     bytes: &[u8],
     resolver: &UriResolver<'_>,
     options: &ImportOptions,
@@ -70,7 +70,6 @@ pub(crate) fn import_gltf(
     let buffers = Buffers::new(&document.root, resolver, chunk, limits);
     let source = AccessorReader::new(&document.root, &buffers, limits);
     let mut model = model_builder::build_model(&document, &source, options, &mut warnings)?;
-    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     model.warnings = warnings.into_list();
     Ok(model)
 }

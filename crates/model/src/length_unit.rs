@@ -1,0 +1,51 @@
+//! Length units of files.
+
+/// The unit of a file's coordinates.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum LengthUnit {
+    /// 0.001 mm.
+    Micrometer,
+    /// 1 mm: the unit of 3MF files that name none, and by convention of STL files.
+    Millimeter,
+    /// 10 mm.
+    Centimeter,
+    /// 1 m: the unit of glTF, and assumed of OBJ and PLY files, whose formats have none.
+    #[default]
+    Meter,
+    /// 25.4 mm.
+    Inch,
+    /// 304.8 mm.
+    Foot,
+}
+
+impl LengthUnit {
+    /// All units, the metric ones first.
+    pub const ALL: [Self; 6] =
+        [Self::Micrometer, Self::Millimeter, Self::Centimeter, Self::Meter, Self::Inch, Self::Foot];
+
+    /// The length of the unit in millimeters.
+    #[must_use]
+    pub const fn in_millimeters(self) -> f64 {
+        match self {
+            Self::Micrometer => 0.001,
+            Self::Millimeter => 1.0,
+            Self::Centimeter => 10.0,
+            Self::Meter => 1000.0,
+            Self::Inch => 25.4,
+            Self::Foot => 304.8,
+        }
+    }
+
+    /// The symbol: `µm`, `mm`, `cm`, `m`, `in` or `ft`.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Micrometer => "µm",
+            Self::Millimeter => "mm",
+            Self::Centimeter => "cm",
+            Self::Meter => "m",
+            Self::Inch => "in",
+            Self::Foot => "ft",
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Up axes of files, and the rotation that turns them to y.
+
+use crate::{Model, Node};
+use homog::{Affine, Model as ModelSpace, Point, Vector};
+
+/// The coordinate axis that points up in a file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum UpAxis {
+    /// x, with y to the left and z to the front, as in COLLADA.
+    X,
+    /// y, with x to the right and z to the front: glTF, and by convention OBJ and PLY.
+    #[default]
+    Y,
+    /// z, with x to the right and y to the back: 3MF, and by convention STL.
+    Z,
+}
+
+impl UpAxis {
+    /// The rotation to a system with y up: exact, because it only permutes coordinates.
+    fn to_y_up(self) -> Affine<ModelSpace, ModelSpace> {
+        let [x, y, z] = match self {
+            Self::X => [Vector::new(0.0, 1.0, 0.0), Vector::new(-1.0, 0.0, 0.0), Vector::Z],
+            Self::Y => [Vector::X, Vector::Y, Vector::Z],
+            Self::Z => [Vector::X, Vector::new(0.0, 0.0, -1.0), Vector::Y],
+        };
+        Affine::from_frame(x, y, z, Point::ORIGIN)
+    }
+}
+
+impl Model {
+    /// Gives every root node a parent that rotates the axis `up` of the file to y.
+    ///
+    /// Parents instead of changed roots, as animations may set the transforms of those. The new
+    /// nodes come last, so that all others keep their indices.
+    pub(crate) fn rotate_roots(&mut self, up: UpAxis) {
+        self.up_axis = up;
+        if up == UpAxis::Y {
+            return;
+        }
+        let to_parent = up.to_y_up();
+        let count = self.nodes.len();
+        let mut parents = vec![None; count];
+        for node in 0..count {
+            self.nodes[node].to_model = self.nodes[node].to_model.then(to_parent);
+            if self.nodes[node].parent.is_none() {
+                let parent = self.nodes.len();
+                (parents[node], self.nodes[node].parent) = (Some(parent), Some(parent));
+                let (trs, to_model) = (None, to_parent);
+                let children = vec![node];
+                self.nodes.push(Node { to_parent, to_model, trs, children, ..Node::default() });
+            }
+        }
+        // The roots of scenes that are not active have not been checked.
+        let new_root =
+            |node: &mut usize| *node = parents.get(*node).copied().flatten().unwrap_or(*node);
+        self.roots.iter_mut().for_each(new_root);
+        self.scenes.iter_mut().flat_map(|scene| &mut scene.nodes).for_each(new_root);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Mesh, Primitive};
+
+    #[test]
+    fn the_axis_points_up_and_the_rotation_is_exact() {
+        let corner = [1.0, 2.0, 3.0];
+        for (up, expected) in
+            [(UpAxis::X, [-2.0, 1.0, 3.0]), (UpAxis::Y, corner), (UpAxis::Z, [1.0, 3.0, -2.0])]
+        {
+            let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], corner.map(|x| x as f32)];
+            let primitive = Primitive { indices: vec![2, 2, 2], positions, ..Primitive::default() };
+            let mesh = Mesh { primitives: vec![primitive], ..Mesh::default() };
+            let mut model = Model {
+                meshes: vec![mesh],
+                nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+                roots: vec![0],
+                ..Model::default()
+            };
+            model.rotate_roots(up);
+            let points = model.scene_points();
+            assert_eq!(
+                points.iter().map(|p| p.raw().to_array()).collect::<Vec<_>>(),
+                [expected; 3]
+            );
+            assert_eq!(model.up_axis, up);
+            assert!(up.to_y_up().determinant() == 1.0);
+        }
+    }
+}
