@@ -25,6 +25,11 @@ impl<'a> TextScanner<'a> {
         Self { text, at: 0 }
     }
 
+    /// A scanner in the middle of a text.
+    pub(in crate::import) const fn starting_at(text: &'a [u8], offset: usize) -> Self {
+        Self { text, at: offset }
+    }
+
     /// Offset of the next byte.
     pub(in crate::import) const fn offset(&self) -> usize {
         self.at
