@@ -9,6 +9,8 @@ use std::path::Path;
 /// A file that wishes the importer ill.
 pub struct Case {
     pub name: String,
+    /// The name of the file, which decides its format where the content does not.
+    pub file_name: &'static str,
     pub file: Vec<u8>,
     pub options: ImportOptions,
     pub expected: Expected,
@@ -34,7 +36,8 @@ pub enum Expected {
 
 impl Case {
     pub fn new(name: impl Into<String>, file: Vec<u8>, expected: Expected) -> Self {
-        Self { name: name.into(), file, options: ImportOptions::default(), expected }
+        let (name, file_name) = (name.into(), "model.gltf");
+        Self { name, file_name, file, options: ImportOptions::default(), expected }
     }
 
     pub fn from_document(name: impl Into<String>, document: &Document, expected: Expected) -> Self {
@@ -43,16 +46,16 @@ impl Case {
 
     /// Writes the file into a folder, loads it, and compares.
     pub fn check_file(&self, folder: &Path) -> Result<(), String> {
-        let path = folder.join("model.gltf");
+        let path = folder.join(self.file_name);
         std::fs::write(&path, &self.file).map_err(|error| error.to_string())?;
         check_path(&path, &self.options, &self.expected)
     }
 
     /// Checks the file: a report that says whether it loads, and why not.
     pub fn check_bytes(&self) -> Result<(), String> {
-        let report = check_bytes("model.gltf", &self.file, &self.options);
+        let report = check_bytes(self.file_name, &self.file, &self.options);
         let fault =
-            load_bytes("model.gltf", &self.file, &self.options).err().map(|e| *e.diagnostic);
+            load_bytes(self.file_name, &self.file, &self.options).err().map(|e| *e.diagnostic);
         if report.load_error != fault {
             return Err(format!("loading says {fault:?}, the report {:?}", report.load_error));
         }
@@ -73,8 +76,8 @@ impl Case {
     /// promise.
     pub fn load_leniently(&self) -> Result<(), String> {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
-        let loads = load_bytes("model.gltf", &self.file, &self.options).is_ok();
-        match load_bytes("model.gltf", &self.file, &options) {
+        let loads = load_bytes(self.file_name, &self.file, &self.options).is_ok();
+        match load_bytes(self.file_name, &self.file, &options) {
             Ok(model) => promises::check_model(&model),
             Err(error) if loads => {
                 Err(format!("it loads, but not leniently: {}", error.diagnostic))

@@ -1,4 +1,4 @@
-//! Hostile glTF files, built here and loaded in this process.
+//! Hostile files, built here and loaded in this process.
 //!
 //! Whatever a file contains, loading and checking it return without a panic, in bounded time and
 //! memory; and a model that is returned, from strict or lenient import, keeps every promise of its
@@ -15,6 +15,7 @@ mod case;
 mod draco;
 mod images;
 mod members;
+mod meshes;
 mod meshopt;
 mod nodes;
 mod promises;
@@ -103,7 +104,7 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
 /// Builds the cases of a group.
 type Cases = fn() -> Vec<Case>;
 
-fn case_groups() -> [(&'static str, Cases); 10] {
+fn case_groups() -> [(&'static str, Cases); 11] {
     [
         ("types", types::type_cases),
         ("accessors", accessors::accessor_cases),
@@ -115,6 +116,7 @@ fn case_groups() -> [(&'static str, Cases); 10] {
         ("nodes", nodes::node_cases),
         ("images", images::image_cases),
         ("text", text::text_cases),
+        ("meshes", meshes::mesh_cases),
     ]
 }
 

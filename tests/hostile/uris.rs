@@ -7,7 +7,7 @@ use serde_json::json;
 use std::fs;
 use std::path::Path;
 
-const OUTSIDE: &str = "copy the file beside the glTF file and name it by a relative path, or allow its folder with \
+const OUTSIDE: &str = "copy the file beside the model and name it by a relative path, or allow its folder with \
                        --allow-outside DIR";
 
 /// A case's name, and what was wrong.
@@ -173,7 +173,7 @@ fn outside_folder(uri: &str) -> Expected {
 }
 
 fn missing_file(uri: &str) -> Expected {
-    fault_at(&format!("the file {uri:?} does not exist"), "put it beside the glTF file")
+    fault_at(&format!("the file {uri:?} does not exist"), "put it beside the model")
 }
 
 fn unsupported_scheme(scheme: &str, uri: &str) -> Expected {

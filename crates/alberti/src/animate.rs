@@ -26,7 +26,7 @@ use std::path::PathBuf;
 /// Arguments of `alberti animate`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AnimateArgs {
-    /// Scene (.ron) or model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     input: PathBuf,
     /// Output: NAME_{frame:04}.png for a file per frame, NAME.png for an animated PNG, NAME.gif, or
     /// - for raw RGBA frames on the standard output

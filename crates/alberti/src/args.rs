@@ -28,7 +28,9 @@ use camera::NamedView;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
-/// Render, draw, validate and explain glTF models without a GPU, a display or a browser
+/// Render, draw, validate and explain 3D models without a GPU, a display or a browser
+///
+/// Models are glTF, STL, OBJ, PLY and 3MF files, recognized by their content.
 ///
 /// Output is deterministic: the bytes depend neither on the machine nor on the number of threads.
 #[derive(Debug, Parser)]
@@ -50,6 +52,7 @@ Examples:
   alberti render model.glb -o model.svg           a line drawing with hidden lines removed
   alberti sheet model.glb --paper a4              front, top, side and isometric view, to scale
   alberti info model.glb                          the contents of a model
+  alberti sheet part.stl --paper a4 --unit mm     a part in its true size, or to scale
   alberti check model.glb                         validation against the glTF specification
   alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
@@ -110,7 +113,7 @@ pub(crate) enum Command {
 /// Arguments of `alberti render`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// Scenes (.ron) or models (.gltf, .glb); `-` reads one from the standard input
+    /// Scenes (.ron) or models (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` reads one from the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
     /// Output file: .png, or .svg or .pdf for a line drawing; `-` is the standard output
@@ -172,7 +175,7 @@ pub(crate) struct RenderArgs {
 /// Arguments of `alberti check`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckArgs {
-    /// Scene (.ron) or model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     pub(crate) input: PathBuf,
     /// Print the report as JSON
     #[arg(long)]
@@ -184,7 +187,7 @@ pub(crate) struct CheckArgs {
 /// Arguments of `alberti info`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
-    /// Model (.gltf, .glb)
+    /// Model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) model_state: ModelStateArgs,

@@ -1,7 +1,8 @@
 //! `alberti check` and `alberti scene check`: validation of scenes and models.
 //!
 //! A scene gets its errors, lints for values that are probably unintended, and the validation of
-//! each model it refers to. A model is validated against the glTF 2.0 specification.
+//! each model it refers to. A glTF file is validated against the glTF 2.0
+//! specification; of other formats, the report has what reading them says.
 //!
 //! The standard output has the report, also when it is full of errors: they are the result, not a
 //! failure. Only what keeps the check itself from running, such as a missing scene, is printed as

@@ -30,7 +30,7 @@ const MAX_PAGE_SIDE: f64 = 960.0;
 /// Arguments of `alberti explain`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExplainArgs {
-    /// Scene (.ron) or model (.gltf, .glb); none with --matrix or --planes
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf); none with --matrix or --planes
     input: Option<PathBuf>,
     #[command(flatten)]
     subject: ExplainSubjectArgs,

@@ -85,6 +85,7 @@ fn describe_model(model: &Model) -> String {
     line("meshes", meshes_line(model));
     line("shown", shown_line(model));
     line("bounds", bounds_line(model));
+    line("unit", format!("{}, {} up", model.length_unit.symbol(), model.up_axis.letter()));
     line("materials", materials_line(model));
     line("", material_names(model));
     line("textures", format!("{}, images {}", model.textures.len(), model.images.len()));
@@ -101,7 +102,7 @@ fn describe_model(model: &Model) -> String {
     // Warnings about extensions are in the line of the extensions already.
     let is_about_file = |warning: &&Diagnostic| !warning.location.starts_with("/extensions");
     for warning in model.warnings.iter().filter(is_about_file) {
-        line("warning", warning.sentence());
+        line(warning.severity.name(), warning.sentence());
     }
     text
 }
@@ -158,7 +159,7 @@ fn shown_line(model: &Model) -> String {
 /// The axis-aligned bounds of the drawn scene.
 ///
 /// The corners of the box in the chosen pose, in model space: right-handed, y up, lengths in units
-/// of the file, which glTF defines as meters.
+/// of the file.
 fn bounds_line(model: &Model) -> String {
     let Some(bounds) = model.bounds() else { return "none: nothing is shown".to_owned() };
     let triple = |p: [f64; 3]| format!("({:.6}, {:.6}, {:.6})", p[0], p[1], p[2]);

@@ -1,9 +1,12 @@
-//! Flags about loading models: leniency, allowed folders, and limits on the size of the input.
+//! Flags about loading models: leniency, allowed folders, what a file does not say of its axes,
+//! unit and normals, and limits on the size of the input.
 //!
 //! Models come from anywhere and are not trusted: without limits, a file of a few kilobytes could
 //! demand terabytes. Every command that loads a model has these flags.
 
+use super::options::option_parser;
 use model::import::{ImportOptions, Limits};
+use model::{LengthUnit, UpAxis};
 use std::path::PathBuf;
 
 /// How models are loaded; [`import_options`](Self::import_options) makes the library's options.
@@ -18,6 +21,17 @@ pub(crate) struct LoadArgs {
     /// By default only files below the folder of the scene and of the model are read.
     #[arg(long, value_name = "DIR")]
     allow_outside: Vec<PathBuf>,
+    /// Axis that points up in the file [default: z for STL and 3MF, y for all others]
+    #[arg(long, value_name = "AXIS", value_parser = option_parser::<UpAxis>())]
+    pub(crate) up: Option<UpAxis>,
+    /// Length unit of the model, for sheets and dimensions [default: what the file declares; else
+    /// mm for STL and 3MF, m for all others]
+    #[arg(long, value_parser = option_parser::<LengthUnit>())]
+    pub(crate) unit: Option<LengthUnit>,
+    /// Largest angle between faces that are shaded as one smooth surface, where a file has no
+    /// normals [default: 30]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_crease_angle)]
+    pub(crate) crease: Option<f64>,
     #[command(flatten)]
     limits: LimitArgs,
 }
@@ -68,6 +82,9 @@ impl LoadArgs {
             limits: self.limits.to_limits(),
             allow_outside: self.allow_outside.clone(),
             lenient: self.lenient,
+            up: self.up,
+            length_unit: self.unit,
+            crease_angle: self.crease,
             ..ImportOptions::default()
         }
     }
@@ -98,6 +115,12 @@ impl LimitArgs {
             scene_items: self.max_scene_items.unwrap_or(defaults.scene_items),
         }
     }
+}
+
+/// Parses an angle from 0 to 180 degrees.
+fn parse_crease_angle(text: &str) -> Result<f64, String> {
+    let angle = text.parse().ok().filter(|angle| (0.0..=180.0).contains(angle));
+    angle.ok_or_else(|| "expected an angle from 0 to 180 degrees".to_owned())
 }
 
 /// Parses a whole number with an optional decimal or binary unit: `512MiB`, `200M`, `1_000`.

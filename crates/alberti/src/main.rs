@@ -1,4 +1,4 @@
-//! The program `alberti`: renders, draws, validates and explains glTF models.
+//! The program `alberti`: renders, draws, validates and explains 3D models.
 //!
 //! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
 //! results go to the standard output, messages to the standard error stream.
@@ -13,7 +13,7 @@
 //! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
 //! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
 //! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
-//! | [`model`] | glTF to a checked model, validation, skinning and morph targets |
+//! | [`model`] | files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
 //! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG and PDF |
 //! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |

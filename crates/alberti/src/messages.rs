@@ -79,7 +79,7 @@ pub(crate) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning]) {
 /// ```
 fn print_model_warnings(name: &str, warnings: &[Diagnostic]) {
     for warning in warnings.iter().take(MAX_WARNINGS) {
-        print_message("warning", &format!("{name}: {}", warning.sentence()));
+        print_message(warning.severity.name(), &format!("{name}: {}", warning.sentence()));
     }
     let rest = warnings.len().saturating_sub(MAX_WARNINGS);
     if rest > 0 {

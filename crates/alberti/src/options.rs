@@ -10,11 +10,12 @@ use pipeline::options::NamedOption;
 ///
 /// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
 /// one that flags accept. Scene files keep the long name, because it is read more often than typed.
-const SHORT_NAMES: [(&str, &str); 6] = [
+const SHORT_NAMES: [(&str, &str); 7] = [
     ("ag-x", "agx"),
     ("meter", "m"),
     ("centimeter", "cm"),
     ("millimeter", "mm"),
+    ("micrometer", "um"),
     ("inch", "in"),
     ("foot", "ft"),
 ];
@@ -22,7 +23,7 @@ const SHORT_NAMES: [(&str, &str); 6] = [
 /// The name of a value in flags.
 ///
 /// Lower case with hyphens between words, as the library makes it, or the short name of
-/// [`SHORT_NAMES`]: `ModelUnit::Centimeter` is `cm`.
+/// [`SHORT_NAMES`]: `LengthUnit::Centimeter` is `cm`.
 fn flag_name<T: NamedOption>(value: T) -> String {
     let name = value.flag_name();
     let short = SHORT_NAMES.iter().find(|(long, _)| *long == name);
@@ -36,7 +37,7 @@ fn flag_name<T: NamedOption>(value: T) -> String {
 /// are sentences.
 ///
 /// ```text
-/// --unit <UNIT>   [possible values: m, cm, mm, in, ft]
+/// --unit <UNIT>   [possible values: m, cm, mm, um, in, ft]
 /// ```
 pub(super) fn option_parser<T>() -> impl TypedValueParser<Value = T>
 where
@@ -54,13 +55,13 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pipeline::scene::file::ModelUnit;
+    use model::LengthUnit;
     use pipeline::shade::ToneMapping;
 
     #[test]
     fn names_are_lower_case_and_short_where_that_is_usual() {
-        let names = |all: &[ModelUnit]| all.iter().map(|unit| flag_name(*unit)).collect::<Vec<_>>();
-        assert_eq!(names(ModelUnit::ALL), ["m", "cm", "mm", "in", "ft"]);
+        let names: Vec<String> = LengthUnit::ALL.iter().map(|unit| flag_name(*unit)).collect();
+        assert_eq!(names, ["m", "cm", "mm", "um", "in", "ft"]);
         assert_eq!(flag_name(ToneMapping::AgX), "agx");
     }
 }

@@ -15,7 +15,7 @@ use super::progress::Progress;
 use super::render_job::RenderJob;
 use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
-use model::import::ImportOptions;
+use model::import::{FileFormat, ImportOptions};
 use pipeline::scene::file::SceneFile;
 use pipeline::scene::{Outputs, ResolveOptions};
 use pipeline::{Origin, Scene, Timings};
@@ -197,14 +197,14 @@ pub(super) fn open_input(
 
 /// Reads a model or a scene from the standard input.
 ///
-/// A model is recognized by its first bytes, `glTF` or `{`. Paths of a scene are relative to the
+/// A model is recognized by its content. Paths of a scene are relative to the
 /// current folder.
 ///
 /// At most `--max-file-bytes` are read, plus one byte that shows that there are more; an endless
 /// stream therefore ends with an error instead of filling the memory.
 ///
-/// A scene is a RON struct and never begins with a brace, so the two cannot be confused. A model
-/// must be complete in itself: its buffers and images have no folder to be found in.
+/// A scene is a RON struct and begins as no model does, so the two cannot be confused. A model must
+/// be complete in itself: its buffers and images have no folder to be found in.
 fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> {
     let limit = options.limits.file_bytes;
     let mut bytes = Vec::new();
@@ -214,12 +214,11 @@ fn open_stdin(options: &ImportOptions) -> Result<(Origin, SceneFile), CliError> 
     if bytes.len() as u64 > limit {
         return Err(fault(format!("it has more than {limit} bytes; --max-file-bytes allows more")));
     }
-    let is_json = bytes.trim_ascii_start().starts_with(b"{");
-    if is_json || bytes.starts_with(b"glTF") {
+    if FileFormat::from_content(&bytes).is_some() {
         return Ok(Origin::from_model_bytes("stdin", bytes));
     }
     let text = String::from_utf8(bytes)
-        .map_err(|_| fault("it is neither a scene nor a model in glTF's binary form".to_owned()))?;
+        .map_err(|_| fault("it is neither a scene nor a model of a known format".to_owned()))?;
     let origin = Origin::from_text("<stdin>", text, PathBuf::new());
     Ok(origin.parse_with_includes(&options.allow_outside)?)
 }

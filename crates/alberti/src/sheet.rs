@@ -15,7 +15,7 @@ use super::section::SectionArgs;
 use drawing::HiddenLines;
 use drawing::Page;
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile};
+use pipeline::scene::file::{AxonometricView, PageOrientation, PaperSize, SheetFile};
 use pipeline::{Picture, Scene};
 use projection::SheetAngle;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ const DOTS_PER_INCH: f64 = 150.0;
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SheetArgs {
-    /// Scene (.ron) or model (.gltf, .glb)
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     input: PathBuf,
     /// Output file: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
     #[arg(short, long, value_name = "FILE")]
@@ -47,9 +47,6 @@ pub(crate) struct SheetArgs {
     /// Scale, paper to model, such as 1:50 [default: the largest standard scale that fits]
     #[arg(long, value_name = "N:M", value_parser = parse_scale)]
     scale: Option<(u32, u32)>,
-    /// Length unit of the model [default: m]
-    #[arg(long, value_parser = option_parser::<ModelUnit>())]
-    unit: Option<ModelUnit>,
     /// Axonometric view beside the three principal views [default: isometric]
     #[arg(long, value_name = "VIEW", value_parser = option_parser::<AxonometricView>())]
     axonometric: Option<AxonometricView>,
@@ -100,10 +97,10 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     file.camera = pipeline::scene::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
-    let sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file)
-        .map_err(pipeline::ResolveError::from)?;
     let options = ResolveOptions { import: args.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
+    let sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, &scene.models)
+        .map_err(pipeline::ResolveError::from)?;
     progress.enter_stage("drawing");
     let page = sheet.draw(&scene.models, &scene.sections, thread_count(args.threads))?;
     progress.enter_stage("writing");
@@ -149,7 +146,7 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.paper.into_iter().for_each(|paper| sheet.paper = paper);
     args.orientation.into_iter().for_each(|orientation| sheet.orientation = Some(orientation));
     args.projection_angle.into_iter().for_each(|angle| sheet.projection_angle = angle);
-    args.unit.into_iter().for_each(|unit| sheet.unit = unit);
+    sheet.unit = args.load_options.unit.or(sheet.unit);
     args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view);
     args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden);
     sheet.scale = args.scale.or(sheet.scale);

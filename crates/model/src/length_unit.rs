@@ -1,7 +1,7 @@
 //! Length units of files.
 
 /// The unit of a file's coordinates.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub enum LengthUnit {
     /// 0.001 mm.
     Micrometer,

@@ -4,7 +4,7 @@ use crate::{Model, Node};
 use homog::{Affine, Model as ModelSpace, Point, Vector};
 
 /// The coordinate axis that points up in a file.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub enum UpAxis {
     /// x, with y to the left and z to the front, as in COLLADA.
     X,
@@ -16,6 +16,16 @@ pub enum UpAxis {
 }
 
 impl UpAxis {
+    /// The letter of the axis: `x`, `y` or `z`.
+    #[must_use]
+    pub const fn letter(self) -> char {
+        match self {
+            Self::X => 'x',
+            Self::Y => 'y',
+            Self::Z => 'z',
+        }
+    }
+
     /// The rotation to a system with y up: exact, because it only permutes coordinates.
     fn to_y_up(self) -> Affine<ModelSpace, ModelSpace> {
         let [x, y, z] = match self {

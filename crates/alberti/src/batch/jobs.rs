@@ -1,6 +1,7 @@
 //! The jobs of a batch: models and scenes to render, with a unique picture name for each.
 
 use crate::CliError;
+use model::FileFormat;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -102,7 +103,7 @@ fn add_models_below(
         let path = entry.map_err(|cause| read_error(folder, &cause))?.path();
         if path.is_dir() {
             add_models_below(&path, root, depth + 1, found)?;
-        } else if matches!(lowercase_extension(&path).as_deref(), Some("glb" | "gltf")) {
+        } else if FileFormat::from_extension(&path).is_some() {
             let name = path.strip_prefix(root).unwrap_or(&path).to_owned();
             found.push((path, name));
         }

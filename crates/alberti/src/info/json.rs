@@ -44,6 +44,8 @@ pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
         "schema": {"name": "alberti-info", "version": VERSION},
         "file": args.file.to_string_lossy(),
         "name": model.name,
+        "unit": model.length_unit.symbol(),
+        "up": model.up_axis.letter(),
         "shown": {
             "scene": model.active_scene,
             "variant": model.active_variant,

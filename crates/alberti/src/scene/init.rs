@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `alberti scene init`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct InitArgs {
-    /// Model (.gltf, .glb)
+    /// Model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     model: PathBuf,
     /// Output file; `-` is the standard output [default: beside the model, with .ron]
     #[arg(short, long, value_name = "FILE")]
@@ -61,7 +61,8 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     )?;
     let folder = if to_stdout { Path::new("") } else { output.parent().unwrap_or(Path::new("")) };
     let path = relative_path(folder, &args.model);
-    let text = starter_scene(&path, &output.display().to_string(), &scene);
+    let text =
+        starter_scene(&path, &output.display().to_string(), &scene, args.load_options.crease);
     let text = format_source(&path, &text).map_err(ResolveError::from)?;
     if to_stdout {
         print_stdout(text.as_bytes())?;
@@ -104,11 +105,12 @@ fn relative_path(folder: &Path, file: &Path) -> String {
 /// Writing to a `String` cannot fail.
 ///
 /// Strings are written with `{:?}`, whose escapes are valid in RON.
-fn starter_scene(path: &str, output: &str, scene: &Scene) -> String {
+fn starter_scene(path: &str, output: &str, scene: &Scene, crease: Option<f64>) -> String {
     let placed = &scene.models[0];
     let model = &placed.model;
     let mut text = header_comment(model, path, output);
     let _ = write!(text, "Scene(\nmodels: [\nModel(\npath: {path:?},\n");
+    write_conventions(&mut text, model, crease);
     write_model_states(&mut text, model);
     text.push_str(
         "// translation: (0, 0, 0), rotation_degrees: (0, 30, 0), scale: 1,\n),\n],\ncamera: Camera(\n",
@@ -147,6 +149,15 @@ fn header_comment(model: &Model, path: &str, output: &str) -> String {
          // Reference of all fields: alberti scene doc\n",
         single_line(path)
     )
+}
+
+/// Writes axis and unit of the file, which flags may have chosen, unless they are those of glTF.
+fn write_conventions(text: &mut String, model: &Model, crease: Option<f64>) {
+    let Model { up_axis, length_unit, .. } = model;
+    if (*up_axis, *length_unit) != Default::default() {
+        let _ = writeln!(text, "up: {up_axis:?},\nunit: {length_unit:?},");
+    }
+    crease.iter().for_each(|angle| text.push_str(&format!("crease_degrees: {angle},\n")));
 }
 
 /// Writes comments for the scenes, variants and animations that the model offers.

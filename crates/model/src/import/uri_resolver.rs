@@ -148,7 +148,7 @@ impl<'a> UriResolver<'a> {
                 codes::IO_ERROR,
                 pointer,
                 format!("the file {uri:?} does not exist"),
-                "put it beside the glTF file",
+                "put it beside the model",
             ),
         })
     }
@@ -273,7 +273,7 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
 
 /// The error for a path outside of the sandbox.
 fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
-    let help = "copy the file beside the glTF file and name it by a relative path, or allow its folder \
+    let help = "copy the file beside the model and name it by a relative path, or allow its folder \
                   with --allow-outside DIR";
     Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message.to_owned(), help)
 }

@@ -41,15 +41,14 @@ pub use self::passes::PassesFile;
 pub use self::projection::ProjectionFile;
 pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
-pub use self::sheet::{
-    AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile, SideView,
-};
+pub use self::sheet::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
 pub use super::color::{Color, LightColor};
 use super::number::Scale;
 pub use super::number::{FieldOfView, Finite, Triple};
 use super::schema::{scene_enum, scene_struct};
 use crate::import;
+use model::{LengthUnit, UpAxis};
 
 scene_struct! {
     /// A scene file. It begins with the name and brackets of this struct, around its fields:
@@ -109,16 +108,26 @@ scene_struct! {
 }
 
 scene_struct! {
-    /// A glTF file and its transform: scaled, then rotated, then translated.
+    /// A model and its transform: scaled, then rotated, then translated.
     pub struct ModelFile as "Model" {
-        /// The path of a `.gltf` or `.glb` file, from the folder of the scene file.
+        /// The path of a `.gltf`, `.glb`, `.stl`, `.obj`, `.ply` or `.3mf` file, from the folder of
+        /// the scene file.
         pub path: String,
-        /// The translation, in meters as in glTF. Default: (0, 0, 0).
+        /// The translation, in the unit of the file: meters in glTF. Default: (0, 0, 0).
         pub translation: Triple = Triple::ZERO,
         /// Rotations about the x, then the y, then the z axis, in degrees. Default: (0, 0, 0).
         pub rotation_degrees: Triple = Triple::ZERO,
         /// One factor for all axes, or one for each; none of them 0. Default: 1.
         pub scale: Scale = Scale::ONE,
+        /// The axis that points up in the file; the model is turned so that it is y. Default: z for
+        /// STL and 3MF, y for all others.
+        pub up: Option<UpAxis>,
+        /// The unit of the file, for sheets. Default: what the file declares, else millimeters for
+        /// STL and 3MF and meters for all others.
+        pub unit: Option<LengthUnit>,
+        /// The largest angle between faces that are shaded as one smooth surface, in degrees from 0
+        /// to 180, where the file has no normals. Default: 30.
+        pub crease_degrees: Option<Finite>,
         /// The scene of the glTF file. Default: its default scene, else its first.
         pub scene: Option<Choice>,
         /// The variant of the model's materials (KHR_materials_variants). Default: none.
@@ -163,6 +172,9 @@ impl SceneFile {
             translation: Triple::ZERO,
             rotation_degrees: Triple::ZERO,
             scale: Scale::ONE,
+            up: None,
+            unit: None,
+            crease_degrees: None,
             scene: None,
             variant: None,
             animation: None,

@@ -7,6 +7,7 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join};
+use model::{LengthUnit, UpAxis};
 use projection::{PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
 
@@ -52,6 +53,27 @@ pub trait NamedOption: Copy + PartialEq + 'static {
     /// The value of a name in flags.
     fn from_flag_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.flag_name() == name)
+    }
+}
+
+named_values! {
+    /// The unit of a model's coordinates.
+    LengthUnit as "Unit" {
+        Meter = "1 m.",
+        Centimeter = "10 mm.",
+        Millimeter = "1 mm.",
+        Micrometer = "0.001 mm.",
+        Inch = "25.4 mm.",
+        Foot = "304.8 mm.",
+    }
+}
+
+named_values! {
+    /// The axis that points up in a model's file.
+    UpAxis as "UpAxis" {
+        X = "x is up, y to the left and z to the front, as in COLLADA.",
+        Y = "y is up, x to the right and z to the front: glTF, OBJ and PLY.",
+        Z = "z is up, x to the right and y to the back: STL and 3MF, Blender and CAD programs.",
     }
 }
 

@@ -21,10 +21,9 @@ use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
 use homog::Bounds;
-use model::Model;
-use model::ModelInstance;
-use model::import::{ImportError, ImportOptions, load, load_bytes};
+use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes};
 use model::world_points;
+use model::{LengthUnit, Model, ModelInstance, UpAxis};
 use raster::Samples;
 use shade::{ToneMapper, ToneMapping};
 use std::collections::BTreeMap;
@@ -230,17 +229,20 @@ fn load_models(
     }
     instances::check_instance_counts(origin, file)?;
     // Models in one pose are shared; a model in two poses, or with other materials, is two models.
-    /// The file of a model, its scene, variant and animation, and the bits of the time.
-    type Pose = (PathBuf, [Option<Choice>; 3], Option<u64>);
+    /// The file of a model, its axis and unit, its scene, variant and animation, and the bits of
+    /// crease angle and time.
+    type Pose =
+        (PathBuf, (Option<UpAxis>, Option<LengthUnit>), [Option<Choice>; 3], [Option<u64>; 2]);
     /// The models of one pose, one for each set of material overrides.
     type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
     let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
     let mut models = Vec::new();
     for (number, entry) in file.models.iter().enumerate() {
         let path = origin.folder.join(&entry.path);
-        let time = entry.time.map(|time| time.value().to_bits());
+        let numbers = [entry.crease_degrees, entry.time];
+        let bits = numbers.map(|number| number.map(|number| number.value().to_bits()));
         let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
-        let pose = (path, choices, time);
+        let pose = (path, (entry.up, entry.unit), choices, bits);
         let alike = loaded.entry(pose).or_default();
         let known = alike.iter().find(|(materials, _)| **materials == *entry.materials);
         let model = if let Some((_, model)) = known {
@@ -308,7 +310,7 @@ fn suggest_model_file(folder: &Path, path: &str) -> Option<String> {
     }
     let wanted = path.file_name()?.to_str()?;
     let beside = path.parent().unwrap_or(Path::new(""));
-    let is_model = |name: &String| name.ends_with(".glb") || name.ends_with(".gltf");
+    let is_model = |name: &String| FileFormat::from_extension(Path::new(name)).is_some();
     let models: Vec<String> =
         names_in_folder(&folder.join(beside)).into_iter().filter(is_model).collect();
     let names: Vec<&str> = models.iter().map(String::as_str).collect();
@@ -346,6 +348,10 @@ pub(super) fn load_model(
     let import = ImportOptions {
         scene: entry.scene.clone().map(Into::into).or(options.import.scene.clone()),
         variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
+        // Flags replace what the scene file says.
+        up: options.import.up.or(entry.up),
+        length_unit: options.import.length_unit.or(entry.unit),
+        crease_angle: options.import.crease_angle.or(resolve_crease(origin, number, entry)?),
         ..options.import.clone()
     };
     let loaded = match &origin.model {
@@ -361,6 +367,24 @@ pub(super) fn load_model(
     }
     override_materials(origin, number, &entry.materials, &mut model)?;
     Ok(model)
+}
+
+/// The crease angle of a model in degrees.
+///
+/// # Errors
+/// If it is not between 0 and 180.
+fn resolve_crease(
+    origin: &Origin,
+    number: usize,
+    entry: &ModelFile,
+) -> Result<Option<f64>, SceneError> {
+    let Some(angle) = entry.crease_degrees.map(Finite::value) else { return Ok(None) };
+    if (0.0..=180.0).contains(&angle) {
+        return Ok(Some(angle));
+    }
+    let at = [Field("models"), Index(number), Field("crease_degrees")];
+    let help = "give an angle from 0 to 180".to_owned();
+    Err(origin.error_at(&at, format!("there is no crease angle of {angle} degrees"), Some(help)))
 }
 
 /// A scene or a variant that the model does not have is a mistake of the scene file, if there is

@@ -1,20 +1,25 @@
 //! Resolution of the drawing sheet: paper, arrangement, scale and title block.
 
-use super::file::{AxonometricView, ModelUnit, PageOrientation, PaperSize, SheetFile, SideView};
+use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 use super::style::resolve_iso_group;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
 use drawing::{LineStyle, LineWidths, Sheet, SheetError, TitleBlockText};
-use model::ModelInstance;
+use model::{LengthUnit, ModelInstance};
 use projection::SheetAngle;
-use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper};
+use viewport::{DrawingScale, Paper};
 
-/// Resolves the drawing sheet of a scene file.
+/// Resolves the drawing sheet of a scene file for its models.
 ///
 /// # Errors
-/// If the scale has a 0, or ISO 128 has no line group of the width; the error points into the file.
-pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneError> {
+/// If the scale has a 0, ISO 128 has no line group of the width, or the models have several units;
+/// the error points into the file.
+pub fn resolve_sheet(
+    origin: &Origin,
+    file: &SheetFile,
+    models: &[ModelInstance],
+) -> Result<Sheet, SceneError> {
     let (paper, name) = resolve_paper(file);
     let default_sheet = Sheet::for_paper(paper, name);
     let side_view = match (file.side_view, file.projection_angle) {
@@ -34,7 +39,7 @@ pub fn resolve_sheet(origin: &Origin, file: &SheetFile) -> Result<Sheet, SceneEr
         side_view,
         style,
         scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
-        millimeters_per_unit: unit_in_millimeters(file.unit),
+        millimeters_per_unit: resolve_unit(origin, file, models)?.in_millimeters(),
         axonometric_view: axonometric_view(file.axonometric_view),
         dimensions: file.dimensions,
         title_block: TitleBlockText {
@@ -55,7 +60,7 @@ pub(super) fn check_sheet_layout(
     models: &[ModelInstance],
 ) -> Option<SceneError> {
     let file = file?;
-    let error = resolve_sheet(origin, file).ok()?.check_layout(models).err()?;
+    let error = resolve_sheet(origin, file, models).ok()?.check_layout(models).err()?;
     let place: &[PathStep<'_>] = match (&error, file.scale) {
         (SheetError::TooLarge { .. }, Some(_)) => &[Field("sheet"), Field("scale")],
         (SheetError::TooLarge { .. }, None) => &[Field("sheet")],
@@ -98,15 +103,21 @@ fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingS
     })
 }
 
-/// The length of a unit of the models in millimeters.
-fn unit_in_millimeters(file: ModelUnit) -> f64 {
-    match file {
-        ModelUnit::Meter => 1000.0,
-        ModelUnit::Centimeter => 10.0,
-        ModelUnit::Millimeter => 1.0,
-        ModelUnit::Inch => MILLIMETERS_PER_INCH,
-        ModelUnit::Foot => 12.0 * MILLIMETERS_PER_INCH,
+/// The unit of the models: that of the sheet, else the one that all of their files have.
+fn resolve_unit(
+    origin: &Origin,
+    file: &SheetFile,
+    models: &[ModelInstance],
+) -> Result<LengthUnit, SceneError> {
+    if let Some(unit) = file.unit {
+        return Ok(unit);
     }
+    let mut units = models.iter().map(|instance| instance.model.length_unit);
+    let first = units.next().unwrap_or_default();
+    let Some(other) = units.find(|unit| *unit != first) else { return Ok(first) };
+    let message = format!("some models are in {} and others in {}", first.symbol(), other.symbol());
+    let help = "say which unit the sheet is to have: unit: Millimeter".to_owned();
+    Err(origin.error_at(&[Field("sheet")], message, Some(help)))
 }
 
 /// The direction of the fourth view; `None` if there is none.

@@ -196,7 +196,7 @@ fn errors_of_description(
         errors.extend(resolve_section(origin, index, section).err());
     }
     errors.extend(check_section_count(origin, &file.sections).err());
-    errors.extend(file.sheet.iter().filter_map(|sheet| resolve_sheet(origin, sheet).err()));
+    errors.extend(file.sheet.iter().filter_map(|sheet| resolve_sheet(origin, sheet, &[]).err()));
     errors.extend(CameraPath::from_scene_file(origin, file).err());
     errors.extend(check_camera(origin, &file.camera));
     for (index, viewport) in file.viewports.iter().enumerate() {

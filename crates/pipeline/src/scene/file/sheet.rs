@@ -3,6 +3,7 @@
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
 use drawing::HiddenLines;
+use model::LengthUnit;
 use projection::SheetAngle;
 
 scene_struct! {
@@ -18,8 +19,9 @@ scene_struct! {
         /// The scale, paper to object, as in (1, 50). Default: the largest of the standard series
         /// that fits.
         pub scale: Option<(u32, u32)> = None,
-        /// The unit of the models. Default: meters, as in glTF.
-        pub unit: ModelUnit = ModelUnit::Meter,
+        /// The unit of the models. Default: that of their files: meters in glTF, millimeters in
+        /// STL.
+        pub unit: Option<LengthUnit> = None,
         /// The view beside the front view. Default: from the left in first angle, from the right in
         /// third.
         pub side_view: Option<SideView> = None,
@@ -62,17 +64,6 @@ named_enum! {
     pub enum PageOrientation as "Orientation" {
         Portrait = "Upright.",
         Landscape = "On its long side.",
-    }
-}
-
-named_enum! {
-    /// The unit of the models' coordinates.
-    pub enum ModelUnit as "Unit" {
-        Meter = "1 m.",
-        Centimeter = "10 mm.",
-        Millimeter = "1 mm.",
-        Inch = "25.4 mm.",
-        Foot = "304.8 mm.",
     }
 }
 

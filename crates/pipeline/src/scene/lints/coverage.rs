@@ -38,7 +38,7 @@ pub(super) fn lint_tiny_models(adviser: &Linter<'_>) -> Vec<Lint> {
         }
         let name = adviser.model_name(instance);
         let message = format!("{name} covers {across:.2} x {down:.2} pixels of the picture");
-        let help = "glTF is in meters: give it a larger `scale`, or leave it out".to_owned();
+        let help = "files have differing units, glTF meters and STL millimeters: give it a larger `scale`, or leave it out".to_owned();
         let path = [Field("models"), Index(number)];
         let error = adviser.origin.error_at(&path, message, Some(help));
         Some(Lint { code: "tiny-model", error })
