@@ -1,7 +1,11 @@
-//! Polygons of formats without finished vertices: welding, and normals for triangles that have none.
+//! Polygons of formats without finished vertices: triangulation, welding, and normals for triangles
+//! that have none.
 
 mod crease_normals;
+mod orientation;
+mod triangulation;
 mod vertex_welder;
 
 pub(super) use crease_normals::{CreaseNormals, Smoothing};
+pub(super) use triangulation::{PolygonKind, Triangulator};
 pub(super) use vertex_welder::VertexWelder;

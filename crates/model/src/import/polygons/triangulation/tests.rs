@@ -1,0 +1,257 @@
+//! Triangulations are judged by area and by which points they cover, not by which ears were cut.
+
+use super::*;
+
+/// The triangles of a polygon, and how it was cut.
+fn triangulate(corners: &[[f32; 3]]) -> (Vec<[u32; 3]>, PolygonKind) {
+    let mut triangles = vec![[9; 3]];
+    let kind = Triangulator::default().triangulate(corners, &mut triangles);
+    (triangles.split_off(1), kind)
+}
+
+/// Twice the signed areas of the triangles in the plane z = 0.
+fn doubled_areas(corners: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
+    let area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|at| corners[at as usize].map(f64::from));
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    triangles.iter().map(area).collect()
+}
+
+/// Twice the area of a polygon in the plane z = 0 (the shoelace formula).
+fn doubled_polygon_area(corners: &[[f32; 3]]) -> f64 {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    edges
+        .map(|(a, b)| [a, b].map(|p| p.map(f64::from)))
+        .fold(0.0, |sum, [a, b]| sum + a[0] * b[1] - a[1] * b[0])
+}
+
+/// Checks that a counter-clockwise polygon of small integers is covered exactly once: n − 2
+/// triangles, none of them turned over, with the area of the polygon.
+fn assert_covered(plane: &[[f32; 2]]) -> Vec<[u32; 3]> {
+    let corners: Vec<[f32; 3]> = plane.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let (triangles, kind) = triangulate(&corners);
+    assert_eq!(kind, PolygonKind::Simple, "{plane:?}");
+    assert_eq!(triangles.len(), corners.len() - 2);
+    let areas = doubled_areas(&corners, &triangles);
+    assert!(areas.iter().all(|area| *area >= 0.0), "{plane:?}: {triangles:?}");
+    let whole = doubled_polygon_area(&corners);
+    assert!((areas.iter().sum::<f64>() - whole).abs() <= 1e-9 * whole, "{plane:?}: {triangles:?}");
+    triangles
+}
+
+#[test]
+fn convex_polygons_become_the_fan_that_every_program_makes() {
+    let quad = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+    assert_eq!(assert_covered(&quad), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(triangulate(&[]), (vec![], PolygonKind::Simple));
+    assert_eq!(triangulate(&[[0.0; 3]; 2]), (vec![], PolygonKind::Simple));
+    assert_eq!(triangulate(&[[0.0; 3]; 3]), (vec![[0, 1, 2]], PolygonKind::Simple));
+}
+
+#[test]
+fn concave_polygons_are_covered_once_wherever_they_begin() {
+    let shapes: [&[[f32; 2]]; 6] = [
+        // An arrowhead, an L, a U, a comb, a staircase, a spiral.
+        &[[0.0, 0.0], [4.0, 4.0], [0.0, 8.0], [2.0, 4.0]],
+        &[[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 4.0], [0.0, 4.0]],
+        &[
+            [0.0, 0.0],
+            [6.0, 0.0],
+            [6.0, 5.0],
+            [5.0, 5.0],
+            [5.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 5.0],
+            [0.0, 5.0],
+        ],
+        &[
+            [0.0, 0.0],
+            [7.0, 0.0],
+            [7.0, 5.0],
+            [6.0, 1.0],
+            [5.0, 5.0],
+            [4.0, 1.0],
+            [3.0, 5.0],
+            [2.0, 1.0],
+            [0.0, 5.0],
+        ],
+        &[
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 1.0],
+            [2.0, 1.0],
+            [2.0, 2.0],
+            [1.0, 2.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ],
+        &[
+            [0.0, 0.0],
+            [6.0, 0.0],
+            [6.0, 6.0],
+            [2.0, 6.0],
+            [2.0, 3.0],
+            [4.0, 3.0],
+            [4.0, 4.0],
+            [3.0, 4.0],
+            [3.0, 5.0],
+            [5.0, 5.0],
+            [5.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 7.0],
+            [0.0, 7.0],
+        ],
+    ];
+    for shape in shapes {
+        for first in 0..shape.len() {
+            let mut turned = shape.to_vec();
+            turned.rotate_left(first);
+            assert_covered(&turned);
+        }
+    }
+}
+
+#[test]
+fn collinear_and_repeated_corners_leave_triangles_with_area_where_there_can_be_some() {
+    // Corners in the middle of all four edges: six triangles, none of them without area.
+    let square = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [2.0, 0.0],
+        [2.0, 1.0],
+        [2.0, 2.0],
+        [1.0, 2.0],
+        [0.0, 2.0],
+        [0.0, 1.0],
+    ];
+    let corners = square.map(|[x, y]| [x, y, 0.0]);
+    let triangles = assert_covered(&square);
+    assert!(doubled_areas(&corners, &triangles).iter().all(|area| *area > 0.0));
+    // A corner twice, and one three times in a row; a needle that goes out and comes back.
+    assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
+    assert_covered(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 2.0], [0.0, 2.0]]);
+    assert_covered(&[[0.0, 0.0], [2.0, 0.0], [5.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
+}
+
+#[test]
+fn a_hole_that_is_joined_by_a_bridge_stays_open() {
+    let keyhole = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 4.0],
+        [0.0, 4.0],
+        [0.0, 0.0],
+        [1.0, 1.0],
+        [1.0, 3.0],
+        [3.0, 3.0],
+        [3.0, 1.0],
+        [1.0, 1.0],
+    ];
+    for first in 0..keyhole.len() {
+        let mut turned = keyhole;
+        turned.rotate_left(first);
+        let triangles = assert_covered(&turned);
+        // The middle of the hole is in no triangle.
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|at| turned[at as usize].map(f64::from));
+            let middle = [2.0, 2.0];
+            let is_inside = [[a, b], [b, c], [c, a]]
+                .iter()
+                .all(|[from, to]| orient2d(*from, *to, middle) > 0.0);
+            assert!(!is_inside, "{triangle:?}");
+        }
+    }
+}
+
+#[test]
+fn orientation_and_position_in_space_make_no_difference() {
+    let l_shape: [[f32; 2]; 6] =
+        [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 4.0], [0.0, 4.0]];
+    let expected = assert_covered(&l_shape);
+    let placements: [fn([f32; 2]) -> [f32; 3]; 5] = [
+        |[x, y]| [7.0, x, y],
+        |[x, y]| [y, 7.0, x],
+        // Slightly bent; tilted; seen from behind.
+        |[x, y]| [x, y, 0.05 * x * y],
+        |[x, y]| [x, y, 0.25 * x],
+        |[x, y]| [-x, y, 0.0],
+    ];
+    for (at, place) in placements.iter().enumerate() {
+        assert_eq!(
+            triangulate(&l_shape.map(place)),
+            (expected.clone(), PolygonKind::Simple),
+            "{at}"
+        );
+    }
+}
+
+#[test]
+fn polygons_that_cross_themselves_have_their_triangles_and_say_so() {
+    let pentagram: Vec<[f32; 3]> = [[0.0, 5.0], [3.0, -4.0], [-5.0, 2.0], [5.0, 2.0], [-3.0, -4.0]]
+        .map(|[x, y]| [x, y, 0.0])
+        .to_vec();
+    let (triangles, kind) = triangulate(&pentagram);
+    assert_eq!((triangles.len(), kind), (3, PolygonKind::Fan));
+    // A square that is walked around five times.
+    let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let (triangles, _) = triangulate(&square.repeat(5));
+    assert_eq!(triangles.len(), 18);
+    assert!(triangles.as_flattened().iter().all(|corner| *corner < 20));
+}
+
+#[test]
+fn polygons_without_area_are_fans() {
+    let line: Vec<[f32; 3]> = (0..9).map(|x| [x as f32, 0.0, 0.0]).collect();
+    assert_eq!(triangulate(&[[3.0; 3]; 6]).1, PolygonKind::Flat);
+    let (triangles, kind) = triangulate(&line);
+    assert_eq!((triangles.len(), kind), (7, PolygonKind::Flat));
+}
+
+#[test]
+fn large_numbers_neither_overflow_nor_lose_the_shape() {
+    for scale in [1e-30, 1e30_f32] {
+        let arrowhead = [[0.0, 0.0], [4.0, 4.0], [0.0, 8.0], [2.0, 4.0]];
+        let corners = arrowhead.map(|[x, y]: [f32; 2]| [scale * x, scale * y, 0.0]);
+        let (triangles, kind) = triangulate(&corners);
+        assert_eq!((triangles, kind), (vec![[3, 0, 1], [2, 3, 1]], PolygonKind::Simple));
+    }
+}
+
+#[test]
+fn ten_thousand_corners_are_cut_within_the_limit() {
+    // A comb of 5,000 teeth, whose ears are all at the tips.
+    let comb: Vec<[f32; 2]> = (0..4998)
+        .map(|at| [(4998 - at) as f32, if at % 2 == 0 { 100.0 } else { 1.0 }])
+        .chain([[0.0, 0.0], [5000.0, 0.0]])
+        .collect();
+    assert_covered(&comb);
+    // A star around the origin: a quarter of a turn of integer directions in four copies.
+    let star: Vec<[f32; 2]> = (0..10_000)
+        .map(|at| {
+            let angle = f64::from(at) * std::f64::consts::TAU / 10_000.0;
+            let radius = if at % 2 == 0 { 1.0 } else { 0.5 };
+            [radius * libm::cos(angle), radius * libm::sin(angle)].map(|x| x as f32)
+        })
+        .collect();
+    assert_covered(&star);
+}
+
+#[test]
+fn a_file_may_take_so_many_tests_and_no_more() {
+    let mut triangulator = Triangulator { tests_left: 3, ..Triangulator::default() };
+    let u_shape: [[f32; 3]; 8] = [
+        [0.0, 0.0],
+        [6.0, 0.0],
+        [6.0, 5.0],
+        [5.0, 5.0],
+        [5.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 5.0],
+        [0.0, 5.0],
+    ]
+    .map(|[x, y]| [x, y, 0.0]);
+    let mut triangles = Vec::new();
+    assert_eq!(triangulator.triangulate(&u_shape, &mut triangles), PolygonKind::Fan);
+    assert_eq!(triangles.len(), 6);
+}
