@@ -28,12 +28,14 @@ mod limits;
 pub(crate) mod memory_budget;
 mod name_or_index;
 mod normals;
+mod obj;
 mod parallel_decoding;
 mod plain_material;
 mod polygons;
 mod srgb;
 mod stl;
 mod text;
+mod texture_images;
 pub(crate) mod uri_resolver;
 mod warnings;
 
@@ -167,7 +169,7 @@ pub(crate) fn import_model(
     let import = match format {
         FileFormat::Gltf => gltf::import_gltf,
         FileFormat::Stl => stl::import_stl,
-        FileFormat::Obj => not_yet_read,
+        FileFormat::Obj => obj::import_obj,
         FileFormat::Ply => not_yet_read,
         FileFormat::ThreeMf => not_yet_read,
     };

@@ -39,6 +39,7 @@ mod topology;
 mod untyped_members;
 
 pub use extensions::{ExtensionUse, extension_use};
+pub(super) use images::check_image_size;
 pub(super) use scene_graph::check_scene_items;
 
 use super::ImportOptions;

@@ -240,7 +240,7 @@ fn image_bytes<'a>(
 /// # Errors
 /// The size is 0, or [`LIMIT_EXCEEDED`](crate::codes::LIMIT_EXCEEDED) for `image_side` or
 /// `image_texels`.
-fn check_image_size(
+pub(in crate::import) fn check_image_size(
     width: u32,
     height: u32,
     texels_left: &mut u64,

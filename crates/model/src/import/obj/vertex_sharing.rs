@@ -1,0 +1,82 @@
+//! Vertices of a primitive: corners with the same position, texture coordinates and normal share
+//! one.
+
+use super::elements::{Corner, NONE};
+
+/// Vertices at one position that are compared before another is made. A position with more of them
+/// would take quadratic time; corners beyond share less, which costs memory only.
+const MAX_COMPARISONS: usize = 32;
+
+/// The vertices of one primitive after the other, in the order in which corners first need them.
+#[derive(Debug)]
+pub(super) struct VertexSharing {
+    /// The last vertex at each position.
+    latest: Vec<u32>,
+    /// For each vertex the one before it at the same position.
+    before: Vec<u32>,
+    /// The corner that each vertex stands for.
+    pub(super) corners: Vec<Corner>,
+}
+
+impl VertexSharing {
+    /// No vertex at any of the positions.
+    pub(super) fn new(positions: usize) -> Self {
+        Self { latest: vec![NONE; positions], before: Vec::new(), corners: Vec::new() }
+    }
+
+    /// The vertex of a corner, whose position is in range.
+    #[inline]
+    pub(super) fn vertex_at(&mut self, corner: Corner) -> u32 {
+        let latest = self.latest[corner.position as usize];
+        let mut candidate = latest;
+        for _ in 0..MAX_COMPARISONS {
+            if candidate == NONE {
+                break;
+            }
+            if self.corners[candidate as usize] == corner {
+                return candidate;
+            }
+            candidate = self.before[candidate as usize];
+        }
+        let new = self.corners.len() as u32;
+        self.corners.push(corner);
+        self.before.push(latest);
+        self.latest[corner.position as usize] = new;
+        new
+    }
+
+    /// Forgets all vertices, in time proportional to their number.
+    pub(super) fn clear(&mut self) {
+        for corner in &self.corners {
+            self.latest[corner.position as usize] = NONE;
+        }
+        self.before.clear();
+        self.corners.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_corners_share_a_vertex() {
+        let mut sharing = VertexSharing::new(3);
+        let corner = |position, uv, normal| Corner { position, uv, normal };
+        let corners =
+            [corner(2, 0, NONE), corner(0, 0, NONE), corner(2, 1, NONE), corner(2, 0, NONE)];
+        assert_eq!(corners.map(|corner| sharing.vertex_at(corner)), [0, 1, 2, 0]);
+        sharing.clear();
+        assert_eq!(sharing.vertex_at(corner(2, 1, NONE)), 0);
+        assert_eq!(sharing.corners, [corner(2, 1, NONE)]);
+    }
+
+    #[test]
+    fn a_position_with_very_many_vertices_takes_linear_time() {
+        let mut sharing = VertexSharing::new(1);
+        for uv in 0..300_000 {
+            sharing.vertex_at(Corner { position: 0, uv, normal: NONE });
+        }
+        assert_eq!(sharing.corners.len(), 300_000);
+    }
+}
