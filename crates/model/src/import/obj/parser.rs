@@ -4,6 +4,7 @@
 //! vertex colors are an extension of ZBrush and MeshLab.
 
 use super::elements::{Corner, ElementState, Elements, NONE};
+use super::parts::FLAT_GROUP;
 use super::statements::StatementReader;
 use crate::Topology;
 use crate::diagnostic::{Diagnostic, codes};
@@ -22,7 +23,8 @@ const MAX_NAMED_STATEMENTS: usize = 16;
 pub(super) struct ObjFile<'a> {
     /// Positions; not finite where the statement is broken.
     pub(super) positions: Vec<[f32; 3]>,
-    /// Vertex colors as the file has them; shorter than `positions` if the last ones have none.
+    /// Vertex colors as the file has them, NaN for what it has not; shorter than `positions` if the
+    /// last ones have none.
     pub(super) colors: Vec<[f32; 4]>,
     /// Texture coordinates, with v pointing up.
     pub(super) uvs: Vec<[f32; 2]>,
@@ -194,10 +196,8 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         }
         self.file.positions.push([x, y, z]);
         if count >= 6 {
-            self.file.colors.resize(index, [1.0; 4]);
-            let alpha = if count == 7 { a } else { 1.0 };
-            let known = |value: f32| if value.is_nan() { 1.0 } else { value };
-            self.file.colors.push([r, g, b, alpha].map(known));
+            self.file.colors.resize(index, [f32::NAN; 4]);
+            self.file.colors.push([r, g, b, a]);
         }
     }
 
@@ -235,7 +235,8 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         self.file.has_smoothing = true;
         let group = self.reader.next_argument().map(|token| match token.bytes {
             b"on" => 1,
-            bytes => parse_integer(bytes).and_then(|group| u32::try_from(group).ok()).unwrap_or(0),
+            bytes => parse_integer(bytes)
+                .map_or(0, |group| group.rem_euclid(i64::from(FLAT_GROUP)) as u32),
         });
         self.smoothing = group.unwrap_or(0);
     }

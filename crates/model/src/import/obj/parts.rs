@@ -10,6 +10,9 @@ use crate::import::text::LineCounter;
 use crate::import::warnings::ImportWarnings;
 use std::collections::BTreeMap;
 
+/// Smoothing groups from here on are those of single polygons.
+pub(super) const FLAT_GROUP: u32 = 1 << 31;
+
 /// What all items of a part have in common.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct PartKey {
@@ -80,7 +83,12 @@ pub(super) fn split_elements(
                 _ => cutter.part_of(state, attributes),
             };
             latest = Some((attributes, part));
-            cutter.cut_element(part, state.smoothing, range.start as u32, corners);
+            // A polygon that is not smooth is a group of its own, however it is cut.
+            let smoothing = match state.smoothing {
+                0 => FLAT_GROUP | element as u32,
+                group => group,
+            };
+            cutter.cut_element(part, smoothing, range.start as u32, corners);
         }
     }
     if cutter.fans > 0 {

@@ -96,13 +96,15 @@ fn linear_colors(file: &ObjFile<'_>, warnings: &mut ImportWarnings) -> Vec<[f32;
     if file.colors.is_empty() {
         return Vec::new();
     }
+    // White is the color of vertices without.
     let is_of_bytes = file.colors.as_flattened().iter().any(|&channel| channel > 1.0);
     if is_of_bytes {
         warnings.push_warning("", "vertex colors exceed 1: they are taken as numbers up to 255");
     }
     let scale = if is_of_bytes { 1.0 / 255.0 } else { 1.0 };
     let linear = |color: &[f32; 4]| {
-        let [r, g, b, a] = color.map(|channel| (channel * scale).clamp(0.0, 1.0));
+        let known = |x: f32| if x.is_nan() { 1.0 } else { (x * scale).clamp(0.0, 1.0) };
+        let [r, g, b, a] = color.map(known);
         [linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), a]
     };
     let mut colors: Vec<[f32; 4]> = file.colors.iter().map(linear).collect();

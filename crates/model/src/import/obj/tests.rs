@@ -1,40 +1,36 @@
-use crate::{ImportOptions, load};
-#[test]
-fn zz_assets() {
-    let dir = std::path::Path::new("/tmp/M/obj/shared/assets/meshes");
-    let manifest = std::fs::read_to_string(dir.join("MANIFEST.tsv")).unwrap();
-    for line in manifest.lines().filter(|l| l.starts_with("obj/")) {
-        let c: Vec<&str> = line.split('\t').collect();
-        match load(&dir.join(c[0]), &ImportOptions::default()) {
-            Ok(m) => {
-                let t: usize =
-                    m.scene_primitives()
-                        .map(|(_, p)| {
-                            if p.topology == crate::Topology::Triangles {
-                                p.item_count()
-                            } else {
-                                0
-                            }
-                        })
-                        .sum();
-                let b = m.bounds().map(|b| format!("{:?}", b));
-                let ok = c[2] == t.to_string();
-                println!(
-                    "{} {} {t} want {} | {:?} want {} | nodes {} mats {} imgs {}",
-                    if ok { "ok " } else { "BAD" },
-                    c[0],
-                    c[2],
-                    b,
-                    c[3],
-                    m.nodes.len(),
-                    m.materials.len(),
-                    m.images.len()
-                );
-                for w in &m.warnings {
-                    println!("      {w}");
-                }
-            }
-            Err(e) => println!("ERR {} {e} want {}", c[0], c[4]),
-        }
-    }
+//! Files as they are written by hand and by programs, read through the public interface.
+
+mod materials;
+mod shapes;
+
+use crate::{ImportError, ImportOptions, Model, Primitive, Topology, load_bytes};
+
+/// Reads an OBJ file in memory.
+fn read(text: impl AsRef<[u8]>) -> Result<Model, ImportError> {
+    load_bytes("test.obj", text.as_ref(), &ImportOptions::default())
 }
+
+/// Reads an OBJ file in memory leniently.
+fn read_leniently(text: &str) -> Model {
+    let options = ImportOptions { lenient: true, ..ImportOptions::default() };
+    load_bytes("test.obj", text.as_bytes(), &options).unwrap()
+}
+
+/// The primitives of a model, in order.
+fn primitives(model: &Model) -> Vec<&Primitive> {
+    model.meshes.iter().flat_map(|mesh| &mesh.primitives).collect()
+}
+
+/// Number of triangles.
+fn triangle_count(model: &Model) -> usize {
+    let is_surface = |primitive: &&&Primitive| primitive.topology == Topology::Triangles;
+    primitives(model).iter().filter(is_surface).map(|primitive| primitive.item_count()).sum()
+}
+
+/// Warnings as text, one a line.
+fn warnings(model: &Model) -> String {
+    model.warnings.iter().map(|warning| format!("{}\n", warning.sentence())).collect()
+}
+
+/// The corners of a unit square in the plane z = 0.
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
