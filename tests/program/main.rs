@@ -23,6 +23,7 @@ mod light_leaks;
 mod manual;
 mod matrix;
 mod matrix_answers;
+mod meshes;
 mod messages;
 mod mistakes;
 mod outputs;

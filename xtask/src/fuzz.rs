@@ -40,6 +40,7 @@ const TARGETS: &[FuzzTarget] = &[
         about: "a whole .glb or .gltf: loaded, posed, drawn, encoded",
         words: Some("gltf.dict"),
     },
+    FuzzTarget { name: "stl", about: "a whole .stl, text or binary", words: Some("stl.dict") },
     FuzzTarget { name: "meshopt", about: "a buffer view compressed by meshopt", words: None },
     FuzzTarget { name: "draco", about: "a primitive compressed by Draco", words: None },
     FuzzTarget {

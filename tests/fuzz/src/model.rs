@@ -59,6 +59,25 @@ fn load(bytes: &[u8], options: ImportOptions) -> Result<Model, ImportError> {
     load_bytes("model.glb", bytes, &ImportOptions { limits: limits(), ..options })
 }
 
+/// A file in another format than glTF, whose `name` stands for the format: as it is, and leniently.
+pub fn mesh(name: &str, bytes: &[u8]) {
+    let load = |lenient| {
+        let options = ImportOptions { limits: limits(), lenient, ..ImportOptions::default() };
+        load_bytes(name, bytes, &options)
+    };
+    let loaded = load(false);
+    let report = check_bytes(
+        name,
+        bytes,
+        &ImportOptions { limits: limits(), ..ImportOptions::default() },
+    );
+    assert!(loaded.is_ok() || report.errors > 0, "a file that does not load has no error");
+    if loaded.is_err() {
+        show(load(true));
+    }
+    show(loaded);
+}
+
 /// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes
 /// is known then.
 pub fn loaded(bytes: &[u8]) {

@@ -16,13 +16,14 @@ const LARGEST_STREAM: usize = 48 << 10;
 pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     let mut seeds = match target {
         "model" => model_seeds().into_iter().map(|model| model.file).collect(),
+        "stl" => files_with_endings(&["stl"]),
         "meshopt" => model_seeds().iter().flat_map(meshopt_seeds).collect(),
         "draco" => model_seeds().iter().flat_map(draco_seeds).collect(),
         "image" => image_seeds(),
         "scene" => scene_seeds()?,
         _ => number_seeds(),
     };
-    let largest = if target == "model" { LARGEST_MODEL } else { LARGEST_STREAM };
+    let largest = if ["model", "stl"].contains(&target) { LARGEST_MODEL } else { LARGEST_STREAM };
     seeds.retain(|seed: &Vec<u8>| seed.len() <= largest);
     seeds.sort();
     seeds.dedup();
@@ -69,6 +70,11 @@ fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
 
 fn model_seeds() -> Vec<PackedModel> {
     asset_paths(&["glb", "gltf"]).iter().filter_map(|path| PackedModel::read_model(path)).collect()
+}
+
+/// The contents of the shared assets with these endings.
+fn files_with_endings(endings: &[&str]) -> Vec<Vec<u8>> {
+    asset_paths(endings).iter().filter_map(|path| fs::read(path).ok()).collect()
 }
 
 fn scene_seeds() -> Result<Vec<Vec<u8>>, String> {

@@ -96,7 +96,8 @@ impl FileFormat {
     }
 }
 
-/// Whether the first line that is neither blank nor a comment is a statement of an OBJ file.
+/// Whether the first line that is neither blank nor a comment is a statement of an OBJ file, with
+/// something to state.
 fn begins_with_obj_statement(text: &[u8]) -> bool {
     const STATEMENTS: [&[u8]; 16] = [
         b"v", b"vn", b"vt", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"mtllib", b"usemtl",
@@ -104,8 +105,9 @@ fn begins_with_obj_statement(text: &[u8]) -> bool {
     ];
     let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let statement = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
-    let keyword = statement.and_then(|line| line.split(u8::is_ascii_whitespace).next());
-    !text.contains(&0) && keyword.is_some_and(|keyword| STATEMENTS.contains(&keyword))
+    let mut words = statement.into_iter().flat_map(|line| line.split(u8::is_ascii_whitespace));
+    let is_statement = words.next().is_some_and(|keyword| STATEMENTS.contains(&keyword));
+    is_statement && words.next().is_some() && !text.contains(&0)
 }
 
 /// Formats that are not read: how they begin, what they are called, and what to do.
@@ -149,7 +151,7 @@ mod tests {
     fn content_decides() {
         let utf_16: Vec<u8> =
             "\u{FEFF}v 1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-        let table: [(&[u8], Option<FileFormat>); 15] = [
+        let table: [(&[u8], Option<FileFormat>); 16] = [
             (b"glTF\x02\0\0\0", Some(FileFormat::Gltf)),
             (b"\xEF\xBB\xBF \n{\"asset\": {}}", Some(FileFormat::Gltf)),
             (b"PK\x03\x04\x14", Some(FileFormat::ThreeMf)),
@@ -164,6 +166,7 @@ mod tests {
             (b"\xEF\xBB\xBFv 1 2 3", Some(FileFormat::Obj)),
             (&utf_16, Some(FileFormat::Obj)),
             (b"vertex", None),
+            (b"g", None),
             (b"", None),
         ];
         for (bytes, format) in table {
