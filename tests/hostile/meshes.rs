@@ -7,7 +7,8 @@ use crate::case::{Case, Expected};
 const MUTANTS: usize = 2_000;
 
 /// Formats with the file names that stand for them, and small files that the mutants are made of.
-const FORMATS: [(&str, fn() -> Vec<Vec<u8>>); 1] = [("model.stl", stl_files)];
+const FORMATS: [(&str, fn() -> Vec<Vec<u8>>); 2] =
+    [("model.stl", stl_files), ("model.obj", obj_files)];
 
 /// Words that readers might stumble over.
 const WORDS: [&[u8]; 22] = [
@@ -127,4 +128,15 @@ fn stl_files() -> Vec<Vec<u8>> {
         binary(b"solid made by a program", [0, 0x801F, 0xFC00]),
         binary(b"COLOR=\x10\x20\x30\xFF", [0x8000, 31, 31 << 10]),
     ]
+}
+
+/// Every statement that is read, faces of all kinds of references, and a cloud of points.
+fn obj_files() -> Vec<Vec<u8>> {
+    let text = "# two squares\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 \nv 0.5 0.25 0 1\nvt 0 0\nvt 1 0 0\n\
+                vn 0 0 1\no first thing\ng a b\nusemtl red\ns 1\nf 1/1/1 2/2/1 3//1 -1\ns off\n\
+                f -5/-2 -4/-1 -3/1 -1\\\n/2 -2/2\nl 1 2 3\np 1 2\ng\nf 1 2 3 4 1 2 3\nvp 1 2\n";
+    let colors =
+        "mtllib none.mtl\r\nv 0 0 0 1 0 0\r\nv 1 0 1e-3 0 1 0 0.5\r\nv 1 1 0\r\nf 1 2 3\r\n";
+    let points = "v 0 0 0\nv 1 2 3\nv -1 +2. .5\n";
+    [text, colors, points].map(|text| text.as_bytes().to_vec()).to_vec()
 }

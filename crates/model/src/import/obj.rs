@@ -34,19 +34,18 @@ use super::uri_resolver::UriResolver;
 use super::warnings::ImportWarnings;
 use crate::Model;
 use crate::diagnostic::Diagnostic;
-use crate::{LengthUnit, Material, UpAxis};
+use crate::{LengthUnit, Material, Mesh, Node, Primitive, UpAxis};
 use mtl::MtlMaterial;
 use parser::ObjFile;
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use textures::TextureTable;
 
-/// Material libraries that are read; a file names one, or one for each object.
+/// Material libraries that are looked for; a file names one, or one for each object.
 const MAX_LIBRARIES: usize = 1024;
 /// Bytes that the arrays of a corner take at most: references, triangle, vertex with attributes, and
 /// what the computation of normals needs.
-const BYTES_PER_CORNER: u64 = 120;
+const BYTES_PER_CORNER: u64 = 140;
 
 /// Imports an OBJ file whose bytes have been read.
 pub(super) fn import_obj(
@@ -81,8 +80,12 @@ fn check_sizes(file: &ObjFile<'_>, resolver: &UriResolver<'_>) -> Result<(), Dia
         let what = format!("there are {} objects and groups", file.groups.len());
         return Err(Diagnostic::limit_exceeded("", &what, "nodes", limits.nodes as u64));
     }
-    let bytes = file.elements.corners.len() as u64 * BYTES_PER_CORNER;
-    MemoryBudget::new(limits).charge_bytes("", bytes, resolver.total_bytes())
+    let corners = file.elements.corners.len() as u64 * BYTES_PER_CORNER;
+    let group = 2 * size_of::<Node>() + size_of::<Mesh>() + size_of::<Primitive>();
+    let groups = (file.groups.len() * group) as u64;
+    let materials = (file.material_names.len() * size_of::<Material>()) as u64;
+    let budget = MemoryBudget::new(limits);
+    budget.charge_bytes("", corners + groups + materials, resolver.total_bytes())
 }
 
 /// A material library that could be read.
@@ -101,46 +104,39 @@ fn read_libraries(
     resolver: &UriResolver<'_>,
     warnings: &mut ImportWarnings,
 ) -> Vec<Library> {
-    let distinct: BTreeSet<&[u8]> = statements.iter().map(|token| token.bytes).collect();
-    if distinct.len() > MAX_LIBRARIES {
-        let message =
-            format!("only {MAX_LIBRARIES} of {} material libraries are read", distinct.len());
-        warnings.push_warning("", message);
-    }
-    let (mut libraries, mut seen) = (Vec::new(), BTreeSet::new());
-    let mut read = |name: &str, warnings: Option<&mut ImportWarnings>| {
-        let location = format!("mtllib {name}");
-        match resolver.read_uri(name, &location) {
-            Ok(bytes) => {
-                let text = match decode_text(&bytes) {
-                    Cow::Borrowed(text) if text.len() == bytes.len() => None,
-                    text => Some(text.into_owned()),
-                };
-                let text = text.unwrap_or(bytes);
-                libraries.push(Library { name: name.to_owned(), text });
-                true
-            }
-            Err(fault) => {
-                if let Some(warnings) = warnings {
-                    warnings.downgrade(&fault, "its materials are plain");
-                }
-                false
-            }
-        }
-    };
-    for token in statements {
-        if seen.len() >= MAX_LIBRARIES || !seen.insert(token.bytes) || token.bytes.is_empty() {
+    let (mut libraries, mut seen, mut tried) = (Vec::new(), BTreeSet::new(), 0);
+    for token in statements.iter().filter(|token| !token.bytes.is_empty()) {
+        if !seen.insert(token.bytes) || tried >= MAX_LIBRARIES {
             continue;
         }
-        let names: Vec<String> = token.tokens().map(Token::to_text).collect();
-        let is_one = names.len() == 1;
-        if !read(&token.to_text(), is_one.then_some(&mut *warnings)) && !is_one {
-            for name in names.iter().take(MAX_LIBRARIES) {
-                read(name, Some(&mut *warnings));
+        tried += 1;
+        let words = token.tokens().map(Token::to_text);
+        let is_one = words.clone().nth(1).is_none();
+        match read_library(token.to_text(), resolver) {
+            Ok(library) => libraries.push(library),
+            Err(fault) if is_one => warnings.downgrade(&fault, "its materials are plain"),
+            Err(_) => {
+                for name in words.take(MAX_LIBRARIES - tried) {
+                    tried += 1;
+                    match read_library(name, resolver) {
+                        Ok(library) => libraries.push(library),
+                        Err(fault) => warnings.downgrade(&fault, "its materials are plain"),
+                    }
+                }
             }
         }
     }
+    if tried >= MAX_LIBRARIES {
+        warnings.push_warning("", format!("of material libraries only {MAX_LIBRARIES} are read"));
+    }
     libraries
+}
+
+/// Reads one library.
+fn read_library(name: String, resolver: &UriResolver<'_>) -> Result<Library, Diagnostic> {
+    let bytes = resolver.read_uri(&name, &format!("mtllib {name}"))?;
+    let text = decode_text(&bytes).into_owned();
+    Ok(Library { name, text })
 }
 
 /// Gives the model the materials that its primitives have, in the order in which elements first use

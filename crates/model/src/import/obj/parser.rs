@@ -98,7 +98,7 @@ struct ObjParser<'a, 'w> {
 /// Faults that are counted and told once, with the offset of the first.
 #[derive(Default)]
 struct Tallies<'a> {
-    short_faces: Tally,
+    short_elements: Tally,
     missing_uvs: Tally,
     missing_normals: Tally,
     broken_uvs: Tally,
@@ -272,7 +272,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         if count < topology.vertices_per_item() {
             self.file.elements.corners.truncate(start);
             self.forward.truncate(pending);
-            self.tallies.short_faces.count_at(offset);
+            self.tallies.short_elements.count_at(offset);
             return Ok(());
         }
         let state = self.element_state(topology);
@@ -371,34 +371,27 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         }
     }
 
-    /// One warning for each kind of fault that was counted.
+    /// One warning for each kind of fault that was counted, in the order of the file.
     fn report_tallies(&mut self) {
         let tallies = std::mem::take(&mut self.tallies);
-        for (tally, what) in [
-            (tallies.short_faces, "elements with too few vertices: they are left out"),
-            (
-                tallies.missing_uvs,
-                "references to texture coordinates that do not exist: the elements have none",
-            ),
+        let kinds = [
+            (tallies.short_elements, "elements with too few vertices: they are left out"),
+            (tallies.missing_uvs, "references to texture coordinates that do not exist"),
             (tallies.missing_normals, "references to normals that do not exist: they are computed"),
             (tallies.broken_uvs, "texture coordinates that are not numbers: they are 0"),
-        ] {
-            self.report_tally(tally, &format!("{} {what}", tally.count));
-        }
+            (tallies.further_statements, "more statements are not read"),
+        ];
+        let mut told: Vec<(Tally, String)> =
+            kinds.map(|(tally, what)| (tally, format!("{} {what}", tally.count))).to_vec();
         for (name, tally) in tallies.statements {
             let name: String = String::from_utf8_lossy(name).chars().take(32).collect();
-            let message = format!("{} statements {name:?} are not read", tally.count);
-            self.report_tally(tally, &message);
+            told.push((tally, format!("{} statements {name:?} are not read", tally.count)));
         }
-        let further = tallies.further_statements;
-        self.report_tally(further, &format!("{} more statements are not read", further.count));
-    }
-
-    /// A warning at the first occurrence, if there is one.
-    fn report_tally(&mut self, tally: Tally, message: &str) {
-        if tally.count > 0 {
-            let location =
-                if tally.first == 0 { String::new() } else { self.lines.locate(tally.first) };
+        told.retain(|(tally, _)| tally.count > 0);
+        told.sort_by_key(|(tally, _)| tally.first);
+        for (tally, message) in told {
+            let is_placed = tally.first > 0;
+            let location = is_placed.then(|| self.lines.locate(tally.first)).unwrap_or_default();
             self.warnings.push_warning(&location, message);
         }
     }

@@ -60,6 +60,7 @@ pub(super) fn split_elements(
     warnings: &mut ImportWarnings,
 ) -> Result<Vec<Part>, Diagnostic> {
     let mut cutter = ElementCutter::new(file);
+    let mut broken = 0_usize;
     for (state, elements) in file.elements.runs() {
         let mut latest = None;
         for element in elements {
@@ -69,8 +70,12 @@ pub(super) fn split_elements(
                 None => {}
                 Some(None) => continue,
                 Some(Some(offset)) => {
-                    let fault = broken_vertex(&LineCounter::new(text).locate(offset));
-                    warnings.downgrade_if_lenient(fault, "its elements are left out")?;
+                    // Counting lines takes time: only the first has a place.
+                    if broken == 0 {
+                        let fault = broken_vertex(&LineCounter::new(text).locate(offset));
+                        warnings.downgrade_if_lenient(fault, "the element is left out")?;
+                    }
+                    broken += 1;
                     continue;
                 }
             }
@@ -90,6 +95,10 @@ pub(super) fn split_elements(
             };
             cutter.cut_element(part, smoothing, range.start as u32, corners);
         }
+    }
+    if broken > 1 {
+        let message = format!("{} more elements with broken vertices are left out", broken - 1);
+        warnings.push_warning("", message);
     }
     if cutter.fans > 0 {
         let message = format!(

@@ -2,14 +2,18 @@
 //! several, as a material here has one texture where MTL has two.
 
 use super::mtl::MtlTexture;
+use crate::diagnostic::Diagnostic;
 use crate::import::ImportOptions;
 use crate::import::texture_images::{TextureImage, store_images};
 use crate::import::uri_resolver::UriResolver;
 use crate::import::warnings::ImportWarnings;
 use crate::{Image, ImageInfo, Model, Sampler, Texture, TextureInfo, WrapMode};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+
+/// Image files that are looked for.
+const MAX_IMAGES: usize = 4096;
 
 /// Images and textures that the materials so far need.
 #[derive(Debug, Default)]
@@ -22,7 +26,7 @@ pub(super) struct TextureTable<'a> {
     textures: Vec<Texture>,
     texture_indices: BTreeMap<(usize, bool), usize>,
     /// Images that may turn out to be height maps.
-    bump_maps: Vec<usize>,
+    bump_maps: BTreeSet<usize>,
 }
 
 /// Where an image comes from.
@@ -46,9 +50,7 @@ impl<'a> TextureTable<'a> {
     /// The texture of a bump map, which is read if it is a normal map.
     pub(super) fn use_bump_map(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
         let image = self.file_image(mtl);
-        if !self.bump_maps.contains(&image) {
-            self.bump_maps.push(image);
-        }
+        self.bump_maps.insert(image);
         self.texture_of(image, mtl)
     }
 
@@ -141,7 +143,11 @@ impl<'a> TextureTable<'a> {
         for (image, source) in images.iter().enumerate() {
             if let ImageSource::File { folder, name } = source {
                 file_indices[image] = Some(files.len());
-                files.push(read_image(folder, name, resolver, warnings));
+                files.push(if files.len() < MAX_IMAGES {
+                    read_image(folder, name, resolver, warnings)
+                } else {
+                    unread_image(name)
+                });
             }
         }
         store_images(model, files, options, warnings);
@@ -221,6 +227,15 @@ fn read_image<'a>(
     TextureImage { name, location, bytes: bytes.map(Cow::Owned) }
 }
 
+/// An image beyond the number of those that are read.
+fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
+    let name = String::from_utf8_lossy(name).into_owned();
+    let location = format!("texture {name}");
+    let message = format!("of image files only {MAX_IMAGES} are read");
+    let bytes = Err(Diagnostic::missing_data(&location, &message));
+    TextureImage { name, location, bytes }
+}
+
 /// Texels of images that are made of others.
 struct TexelLimit {
     left: u64,
@@ -273,23 +288,26 @@ fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
 /// Leaves out bump maps that are gray: heights need a scale, which no library gives.
 ///
 /// What is colored is a normal map, which many programs write under this name.
-fn remove_height_maps(model: &mut Model, bump_maps: &[usize], warnings: &mut ImportWarnings) {
+fn remove_height_maps(
+    model: &mut Model,
+    bump_maps: &BTreeSet<usize>,
+    warnings: &mut ImportWarnings,
+) {
     let is_gray = |image: &Image| image.rgba.iter().all(|[r, g, b, _]| r == g && g == b);
-    for &image in bump_maps {
-        if !model.images.get(image).is_some_and(|image| image.as_ref().is_some_and(is_gray)) {
-            continue;
-        }
-        let name = model.image_infos[image].uri.clone().unwrap_or_default();
+    let is_height_map =
+        |image: &usize| model.images.get(*image).is_some_and(|at| at.as_ref().is_some_and(is_gray));
+    let height_maps: BTreeSet<usize> = bump_maps.iter().copied().filter(is_height_map).collect();
+    for &image in &height_maps {
+        let name = model.image_infos[image].uri.as_deref().unwrap_or_default();
         let location = format!("texture {name}");
         warnings
             .push_warning(&location, "this bump map is a height map: only normal maps are read");
+    }
+    for material in &mut model.materials {
         let textures = &model.textures;
-        for material in &mut model.materials {
-            let normal =
-                material.normal_texture.map(|normal| textures[normal.texture.texture].image);
-            if normal == Some(Some(image)) {
-                material.normal_texture = None;
-            }
-        }
+        material.normal_texture = material.normal_texture.filter(|normal| {
+            let image = textures[normal.texture.texture].image;
+            !image.is_some_and(|image| height_maps.contains(&image))
+        });
     }
 }

@@ -15,10 +15,10 @@ use super::orientation::orient2d;
 /// Tests of a point in a triangle that all polygons of a file may take together; some tenths of a
 /// second.
 ///
-/// An ear is tested against the reflex corners within its range of x only, so that ordinary
-/// polygons, and large ones too, take a few tests for each corner. Made-up ones can take n² of
-/// them.
-const MAX_POINT_TESTS: u64 = 1 << 27;
+/// An ear is tested against the reflex corners within its range along the polygon's longer side
+/// only, so that ordinary polygons, and large ones too, take a few tests for each corner. Made-up
+/// ones can take n² of them.
+const MAX_POINT_TESTS: u64 = 1 << 26;
 
 /// How a polygon was cut into triangles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,8 +44,10 @@ pub(in crate::import) struct Triangulator {
     next: Vec<u32>,
     /// Whether a corner remains and is reflex or collinear.
     is_reflex: Vec<bool>,
-    /// Corners that were reflex at the beginning, by x.
-    reflex_by_x: Vec<u32>,
+    /// The axis of the plane along which the polygon is longer.
+    long_axis: usize,
+    /// Corners that were reflex at the beginning, in order along that axis.
+    reflex_in_order: Vec<u32>,
     /// The tests that are left for this file; see [`MAX_POINT_TESTS`].
     tests_left: u64,
 }
@@ -58,7 +60,8 @@ impl Default for Triangulator {
             previous: Vec::new(),
             next: Vec::new(),
             is_reflex: Vec::new(),
-            reflex_by_x: Vec::new(),
+            long_axis: 0,
+            reflex_in_order: Vec::new(),
             tests_left: MAX_POINT_TESTS,
         }
     }
@@ -139,10 +142,12 @@ impl Triangulator {
             let is_reflex = self.turn_at(at) <= 0.0;
             self.is_reflex.push(is_reflex);
         }
-        let Self { points, is_reflex, reflex_by_x, .. } = self;
-        reflex_by_x.clear();
-        reflex_by_x.extend((0..count).filter(|&at| is_reflex[at as usize]));
-        reflex_by_x.sort_by(|&a, &b| points[a as usize][0].total_cmp(&points[b as usize][0]));
+        self.long_axis = long_axis(&self.points);
+        let Self { points, is_reflex, long_axis: axis, reflex_in_order, .. } = self;
+        reflex_in_order.clear();
+        reflex_in_order.extend((0..count).filter(|&at| is_reflex[at as usize]));
+        let along = |at: u32| points[at as usize][*axis];
+        reflex_in_order.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
     }
 
     /// Cuts ears until a triangle is left. Where no ear is left, a collinear corner is cut; where
@@ -214,19 +219,20 @@ impl Triangulator {
     fn is_ear(&mut self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let [low, high] = [f64::min, f64::max].map(|f| [0, 1].map(|k| f(f(a[k], b[k]), c[k])));
-        let points = &self.points;
-        let from = self.reflex_by_x.partition_point(|&other| points[other as usize][0] < low[0]);
+        let (points, axis) = (&self.points, self.long_axis);
+        let is_before = |&other: &u32| points[other as usize][axis] < low[axis];
+        let from = self.reflex_in_order.partition_point(is_before);
         let mut tests = 1;
         let mut is_blocked = false;
-        for &other in &self.reflex_by_x[from..] {
+        for &other in &self.reflex_in_order[from..] {
             let p = points[other as usize];
             tests += 1;
-            if p[0] > high[0] || is_blocked {
+            if p[axis] > high[axis] || is_blocked {
                 break;
             }
             is_blocked = self.is_reflex[other as usize]
-                && p[1] >= low[1]
-                && p[1] <= high[1]
+                && p[1 - axis] >= low[1 - axis]
+                && p[1 - axis] <= high[1 - axis]
                 && ![a, b, c].contains(&p)
                 && orient2d(a, b, p) >= 0.0
                 && orient2d(b, c, p) >= 0.0
@@ -241,6 +247,15 @@ impl Triangulator {
         let after = move |at: &u32| Some(self.next[*at as usize]).filter(|next| *next != from);
         std::iter::successors(Some(from), after)
     }
+}
+
+/// The axis along which points are farther apart.
+fn long_axis(points: &[[f64; 2]]) -> usize {
+    let extent = |axis: usize| {
+        let values = || points.iter().map(|point| point[axis]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    usize::from(extent(1) > extent(0))
 }
 
 /// Appends the triangles between the first corner and each edge that does not touch it.

@@ -226,6 +226,8 @@ fn ten_thousand_corners_are_cut_within_the_limit() {
         .chain([[0.0, 0.0], [5000.0, 0.0]])
         .collect();
     assert_covered(&comb);
+    // The same on its side: its teeth are far apart in y and not in x.
+    assert_covered(&comb.iter().map(|[x, y]| [y * 0.01, -x]).collect::<Vec<_>>());
     // A star around the origin: a quarter of a turn of integer directions in four copies.
     let star: Vec<[f32; 2]> = (0..10_000)
         .map(|at| {
