@@ -134,7 +134,7 @@ fn stl_files() -> Vec<Vec<u8>> {
 fn obj_files() -> Vec<Vec<u8>> {
     let text = "# two squares\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 \nv 0.5 0.25 0 1\nvt 0 0\nvt 1 0 0\n\
                 vn 0 0 1\no first thing\ng a b\nusemtl red\ns 1\nf 1/1/1 2/2/1 3//1 -1\ns off\n\
-                f -5/-2 -4/-1 -3/1 -1\\\n/2 -2/2\nl 1 2 3\np 1 2\ng\nf 1 2 3 4 1 2 3\nvp 1 2\n";
+                f -5/-2 -4/-1 -3/1 \\\n-2/2\nl 1 2 3\np 1 2\ng\nf 1 2 3 4 1 2 3\nvp 1 2\n";
     let colors =
         "mtllib none.mtl\r\nv 0 0 0 1 0 0\r\nv 1 0 1e-3 0 1 0 0.5\r\nv 1 1 0\r\nf 1 2 3\r\n";
     let points = "v 0 0 0\nv 1 2 3\nv -1 +2. .5\n";

@@ -11,6 +11,8 @@
 //! | `Ni` | index of refraction, for the reflectance of metallic-roughness materials |
 //! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | as they are; `Ns` and `Ks` do not count then |
 //!
+//! Beside a texture, which they multiply, black `Kd` and `Ke` are taken as white.
+//!
 //! Files do not say how colors are encoded. They are picked on screens and shown unconverted by the
 //! programs of their time, so that they are sRGB.
 //!
@@ -27,6 +29,8 @@ use crate::import::warnings::ImportWarnings;
 use crate::material::{Anisotropy, Clearcoat, Emission, Sheen, Specular};
 use crate::{AlphaMode, Material, NormalTexture};
 
+/// Diffuse color, sRGB encoded, where a library gives none.
+const PLAIN_COLOR: [f32; 3] = [0.8; 3];
 /// The largest diffuse color of a metal, and the least specular one.
 const METAL_THRESHOLD: f32 = 0.04;
 
@@ -43,8 +47,8 @@ pub(super) fn to_material<'a>(
         roughness: 1.0,
         ..Material::plain()
     };
-    let diffuse = mtl.diffuse.map(linear_color);
-    let [r, g, b] = diffuse.unwrap_or(if mtl.has_texture("map_Kd") { [1.0; 3] } else { [0.6; 3] });
+    let color = mtl.color_beside_texture(mtl.diffuse, "map_Kd", PLAIN_COLOR);
+    let [r, g, b] = linear_color(color);
     material.base_color = [r, g, b, 1.0];
     set_emission(&mut material, mtl);
     let has_pbr_keys = ["Pr", "Pm"].into_iter().any(|key| mtl.numbers.contains_key(key));
@@ -61,12 +65,9 @@ pub(super) fn to_material<'a>(
 
 /// Emission; a color above 1 is one of at most 1 with a strength.
 fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
-    let color = mtl.emission.unwrap_or(if mtl.has_texture("map_Ke") { [1.0; 3] } else { [0.0; 3] });
+    let color = mtl.color_beside_texture(mtl.emission, "map_Ke", [0.0; 3]);
     let strength = color.into_iter().fold(1.0, f32::max);
     let color = linear_color(color.map(|channel| channel / strength));
-    // A texture multiplies the color: beside a black one it would have no effect.
-    let is_black = mtl.has_texture("map_Ke") && color == [0.0; 3];
-    let color = if is_black { [1.0; 3] } else { color };
     material.emission = Emission { color, strength };
     material.emissive = material.emission.scaled_color();
 }
@@ -188,6 +189,21 @@ impl MtlMaterial<'_> {
     /// The number of a keyword, clamped to 0 to 1.
     fn unit_number(&self, key: &str) -> Option<f32> {
         self.number(key).map(|number| number.clamp(0.0, 1.0))
+    }
+
+    /// The color of a keyword beside a texture that it multiplies; white where it is black or not
+    /// given, as the texture would not be seen.
+    fn color_beside_texture(
+        &self,
+        color: Option<[f32; 3]>,
+        map: &str,
+        default: [f32; 3],
+    ) -> [f32; 3] {
+        match color {
+            Some(color) if color != [0.0; 3] => color,
+            _ if self.has_texture(map) => [1.0; 3],
+            color => color.unwrap_or(default),
+        }
     }
 
     /// Whether the material has a texture of this keyword.

@@ -58,7 +58,8 @@ fn push_node(model: &mut Model, name: Option<String>, parent: Option<usize>) -> 
     node
 }
 
-/// A name as text; `None` for an empty one.
+/// A name as text, in UTF-8 or else ISO 8859-1; `None` for an empty one.
 pub(super) fn to_name(bytes: &[u8]) -> Option<String> {
-    (!bytes.is_empty()).then(|| String::from_utf8_lossy(bytes).into_owned())
+    let latin_1 = || bytes.iter().map(|&byte| char::from(byte)).collect();
+    (!bytes.is_empty()).then(|| str::from_utf8(bytes).map_or_else(|_| latin_1(), str::to_owned))
 }

@@ -152,7 +152,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
     folder.write("a.obj", square());
     folder.write(
         "a.mtl",
-        "newmtl m\nmap_Kd -s 2 4 1 -o 0.5 0.25 -clamp on -blendu on -mm 0 1 my picture.png\n\
+        "newmtl m\nKd 0 0 0\nmap_Kd -s 2 4 1 -o 0.5 0.25 -clamp on -blendu on -mm 0 1 my picture.png\n\
          map_Ke -boost 2 -t 1 1 1 my picture.png\nmap_Ks other.png\nmap_Ka ambient.png\n",
     );
     let model = folder.load("a.obj");
@@ -166,6 +166,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
     let emissive = model.materials[0].emissive_texture.unwrap();
     assert_eq!(emissive.uv_matrix, TextureInfo::IDENTITY_UV);
     assert_eq!(model.materials[0].emissive, [1.0; 3], "a texture beside black would not shine");
+    assert_eq!(model.materials[0].base_color, [1.0; 4], "nor be seen");
     assert_eq!(model.images.len(), 1, "one file");
     assert_eq!(model.images[0].as_ref().unwrap().rgba, [[255, 0, 0, 255]]);
     let told = warnings(&model);
@@ -173,7 +174,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
         assert!(told.contains(&format!("{expected} is not read (1 times)")), "{told}");
     }
     assert_eq!(told.lines().count(), 3, "{told}");
-    assert!(told.starts_with("a.mtl: line 3, column 8: "), "{told}");
+    assert!(told.starts_with("a.mtl: line 4, column 8: "), "{told}");
 }
 
 #[test]

@@ -166,6 +166,12 @@ fn encodings_line_ends_and_continuations() {
 }
 
 #[test]
+fn names_that_are_not_utf_8_are_latin_1() {
+    let model = read([SQUARE.as_bytes(), b"o T\xFCr\nf 1 2 3"].concat()).unwrap();
+    assert_eq!(model.nodes[0].name.as_deref(), Some("Tür"));
+}
+
+#[test]
 fn objects_and_groups_are_nodes() {
     let model = read(format!(
         "{SQUARE}f 1 2 3\no Table\nf 1 2 3\ng top part\nf 1 2 3\ng legs\nf 1 2 3\no Chair\nf 1 2 3\n\
