@@ -66,16 +66,28 @@ pub fn mesh(name: &str, bytes: &[u8]) {
         load_bytes(name, bytes, &options)
     };
     let loaded = load(false);
-    let report = check_bytes(
-        name,
-        bytes,
-        &ImportOptions { limits: limits(), ..ImportOptions::default() },
-    );
+    let report =
+        check_bytes(name, bytes, &ImportOptions { limits: limits(), ..ImportOptions::default() });
     assert!(loaded.is_ok() || report.errors > 0, "a file that does not load has no error");
     if loaded.is_err() {
         show(load(true));
     }
     show(loaded);
+}
+
+/// A material library whose first materials a few triangles have.
+pub fn material_library(bytes: &[u8]) {
+    let escaped: String = bytes.iter().map(|byte| format!("%{byte:02X}")).collect();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
+    let mut file = format!("mtllib data:,{escaped}\n{corners}").into_bytes();
+    for line in
+        bytes.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"newmtl ")).take(4)
+    {
+        file.extend_from_slice(b"use");
+        file.extend_from_slice(&line[3..]);
+        file.extend_from_slice(b"\nf 1/1 2/2 3/3\n");
+    }
+    mesh("model.obj", &file);
 }
 
 /// A file that is loaded and held to its promises, and not drawn: what comes of a decoder's bytes

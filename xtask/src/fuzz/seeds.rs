@@ -16,14 +16,18 @@ const LARGEST_STREAM: usize = 48 << 10;
 pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     let mut seeds = match target {
         "model" => model_seeds().into_iter().map(|model| model.file).collect(),
-        "stl" => files_with_endings(&["stl"]),
+        "stl" | "obj" | "mtl" => files_with_endings(&[target]),
         "meshopt" => model_seeds().iter().flat_map(meshopt_seeds).collect(),
         "draco" => model_seeds().iter().flat_map(draco_seeds).collect(),
         "image" => image_seeds(),
         "scene" => scene_seeds()?,
         _ => number_seeds(),
     };
-    let largest = if ["model", "stl"].contains(&target) { LARGEST_MODEL } else { LARGEST_STREAM };
+    let largest = if ["model", "stl", "obj", "mtl"].contains(&target) {
+        LARGEST_MODEL
+    } else {
+        LARGEST_STREAM
+    };
     seeds.retain(|seed: &Vec<u8>| seed.len() <= largest);
     seeds.sort();
     seeds.dedup();

@@ -134,7 +134,7 @@ fn read_libraries(
 
 /// Reads one library.
 fn read_library(name: String, resolver: &UriResolver<'_>) -> Result<Library, Diagnostic> {
-    let bytes = resolver.read_uri(&name, &format!("mtllib {name}"))?;
+    let bytes = resolver.read_uri(&name, &format!("mtllib {}", shorten(&name)))?;
     let text = decode_text(&bytes).into_owned();
     Ok(Library { name, text })
 }
@@ -151,7 +151,7 @@ fn build_materials(
     // The first library that defines a name counts, and in it the last definition.
     let mut defined: BTreeMap<&[u8], (usize, MtlMaterial<'_>)> = BTreeMap::new();
     for (at, library) in libraries.iter().enumerate() {
-        for material in mtl::parse_mtl(&library.text, &library.name, warnings) {
+        for material in mtl::parse_mtl(&library.text, &shorten(&library.name), warnings) {
             let is_earlier = |other: &(usize, _)| other.0 < at;
             if !defined.get(material.name).is_some_and(is_earlier) {
                 defined.insert(material.name, (at, material));
@@ -185,8 +185,19 @@ fn build_materials(
     textures.load_images(model, resolver, options, warnings);
 }
 
-/// The folder of a path, with the slash at its end; empty if it has none.
+/// A name from a file as messages quote it: its beginning, if it is very long.
+fn shorten(name: &str) -> String {
+    const LENGTH: usize = 80;
+    let mut short: String = name.chars().take(LENGTH).collect();
+    if short.len() < name.len() {
+        short.push('…');
+    }
+    short
+}
+
+/// The folder of a path, with the slash at its end; empty if it has none, and for data URIs.
 fn folder_of(path: &str) -> String {
+    let path = if path.starts_with("data:") { "" } else { path };
     path.rfind(['/', '\\']).map_or_else(String::new, |slash| path[..=slash].to_owned())
 }
 

@@ -129,12 +129,12 @@ impl<'a> MtlParser<'a> {
         } else if let Some((_, name)) = TEXTURES.iter().find(|at| keyword.is_keyword(at.0)) {
             self.read_texture(keyword, name);
         } else if !IGNORED.iter().any(|name| keyword.is_keyword(name)) {
-            self.count_unread(keyword.to_text(), keyword.offset);
+            self.count_unread(&keyword.to_text(), keyword.offset);
         }
     }
 
     /// Counts something that is not read.
-    fn count_unread(&mut self, what: String, offset: usize) {
+    fn count_unread(&mut self, what: &str, offset: usize) {
         let mut what: String = format!("`{}`", what.chars().take(32).collect::<String>());
         if self.unread.len() >= MAX_NAMED_STATEMENTS && !self.unread.contains_key(&what) {
             "another statement".clone_into(&mut what);
@@ -153,7 +153,10 @@ impl<'a> MtlParser<'a> {
         match (color, self.materials.last_mut()) {
             (Some(color), Some(material)) => set(material, color),
             (None, _) => {
-                self.count_unread(format!("{} without numbers", keyword.to_text()), keyword.offset)
+                self.count_unread(
+                    &format!("{} without numbers", keyword.to_text()),
+                    keyword.offset,
+                );
             }
             _ => {}
         }
@@ -163,7 +166,7 @@ impl<'a> MtlParser<'a> {
     fn read_number(&mut self, keyword: Token<'a>, name: &'static str) {
         let mut argument = self.reader.next_argument();
         if argument.is_some_and(|token| token.is_keyword("-halo")) {
-            self.count_unread("-halo".to_owned(), keyword.offset);
+            self.count_unread("-halo", keyword.offset);
             argument = self.reader.next_argument();
         }
         let number = argument.and_then(|token| parse_f32(token.bytes)).filter(|x| x.is_finite());
@@ -172,7 +175,7 @@ impl<'a> MtlParser<'a> {
                 material.numbers.insert(name, number);
             }
             (None, _) => {
-                self.count_unread(format!("{} without number", keyword.to_text()), keyword.offset)
+                self.count_unread(&format!("{} without number", keyword.to_text()), keyword.offset);
             }
             _ => {}
         }
@@ -216,9 +219,9 @@ impl<'a> MtlParser<'a> {
         }
         texture.file = self.reader.rest_of_line();
         if name.is_empty() {
-            self.count_unread(keyword.to_text(), keyword.offset);
+            self.count_unread(&keyword.to_text(), keyword.offset);
         } else if texture.file.bytes.is_empty() {
-            self.count_unread(format!("{} without file", keyword.to_text()), keyword.offset);
+            self.count_unread(&format!("{} without file", keyword.to_text()), keyword.offset);
         } else if let Some(material) = self.materials.last_mut() {
             material.textures.insert(name, texture);
         }
@@ -234,7 +237,7 @@ impl<'a> MtlParser<'a> {
             match option.bytes {
                 b"-o" | b"-O" => texture.offset = pair(0.0),
                 b"-s" | b"-S" => texture.scale = pair(1.0),
-                _ => self.count_unread("-t".to_owned(), option.offset),
+                _ => self.count_unread("-t", option.offset),
             }
         } else if is("-bm") {
             texture.bump = self.read_numbers::<1>().first().copied().unwrap_or(1.0);
@@ -246,17 +249,17 @@ impl<'a> MtlParser<'a> {
             texture.channel = word.and_then(|word| word.bytes.first().copied());
         } else if is("-mm") {
             if self.read_numbers::<2>() != [0.0, 1.0] {
-                self.count_unread("-mm".to_owned(), option.offset);
+                self.count_unread("-mm", option.offset);
             }
         } else if is("-boost") || is("-texres") {
             self.read_numbers::<1>();
-            self.count_unread(option.to_text(), option.offset);
+            self.count_unread(&option.to_text(), option.offset);
         } else if is("-blendu") || is("-blendv") || is("-cc") || is("-type") || is("-colorspace") {
             let word = self.reader.next_argument();
             let is_default =
                 option.bytes.starts_with(b"-blend") == word.is_some_and(|w| w.is_keyword("on"));
             if !is_default || is("-type") || is("-colorspace") {
-                self.count_unread(option.to_text(), option.offset);
+                self.count_unread(&option.to_text(), option.offset);
             }
         } else {
             return false;

@@ -390,8 +390,10 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         told.retain(|(tally, _)| tally.count > 0);
         told.sort_by_key(|(tally, _)| tally.first);
         for (tally, message) in told {
-            let is_placed = tally.first > 0;
-            let location = is_placed.then(|| self.lines.locate(tally.first)).unwrap_or_default();
+            let location = match tally.first {
+                0 => String::new(),
+                first => self.lines.locate(first),
+            };
             self.warnings.push_warning(&location, message);
         }
     }

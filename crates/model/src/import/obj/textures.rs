@@ -2,6 +2,7 @@
 //! several, as a material here has one texture where MTL has two.
 
 use super::mtl::MtlTexture;
+use super::shorten;
 use crate::diagnostic::Diagnostic;
 use crate::import::ImportOptions;
 use crate::import::texture_images::{TextureImage, store_images};
@@ -210,7 +211,7 @@ fn read_image<'a>(
     warnings: &mut ImportWarnings,
 ) -> TextureImage<'a> {
     let name = String::from_utf8_lossy(name).into_owned();
-    let location = format!("texture {name}");
+    let location = format!("texture {}", shorten(&name));
     let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
     let first = resolver.read_uri(&format!("{folder}{name}"), &location);
     let bytes = first.or_else(|error| {
@@ -224,13 +225,14 @@ fn read_image<'a>(
         });
         found.ok_or(error)
     });
+    let name = if name.starts_with("data:") { "data:".to_owned() } else { name };
     TextureImage { name, location, bytes: bytes.map(Cow::Owned) }
 }
 
 /// An image beyond the number of those that are read.
 fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     let name = String::from_utf8_lossy(name).into_owned();
-    let location = format!("texture {name}");
+    let location = format!("texture {}", shorten(&name));
     let message = format!("of image files only {MAX_IMAGES} are read");
     let bytes = Err(Diagnostic::missing_data(&location, &message));
     TextureImage { name, location, bytes }
@@ -299,7 +301,7 @@ fn remove_height_maps(
     let height_maps: BTreeSet<usize> = bump_maps.iter().copied().filter(is_height_map).collect();
     for &image in &height_maps {
         let name = model.image_infos[image].uri.as_deref().unwrap_or_default();
-        let location = format!("texture {name}");
+        let location = format!("texture {}", shorten(name));
         warnings
             .push_warning(&location, "this bump map is a height map: only normal maps are read");
     }

@@ -275,6 +275,21 @@ fn libraries_are_found_by_whole_names_by_several_and_once() {
 }
 
 #[test]
+fn libraries_and_textures_may_be_in_the_file() {
+    let library = "data:;base64,bmV3bXRsIG0KUHIgMC4yNQpuZXcKbWFwX0tkIGRhdGE6LC8vLwo=";
+    let model = super::read(square().replace("a.mtl", library)).unwrap();
+    assert_eq!(model.materials[0].roughness, 0.25);
+    assert_eq!(model.image_infos[0].uri.as_deref(), Some("data:"));
+    let told = warnings(&model);
+    assert!(told.contains("texture data:,///: ") && told.contains("`new` is not read"), "{told}");
+    let long = "x".repeat(100_000);
+    let model =
+        super::read(square().replace("a.mtl", &format!("data:,newmtl%20m%0A{long}%0A{long}")))
+            .unwrap();
+    assert!(warnings(&model).len() < 1000);
+}
+
+#[test]
 fn textures_are_below_the_library_or_beside_it_and_never_outside() {
     let folder = Folder::new("paths");
     folder.write_png("a.png", &[[1, 1, 1, 255]]);

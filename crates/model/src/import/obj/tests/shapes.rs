@@ -1,7 +1,7 @@
 //! Vertex data, elements, groups and normals.
 
 use super::{SQUARE, primitives, read, read_leniently, triangle_count, warnings};
-use crate::{ImportOptions, Limits, Topology, codes, load_bytes};
+use crate::{ImportOptions, Limits, Primitive, Topology, codes, load_bytes};
 
 #[test]
 fn references_count_from_one_or_backwards() {
@@ -185,7 +185,7 @@ fn objects_and_groups_are_nodes() {
     assert_eq!((model.nodes[2].parent, model.nodes[4].parent), (Some(1), None));
     let triangles = |node: usize| {
         let mesh = &model.meshes[model.nodes[node].mesh.unwrap()];
-        (mesh.name.as_deref(), mesh.primitives.iter().map(|p| p.item_count()).sum::<usize>())
+        (mesh.name.as_deref(), mesh.primitives.iter().map(Primitive::item_count).sum::<usize>())
     };
     assert_eq!(triangles(1), (Some("Table"), 1));
     assert_eq!(triangles(3), (Some("legs"), 2));
