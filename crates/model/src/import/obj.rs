@@ -17,6 +17,7 @@
 //! neither smoothing groups nor locations of faults, and reads no UTF-16.
 
 mod elements;
+mod fault_counts;
 mod material;
 mod mtl;
 mod parser;

@@ -4,6 +4,7 @@
 //! vertex colors are an extension of ZBrush and MeshLab.
 
 use super::elements::{Corner, ElementState, Elements, NONE};
+use super::fault_counts::FaultCounts;
 use super::parts::FLAT_GROUP;
 use super::statements::StatementReader;
 use crate::Topology;
@@ -15,8 +16,6 @@ use std::collections::BTreeMap;
 /// Statements without effect on the picture of a polygon mesh.
 const IGNORED: [&[u8]; 6] =
     [b"lod", b"shadow_obj", b"trace_obj", b"c_interp", b"d_interp", b"bevel"];
-/// Different unknown statements that a warning names.
-const MAX_NAMED_STATEMENTS: usize = 16;
 
 /// The content of an OBJ file. Names are parts of its text.
 #[derive(Debug, Default)]
@@ -92,37 +91,7 @@ struct ObjParser<'a, 'w> {
     has_elements: bool,
     /// References to vertices that have not been defined yet: element, offset and index.
     forward: Vec<(usize, usize, u32)>,
-    tallies: Tallies<'a>,
-}
-
-/// Faults that are counted and told once, with the offset of the first.
-#[derive(Default)]
-struct Tallies<'a> {
-    short_elements: Tally,
-    missing_uvs: Tally,
-    missing_normals: Tally,
-    broken_uvs: Tally,
-    /// Statements that are not read, by name.
-    statements: BTreeMap<&'a [u8], Tally>,
-    /// Statements beyond [`MAX_NAMED_STATEMENTS`].
-    further_statements: Tally,
-}
-
-/// Number of occurrences and offset of the first.
-#[derive(Clone, Copy, Default)]
-struct Tally {
-    count: usize,
-    first: usize,
-}
-
-impl Tally {
-    /// Counts one occurrence.
-    fn count_at(&mut self, offset: usize) {
-        if self.count == 0 {
-            self.first = offset;
-        }
-        self.count += 1;
-    }
+    faults: FaultCounts<'a>,
 }
 
 impl<'a, 'w> ObjParser<'a, 'w> {
@@ -141,7 +110,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
             material_indices: BTreeMap::new(),
             has_elements: false,
             forward: Vec::new(),
-            tallies: Tallies::default(),
+            faults: FaultCounts::default(),
         }
     }
 
@@ -165,7 +134,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
             b"s" => self.set_smoothing(),
             b"mtllib" => self.file.libraries.push(self.reader.rest_of_line()),
             name if IGNORED.contains(&name) => {}
-            name => self.tallies.count_statement(name, keyword.offset),
+            name => self.faults.count_statement(name, keyword.offset),
         }
         Ok(())
     }
@@ -206,7 +175,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         let ([u, v], count) = self.read_numbers::<2>();
         let uv = [u, if count < 2 { 0.0 } else { v }];
         if !(uv[0].is_finite() && uv[1].is_finite()) {
-            self.tallies.broken_uvs.count_at(offset);
+            self.faults.broken_uvs.count_at(offset);
         }
         self.file.uvs.push(uv.map(|x| if x.is_finite() { x } else { 0.0 }));
     }
@@ -272,7 +241,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
         if count < topology.vertices_per_item() {
             self.file.elements.corners.truncate(start);
             self.forward.truncate(pending);
-            self.tallies.short_elements.count_at(offset);
+            self.faults.short_elements.count_at(offset);
             return Ok(());
         }
         let state = self.element_state(topology);
@@ -307,14 +276,14 @@ impl<'a, 'w> ObjParser<'a, 'w> {
             rest = after;
             if let Some(reference) = take_integer(&mut rest) {
                 let index = resolve_index(reference, self.file.uvs.len());
-                uv = index.unwrap_or_else(|| self.tallies.missing_uvs.count_none(token.offset));
+                uv = index.unwrap_or_else(|| self.faults.missing_uvs.count_none(token.offset));
             }
             if let [b'/', after @ ..] = rest {
                 rest = after;
                 if let Some(reference) = take_integer(&mut rest) {
                     let index = resolve_index(reference, self.file.normals.len());
                     normal = index
-                        .unwrap_or_else(|| self.tallies.missing_normals.count_none(token.offset));
+                        .unwrap_or_else(|| self.faults.missing_normals.count_none(token.offset));
                 }
             }
         }
@@ -340,7 +309,7 @@ impl<'a, 'w> ObjParser<'a, 'w> {
             self.make_points();
         }
         self.clear_missing_attributes();
-        self.report_tallies();
+        self.faults.report(&mut self.lines, self.warnings);
         Ok(self.file)
     }
 
@@ -359,62 +328,16 @@ impl<'a, 'w> ObjParser<'a, 'w> {
 
     /// Removes references to texture coordinates and normals that do not exist.
     fn clear_missing_attributes(&mut self) {
-        let Self { file, tallies, .. } = self;
+        let Self { file, faults, .. } = self;
         let (uvs, normals) = (file.uvs.len() as u32, file.normals.len() as u32);
         for corner in &mut file.elements.corners {
             if corner.uv >= uvs && corner.uv != NONE {
-                corner.uv = tallies.missing_uvs.count_none(0);
+                corner.uv = faults.missing_uvs.count_none(0);
             }
             if corner.normal >= normals && corner.normal != NONE {
-                corner.normal = tallies.missing_normals.count_none(0);
+                corner.normal = faults.missing_normals.count_none(0);
             }
         }
-    }
-
-    /// One warning for each kind of fault that was counted, in the order of the file.
-    fn report_tallies(&mut self) {
-        let tallies = std::mem::take(&mut self.tallies);
-        let kinds = [
-            (tallies.short_elements, "elements with too few vertices: they are left out"),
-            (tallies.missing_uvs, "references to texture coordinates that do not exist"),
-            (tallies.missing_normals, "references to normals that do not exist: they are computed"),
-            (tallies.broken_uvs, "texture coordinates that are not numbers: they are 0"),
-            (tallies.further_statements, "more statements are not read"),
-        ];
-        let mut told: Vec<(Tally, String)> =
-            kinds.map(|(tally, what)| (tally, format!("{} {what}", tally.count))).to_vec();
-        for (name, tally) in tallies.statements {
-            let name: String = String::from_utf8_lossy(name).chars().take(32).collect();
-            told.push((tally, format!("{} statements {name:?} are not read", tally.count)));
-        }
-        told.retain(|(tally, _)| tally.count > 0);
-        told.sort_by_key(|(tally, _)| tally.first);
-        for (tally, message) in told {
-            let location = match tally.first {
-                0 => String::new(),
-                first => self.lines.locate(first),
-            };
-            self.warnings.push_warning(&location, message);
-        }
-    }
-}
-
-impl<'a> Tallies<'a> {
-    /// Counts a statement that is not read.
-    fn count_statement(&mut self, name: &'a [u8], offset: usize) {
-        if self.statements.len() < MAX_NAMED_STATEMENTS || self.statements.contains_key(name) {
-            self.statements.entry(name).or_default().count_at(offset);
-        } else {
-            self.further_statements.count_at(offset);
-        }
-    }
-}
-
-impl Tally {
-    /// Counts an attribute that does not exist.
-    fn count_none(&mut self, offset: usize) -> u32 {
-        self.count_at(offset);
-        NONE
     }
 }
 
