@@ -102,7 +102,8 @@ pub(super) fn split_elements(
     }
     if cutter.fans > 0 {
         let message = format!(
-            "{} polygons cross themselves: they are filled as fans, which may overlap",
+            "{} polygons cross themselves or have too many corners: they are filled as fans, which may \
+             overlap",
             cutter.fans
         );
         warnings.push_warning("", message);

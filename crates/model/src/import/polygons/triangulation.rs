@@ -12,13 +12,16 @@
 
 use super::orientation::orient2d;
 
-/// Tests of a point in a triangle that all polygons of a file may take together; some tenths of a
-/// second.
+/// Tests of a point in a triangle that all polygons of a file may take together:
+/// about a tenth of a second.
 ///
 /// An ear is tested against the reflex corners within its range along the polygon's longer side
 /// only, so that ordinary polygons, and large ones too, take a few tests for each corner. Made-up
 /// ones can take n² of them.
-const MAX_POINT_TESTS: u64 = 1 << 26;
+const MAX_POINT_TESTS: u64 = 1 << 24;
+
+/// What looking at a corner costs, whether it is an ear or not, in tests.
+const TESTS_PER_STEP: u64 = 4;
 
 /// How a polygon was cut into triangles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -46,8 +49,8 @@ pub(in crate::import) struct Triangulator {
     is_reflex: Vec<bool>,
     /// The axis of the plane along which the polygon is longer.
     long_axis: usize,
-    /// Corners that were reflex at the beginning, in order along that axis.
-    reflex_in_order: Vec<u32>,
+    /// Corners that were reflex at the beginning with their points, in order along that axis.
+    reflex_in_order: Vec<([f64; 2], u32)>,
     /// The tests that are left for this file; see [`MAX_POINT_TESTS`].
     tests_left: u64,
 }
@@ -145,9 +148,9 @@ impl Triangulator {
         self.long_axis = long_axis(&self.points);
         let Self { points, is_reflex, long_axis: axis, reflex_in_order, .. } = self;
         reflex_in_order.clear();
-        reflex_in_order.extend((0..count).filter(|&at| is_reflex[at as usize]));
-        let along = |at: u32| points[at as usize][*axis];
-        reflex_in_order.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
+        let reflex = (0..count).filter(|&at| is_reflex[at as usize]);
+        reflex_in_order.extend(reflex.map(|at| (points[at as usize], at)));
+        reflex_in_order.sort_by(|(a, _), (b, _)| a[*axis].total_cmp(&b[*axis]));
     }
 
     /// Cuts ears until a triangle is left. Where no ear is left, a collinear corner is cut; where
@@ -160,6 +163,7 @@ impl Triangulator {
                 push_fan(self.ring(at), triangles);
                 return PolygonKind::Fan;
             }
+            self.tests_left = self.tests_left.saturating_sub(TESTS_PER_STEP);
             let turn = self.turn_at(at);
             let is_flat = turn == 0.0 && (may_be_flat || self.is_spike(at));
             if is_flat || (turn > 0.0 && self.is_ear(at)) {
@@ -219,20 +223,18 @@ impl Triangulator {
     fn is_ear(&mut self, at: u32) -> bool {
         let [a, b, c] = self.ear_triangle(at);
         let [low, high] = [f64::min, f64::max].map(|f| [0, 1].map(|k| f(f(a[k], b[k]), c[k])));
-        let (points, axis) = (&self.points, self.long_axis);
-        let is_before = |&other: &u32| points[other as usize][axis] < low[axis];
-        let from = self.reflex_in_order.partition_point(is_before);
+        let axis = self.long_axis;
+        let from = self.reflex_in_order.partition_point(|(p, _)| p[axis] < low[axis]);
         let mut tests = 1;
         let mut is_blocked = false;
-        for &other in &self.reflex_in_order[from..] {
-            let p = points[other as usize];
+        for &(p, other) in &self.reflex_in_order[from..] {
             tests += 1;
             if p[axis] > high[axis] || is_blocked {
                 break;
             }
-            is_blocked = self.is_reflex[other as usize]
-                && p[1 - axis] >= low[1 - axis]
+            is_blocked = p[1 - axis] >= low[1 - axis]
                 && p[1 - axis] <= high[1 - axis]
+                && self.is_reflex[other as usize]
                 && ![a, b, c].contains(&p)
                 && orient2d(a, b, p) >= 0.0
                 && orient2d(b, c, p) >= 0.0
