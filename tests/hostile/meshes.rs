@@ -7,8 +7,17 @@ use crate::case::{Case, Expected};
 const MUTANTS: usize = 2_000;
 
 /// Formats with the file names that stand for them, and small files that the mutants are made of.
-const FORMATS: [(&str, fn() -> Vec<Vec<u8>>); 2] =
-    [("model.stl", stl_files), ("model.obj", obj_files)];
+const FORMATS: [(&str, fn() -> Vec<Vec<u8>>); 5] = [
+    ("model.stl", stl_files),
+    ("model.obj", obj_files),
+    ("model.ply", ply_files),
+    ("model.3mf", threemf_files),
+    // The text within an archive, which then has the right checksum.
+    (MODEL_PART, threemf_parts),
+];
+
+/// The name of the mutants that are put in an archive.
+const MODEL_PART: &str = "3dmodel.model";
 
 /// Words that readers might stumble over.
 const WORDS: [&[u8]; 22] = [
@@ -40,8 +49,10 @@ pub fn mesh_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (file_name, files) in FORMATS {
         let files = files();
+        let finish = |file: Vec<u8>| if file_name == MODEL_PART { archive(&file) } else { file };
         for (at, file) in files.iter().enumerate() {
-            let case = Case::new(format!("{file_name} {at}"), file.clone(), Expected::Loads);
+            let case =
+                Case::new(format!("{file_name} {at}"), finish(file.clone()), Expected::Loads);
             cases.push(Case { file_name, ..case });
         }
         for number in 0..MUTANTS {
@@ -52,7 +63,7 @@ pub fn mesh_cases() -> Vec<Case> {
                 mutate(&mut mutant, &files, &mut random);
             }
             let name = format!("{file_name} mutant {number}");
-            cases.push(Case { file_name, ..Case::new(name, mutant, Expected::Anything) });
+            cases.push(Case { file_name, ..Case::new(name, finish(mutant), Expected::Anything) });
         }
     }
     cases
@@ -139,4 +150,86 @@ fn obj_files() -> Vec<Vec<u8>> {
         "mtllib none.mtl\r\nv 0 0 0 1 0 0\r\nv 1 0 1e-3 0 1 0 0.5\r\nv 1 1 0\r\nf 1 2 3\r\n";
     let points = "v 0 0 0\nv 1 2 3\nv -1 +2. .5\n";
     [text, colors, points].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+/// Faces, strips, edges, colors, texture coordinates and unknown elements, as text and in binary.
+fn ply_files() -> Vec<Vec<u8>> {
+    let text = "ply\nformat ascii 1.0\ncomment TextureFile none.png\nelement vertex 5\n\
+                property float x\nproperty float y\nproperty double z\nproperty uchar red\n\
+                property uchar green\nproperty uchar blue\nproperty uchar alpha\nelement face 2\n\
+                property list uchar int vertex_indices\nproperty list uchar float texcoord\n\
+                property int texnumber\nelement odd 1\nproperty list int short words\n\
+                element tristrips 1\nproperty list int int vertex_indices\nelement edge 1\n\
+                property int vertex1\nproperty int vertex2\nend_header\n\
+                0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n1 1 0 0 0 255 128\n0 1 0 9 9 9 9\n\
+                0.5 2e-1 0 1 2 3 4\n4 0 1 2 3 8 0 0 1 0 1 1 0 1 0\n3 0 1 4 6 0 0 1 0 1 1 1\n\
+                2 7 8\n5 0 1 2 -1 3\n0 4\n";
+    let mut files = vec![text.as_bytes().to_vec()];
+    for (name, is_big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
+        let file = format!(
+            "ply\r\nformat {name} 1.0\r\nelement vertex 3\r\nproperty float x\r\n\
+             property float y\r\nproperty float z\r\nproperty float nx\r\nproperty float ny\r\n\
+             property float nz\r\nelement face 1\r\nproperty list uint uint vertex_index\r\n\
+             end_header\r\n"
+        );
+        let mut body = Vec::new();
+        let mut push = |word: u32| match is_big {
+            true => body.extend(word.to_be_bytes()),
+            false => body.extend(word.to_le_bytes()),
+        };
+        for corner in [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5_f32]] {
+            corner.iter().chain(&[0.0, 0.0, 2.0]).for_each(|x| push(x.to_bits()));
+        }
+        [3, 0, 1, 2].map(&mut push);
+        files.push([file.as_bytes(), &body].concat());
+    }
+    files
+}
+
+/// Objects, components, items and every kind of property.
+fn threemf_parts() -> Vec<Vec<u8>> {
+    let text = r##"<?xml version="1.0"?><model unit="inch" requiredextensions="m"
+xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"><resources>
+<basematerials id="5"><base name="a" displaycolor="#FF0000"/><base name="b" displaycolor="#0000FF80"/>
+</basematerials><m:colorgroup id="6"><m:color color="#00FF00"/><m:color color="#102030"/>
+</m:colorgroup><m:texture2d id="4" path="/3D/a.png"/><m:texture2dgroup id="7" texid="4">
+<m:tex2coord u="0" v="1e-1"/></m:texture2dgroup><m:compositematerials id="8" matid="5"
+matindices="0 1"><m:composite values="1 3"/></m:compositematerials><m:multiproperties id="9"
+pids="5 6" blendmethods="multiply"><m:multi pindices="0 1"/></m:multiproperties>
+<object id="1" pid="5" pindex="1"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="3" y="0"
+z="0"/><vertex x="0" y="4" z="0"/><vertex x="0" y="0" z="5"/></vertices><triangles>
+<triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3" pid="6" p1="0" p2="1" p3="0"/>
+<triangle v1="0" v2="3" v3="2" pid="8" p1="0"/><triangle v1="1" v2="2" v3="3" pid="9" p1="0"/>
+</triangles></mesh></object><object id="2"><components><component objectid="1"/>
+<component objectid="1" transform="1 0 0 0 1 0 0 0 1 9 0 0"/></components></object></resources><build>
+<item objectid="2" transform="0 1 0 -1 0 0 0 0 1 0 0 7"/><item objectid="1"/></build></model>"##;
+    vec![text.as_bytes().to_vec()]
+}
+
+/// The same in archives.
+fn threemf_files() -> Vec<Vec<u8>> {
+    threemf_parts().iter().map(|part| archive(part)).collect()
+}
+
+/// A zip archive of a model part that is not compressed.
+fn archive(part: &[u8]) -> Vec<u8> {
+    let name = b"3D/3dmodel.model";
+    let length = (part.len() as u32).to_le_bytes();
+    let checksum = checksum(part).to_le_bytes();
+    let sizes = [&checksum[..], &length, &length, &[name.len() as u8, 0, 0, 0]].concat();
+    let mut file = [&b"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0"[..], &sizes, name, part].concat();
+    let directory = file.len() as u32;
+    file.extend([&b"PK\x01\x02\x14\0\x14\0\0\0\0\0\0\0\0\0"[..], &sizes, &[0; 14], name].concat());
+    let size = file.len() as u32 - directory;
+    file.extend(b"PK\x05\x06\0\0\0\0\x01\0\x01\0");
+    file.extend([size.to_le_bytes(), directory.to_le_bytes()].concat());
+    file.extend([0, 0]);
+    file
+}
+
+/// CRC-32 as zip has it: the polynomial 0xEDB88320, bits reflected.
+fn checksum(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }

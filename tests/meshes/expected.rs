@@ -17,11 +17,18 @@ pub enum Outcome {
 }
 
 /// Files of the known folder that differ from its manifest, and why.
-pub const DIFFERENCES: &[(&str, Outcome, &str)] = &[(
-    "obj/box.obj",
-    Outcome::Mesh(MeshFacts { triangles: 12, bounds: Some([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0]) }),
-    "the manifest lists two files of this name, and the folder has the second",
-)];
+pub const DIFFERENCES: &[(&str, Outcome, &str)] = &[
+    (
+        "obj/box.obj",
+        Outcome::Mesh(MeshFacts { triangles: 12, bounds: Some([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0]) }),
+        "the manifest lists two files of this name, and the folder has the second",
+    ),
+    (
+        "3mf/production_components.3mf",
+        Outcome::Mesh(MeshFacts { triangles: 8, bounds: Some([0.0, 0.0, 0.0, 25.0, 10.0, 10.0]) }),
+        "objects of two parts have the same id; the other reader shows both at each component",
+    ),
+];
 
 impl MeshFacts {
     /// Compares with what was found; bounds agree in the six digits of the manifest, relative to

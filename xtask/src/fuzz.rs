@@ -43,6 +43,8 @@ const TARGETS: &[FuzzTarget] = &[
     FuzzTarget { name: "stl", about: "a whole .stl, text or binary", words: Some("stl.dict") },
     FuzzTarget { name: "obj", about: "a whole .obj", words: Some("obj.dict") },
     FuzzTarget { name: "mtl", about: "a material library, in use", words: Some("mtl.dict") },
+    FuzzTarget { name: "ply", about: "a whole .ply, text or binary", words: Some("ply.dict") },
+    FuzzTarget { name: "threemf", about: "a whole .3mf", words: Some("threemf.dict") },
     FuzzTarget { name: "meshopt", about: "a buffer view compressed by meshopt", words: None },
     FuzzTarget { name: "draco", about: "a primitive compressed by Draco", words: None },
     FuzzTarget {

@@ -20,6 +20,7 @@
 //!
 //! The modules here serve every format; `gltf`, `stl`, `obj`, `ply` and `threemf` read one each.
 
+mod corner_vertices;
 mod error;
 mod file_format;
 pub(crate) mod gltf;
@@ -31,11 +32,14 @@ mod normals;
 mod obj;
 mod parallel_decoding;
 mod plain_material;
+mod ply;
 mod polygons;
 mod srgb;
 mod stl;
+mod surfaces;
 mod text;
 mod texture_images;
+mod threemf;
 pub(crate) mod uri_resolver;
 mod warnings;
 
@@ -170,8 +174,8 @@ pub(crate) fn import_model(
         FileFormat::Gltf => gltf::import_gltf,
         FileFormat::Stl => stl::import_stl,
         FileFormat::Obj => obj::import_obj,
-        FileFormat::Ply => not_yet_read,
-        FileFormat::ThreeMf => not_yet_read,
+        FileFormat::Ply => ply::import_ply,
+        FileFormat::ThreeMf => threemf::import_threemf,
     };
     let mut model = import(path, bytes, resolver, options)?;
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -203,15 +207,4 @@ fn check_scene_limits(model: &Model, limits: &Limits) -> Result<(), Diagnostic> 
         return Err(Diagnostic::limit_exceeded("", &what, "nodes", limits.nodes as u64));
     }
     gltf::check_scene_items(model, limits)
-}
-
-/// The error for formats that have no reader yet.
-fn not_yet_read(
-    _: &Path,
-    _: &[u8],
-    _: &UriResolver<'_>,
-    _: &ImportOptions,
-) -> Result<Model, Diagnostic> {
-    let message = "this format is not read yet";
-    Err(Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, "convert it to .glb"))
 }

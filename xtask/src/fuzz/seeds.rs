@@ -16,14 +16,15 @@ const LARGEST_STREAM: usize = 48 << 10;
 pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
     let mut seeds = match target {
         "model" => model_seeds().into_iter().map(|model| model.file).collect(),
-        "stl" | "obj" | "mtl" => files_with_endings(&[target]),
+        "stl" | "obj" | "mtl" | "ply" => files_with_endings(&[target]),
+        "threemf" => files_with_endings(&["3mf", "3MF"]),
         "meshopt" => model_seeds().iter().flat_map(meshopt_seeds).collect(),
         "draco" => model_seeds().iter().flat_map(draco_seeds).collect(),
         "image" => image_seeds(),
         "scene" => scene_seeds()?,
         _ => number_seeds(),
     };
-    let largest = if ["model", "stl", "obj", "mtl"].contains(&target) {
+    let largest = if ["model", "stl", "obj", "mtl", "ply", "threemf"].contains(&target) {
         LARGEST_MODEL
     } else {
         LARGEST_STREAM

@@ -1,5 +1,7 @@
 //! The sRGB transfer function (IEC 61966-2-1), for colors that formats store as they are displayed.
 
+use std::sync::OnceLock;
+
 /// The linear value of an sRGB encoded one; both are in [0, 1].
 pub(super) fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.04045 {
@@ -7,6 +9,12 @@ pub(super) fn linear_from_srgb(encoded: f32) -> f32 {
     } else {
         libm::pow((f64::from(encoded) + 0.055) / 1.055, 2.4) as f32
     }
+}
+
+/// The linear value of each 8-bit sRGB code.
+pub(super) fn linear_table() -> &'static [f32; 256] {
+    static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
+    TABLE.get_or_init(|| std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0)))
 }
 
 #[cfg(test)]

@@ -21,14 +21,14 @@ pub(super) struct TextureImage<'a> {
     pub(super) name: String,
     /// Where that file refers to it, for messages.
     pub(super) location: String,
-    /// The encoded bytes, or the reason why there are none.
-    pub(super) bytes: Result<Cow<'a, [u8]>, Diagnostic>,
+    /// The encoded bytes, or the reason why there are none; `None` if nothing visible needs it.
+    pub(super) bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
 }
 
 /// Decodes images and stores them in the model, each at its index.
-pub(super) fn store_images(
+pub(super) fn store_images<'a>(
     model: &mut Model,
-    files: Vec<TextureImage<'_>>,
+    files: Vec<TextureImage<'a>>,
     options: &ImportOptions,
     warnings: &mut ImportWarnings,
 ) {
@@ -38,21 +38,22 @@ pub(super) fn store_images(
     for (index, file) in files.into_iter().enumerate() {
         let TextureImage { name, location, bytes } = file;
         let mut info = ImageInfo { name: None, uri: Some(name), header: None };
-        let checked = bytes.and_then(|bytes| {
+        let check = |bytes: Cow<'a, [u8]>| {
             let size = image_decoder::image_size(&bytes)
                 .map_err(|problem| Diagnostic::invalid(&location, problem))?;
             let limits = &options.limits;
             super::gltf::check_image_size(size.0, size.1, &mut texels_left, limits, &location)?;
             Ok((bytes, size))
-        });
-        match checked {
-            Ok((bytes, size)) => {
+        };
+        match bytes.map(|bytes| bytes.and_then(check)) {
+            None => {}
+            Some(Ok((bytes, size))) => {
                 let format = image_decoder::format_name(&bytes);
                 let (width, height) = size;
                 info.header = Some(ImageHeader { format, width, height, bytes: bytes.len() });
                 encoded.push(EncodedImage { index, bytes, size });
             }
-            Err(diagnostic) => warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE),
+            Some(Err(diagnostic)) => warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE),
         }
         locations.push(location);
         model.image_infos.push(info);

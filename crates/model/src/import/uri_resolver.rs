@@ -288,7 +288,7 @@ fn uri_scheme(uri: &str) -> Option<&str> {
 }
 
 /// Decodes `%41` to the byte 0x41 (RFC 3986 §2.1); `None` where two digits do not follow a `%`.
-fn percent_decode(text: &str) -> Option<Vec<u8>> {
+pub(super) fn percent_decode(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
     while let Some((&byte, after)) = rest.split_first() {

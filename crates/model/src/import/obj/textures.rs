@@ -226,7 +226,7 @@ fn read_image<'a>(
         found.ok_or(error)
     });
     let name = if name.starts_with("data:") { "data:".to_owned() } else { name };
-    TextureImage { name, location, bytes: bytes.map(Cow::Owned) }
+    TextureImage { name, location, bytes: Some(bytes.map(Cow::Owned)) }
 }
 
 /// An image beyond the number of those that are read.
@@ -235,7 +235,7 @@ fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
     let location = format!("texture {}", shorten(&name));
     let message = format!("of image files only {MAX_IMAGES} are read");
     let bytes = Err(Diagnostic::missing_data(&location, &message));
-    TextureImage { name, location, bytes }
+    TextureImage { name, location, bytes: Some(bytes) }
 }
 
 /// Texels of images that are made of others.

@@ -1,0 +1,194 @@
+//! The vertices of a PLY file: positions, normals, texture coordinates and colors.
+
+use super::body::Body;
+use super::header::{Element, Property, ScalarType};
+use crate::diagnostic::Diagnostic;
+use crate::import::srgb::{linear_from_srgb, linear_table};
+use crate::import::warnings::ImportWarnings;
+
+/// Where in a row the value of a property that is not used goes.
+const UNUSED: usize = 15;
+/// Where in a row the colors begin: red, green, blue, alpha.
+const COLOR: usize = 8;
+/// Where in a row the base color of a Gaussian splat begins.
+const SPLAT_COLOR: usize = 12;
+/// The spherical harmonic of degree 0: 1 / (2 √π).
+const SH_DEGREE_0: f32 = 0.282_094_8;
+
+/// What is known about the vertices; arrays that are present have an entry for each.
+#[derive(Default, Debug)]
+pub(super) struct Vertices {
+    /// Positions, as they are in the file: they may be infinite or not a number.
+    pub(super) positions: Vec<[f32; 3]>,
+    /// Normals of any length.
+    pub(super) normals: Option<Vec<[f32; 3]>>,
+    /// Texture coordinates with (0, 0) at the upper left.
+    pub(super) uvs: Option<Vec<[f32; 2]>>,
+    /// Linear colors with alpha.
+    pub(super) colors: Option<Vec<[f32; 4]>>,
+}
+
+/// The place of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to f_dc_2.
+fn row_place(name: &str) -> usize {
+    match name {
+        "x" => 0,
+        "y" => 1,
+        "z" => 2,
+        "nx" | "normal_x" => 3,
+        "ny" | "normal_y" => 4,
+        "nz" | "normal_z" => 5,
+        "s" | "u" | "texture_u" | "texture_s" => 6,
+        "t" | "v" | "texture_v" | "texture_t" => 7,
+        "f_dc_0" => SPLAT_COLOR,
+        "f_dc_1" => SPLAT_COLOR + 1,
+        "f_dc_2" => SPLAT_COLOR + 2,
+        _ => color_channel(name).map_or(UNUSED, |channel| COLOR + channel),
+    }
+}
+
+/// The channel of a color that a property of vertices or faces is.
+pub(super) fn color_channel(name: &str) -> Option<usize> {
+    match name.strip_prefix("diffuse_").unwrap_or(name) {
+        "red" | "r" => Some(0),
+        "green" | "g" => Some(1),
+        "blue" | "b" => Some(2),
+        "alpha" | "a" => Some(3),
+        _ => None,
+    }
+}
+
+/// Reads the vertices.
+///
+/// # Errors
+/// They have no x, y and z, or the file ends before the last; reading leniently, those before the
+/// fault are left.
+pub(super) fn read_vertices(
+    body: &mut Body<'_>,
+    element: &Element,
+    warnings: &mut ImportWarnings,
+) -> Result<Vertices, Diagnostic> {
+    let places: Vec<usize> = element
+        .properties
+        .iter()
+        .map(|p| if p.list_length.is_some() { UNUSED } else { row_place(&p.name) })
+        .collect();
+    let has = |wanted: usize, count: usize| (wanted..wanted + count).all(|p| places.contains(&p));
+    if !has(0, 3) && element.count > 0 {
+        return Err(body.fault("the vertices have no properties x, y and z"));
+    }
+    let is_splat = has(SPLAT_COLOR, 3) && !has(COLOR, 3);
+    if is_splat {
+        let message = "the vertices are Gaussian splats; their centers are shown as points";
+        warnings.push_warning("element vertex", message);
+    }
+    let mut vertices = Vertices {
+        positions: Vec::with_capacity(body.plausible_records(element)),
+        normals: has(3, 3).then(Vec::new),
+        uvs: has(6, 2).then(Vec::new),
+        colors: (has(COLOR, 3) || is_splat).then(Vec::new),
+    };
+    for _ in 0..element.count {
+        match read_row(body, &element.properties, &places) {
+            Ok(row) => vertices.push_row(&row, is_splat),
+            Err(fault) => {
+                warnings.downgrade_if_lenient(fault, "the vertices from here on are left out")?;
+                break;
+            }
+        }
+    }
+    vertices.finish_colors(&element.properties, warnings);
+    Ok(vertices)
+}
+
+/// Reads a record; `places` has an entry for each property.
+fn read_row(
+    body: &mut Body<'_>,
+    properties: &[Property],
+    places: &[usize],
+) -> Result<[f32; 16], Diagnostic> {
+    let mut row = [0.0; 16];
+    for (property, &place) in properties.iter().zip(places) {
+        match property.list_length {
+            None => row[place] = body.next_number(property.scalar)? as f32,
+            Some(length) => {
+                let count = body.next_list_length(length, property.scalar)?;
+                body.skip_numbers(count, property.scalar)?;
+            }
+        }
+    }
+    Ok(row)
+}
+
+impl Vertices {
+    /// Adds a vertex; its color is not yet decoded.
+    fn push_row(&mut self, row: &[f32; 16], is_splat: bool) {
+        self.positions.push([row[0], row[1], row[2]]);
+        if let Some(normals) = &mut self.normals {
+            normals.push([row[3], row[4], row[5]]);
+        }
+        if let Some(uvs) = &mut self.uvs {
+            uvs.push([row[6], 1.0 - row[7]]);
+        }
+        if let Some(colors) = &mut self.colors {
+            let splat = |at: usize| (0.5 + SH_DEGREE_0 * row[SPLAT_COLOR + at]).clamp(0.0, 1.0);
+            colors.push(if is_splat {
+                [splat(0), splat(1), splat(2), 1.0]
+            } else {
+                [row[COLOR], row[COLOR + 1], row[COLOR + 2], row[COLOR + 3]]
+            });
+        }
+    }
+
+    /// Decodes the colors, which are values of the file still.
+    fn finish_colors(&mut self, properties: &[Property], warnings: &mut ImportWarnings) {
+        if let Some(colors) = &mut self.colors {
+            linearize_colors(colors, properties, warnings, "element vertex");
+        }
+    }
+}
+
+/// Decodes colors from values of the file: sRGB of bytes, of other integers, or of fractions.
+///
+/// Fractions above 1 are taken for values up to 255, which some programs write. Alpha is 1 where
+/// the file has none, and where it is 0 everywhere.
+pub(super) fn linearize_colors(
+    colors: &mut [[f32; 4]],
+    properties: &[Property],
+    warnings: &mut ImportWarnings,
+    location: &str,
+) {
+    let scalar_of = |channel| {
+        let mut properties = properties.iter().filter(|property| property.list_length.is_none());
+        properties.find(|p| color_channel(&p.name) == Some(channel)).map(|p| p.scalar)
+    };
+    let scalar = scalar_of(0).unwrap_or(ScalarType::F32);
+    let alpha = scalar_of(3);
+    let mut scales = [scalar.color_scale(), alpha.map_or(1.0, ScalarType::color_scale)];
+    if scales[0] == 1.0 && colors.iter().any(|color| color[..3].iter().any(|&x| x > 1.0)) {
+        warnings.push_warning(location, "the colors exceed 1; they are taken for 0 to 255");
+        scales[0] = 255.0;
+        if alpha == Some(scalar) {
+            scales[1] = 255.0;
+        }
+    }
+    let has_alpha = alpha.is_some() && colors.iter().any(|color| color[3] > 0.0);
+    if alpha.is_some() && !has_alpha && !colors.is_empty() {
+        warnings.push_warning(location, "alpha is 0 everywhere; the colors are taken for opaque");
+    }
+    let table = linear_table();
+    for color in colors {
+        for channel in &mut color[..3] {
+            // A cast takes what is not a number for 0.
+            *channel = match scalar {
+                ScalarType::U8 => table[usize::from(*channel as u8)],
+                _ => linear_from_srgb(clamp_to_unit(*channel / scales[0])),
+            };
+        }
+        color[3] = if has_alpha { clamp_to_unit(color[3] / scales[1]) } else { 1.0 };
+    }
+}
+
+/// The nearest number from 0 to 1; 0 for what is not a number.
+fn clamp_to_unit(value: f32) -> f32 {
+    if value > 0.0 { value.min(1.0) } else { 0.0 }
+}
