@@ -180,7 +180,7 @@ fn ply_files() -> Vec<Vec<u8>> {
         for corner in [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5_f32]] {
             corner.iter().chain(&[0.0, 0.0, 2.0]).for_each(|x| push(x.to_bits()));
         }
-        [3, 0, 1, 2].map(&mut push);
+        [3, 0, 1, 2].into_iter().for_each(&mut push);
         files.push([file.as_bytes(), &body].concat());
     }
     files

@@ -115,7 +115,7 @@ fn read_parts(
             }
         };
         let text = decode_text(&content);
-        let part = PartReader::new(&text, &entry, palette, warnings).read_part()?;
+        let part = PartReader::new(&text, &entry, package, palette, warnings).read_part()?;
         let references = || {
             let components = part.objects.iter().flat_map(|object| &object.content.components);
             part.items.iter().chain(components)

@@ -12,6 +12,9 @@ use crate::{Model, Node};
 use homog::{Affine, Model as ModelSpace};
 use std::collections::BTreeMap;
 
+/// The object of a placement that is left out.
+const REMOVED: usize = usize::MAX;
+
 /// An object at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
@@ -189,8 +192,8 @@ impl Assembly {
                     let location = &self.objects[at].location;
                     let fault = Diagnostic::invalid(location, "the object contains itself");
                     warnings.downgrade_if_lenient(fault, "it is left out there")?;
-                    self.objects[at].components.remove(next);
-                    stack.push((at, next));
+                    self.objects[at].components[next].object = REMOVED;
+                    stack.push((at, next + 1));
                 }
             }
         }
@@ -199,6 +202,7 @@ impl Assembly {
 
     /// The numbers of an object whose components have theirs.
     fn finish_count(&mut self, at: usize) {
+        self.objects[at].components.retain(|component| component.object != REMOVED);
         let components = self.objects[at].components.iter();
         let (mut nodes, mut depth) = (1_u64, 0);
         for component in components.map(|component| &self.objects[component.object]) {

@@ -2,14 +2,18 @@
 
 use super::namespaces::{Namespaces, Support};
 use super::object::{Object, ObjectContent};
-use super::properties::{Palette, PartProperties, parse_id, parse_number};
+use super::package::Package;
+use super::properties::{GroupKind, Palette, PartProperties, parse_id, parse_number};
 use super::xml::{Element, XmlReader};
-use crate::LengthUnit;
 use crate::diagnostic::Diagnostic;
 use crate::import::text::{TextScanner, parse_f64};
 use crate::import::warnings::ImportWarnings;
+use crate::{LengthUnit, Material};
 use glam::{DMat4, DVec4};
 use homog::{Affine, Model as ModelSpace};
+
+/// Memory that an object takes besides its mesh and its components: tags are shorter.
+const OBJECT_BYTES: u64 = 512;
 
 /// A reference to an object: an item to build, or a component of an object.
 #[derive(Debug)]
@@ -41,6 +45,8 @@ pub(super) struct ModelPart {
 pub(super) struct PartReader<'a, 'w> {
     pub(super) xml: XmlReader<'a>,
     pub(super) namespaces: Namespaces<'a>,
+    /// Counts the memory of what is read.
+    package: &'w Package<'w>,
     pub(super) palette: &'w mut Palette,
     pub(super) warnings: &'w mut ImportWarnings,
     /// Names of what has been left out already, so that each is said once.
@@ -52,11 +58,12 @@ impl<'a, 'w> PartReader<'a, 'w> {
     pub(super) fn new(
         text: &'a [u8],
         name: &'a str,
+        package: &'w Package<'w>,
         palette: &'w mut Palette,
         warnings: &'w mut ImportWarnings,
     ) -> Self {
         let (xml, namespaces) = (XmlReader::new(text, name), Namespaces::default());
-        Self { xml, namespaces, palette, warnings, said: Vec::new() }
+        Self { xml, namespaces, package, palette, warnings, said: Vec::new() }
     }
 
     /// Reads the part.
@@ -144,6 +151,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
                 }
                 "texture2d" => {
                     let location = self.xml.location_of(&resource);
+                    self.package.charge_bytes(&location, size_of::<Material>() as u64)?;
                     part.properties.add_texture(&resource, location, self.palette);
                 }
                 _ => self.read_group(&resource, &mut part.properties)?,
@@ -197,6 +205,10 @@ impl<'a, 'w> PartReader<'a, 'w> {
         };
         let mut entries = Vec::new();
         while let Some(entry) = self.xml.next_child(depth)? {
+            if kind == GroupKind::Base {
+                let location = self.xml.location_of(&entry);
+                self.package.charge_bytes(&location, size_of::<Material>() as u64)?;
+            }
             let property = group.read_entry(&entry, entries.len(), properties, self.palette);
             let Some(property) = property else {
                 let fault = Diagnostic::invalid(
@@ -224,6 +236,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
                 continue;
             }
             let location = self.xml.location_of(&child);
+            self.package.charge_bytes(&location, size_of::<ObjectReference>() as u64)?;
             let Some(id) = parse_id(&child, "objectid") else {
                 let fault = Diagnostic::invalid(&location, format!("the {name} has no objectid"));
                 self.warnings.downgrade_if_lenient(fault, "it is left out")?;
@@ -248,6 +261,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
     /// Reads an object.
     fn read_object(&mut self, start: &Element<'_>) -> Result<Object, Diagnostic> {
         let location = self.xml.location_of(start);
+        self.package.charge_bytes(&location, OBJECT_BYTES)?;
         let Some(id) = parse_id(start, "id") else {
             return Err(Diagnostic::invalid(&location, "the object has no id"));
         };

@@ -115,8 +115,8 @@ impl PartReader<'_, '_> {
                 let fault = match *corner {
                     NONE => Diagnostic::invalid(&location, "the triangle lacks a vertex"),
                     corner => {
-                        let corner = corner as usize;
-                        Diagnostic::unresolved_index(&location, "vertex", corner, count)
+                        let message = format!("there is no vertex {corner}: the mesh has {count}");
+                        Diagnostic::invalid(&location, message + ", counted from 0")
                     }
                 };
                 self.warnings.downgrade_if_lenient(fault, "the triangle is left out")?;

@@ -267,7 +267,7 @@ fn faults_of_the_model_have_a_place() {
     let broken =
         |from: &str, to: &str| fault(&package("", &object(1, 1, "", "").replace(from, to), ITEM));
     for (from, to, expected) in [
-        ("v3=\"2\"", "v3=\"3\"", "there is no vertex 3: the file has vertexs 0 to 2"),
+        ("v3=\"2\"", "v3=\"3\"", "there is no vertex 3: the mesh has 3"),
         ("v3=\"2\"", "", "the triangle lacks a vertex"),
         ("z=\"0\"", "z=\"nan\"", "the vertex does not have three finite coordinates"),
         ("x=\"1\"", "x=\"1e39\"", "the vertex does not have three finite coordinates"),
@@ -334,6 +334,26 @@ fn bombs_are_refused_by_size_and_by_ratio() {
     let file = package("", &" ".repeat(2 << 10), "");
     let message = load_bytes("a.3mf", &file, &options).unwrap_err().to_string();
     assert!(message.contains("array_bytes"), "{message}");
+}
+
+#[test]
+fn short_tags_that_take_memory_are_counted() {
+    let limits = Limits { array_growth: 1, ..Limits::default() };
+    let options = ImportOptions { limits, ..ImportOptions::default() };
+    let many = |tag: &str| tag.repeat(150_000);
+    let bases = format!("<basematerials id='5'>{}</basematerials>", many("<base/>"));
+    let components = many("<component objectid='1'/>");
+    let components = format!("<object id='2'><components>{components}</components></object>");
+    for (resources, build) in [
+        (many("<object id='7'/>"), String::new()),
+        (String::new(), many("<item objectid='1'/>")),
+        (components, String::new()),
+        (bases, String::new()),
+    ] {
+        let file = package("", &resources, &build);
+        let message = load_bytes("a.3mf", &file, &options).unwrap_err().to_string();
+        assert!(message.contains("array_growth"), "{message}");
+    }
 }
 
 #[test]
