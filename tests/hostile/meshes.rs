@@ -228,7 +228,7 @@ fn archive(part: &[u8]) -> Vec<u8> {
     file
 }
 
-/// CRC-32 as zip has it: the polynomial 0xEDB88320, bits reflected.
+/// The checksum of zip archives: the polynomial 0xEDB88320, bits reflected.
 fn checksum(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))

@@ -2,7 +2,7 @@
 //!
 //! Every number is read as `f64`, which holds each value of each type exactly.
 
-use super::header::{Element, Encoding, ScalarType};
+use super::header::{Encoding, PlyElement, ScalarType};
 use crate::diagnostic::Diagnostic;
 use crate::import::text::{LineCounter, TextScanner, Token, parse_f64};
 use std::cell::RefCell;
@@ -26,7 +26,7 @@ impl<'a> Body<'a> {
     }
 
     /// The number of records that the file can hold at most from here, for reserving memory.
-    pub(super) fn plausible_records(&self, element: &Element) -> usize {
+    pub(super) fn plausible_records(&self, element: &PlyElement) -> usize {
         let left = self.bytes.len() - self.at;
         let possible = left / element.min_record_bytes(self.encoding).max(1) + 1;
         usize::try_from(element.count).unwrap_or(usize::MAX).min(possible)
@@ -76,7 +76,7 @@ impl<'a> Body<'a> {
     ///
     /// # Errors
     /// The file ends before its last record.
-    pub(super) fn skip_element(&mut self, element: &Element) -> Result<(), Diagnostic> {
+    pub(super) fn skip_element(&mut self, element: &PlyElement) -> Result<(), Diagnostic> {
         if element.properties.is_empty() {
             return Ok(());
         }

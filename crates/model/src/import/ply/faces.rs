@@ -1,7 +1,7 @@
 //! The faces of a PLY file: polygons, triangle strips, and what a face or its corners carry.
 
 use super::body::Body;
-use super::header::{Element, Property};
+use super::header::{PlyElement, PlyProperty};
 use super::vertices::{color_channel, linearize_colors};
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
@@ -34,7 +34,7 @@ enum FaceProperty {
 }
 
 impl FaceProperty {
-    fn from_property(property: &Property) -> Self {
+    fn from_property(property: &PlyProperty) -> Self {
         match (property.list_length.is_some(), property.name.as_str()) {
             (true, "vertex_indices" | "vertex_index" | "vertex_indexes") => Self::Corners,
             (true, "texcoord") => Self::Uvs,
@@ -61,7 +61,7 @@ struct FaceRecord {
 /// the rest is left out.
 pub(super) fn read_faces(
     body: &mut Body<'_>,
-    element: &Element,
+    element: &PlyElement,
     vertices: u64,
     warnings: &mut ImportWarnings,
 ) -> Result<Faces, Diagnostic> {
@@ -109,7 +109,7 @@ impl FaceRecord {
     fn read(
         &mut self,
         body: &mut Body<'_>,
-        properties: &[Property],
+        properties: &[PlyProperty],
         kinds: &[FaceProperty],
         vertices: u64,
     ) -> Result<Option<Diagnostic>, Diagnostic> {
@@ -189,7 +189,7 @@ impl Faces {
 /// As for [`read_faces`].
 pub(super) fn read_strips(
     body: &mut Body<'_>,
-    element: &Element,
+    element: &PlyElement,
     vertices: u64,
     warnings: &mut ImportWarnings,
 ) -> Result<Faces, Diagnostic> {
@@ -239,7 +239,7 @@ pub(super) fn read_strips(
 /// As for [`read_faces`].
 pub(super) fn read_edges(
     body: &mut Body<'_>,
-    element: &Element,
+    element: &PlyElement,
     vertices: u64,
     warnings: &mut ImportWarnings,
 ) -> Result<Vec<u32>, Diagnostic> {

@@ -80,7 +80,7 @@ impl ScalarType {
 
 /// A property of an element: one number, or a list of them.
 #[derive(Clone, Debug)]
-pub(super) struct Property {
+pub(super) struct PlyProperty {
     /// The name.
     pub(super) name: String,
     /// The type of the length that precedes a list; `None` for a single number.
@@ -91,19 +91,19 @@ pub(super) struct Property {
 
 /// A kind of record, and how many the body has of it.
 #[derive(Clone, Debug)]
-pub(super) struct Element {
+pub(super) struct PlyElement {
     /// The name: `vertex`, `face`, `edge`, `tristrips` or any other.
     pub(super) name: String,
     /// The declared number of records, which nothing has confirmed.
     pub(super) count: u64,
     /// The properties of each record, in their order.
-    pub(super) properties: Vec<Property>,
+    pub(super) properties: Vec<PlyProperty>,
 }
 
-impl Element {
+impl PlyElement {
     /// The fewest bytes that a record takes in the body; 0 only without properties.
     pub(super) fn min_record_bytes(&self, encoding: Encoding) -> usize {
-        let bytes = |property: &Property| match encoding {
+        let bytes = |property: &PlyProperty| match encoding {
             // A digit and a separator.
             Encoding::Ascii => 2,
             _ => property.list_length.unwrap_or(property.scalar).size(),
@@ -118,7 +118,7 @@ pub(super) struct Header {
     /// How the body is written.
     pub(super) encoding: Encoding,
     /// The elements in the order of the body.
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Vec<PlyElement>,
     /// Names of texture files from `comment TextureFile NAME`.
     pub(super) texture_files: Vec<String>,
     /// The offset of the body.
@@ -218,20 +218,20 @@ fn parse_encoding(name: Option<&str>, location: &str) -> Result<Encoding, Diagno
 fn parse_element<'a>(
     mut words: impl Iterator<Item = &'a str>,
     location: &str,
-) -> Result<Element, Diagnostic> {
+) -> Result<PlyElement, Diagnostic> {
     let (name, count) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
     let Ok(count) = count.parse() else {
         let message = format!("the number of {:?} is {:?}", shorten(name), shorten(count));
         return Err(Diagnostic::invalid(location, message));
     };
-    Ok(Element { name: name.to_owned(), count, properties: Vec::new() })
+    Ok(PlyElement { name: name.to_owned(), count, properties: Vec::new() })
 }
 
 /// A property: `float x` or `list uchar int vertex_indices`.
 fn parse_property<'a>(
     mut words: impl Iterator<Item = &'a str>,
     location: &str,
-) -> Result<Property, Diagnostic> {
+) -> Result<PlyProperty, Diagnostic> {
     let mut next = || words.next().unwrap_or("");
     let scalar_type = |name: &str| {
         ScalarType::from_name(name).ok_or_else(|| {
@@ -248,7 +248,7 @@ fn parse_property<'a>(
     if name.is_empty() {
         return Err(Diagnostic::invalid(location, "the property has no name"));
     }
-    Ok(Property { name, list_length, scalar })
+    Ok(PlyProperty { name, list_length, scalar })
 }
 
 /// The lines of a header.

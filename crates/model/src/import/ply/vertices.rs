@@ -1,7 +1,7 @@
 //! The vertices of a PLY file: positions, normals, texture coordinates and colors.
 
 use super::body::Body;
-use super::header::{Element, Property, ScalarType};
+use super::header::{PlyElement, PlyProperty, ScalarType};
 use crate::diagnostic::Diagnostic;
 use crate::import::srgb::{linear_from_srgb, linear_table};
 use crate::import::warnings::ImportWarnings;
@@ -64,7 +64,7 @@ pub(super) fn color_channel(name: &str) -> Option<usize> {
 /// fault are left.
 pub(super) fn read_vertices(
     body: &mut Body<'_>,
-    element: &Element,
+    element: &PlyElement,
     warnings: &mut ImportWarnings,
 ) -> Result<Vertices, Diagnostic> {
     let places: Vec<usize> = element
@@ -103,7 +103,7 @@ pub(super) fn read_vertices(
 /// Reads a record; `places` has an entry for each property.
 fn read_row(
     body: &mut Body<'_>,
-    properties: &[Property],
+    properties: &[PlyProperty],
     places: &[usize],
 ) -> Result<[f32; 16], Diagnostic> {
     let mut row = [0.0; 16];
@@ -140,7 +140,7 @@ impl Vertices {
     }
 
     /// Decodes the colors, which are values of the file still.
-    fn finish_colors(&mut self, properties: &[Property], warnings: &mut ImportWarnings) {
+    fn finish_colors(&mut self, properties: &[PlyProperty], warnings: &mut ImportWarnings) {
         if let Some(colors) = &mut self.colors {
             linearize_colors(colors, properties, warnings, "element vertex");
         }
@@ -153,7 +153,7 @@ impl Vertices {
 /// the file has none, and where it is 0 everywhere.
 pub(super) fn linearize_colors(
     colors: &mut [[f32; 4]],
-    properties: &[Property],
+    properties: &[PlyProperty],
     warnings: &mut ImportWarnings,
     location: &str,
 ) {

@@ -193,14 +193,7 @@ impl<'a, 'w> PartReader<'a, 'w> {
             _ => {}
         }
         let Some(kind) = group.kind() else {
-            let mut entries = Vec::new();
-            while let Some(entry) = self.xml.next_child(depth)? {
-                let number = |name: &str, default| {
-                    parse_number(&entry, name).map_or(default, |x| x.clamp(0.0, 1.0))
-                };
-                entries.push([number("metallicness", 0.0), number("roughness", 1.0)]);
-            }
-            properties.close_metallic(id, entries);
+            properties.close_metallic(id, self.read_metallic()?);
             return Ok(());
         };
         let mut entries = Vec::new();
@@ -222,6 +215,19 @@ impl<'a, 'w> PartReader<'a, 'w> {
         }
         properties.close_group(id, kind, entries);
         Ok(())
+    }
+
+    /// Reads metalness and roughness of the entries of a list.
+    fn read_metallic(&mut self) -> Result<Vec<[f32; 2]>, Diagnostic> {
+        let depth = self.xml.depth();
+        let mut entries = Vec::new();
+        while let Some(entry) = self.xml.next_child(depth)? {
+            let number = |name: &str, default| {
+                parse_number(&entry, name).map_or(default, |x| x.clamp(0.0, 1.0))
+            };
+            entries.push([number("metallicness", 0.0), number("roughness", 1.0)]);
+        }
+        Ok(entries)
     }
 
     /// Reads the items of a build or the components of an object.

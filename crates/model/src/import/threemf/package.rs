@@ -40,11 +40,9 @@ impl<'a> Package<'a> {
             if !is_part_name(&entry.name) {
                 let message = "the name leads out of the archive; the entry is left out";
                 warnings.push_warning(&entry.name, message);
-            } else if parts.contains_key(&entry.name.to_ascii_lowercase()) {
+            } else if *parts.entry(entry.name.to_ascii_lowercase()).or_insert(at) != at {
                 let fault = Diagnostic::invalid(&entry.name, "the archive has two such entries");
                 warnings.downgrade_if_lenient(fault, "the first is read")?;
-            } else {
-                parts.insert(entry.name.to_ascii_lowercase(), at);
             }
         }
         Ok(Self { archive, parts, budget: MemoryBudget::new(limits) })
