@@ -6,8 +6,11 @@ use crate::case::{Case, Expected};
 /// Mutants of each format.
 const MUTANTS: usize = 2_000;
 
+/// Makes small files of a format.
+type Files = fn() -> Vec<Vec<u8>>;
+
 /// Formats with the file names that stand for them, and small files that the mutants are made of.
-const FORMATS: [(&str, fn() -> Vec<Vec<u8>>); 5] = [
+const FORMATS: [(&str, Files); 5] = [
     ("model.stl", stl_files),
     ("model.obj", obj_files),
     ("model.ply", ply_files),

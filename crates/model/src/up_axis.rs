@@ -48,15 +48,14 @@ impl Model {
             return;
         }
         let to_parent = up.to_y_up();
-        let count = self.nodes.len();
-        let mut parents = vec![None; count];
-        for node in 0..count {
-            self.nodes[node].to_model = self.nodes[node].to_model.then(to_parent);
-            if self.nodes[node].parent.is_none() {
-                let parent = self.nodes.len();
-                (parents[node], self.nodes[node].parent) = (Some(parent), Some(parent));
-                let (trs, to_model) = (None, to_parent);
-                let children = vec![node];
+        let mut parents = vec![None; self.nodes.len()];
+        for (node, new_parent) in parents.iter_mut().enumerate() {
+            let parent = self.nodes.len();
+            let current = &mut self.nodes[node];
+            current.to_model = current.to_model.then(to_parent);
+            if current.parent.is_none() {
+                (*new_parent, current.parent) = (Some(parent), Some(parent));
+                let (trs, to_model, children) = (None, to_parent, vec![node]);
                 self.nodes.push(Node { to_parent, to_model, trs, children, ..Node::default() });
             }
         }

@@ -1,3 +1,5 @@
+//! STL files of every form, whole and broken, and what becomes of them.
+
 use super::*;
 use crate::import::{ImportOptions, load_bytes};
 use crate::{Model, Severity};

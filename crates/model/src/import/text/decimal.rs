@@ -39,8 +39,7 @@ pub(in crate::import) fn parse_f32(token: &[u8]) -> Option<f32> {
 pub(in crate::import) fn parse_integer(token: &[u8]) -> Option<i64> {
     let (is_negative, digits) = match token {
         [b'-', digits @ ..] => (true, digits),
-        [b'+', digits @ ..] => (false, digits),
-        digits => (false, digits),
+        [b'+', digits @ ..] | digits => (false, digits),
     };
     if digits.is_empty() {
         return None;
