@@ -36,7 +36,7 @@ pub(super) struct Surface<'a> {
 pub(super) fn build_primitives(
     surface: Surface<'_>,
     crease_angle: f64,
-    attributes_at: impl Fn(usize, usize) -> CornerAttributes,
+    attributes_at: &dyn Fn(usize, usize) -> CornerAttributes,
 ) -> (Vec<Primitive>, usize) {
     let mut surface = surface;
     let (positions, normals) = match surface.normals {

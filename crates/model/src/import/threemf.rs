@@ -120,14 +120,14 @@ fn read_parts(
             let components = part.objects.iter().flat_map(|object| &object.content.components);
             part.items.iter().chain(components)
         };
-        // The entries that are referred to, each once.
-        let mut paths = BTreeMap::new();
         for reference in references() {
-            if let Some(path) = &reference.path {
-                paths.entry(path).or_insert(&reference.location);
+            // Components of one part follow each other; a part is read once all the same.
+            if let Some(path) = &reference.path
+                && queue.last().is_none_or(|(last, _)| last != path)
+            {
+                queue.push((path.clone(), reference.location.clone()));
             }
         }
-        queue.extend(paths.into_iter().map(|(path, location)| (path.clone(), location.clone())));
         if parts.parts.first().is_some_and(|main| main.unit != part.unit) {
             let message = "the part is in another unit than the model; the model's is taken";
             warnings.push_warning(&entry, message);

@@ -128,6 +128,8 @@ impl<'a> Body<'a> {
     }
 
     /// An error at the place that has been reached.
+    #[cold]
+    #[inline(never)]
     pub(super) fn fault(&self, message: &str) -> Diagnostic {
         Diagnostic::invalid(&self.location(), message)
     }

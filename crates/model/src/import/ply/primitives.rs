@@ -186,7 +186,7 @@ fn build_surface(
         }
     };
     let crease_angle = options.crease_degrees();
-    let (primitives, replaced) = surfaces::build_primitives(surface, crease_angle, attributes_at);
+    let (primitives, replaced) = surfaces::build_primitives(surface, crease_angle, &attributes_at);
     if replaced > 0 && vertices.normals.is_some() {
         let message = format!("{replaced} normals without a direction are replaced");
         warnings.push_warning("element vertex", message);

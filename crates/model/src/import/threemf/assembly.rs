@@ -28,8 +28,8 @@ pub(super) struct Placement {
 #[derive(Debug, Default)]
 pub(super) struct Assembly {
     objects: Vec<AssemblyObject>,
-    /// Each object by part and id.
-    by_id: BTreeMap<(usize, u32), usize>,
+    /// For each part its objects by their ids.
+    by_id: Vec<BTreeMap<u32, u32>>,
     /// The number of references to what is not shown.
     hidden: usize,
 }
@@ -64,7 +64,10 @@ impl Assembly {
     /// Adds an object; its index. Of two with the same part and id the first is referred to.
     pub(super) fn push_object(&mut self, part: usize, object: &super::object::Object) -> usize {
         let at = self.objects.len();
-        self.by_id.entry((part, object.id)).or_insert(at);
+        if self.by_id.len() <= part {
+            self.by_id.resize_with(part + 1, BTreeMap::new);
+        }
+        self.by_id[part].entry(object.id).or_insert(at as u32);
         self.objects.push(AssemblyObject {
             name: object.name.clone(),
             location: object.location.clone(),
@@ -86,9 +89,11 @@ impl Assembly {
     ) -> Result<Vec<Placement>, Diagnostic> {
         let mut placements = Vec::with_capacity(references.len());
         for reference in references {
-            let object = part_of(reference).and_then(|part| self.by_id.get(&(part, reference.id)));
+            let object = part_of(reference)
+                .and_then(|part| self.by_id.get(part)?.get(&reference.id))
+                .map(|&object| object as usize);
             match object {
-                Some(&object) if self.objects[object].is_shown => {
+                Some(object) if self.objects[object].is_shown => {
                     placements.push(Placement { object, transform: reference.transform });
                 }
                 Some(_) => self.hidden += 1,

@@ -218,7 +218,7 @@ impl ObjectMesh {
                 color: property.color,
             })
         };
-        let (mut primitives, _) = surfaces::build_primitives(surface, crease_angle, attributes_at);
+        let (mut primitives, _) = surfaces::build_primitives(surface, crease_angle, &attributes_at);
         for Primitive { material, .. } in &mut primitives {
             *material = material.and_then(|at| summary.numbers.get(at)).map(|&at| at as usize);
         }
@@ -262,7 +262,7 @@ impl PropertyLookup<'_> {
         let indices = [named.indices[corner], named.indices[0], self.default.indices[0]];
         let index = indices.into_iter().find(|&index| index != NONE);
         let Some(index) = index.filter(|_| group != NONE) else { return Ok(None) };
-        let group = self.part.groups.get(&group).ok_or(())?;
+        let group = self.part.group(group).ok_or(())?;
         group.entries.get(index as usize).copied().map(Some).ok_or(())
     }
 

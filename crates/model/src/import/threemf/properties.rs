@@ -48,20 +48,18 @@ pub(super) struct PropertyGroup {
     pub(super) entries: Vec<Property>,
 }
 
-/// A texture that groups of texture coordinates name.
-#[derive(Clone, Debug)]
-pub(super) struct Texture2d {
-    /// Index of the material that shows it.
-    pub(super) material: u32,
-}
-
 /// The groups and textures of one model part, by their ids.
 #[derive(Debug, Default)]
 pub(super) struct PartProperties {
-    pub(super) groups: BTreeMap<u32, PropertyGroup>,
-    textures: BTreeMap<u32, Texture2d>,
-    /// Metalness and roughness by the id of their list.
-    metallic: BTreeMap<u32, Vec<[f32; 2]>>,
+    groups: Vec<PropertyGroup>,
+    /// The index of each group by its id.
+    group_of: BTreeMap<u32, u32>,
+    /// The material that shows each texture, by the texture's id.
+    textures: BTreeMap<u32, u32>,
+    /// Lists of metalness and roughness.
+    metallic: Vec<Vec<[f32; 2]>>,
+    /// The index of each list by its id.
+    metallic_of: BTreeMap<u32, u32>,
 }
 
 /// Materials and textures of all parts.
@@ -191,6 +189,11 @@ pub(super) struct Layer {
 }
 
 impl PartProperties {
+    /// The group of an id.
+    pub(super) fn group(&self, id: u32) -> Option<&PropertyGroup> {
+        self.group_of.get(&id).and_then(|&at| self.groups.get(at as usize))
+    }
+
     /// Adds a texture.
     pub(super) fn add_texture(
         &mut self,
@@ -221,7 +224,7 @@ impl PartProperties {
         let info = TextureInfo { texture, uv_set: 0, uv_matrix: TextureInfo::IDENTITY_UV };
         let material =
             palette.push_material(Material { base_color_texture: Some(info), ..white() });
-        self.textures.insert(id, Texture2d { material });
+        self.textures.insert(id, material);
     }
 
     /// What the start tag of a group says; a message if it refers to nothing.
@@ -242,11 +245,11 @@ impl PartProperties {
                 let texture = self.textures.get(&id);
                 let texture =
                     texture.ok_or_else(|| format!("there is no texture {id} before it"))?;
-                OpenGroup::Texture { material: texture.material }
+                OpenGroup::Texture { material: *texture }
             }
             "compositematerials" => {
                 let id = parse_id(element, "matid").ok_or("the group has no matid")?;
-                let group = self.groups.get(&id).filter(|group| group.kind == GroupKind::Base);
+                let group = self.group(id).filter(|group| group.kind == GroupKind::Base);
                 let group = group.ok_or_else(|| no_group(id))?;
                 let indices = element.attribute("matindices").and_then(parse_indices);
                 let indices = indices.ok_or("matindices is no list of numbers")?;
@@ -267,7 +270,7 @@ impl PartProperties {
                 }
                 let layers: Vec<_> = ids.into_iter().map(layer).collect();
                 let is_below = |layer: &&Layer| {
-                    self.groups.get(&layer.id).is_none_or(|g| g.kind == GroupKind::Multi)
+                    self.group(layer.id).is_none_or(|g| g.kind == GroupKind::Multi)
                 };
                 if let Some(layer) = layers.iter().find(is_below) {
                     return Err(no_group(layer.id));
@@ -280,12 +283,14 @@ impl PartProperties {
 
     /// Adds the group, whose entries have been read.
     pub(super) fn close_group(&mut self, id: u32, kind: GroupKind, entries: Vec<Property>) {
-        self.groups.entry(id).or_insert(PropertyGroup { kind, entries });
+        self.group_of.entry(id).or_insert(self.groups.len() as u32);
+        self.groups.push(PropertyGroup { kind, entries });
     }
 
     /// Adds a list of metalness and roughness.
     pub(super) fn close_metallic(&mut self, id: u32, entries: Vec<[f32; 2]>) {
-        self.metallic.entry(id).or_insert(entries);
+        self.metallic_of.entry(id).or_insert(self.metallic.len() as u32);
+        self.metallic.push(entries);
     }
 
     /// The mixture of the properties that an entry of multiproperties names.
@@ -294,7 +299,7 @@ impl PartProperties {
         let mut color = [1.0; 4];
         for (at, layer) in layers.iter().enumerate() {
             let index = indices.get(at).copied().unwrap_or(0) as usize;
-            let Some(group) = self.groups.get(&layer.id) else { continue };
+            let Some(group) = self.group(layer.id) else { continue };
             let Some(property) = group.entries.get(index) else { continue };
             let own = palette.color_of(property);
             if group.kind == GroupKind::Texture {
@@ -355,7 +360,8 @@ impl OpenGroup {
                 let color =
                     element.attribute("displaycolor").map_or(Some([1.0; 4]), parse_color)?;
                 let plain = Material::plain();
-                let metallic = metallic.and_then(|id| part.metallic.get(&id)?.get(at));
+                let list = metallic.and_then(|id| part.metallic_of.get(&id));
+                let metallic = list.and_then(|&list| part.metallic.get(list as usize)?.get(at));
                 let [metallic, roughness] = *metallic.unwrap_or(&[plain.metallic, plain.roughness]);
                 let is_blended = color[3] < 1.0;
                 let material = palette.push_material(Material {

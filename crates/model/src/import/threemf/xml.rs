@@ -139,11 +139,14 @@ impl<'a> XmlReader<'a> {
     }
 
     /// An error at an offset.
+    #[cold]
+    #[inline(never)]
     pub(super) fn fault(&self, offset: usize, message: &str) -> Diagnostic {
         Diagnostic::invalid(&self.location(offset), message)
     }
 
     /// Name of the document, line and column of an offset.
+    #[inline(never)]
     pub(super) fn location(&self, offset: usize) -> String {
         format!("{}: {}", self.document, self.lines.borrow_mut().locate(offset))
     }
@@ -186,12 +189,14 @@ impl<'a> Element<'a> {
 
     /// The value of the first attribute of a local name, as it is written, without white space
     /// around it.
+    #[inline(never)]
     pub(super) fn attribute(&self, name: &str) -> Option<&'a [u8]> {
         let found = self.attributes().find(|(_, local, _)| *local == name.as_bytes());
         found.map(|(_, _, value)| value.trim_ascii())
     }
 
     /// The value of an attribute with its character references resolved.
+    #[inline(never)]
     pub(super) fn text_attribute(&self, name: &str) -> Option<String> {
         self.attribute(name).map(|value| unescape(value).into_owned())
     }
