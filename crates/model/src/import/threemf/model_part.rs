@@ -13,7 +13,7 @@ use glam::{DMat4, DVec4};
 use homog::{Affine, Model as ModelSpace};
 
 /// Memory that an object takes besides its mesh and its components: tags are shorter.
-const OBJECT_BYTES: u64 = 512;
+const OBJECT_BYTES: u64 = 256;
 
 /// A reference to an object: an item to build, or a component of an object.
 #[derive(Debug)]

@@ -357,6 +357,18 @@ fn short_tags_that_take_memory_are_counted() {
 }
 
 #[test]
+fn a_great_many_objects_are_read() {
+    // An id and a row of items beyond 16 bits.
+    let count = 65_537;
+    let ids = || 1..=count;
+    let resources: String = ids().map(|id| object(id, id, "", "")).collect();
+    let items: String = ids().map(|id| format!("<item objectid=\"{id}\"/>")).collect();
+    let model = load(&package("", &resources, &items)).unwrap();
+    assert_eq!((model.meshes.len(), model.mesh_instances().count()), (65_537, 65_537));
+    assert_eq!(model.bounds().unwrap().max().raw().x, f64::from(count));
+}
+
+#[test]
 fn broken_archives_are_errors() {
     let file = package("", &object(1, 1, "", ""), ITEM);
     let find = |signature: &[u8]| file.windows(4).rposition(|window| window == signature).unwrap();
