@@ -13,7 +13,7 @@ use crate::parallel::for_each_parallel;
 use crate::primitive::{
     ScreenTriangle, WeightSource, normalize_inv_w, triangulate_line, triangulate_point,
 };
-use crate::screen_vertex::SUBPIXEL_BITS;
+use crate::screen_vertex::SUBPIXELS;
 use crate::tile_grid::{TileGrid, TileRange};
 use crate::triangle_buffer::{CHUNK_TRIANGLES, TriangleBuffer, TriangleChunk};
 use crate::{CullMode, Opacity, RasterError, Samples, ScreenVertex, SimdLevel, SourceWeights};
@@ -316,7 +316,7 @@ impl Frame {
 
     /// The test whether a triangle can cover a sample of this frame.
     fn sample_bounds(&self) -> SampleBounds {
-        SampleBounds { grid: TileGrid::new(self.region), offset_range: self.samples.offset_range() }
+        SampleBounds { grid: TileGrid::new(self.region), samples: self.samples }
     }
 }
 
@@ -394,28 +394,40 @@ fn assemble_triangle(
 struct SampleBounds {
     /// The tiles of the frame's region.
     grid: TileGrid,
-    /// The least and the greatest offset of a sample from its pixel's borders, in grid steps.
-    offset_range: (i32, i32),
+    /// The samples of a pixel.
+    samples: Samples,
 }
 
 impl SampleBounds {
     /// The tiles of the frame that a triangle's bounds touch; `None` if they touch none or hold no
     /// sample.
-    ///
-    /// Bounds are closed: a sample on a border counts, as the top-left rule may give it to the
-    /// triangle.
     #[inline(always)]
     fn touched_tiles(&self, [p, q, r]: [ScreenVertex; 3]) -> Option<TileRange> {
-        let (least, greatest) = self.offset_range;
-        // Along one axis: the first pixel whose last sample is not before the bounds, and the last
-        // pixel whose first sample is not behind them. Sub-pixel triangles between samples have
-        // none.
-        let holds = |[low, high]: [i32; 2]| {
-            (low - greatest + 255) >> SUBPIXEL_BITS <= (high - least) >> SUBPIXEL_BITS
-        };
         // The bounding box in grid steps.
         let x = [p.x.min(q.x).min(r.x), p.x.max(q.x).max(r.x)];
         let y = [p.y.min(q.y).min(r.y), p.y.max(q.y).max(r.y)];
-        if holds(x) & holds(y) { self.grid.tiles_in_bounds(x, y) } else { None }
+        let (width, height) = (x[1].wrapping_sub(x[0]), y[1].wrapping_sub(y[0]));
+        // Boxes as wide and high as a pixel hold all of its samples, or those of its neighbors.
+        let is_large = (width >= SUBPIXELS - 1) & (height >= SUBPIXELS - 1);
+        if is_large || self.holds_sample([x[0], y[0]], [width, height]) {
+            self.grid.tiles_in_bounds(x, y)
+        } else {
+            None
+        }
+    }
+
+    /// Whether a box holds a sample, given its least corner and its size in grid steps.
+    ///
+    /// Bounds are closed: a sample on a border counts, as the top-left rule may give it to the
+    /// triangle. Samples repeat with every pixel, so the distance to the next one is a remainder.
+    #[inline(always)]
+    fn holds_sample(&self, [left, top]: [i32; 2], [width, height]: [i32; 2]) -> bool {
+        let mut holds = false;
+        for (x, y) in self.samples.grid_offsets() {
+            let right = x.wrapping_sub(left) & (SUBPIXELS - 1);
+            let down = y.wrapping_sub(top) & (SUBPIXELS - 1);
+            holds |= (right <= width) & (down <= height);
+        }
+        holds
     }
 }

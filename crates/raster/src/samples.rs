@@ -97,11 +97,22 @@ impl Samples {
     /// The offset of a sample from the upper left corner of its pixel, in grid steps.
     #[inline(always)]
     pub(crate) fn sample_offset(self, sample: usize) -> (i64, i64) {
-        let (x, y) = self.sixteenths()[sample];
-        // 1/16 pixel is 16 grid steps: sample positions are exact.
-        let steps = |sixteenths: i32| i64::from(SUBPIXELS / 2 + sixteenths * (SUBPIXELS / 16));
-        (steps(x), steps(y))
+        let (x, y) = grid_offset(self.sixteenths()[sample]);
+        (i64::from(x), i64::from(y))
     }
+
+    /// The offsets of all samples from the upper left corner of their pixel, in grid steps.
+    #[inline(always)]
+    pub(crate) fn grid_offsets(self) -> impl Iterator<Item = (i32, i32)> {
+        self.sixteenths().iter().map(|sample| grid_offset(*sample))
+    }
+}
+
+/// The offset in grid steps from the upper left corner of a pixel, of one in 1/16 pixel from its
+/// center: exact, for 1/16 pixel is 16 grid steps.
+#[inline(always)]
+const fn grid_offset((x, y): (i32, i32)) -> (i32, i32) {
+    (SUBPIXELS / 2 + x * (SUBPIXELS / 16), SUBPIXELS / 2 + y * (SUBPIXELS / 16))
 }
 
 #[cfg(test)]

@@ -6,7 +6,9 @@
 //! groups is split.
 //!
 //! An edge is smooth if exactly two triangles have it and their [`Smoothing`] says so: boundaries,
-//! non-manifold edges and edges of triangles without area are creases.
+//! non-manifold edges and edges of triangles without area are creases. Where all triangles around a
+//! vertex are within half of the crease angle of their mean they are one group, whatever their
+//! edges: most vertices of fine meshes need no search for edges.
 
 use glam::{DVec3, Vec3};
 
@@ -50,12 +52,15 @@ impl CreaseNormals {
     ) -> Self {
         let faces: Vec<Face> =
             triangles.iter().map(|corners| Face::new(positions, *corners)).collect();
-        let around = CornersByVertex::new(positions.len(), &triangles);
+        let smooth = SmoothVertices::find(positions.len(), &triangles, &faces, smoothing);
+        let mut result = Self { triangles, copies: Vec::new(), normals: smooth.normals };
+        if smooth.others == 0 {
+            return result;
+        }
+        let around = CornersByVertex::new(positions.len(), &result.triangles);
         let limit = SmoothEdges::new(smoothing, &faces);
-        let mut result =
-            Self { triangles, copies: Vec::new(), normals: vec![[0.0, 0.0, 1.0]; positions.len()] };
         let mut fans = VertexFans::default();
-        for vertex in 0..positions.len() {
+        for vertex in (0..positions.len()).filter(|vertex| !smooth.is_smooth[*vertex]) {
             let corners = around.corners_of(vertex);
             if !corners.is_empty() {
                 fans.group_corners(&result.triangles, corners, &limit);
@@ -94,6 +99,56 @@ impl CreaseNormals {
         for (&corner, &root) in corners.iter().zip(&fans.roots) {
             self.triangles[corner as usize / 3][corner as usize % 3] = fans.sums[root as usize].1;
         }
+    }
+}
+
+/// Normals of the vertices around which the surface hardly bends.
+struct SmoothVertices {
+    /// The unit normals of all vertices; those of smooth ones are final.
+    normals: Vec<[f32; 3]>,
+    /// Whether a vertex is smooth.
+    is_smooth: Vec<bool>,
+    /// How many are not.
+    others: usize,
+}
+
+impl SmoothVertices {
+    /// Finds the vertices all of whose triangles are within half of the crease angle of the sum of
+    /// their weighted normals: no two of them enclose more than the whole. With smoothing groups
+    /// there are none.
+    fn find(
+        vertices: usize,
+        triangles: &[[u32; 3]],
+        faces: &[Face],
+        smoothing: Smoothing<'_>,
+    ) -> Self {
+        let Smoothing::CreaseAngle(degrees) = smoothing else {
+            let normals = vec![[0.0, 0.0, 1.0]; vertices];
+            return Self { normals, is_smooth: vec![false; vertices], others: vertices };
+        };
+        let mut normals = vec![[0.0; 3]; vertices];
+        for (corners, face) in triangles.iter().zip(faces) {
+            for (k, &vertex) in corners.iter().enumerate() {
+                let sum = &mut normals[vertex as usize];
+                *sum = (Vec3::from(*sum) + face.weighted_normal(k)).to_array();
+            }
+        }
+        for normal in &mut normals {
+            *normal = unit_or_z(Vec3::from(*normal)).to_array();
+        }
+        let least = libm::cos(0.5 * degrees.clamp(0.0, 180.0).to_radians()) as f32;
+        let mut is_smooth = vec![true; vertices];
+        for (corners, face) in triangles.iter().zip(faces) {
+            if face.normal == Vec3::ZERO {
+                continue;
+            }
+            for &vertex in corners {
+                let cosine = face.normal.dot(Vec3::from(normals[vertex as usize]));
+                is_smooth[vertex as usize] &= cosine >= least;
+            }
+        }
+        let others = is_smooth.iter().filter(|is_smooth| !**is_smooth).count();
+        Self { normals, is_smooth, others }
     }
 }
 

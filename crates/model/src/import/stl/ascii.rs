@@ -116,6 +116,11 @@ impl<'a> SolidReader<'a, '_> {
     /// After a mistake, the text is read from there on: the rest of the facet is skipped up to the
     /// next facet or the end of a solid.
     fn read_facet(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
+        if let Some(corners) = self.read_usual_corners() {
+            let lines = &mut self.lines;
+            self.current.push_triangle(corners, || lines.locate(keyword.offset));
+            return Ok(());
+        }
         let corners = self.read_corners();
         if corners.is_err() {
             self.skip_facet();
@@ -123,6 +128,30 @@ impl<'a> SolidReader<'a, '_> {
         let lines = &mut self.lines;
         self.current.push_triangle(corners?, || lines.locate(keyword.offset));
         Ok(())
+    }
+
+    /// The corners of a facet in the usual form, in lower case; `None` for any other, of which
+    /// nothing has been read.
+    fn read_usual_corners(&mut self) -> Option<[[f32; 3]; 3]> {
+        let mut scanner = self.scanner.clone();
+        let skip = |scanner: &mut TextScanner<'a>, tokens: &[&[u8]]| {
+            tokens.iter().all(|token| scanner.skip_token(token)).then_some(())
+        };
+        skip(&mut scanner, &[b"normal"])?;
+        for _ in 0..3 {
+            scanner.next_token()?;
+        }
+        skip(&mut scanner, &[b"outer", b"loop"])?;
+        let mut corners = [[0.0; 3]; 3];
+        for corner in &mut corners {
+            skip(&mut scanner, &[b"vertex"])?;
+            for number in corner {
+                *number = scanner.next_simple_number()?;
+            }
+        }
+        skip(&mut scanner, &[b"endloop", b"endfacet"])?;
+        self.scanner = scanner;
+        Some(corners)
     }
 
     /// The corners of a facet. Its normal is skipped, whatever it consists of.

@@ -26,12 +26,7 @@ pub(in crate::import) fn parse_f64(token: &[u8]) -> Option<f64> {
 #[inline]
 pub(in crate::import) fn parse_f32(token: &[u8]) -> Option<f32> {
     let value = parse_f64(token)?;
-    let is_halfway = value.to_bits() & 0x1FFF_FFFF == 0x1000_0000;
-    let is_subnormal = value != 0.0 && value.abs() < f64::from(f32::MIN_POSITIVE);
-    if (is_halfway || is_subnormal) && value.is_finite() {
-        return standard_form(token).parse().ok();
-    }
-    Some(value as f32)
+    round_to_f32(value).or_else(|| standard_form(token).parse().ok())
 }
 
 /// A whole number with an optional sign; `None` if the token is none, or beyond 64 bits.
@@ -53,6 +48,63 @@ pub(in crate::import) fn parse_integer(token: &[u8]) -> Option<i64> {
         value = value.checked_mul(10)?.checked_add(i64::from(digit))?;
     }
     Some(if is_negative { -value } else { value })
+}
+
+/// The float at the beginning of a text and the length of its token, in one pass; `None` unless it
+/// has few digits and a small exponent, no longer ones than exporters write.
+#[inline]
+pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
+    let digit_at = |at: usize| text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d <= 9);
+    let is_negative = text.first() == Some(&b'-');
+    let first = usize::from(is_negative);
+    let (mut at, mut mantissa) = (first, 0u64);
+    while let Some(digit) = digit_at(at) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        at += 1;
+    }
+    let (mut digits, mut power) = (at - first, 0i32);
+    if text.get(at) == Some(&b'.') {
+        let point = at;
+        at += 1;
+        while let Some(digit) = digit_at(at) {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            at += 1;
+        }
+        digits += at - point - 1;
+        power = -((at - point - 1) as i32);
+    }
+    if let Some(b'e' | b'E') = text.get(at) {
+        at += 1;
+        let sign = text.get(at).copied();
+        at += usize::from(matches!(sign, Some(b'-' | b'+')));
+        let start = at;
+        let mut exponent = 0;
+        while let Some(digit) = digit_at(at).filter(|_| at < start + 3) {
+            exponent = 10 * exponent + i32::from(digit);
+            at += 1;
+        }
+        if at == start {
+            return None;
+        }
+        power += if sign == Some(b'-') { -exponent } else { exponent };
+    }
+    // Fifteen digits are less than 2⁵³.
+    if !(1..=15).contains(&digits) || text.get(at).is_none_or(|byte| *byte > b' ') {
+        return None;
+    }
+    let factor = *POWERS_OF_TEN.get(power.unsigned_abs() as usize)?;
+    let magnitude = if power < 0 { mantissa as f64 / factor } else { mantissa as f64 * factor };
+    let number = round_to_f32(magnitude)?;
+    Some((if is_negative { -number } else { number }, at))
+}
+
+/// The float nearest to a correctly rounded double; `None` where the double may have been rounded
+/// to the middle between two floats.
+#[inline]
+fn round_to_f32(value: f64) -> Option<f32> {
+    let is_halfway = value.to_bits() & 0x1FFF_FFFF == 0x1000_0000;
+    let is_subnormal = value != 0.0 && value.abs() < f64::from(f32::MIN_POSITIVE);
+    (!(is_halfway || is_subnormal) || !value.is_finite()).then_some(value as f32)
 }
 
 /// A number of few digits and a small exponent, by one exact operation; `None` for any other token.
@@ -151,6 +203,9 @@ mod tests {
             assert_eq!(parse_f64(text.as_bytes()).unwrap().to_bits(), expected.to_bits(), "{text}");
             let expected: f32 = text.parse().unwrap();
             assert_eq!(parse_f32(text.as_bytes()).unwrap().to_bits(), expected.to_bits(), "{text}");
+            let simple = simple_decimal(format!("{text} ").as_bytes());
+            let expected = (expected.to_bits(), text.len());
+            assert!(simple.is_none_or(|(x, length)| (x.to_bits(), length) == expected), "{text}");
         }
         // Halfway between two floats as a double, but not in its digits: 1 + 2⁻²⁴ + 2⁻⁶⁰.
         let text = "1.000000059604644776258";

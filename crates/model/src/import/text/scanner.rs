@@ -1,5 +1,7 @@
 //! Lines and tokens of a text, by their byte offsets, and lines and columns for messages.
 
+use super::decimal::simple_decimal;
+
 /// Reader of the lines or tokens of a text.
 ///
 /// Lines end with LF, CR or both. Every byte up to the blank, except for line ends, is white space:
@@ -46,6 +48,38 @@ impl<'a> TextScanner<'a> {
         let end = if rest[length..].starts_with(b"\r\n") { 2 } else { 1 };
         self.at = (offset + length + end).min(self.text.len());
         Some(Token { bytes: &rest[..length], offset })
+    }
+
+    /// Skips a token if it is next, in these letters; otherwise nothing.
+    #[inline]
+    pub(in crate::import) fn skip_token(&mut self, token: &[u8]) -> bool {
+        let start = self.skip_space();
+        let rest = self.text.get(start..).unwrap_or_default();
+        let is_next = rest.starts_with(token) && rest.get(token.len()).is_some_and(|b| *b <= b' ');
+        if is_next {
+            self.at = start + token.len();
+        }
+        is_next
+    }
+
+    /// Reads a number of the usual form, faster than by its token; `None` for any other token,
+    /// which is still the next.
+    #[inline]
+    pub(in crate::import) fn next_simple_number(&mut self) -> Option<f32> {
+        let start = self.skip_space();
+        let (number, length) = simple_decimal(self.text.get(start..)?)?;
+        self.at = start + length;
+        Some(number)
+    }
+
+    /// The offset of the next byte that is not white space.
+    #[inline]
+    fn skip_space(&self) -> usize {
+        let mut start = self.at;
+        while self.text.get(start).is_some_and(|byte| *byte <= b' ') {
+            start += 1;
+        }
+        start
     }
 
     /// The next token, on this line or a later one; `None` at the end of the text.
