@@ -3,7 +3,8 @@
 //!
 //! The folder is `$ASSETS` or `shared/assets` beside the repository, or `meshes` in it. Its
 //! `MANIFEST.tsv` begins with a comment (`#`) and says what another reader made of each file: path,
-//! origin, triangles (polygons cut), bounds in the coordinates of the file, and what became of it. Files that differ are in the table of
+//! origin, triangles (polygons cut), bounds in the coordinates of the file, and what became of it.
+//! Files that differ are in the table of
 //! [`expected`], with the reason. Arguments that are not flags select files by a part of their path.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
@@ -89,9 +90,13 @@ fn check_file(folder: &Path, row: &Row, known: bool) -> Result<(), String> {
     };
     let difference = expected::DIFFERENCES.iter().find(|(path, ..)| known && *path == row.path);
     match (difference, &row.facts, found) {
-        (Some((_, wanted, reason)), _, found) => wanted.compare(&found, reason),
+        (Some((_, wanted, reason)), _, Ok(found)) => {
+            wanted.compare(&found).map_err(|error| format!("{error} ({reason})"))
+        }
         (None, Some(wanted), Ok(found)) => wanted.compare(&found),
-        (None, Some(_), Err(error)) => Err(format!("it is refused: {error}")),
+        (Some(_), _, Err(error)) | (None, Some(_), Err(error)) => {
+            Err(format!("it is refused: {error}"))
+        }
         (None, None, found) => {
             println!("{}: refused by the other reader; here: {found:?}", row.path);
             Ok(())

@@ -23,6 +23,7 @@ mod light_leaks;
 mod manual;
 mod matrix;
 mod matrix_answers;
+mod mesh_formats;
 mod meshes;
 mod messages;
 mod mistakes;

@@ -37,7 +37,7 @@ fn flag_name<T: NamedOption>(value: T) -> String {
 /// are sentences.
 ///
 /// ```text
-/// --unit <UNIT>   [possible values: m, cm, mm, um, in, ft]
+/// --unit <UNIT>   [possible values: um, mm, cm, m, in, ft]
 /// ```
 pub(super) fn option_parser<T>() -> impl TypedValueParser<Value = T>
 where
@@ -61,7 +61,7 @@ mod tests {
     #[test]
     fn names_are_lower_case_and_short_where_that_is_usual() {
         let names: Vec<String> = LengthUnit::ALL.iter().map(|unit| flag_name(*unit)).collect();
-        assert_eq!(names, ["m", "cm", "mm", "um", "in", "ft"]);
+        assert_eq!(names, ["um", "mm", "cm", "m", "in", "ft"]);
         assert_eq!(flag_name(ToneMapping::AgX), "agx");
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Files are untrusted input. Every index, length and size is checked before it is used, URIs refer
 //! to files below one folder only, and everything a file can declare has a [limit](Limits). A
-//! [`Diagnostic`](crate::Diagnostic) says where the file is wrong, what is wrong and what to do.
+//! [`Diagnostic`] says where the file is wrong, what is wrong and what to do.
 //!
 //! Faults in the geometry (positions, indices, the node hierarchy) are errors; faults in the
 //! appearance (materials, normals, images) are [warnings](Model::warnings), and the file is drawn

@@ -68,7 +68,7 @@ fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
         up_axis: UpAxis::Z,
         ..Model::default()
     };
-    for mut solid in solids.into_iter().filter(|solid| !solid.triangles.is_empty()) {
+    for mut solid in solids.into_iter().filter(|solid| solid.triangle_count() > 0) {
         let name = solid.name.take().filter(|name| !name.is_empty());
         let primitive = solid.into_primitive(crease_degrees);
         if primitive.colors.is_some() {

@@ -104,7 +104,7 @@ fn compute_normals(
     crease_angle: f64,
 ) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     let mut welder = VertexWelder::with_capacity(positions.len());
-    let vertex_of: Vec<u32> = positions.iter().map(|&position| welder.weld(position)).collect();
+    let vertex_of = welder.weld_all(positions);
     let mut welded = welder.into_positions();
     for corner in triangles.iter_mut().flatten() {
         *corner = vertex_of[*corner as usize];

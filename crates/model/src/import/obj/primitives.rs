@@ -72,7 +72,7 @@ fn compute_normals(file: &mut ObjFile<'_>, parts: &[Part], crease_angle: f64) ->
     }
     // Positions that are not finite have equal bits too; no triangle has them.
     let mut welder = VertexWelder::with_capacity(file.positions.len());
-    let welded: Vec<u32> = file.positions.iter().map(|&position| welder.weld(position)).collect();
+    let welded = welder.weld_all(&file.positions);
     let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(count / 3);
     let vertex_of = |corner: u32| welded[file.elements.corners[corner as usize].position as usize];
     for part in parts() {

@@ -21,6 +21,8 @@ const EMPTY: u32 = u32::MAX;
 /// Slots that are searched before the search tree is: a file made for collisions is slower by a
 /// logarithm, and not quadratic.
 const PROBES: usize = 32;
+/// Positions whose slots are read ahead of their use.
+const BATCH: usize = 192;
 /// Slots of the smallest table.
 const LEAST_SLOTS: usize = 64;
 
@@ -35,17 +37,51 @@ impl VertexWelder {
         }
     }
 
-    /// The vertex at a position, which is new if there was none. Vertices must stay below 2³² − 1.
+    /// The vertices at some positions; those are new where there was none. Vertices must stay below
+    /// 2³² − 1.
+    ///
+    /// Slots and vertices of a batch are read before they are needed: most of the time is spent
+    /// waiting for memory, and reads that do not depend on each other wait together.
+    pub(in crate::import) fn weld_all(&mut self, positions: &[[f32; 3]]) -> Vec<u32> {
+        let mut vertices = Vec::with_capacity(positions.len());
+        let mut hashes = [0; BATCH];
+        for batch in positions.chunks(BATCH) {
+            let hashes = &mut hashes[..batch.len()];
+            for (hash, position) in hashes.iter_mut().zip(batch) {
+                *hash = hash_bits(canonical(*position).map(f32::to_bits));
+            }
+            std::hint::black_box(self.read_ahead(hashes));
+            let hashed = batch.iter().zip(hashes);
+            vertices.extend(hashed.map(|(place, hash)| self.weld_hashed(*place, *hash)));
+        }
+        vertices
+    }
+
+    /// The vertex at one position.
+    #[cfg(test)]
+    fn weld(&mut self, position: [f32; 3]) -> u32 {
+        self.weld_hashed(position, hash_bits(canonical(position).map(f32::to_bits)))
+    }
+
+    /// Reads the first slot of each hash, then the vertices there; what is read means nothing.
     #[inline]
-    pub(in crate::import) fn weld(&mut self, position: [f32; 3]) -> u32 {
-        // The sum turns −0 into 0 and leaves everything else.
-        let position = position.map(|x| x + 0.0);
+    fn read_ahead(&self, hashes: &[usize]) -> u32 {
+        let mask = self.slots.len().wrapping_sub(1);
+        let slots = hashes.iter().filter_map(|hash| self.slots.get(hash & mask));
+        let first = slots.clone().fold(0u32, |sum, slot| sum.wrapping_add(*slot));
+        let vertices = slots.filter_map(|slot| self.positions.get(*slot as usize));
+        vertices.fold(first, |sum, place| sum.wrapping_add(place[0].to_bits()))
+    }
+
+    /// The vertex at a position with this hash.
+    #[inline]
+    fn weld_hashed(&mut self, position: [f32; 3], start: usize) -> u32 {
+        let position = canonical(position);
         if 2 * self.positions.len() >= self.slots.len() {
             self.grow();
         }
         let key = position.map(f32::to_bits);
         let mask = self.slots.len() - 1;
-        let start = hash(key);
         for probe in 0..PROBES {
             let slot = (start + probe) & mask;
             let vertex = self.slots[slot];
@@ -86,7 +122,7 @@ impl VertexWelder {
         self.crowded.clear();
         for (vertex, position) in self.positions.iter().enumerate() {
             let key = position.map(f32::to_bits);
-            let start = hash(key);
+            let start = hash_bits(key);
             let mut probes = (0..PROBES).map(|probe| (start + probe) & (slots - 1));
             match probes.find(|&slot| self.slots[slot] == EMPTY) {
                 Some(slot) => self.slots[slot] = vertex as u32,
@@ -98,8 +134,15 @@ impl VertexWelder {
     }
 }
 
+/// The position with 0 for −0: the sum leaves everything else.
+#[inline]
+fn canonical(position: [f32; 3]) -> [f32; 3] {
+    position.map(|x| x + 0.0)
+}
+
 /// A hash of three words: multiplications by odd constants, whose upper bits are well mixed.
-fn hash([x, y, z]: [u32; 3]) -> usize {
+#[inline]
+fn hash_bits([x, y, z]: [u32; 3]) -> usize {
     let pair = u64::from(x) | u64::from(y) << 32;
     let mixed = (pair ^ pair >> 29).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let sum = (mixed ^ mixed >> 32 ^ u64::from(z)).wrapping_mul(0xD6E8_FEB8_6659_FD93);

@@ -217,7 +217,7 @@ impl<'a> SolidReader<'a, '_> {
     fn finish_solid(&mut self) -> Result<(), Diagnostic> {
         let solid = std::mem::take(&mut self.current);
         solid.warn_of_omissions(self.warnings);
-        if solid.triangles.is_empty() {
+        if solid.triangle_count() == 0 {
             return Ok(());
         }
         self.solids.push(solid);

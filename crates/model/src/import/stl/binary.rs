@@ -43,7 +43,7 @@ pub(super) fn read_solid(
             f32::from_le_bytes([facet[at], facet[at + 1], facet[at + 2], facet[at + 3]])
         };
         let corners = [12, 24, 36].map(|at| [at, at + 4, at + 8].map(number));
-        let triangle = solid.triangles.len();
+        let triangle = solid.triangle_count();
         let locate = || format!("byte {}", HEADER_BYTES + at * TRIANGLE_BYTES);
         if solid.push_triangle(corners, locate) {
             colors.record(triangle, u16::from_le_bytes([facet[48], facet[49]]));

@@ -5,13 +5,18 @@ use crate::Primitive;
 use crate::import::polygons::{CreaseNormals, Smoothing, VertexWelder};
 use crate::import::warnings::ImportWarnings;
 
+/// The most triangles that wait for their vertices.
+const WAITING_TRIANGLES: usize = 64;
+
 /// A solid of an STL file while it is read.
 #[derive(Debug, Default)]
 pub(super) struct Solid {
     /// The name after `solid`, if the file is text.
     pub(super) name: Option<String>,
-    /// Vertices of the triangles.
-    pub(super) triangles: Vec<[u32; 3]>,
+    /// Vertices of the triangles, but for those that wait.
+    triangles: Vec<[u32; 3]>,
+    /// Corners of the last triangles, which are welded together.
+    waiting: Vec<[f32; 3]>,
     /// The vertices.
     welder: VertexWelder,
     /// Colors of the triangles, if the file has some.
@@ -44,12 +49,27 @@ impl Solid {
     ) -> bool {
         let is_finite = corners.as_flattened().iter().fold(true, |all, x| all & x.is_finite());
         if is_finite {
-            self.triangles.push(corners.map(|corner| self.welder.weld(corner)));
+            self.waiting.extend(corners);
+            if self.waiting.len() >= 3 * WAITING_TRIANGLES {
+                self.weld_waiting();
+            }
         } else {
             self.omitted += 1;
             self.first_omitted.get_or_insert_with(locate);
         }
         is_finite
+    }
+
+    /// The number of triangles.
+    pub(super) fn triangle_count(&self) -> usize {
+        self.triangles.len() + self.waiting.len() / 3
+    }
+
+    /// Gives the corners that wait their vertices.
+    fn weld_waiting(&mut self) {
+        let vertices = self.welder.weld_all(&self.waiting);
+        self.triangles.extend(vertices.as_chunks::<3>().0);
+        self.waiting.clear();
     }
 
     /// Warns of triangles that were left out.
@@ -61,7 +81,8 @@ impl Solid {
     }
 
     /// The primitive, with normals by crease angle and the vertices of differing colors split.
-    pub(super) fn into_primitive(self, crease_degrees: f64) -> Primitive {
+    pub(super) fn into_primitive(mut self, crease_degrees: f64) -> Primitive {
+        self.weld_waiting();
         let mut positions = self.welder.into_positions();
         let smoothing = Smoothing::CreaseAngle(crease_degrees);
         let CreaseNormals { triangles, copies, normals } =
