@@ -13,8 +13,8 @@ pub struct PictureStatistics {
     pub black: f64,
     /// The mean of their codes, over all channels.
     pub mean: f64,
-    /// The difference between the code that 5 % of them stay below, and the one that 95 % stay below:
-    /// the greatest of the three channels.
+    /// The difference between the code that 5 % of them stay below, and the one that 95 % stay
+    /// below: the greatest of the three channels.
     pub contrast: u8,
     /// The greatest code of any channel.
     pub brightest: u8,

@@ -2,8 +2,8 @@
 //!
 //! The models are those of the scenes and, if it exists, the listed ones of `$ASSETS` or of
 //! `shared/assets` beside the repository. Each is drawn from six directions in perspective, in
-//! isometric and in cavalier projection. Then come random scenes over all projections (`random.rs`).
-//! Arguments that are not flags select models by a part of
+//! isometric and in cavalier projection. Then come random scenes over all projections
+//! (`random.rs`). Arguments that are not flags select models by a part of
 //! their path; a path below the folder's `models` names one that is not listed.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]

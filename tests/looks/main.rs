@@ -102,8 +102,8 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
     tally
 }
 
-/// What is wrong with the pictures of a model; nothing if it cannot be drawn, which is the matter of
-/// other tests.
+/// What is wrong with the pictures of a model; nothing if it cannot be drawn, which is the matter
+/// of other tests.
 fn judge_model(model: &Path) -> Vec<String> {
     let mut faults = occlusion::find_dots(model, &model_name(model));
     // A plane has one normal: there is nothing that light could show.

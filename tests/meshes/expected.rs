@@ -1,4 +1,4 @@
-//! What is found in a file, and the files that differ from the manifest for a reason.
+//! The facts that are compared, and the files that differ from the manifest for a reason.
 
 /// Triangles and bounds of a mesh.
 #[derive(Clone, PartialEq, Debug)]

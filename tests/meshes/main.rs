@@ -5,7 +5,8 @@
 //! `MANIFEST.tsv` begins with a comment (`#`) and says what another reader made of each file: path,
 //! origin, triangles (polygons cut), bounds in the coordinates of the file, and what became of it.
 //! Files that differ are in the table of
-//! [`expected`], with the reason. Arguments that are not flags select files by a part of their path.
+//! [`expected`], with the reason. Arguments that are not flags select files by a part of their
+//! path.
 
 #![allow(clippy::print_stdout, reason = "a test program prints its results")]
 #![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
@@ -45,7 +46,7 @@ fn has_meshes(folder: &Path) -> bool {
 struct Row {
     /// The path below the folder.
     path: String,
-    /// What the other reader found; `None` if it refused the file.
+    /// The findings of the other reader; `None` if it refused the file.
     facts: Option<MeshFacts>,
 }
 

@@ -233,7 +233,8 @@ fn pasted_code_is_read_back() {
     assert!(run.stdout.contains("column by column, as mat constructors are"), "{}", run.stdout);
 }
 
-/// Near and far are distances; the textbook's coordinates are refused with the sentence of the help.
+/// Near and far are distances; the textbook's coordinates are refused with the sentence of the
+/// help.
 #[test]
 fn signed_planes_are_refused_where_distances_are_due() {
     let sandbox = Sandbox::new("matrix_signed");

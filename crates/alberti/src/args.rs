@@ -113,7 +113,7 @@ pub(crate) enum Command {
 /// Arguments of `alberti render`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// Scenes (.ron) or models (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` reads one from the standard input
+    /// Scenes (.ron) or models (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` is the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
     /// Output file: .png, or .svg or .pdf for a line drawing; `-` is the standard output

@@ -35,7 +35,7 @@ use std::process::ExitCode;
 /// Arguments of `alberti batch`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BatchArgs {
-    /// Models (.gltf, .glb, .stl, .obj, .ply, .3mf), scenes (.ron), folders to search for models, or lists (.txt)
+    /// Models (.gltf, .glb, .stl, .obj, .ply, .3mf), scenes (.ron), folders, or lists (.txt)
     ///
     /// A list has one file per line; `-` reads a list from the standard input.
     #[arg(required = true)]

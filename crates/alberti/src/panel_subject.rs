@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// The subject that every panel of `compare-projections` and `sweep` shows.
 #[derive(Debug, clap::Args)]
 pub(super) struct PanelSubjectArgs {
-    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` reads one from the standard input
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` is the standard input
     pub(super) input: PathBuf,
     /// Width and height of each panel in pixels (96 per inch), up to 4096 each
     #[arg(long, value_name = "WxH", value_parser = parse_panel_size, default_value = "320x240")]

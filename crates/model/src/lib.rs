@@ -1,8 +1,8 @@
 //! Models: files read into plain arrays, with every index checked and every default decided.
 //!
-//! [`load`] reads a file into a [`Model`]; [`import::check_file`] validates one, glTF as the Khronos
-//! glTF validator does. A model is posed by [`Model::apply_animation`], and its vertices are deformed by
-//! [`Model::skin_primitive`].
+//! [`load`] reads a file into a [`Model`]; [`import::check_file`] validates one, glTF as the
+//! Khronos glTF validator does. A model is posed by [`Model::apply_animation`], and its vertices
+//! are deformed by [`Model::skin_primitive`].
 
 mod animation;
 mod camera;

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Both programs render the same models, by turns: old, new, old, new. What is printed are ratios
-//! of times of the same round, as medians with the least and the greatest, because a machine that is
-//! slow for a second is slow for both: new/old for each stage of `--timings`, and on/off for
+//! of times of the same round, as medians with the least and the greatest, because a machine that
+//! is slow for a second is slow for both: new/old for each stage of `--timings`, and on/off for
 //! features, styles and threads in either program. Peak memory and wall time stand beside them. A
 //! variant that a program refuses, because it lacks a flag, has a dash, and the reason below.
 //!
@@ -59,7 +59,7 @@ const USAGE: &str = "bench compare REV [--models DIR|NAME…] [--runs N] [--quic
 /// Rounds of runs, and frames of the turntable.
 const RUNS: usize = 5;
 const FRAMES: usize = 120;
-/// The same with `--quick`.
+/// That with `--quick`.
 const QUICK_RUNS: usize = 3;
 const QUICK_FRAMES: usize = 12;
 

@@ -9,7 +9,7 @@ const NONE: u32 = u32::MAX;
 /// different, would otherwise take quadratic time.
 const MAX_COMPARISONS: usize = 32;
 
-/// What a corner has besides its position.
+/// Attributes of a corner besides its position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct CornerAttributes {
     /// Texture coordinates.

@@ -1,8 +1,8 @@
 //! The OBJ importer: Wavefront's text format of polygons, with its material libraries (MTL).
 //!
 //! ```text
-//!  text ──parser──► vertex data, elements ──parts──► triangles ──primitives──► meshes ──scene──► Model
-//!   └─ mtllib ──mtl──► statements ──material, textures──────────────────────────────────────────┘
+//!  text ──parser──► vertices, elements ──parts──► triangles ──primitives──► meshes ──scene──► Model
+//!   └─ mtllib ──mtl──► statements ──material, textures───────────────────────────────────────┘
 //! ```
 //!
 //! Read are polygons of any number of corners, lines and points; positions, texture coordinates,
@@ -44,8 +44,8 @@ use textures::TextureTable;
 
 /// Material libraries that are looked for; a file names one, or one for each object.
 const MAX_LIBRARIES: usize = 1024;
-/// Bytes that the arrays of a corner take at most: references, triangle, vertex with attributes, and
-/// what the computation of normals needs.
+/// Bytes that the arrays of a corner take at most: references, triangle, vertex with attributes,
+/// and what the computation of normals needs.
 const BYTES_PER_CORNER: u64 = 140;
 
 /// Imports an OBJ file whose bytes have been read.

@@ -1,16 +1,16 @@
 //! The PLY importer (Stanford polygon format): text, and binary of both orders of bytes.
 //!
 //! ```text
-//!  header ──► elements and properties ─┬─ vertex      positions, normals, texture coordinates, colors
-//!                                      ├─ face        polygons, texture coordinates of corners, colors
+//!  header ──► elements and properties ─┬─ vertex      positions, normals, uvs, colors
+//!                                      ├─ face        polygons, uvs of corners, colors
 //!                                      ├─ tristrips   triangles
 //!                                      ├─ edge        lines
 //!                                      └─ others      skipped
 //! ```
 //!
-//! A file without faces and edges is a point cloud. Colors are sRGB, whatever their type, and become
-//! linear; texture coordinates begin at the lower left, and are turned over. Faces and corners that
-//! carry attributes split the vertices between them.
+//! A file without faces and edges is a point cloud. Colors are sRGB, whatever their type, and
+//! become linear; texture coordinates begin at the lower left, and are turned over. Faces and
+//! corners that carry attributes split the vertices between them.
 
 mod body;
 mod faces;
@@ -33,7 +33,7 @@ use header::Header;
 use std::path::Path;
 use vertices::Vertices;
 
-/// What the body of a file has been found to hold.
+/// The content of the body of a file.
 #[derive(Default, Debug)]
 struct Contents {
     vertices: Vertices,

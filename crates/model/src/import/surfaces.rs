@@ -1,8 +1,8 @@
 //! Surfaces of mesh formats: triangles whose corners carry attributes become primitives, one for
 //! each material, with normals and vertices of their own.
 //!
-//! Normals that a file does not give follow from the crease angle over all triangles of the surface,
-//! so that a border between two colors is no crease.
+//! Normals that a file does not give follow from the crease angle over all triangles of the
+//! surface, so that a border between two colors is no crease.
 
 use super::corner_vertices::{CornerAttributes, CornerVertices};
 use super::normals::normalize_normals;

@@ -1,4 +1,5 @@
-//! The 3MF importer (3D Manufacturing Format, core specification 1.3): packages of printable objects.
+//! The 3MF importer (3D Manufacturing Format, core specification 1.3): packages of printable
+//! objects.
 //!
 //! ```text
 //!  bytes ──archive──► entries ──package──► model part ──model_part──► objects, properties, items

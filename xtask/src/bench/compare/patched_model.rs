@@ -6,7 +6,7 @@ use scene_models::glb::encode_glb;
 use serde_json::{Value, json};
 use std::path::{Component, Path, PathBuf};
 
-/// What is added to a model.
+/// An addition to a model.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Addition {
     /// All materials transmit.

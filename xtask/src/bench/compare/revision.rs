@@ -8,7 +8,7 @@ use std::process::Command;
 /// A commit of this repository.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Commit {
-    /// What the user called it, such as `main~3`.
+    /// The name that the user gave it, such as `main~3`.
     pub revision: String,
     /// Its hash in full.
     pub hash: String,
@@ -34,8 +34,8 @@ impl Commit {
 
     /// Builds the release program of the commit, or finds it built.
     ///
-    /// The folder is a clone and no worktree of git: a target folder may be removed at any time, and
-    /// nothing of the repository then refers to it.
+    /// The folder is a clone and no worktree of git: a target folder may be removed at any time,
+    /// and nothing of the repository then refers to it.
     pub fn build_program(&self) -> Result<Program, String> {
         let folder = self.clone_folder();
         if !self.is_checked_out(&folder) {

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 /// The sum of all stages.
 const ALL: &str = "all";
-/// What is left of it without [`LOADING`]: what features and styles differ in.
+/// The rest of it without [`LOADING`]: what features and styles differ in.
 pub const DRAWING: &str = "drawing";
 /// The time from start to end of the process.
 pub const WALL: &str = "wall";

@@ -1,4 +1,4 @@
-//! What is shown: for each variant the ratios of its measurements, of one model or of all together.
+//! The summary: for each variant the ratios of its measurements, of one model or of all together.
 
 use super::measurement::{
     ALL_MODELS, Measurement, ProgramRuns, Series, figures_named, pairwise_ratios,
@@ -119,7 +119,7 @@ pub fn summarize<'a>(
     summaries
 }
 
-/// What a program refused: which one, of which variant and model, and why. Equal reasons of equal
+/// A refusal of a program: which one, of which variant and model, and why. Equal reasons of equal
 /// variants are listed once, with the first model.
 pub fn refusals(measurements: &[Measurement]) -> Vec<String> {
     let mut seen: Vec<(&str, &str, &str)> = Vec::new();

@@ -8,7 +8,7 @@ use super::summary::{VariantSummary, model_names, refusals, summarize};
 use super::variants::Group;
 use std::fmt::Write as _;
 
-/// What stands where there is no figure.
+/// The text of a cell without a figure.
 const MISSING: &str = "—";
 
 const LEGEND: &str = "

@@ -1,4 +1,5 @@
-//! What is measured: settings, features against the picture without them, styles, commands.
+//! The variants that are measured: settings, features against the picture without them, styles,
+//! commands.
 
 use super::models::BenchModel;
 use super::patched_model::Addition;
@@ -59,7 +60,7 @@ const LIGHT_FEATURES: [(Addition, Feature); 3] = [
 const MATERIAL_FEATURES: [(Addition, &str); 2] =
     [(Addition::Transmission, "glass"), (Addition::Iridescence, "iridescence")];
 
-/// What kind of variant it is: each has a part of the tables.
+/// The kind of a variant: each has a part of the tables.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Group {
     /// Default settings, with each number of samples: shown by stages.

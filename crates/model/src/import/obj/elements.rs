@@ -17,7 +17,7 @@ pub(super) struct Corner {
     pub(super) normal: u32,
 }
 
-/// What the statements before an element set for it.
+/// The state that statements before an element set for it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ElementState {
     /// Points, lines or polygons.
@@ -36,7 +36,7 @@ pub(super) struct ElementState {
 pub(super) struct ElementRun {
     /// Index of the first element; the next run has the end.
     pub(super) first: usize,
-    /// What holds for them.
+    /// The state that holds for them.
     pub(super) state: ElementState,
 }
 

@@ -1,5 +1,5 @@
-//! Counts of faults that leave the shape of a model as it is: each kind is told once, with the place
-//! of the first.
+//! Counts of faults that leave the shape of a model as it is: each kind is told once, with the
+//! place of the first.
 
 use super::elements::NONE;
 use crate::import::text::LineCounter;

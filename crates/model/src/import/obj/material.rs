@@ -9,7 +9,7 @@
 //! | `illum` 0, 1 | unlit; matte and without reflections |
 //! | `d`, else 1 − `Tr` | alpha |
 //! | `Ni` | index of refraction, for the reflectance of metallic-roughness materials |
-//! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | as they are; `Ns` and `Ks` do not count then |
+//! | `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `anisor` | as they are; `Ns`, `Ks` do not count then |
 //!
 //! Beside a texture, which they multiply, black `Kd` and `Ke` are taken as white.
 //!

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Smoothing groups from here on are those of single polygons.
 pub(super) const FLAT_GROUP: u32 = 1 << 31;
 
-/// What all items of a part have in common.
+/// Attributes that all items of a part have in common.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct PartKey {
     /// The object and group, an index of the file's groups.
@@ -31,7 +31,7 @@ pub(super) struct PartKey {
 /// The points, lines or triangles of one primitive.
 #[derive(Debug)]
 pub(super) struct Part {
-    /// What they have in common.
+    /// The attributes in common.
     pub(super) key: PartKey,
     /// Corners of the items, as indices of the file's corners.
     pub(super) corners: Vec<u32>,

@@ -3,8 +3,8 @@
 
 use crate::import::text::Token;
 
-/// Reader of one statement after the other. It stays on the line of a statement until the next one is
-/// asked for.
+/// Reader of one statement after the other. It stays on the line of a statement until the next one
+/// is asked for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StatementReader<'a> {
     /// The text in UTF-8, or in another encoding that has ASCII as a part.
@@ -21,7 +21,7 @@ impl<'a> StatementReader<'a> {
 
     /// The keyword of the next statement; `None` at the end of the text.
     ///
-    /// What is left of the current statement is skipped, as are blank lines and comments.
+    /// The rest of the current statement is skipped, as are blank lines and comments.
     pub(super) fn next_statement(&mut self) -> Option<Token<'a>> {
         if self.at > 0 {
             self.skip_line();

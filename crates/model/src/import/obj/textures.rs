@@ -289,7 +289,7 @@ fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
 
 /// Leaves out bump maps that are gray: heights need a scale, which no library gives.
 ///
-/// What is colored is a normal map, which many programs write under this name.
+/// A colored one is a normal map, which many programs write under this name.
 fn remove_height_maps(
     model: &mut Model,
     bump_maps: &BTreeSet<usize>,

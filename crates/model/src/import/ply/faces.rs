@@ -23,7 +23,7 @@ pub(super) struct Faces {
     pub(super) without_area: usize,
 }
 
-/// What a property of a face is.
+/// The meaning of a property of a face.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum FaceProperty {
     Corners,
@@ -45,7 +45,7 @@ impl FaceProperty {
     }
 }
 
-/// What is read of one face before it is added.
+/// One face while it is read.
 #[derive(Default)]
 struct FaceRecord {
     corners: Vec<u32>,

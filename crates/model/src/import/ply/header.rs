@@ -112,7 +112,7 @@ impl PlyElement {
     }
 }
 
-/// What the header declares.
+/// The declarations of the header.
 #[derive(Debug)]
 pub(super) struct Header {
     /// How the body is written.

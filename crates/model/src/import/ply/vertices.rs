@@ -15,7 +15,7 @@ const SPLAT_COLOR: usize = 12;
 /// The spherical harmonic of degree 0: 1 / (2 √π).
 const SH_DEGREE_0: f32 = 0.282_094_8;
 
-/// What is known about the vertices; arrays that are present have an entry for each.
+/// Attributes of the vertices; arrays that are present have an entry for each.
 #[derive(Default, Debug)]
 pub(super) struct Vertices {
     /// Positions, as they are in the file: they may be infinite or not a number.

@@ -20,14 +20,14 @@ use super::orientation::orient2d;
 /// ones can take n² of them.
 const MAX_POINT_TESTS: u64 = 1 << 24;
 
-/// What looking at a corner costs, whether it is an ear or not, in tests.
+/// The cost of looking at a corner, whether it is an ear or not, in tests.
 const TESTS_PER_STEP: u64 = 4;
 
 /// How a polygon was cut into triangles.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(in crate::import) enum PolygonKind {
-    /// The triangles have the winding of the polygon and cover it, each part as often as the polygon
-    /// runs around it; some may have no area, where corners coincide or are collinear.
+    /// The triangles have the winding of the polygon and cover it, each part as often as the
+    /// polygon runs around it; some may have no area, where corners coincide or are collinear.
     Simple,
     /// The polygon has no area: a fan of triangles without area.
     Flat,

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 
 /// The most entries of an archive; 3MF files of the largest print beds have some hundreds.
 const MAX_ENTRIES: u64 = 65_536;
-/// What precedes the data of a local entry without its name and extra field.
+/// Bytes before the data of a local entry, without its name and extra field.
 const LOCAL_HEADER: usize = 30;
 /// A record of the central directory without name, extra field and comment.
 const DIRECTORY_RECORD: usize = 46;

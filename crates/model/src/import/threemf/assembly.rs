@@ -1,7 +1,7 @@
 //! Assembly of 3MF: items and components become nodes, each of which may show an object's mesh.
 //!
-//! Components share objects, so that the number of nodes can grow exponentially with the size of the
-//! file: it is computed, and compared with the limits, before any node is made.
+//! Components share objects, so that the number of nodes can grow exponentially with the size of
+//! the file: it is computed, and compared with the limits, before any node is made.
 
 use super::model_part::ObjectReference;
 use super::package::Package;
@@ -137,8 +137,8 @@ impl Assembly {
     /// Counts the nodes that the items will have, before any of them is made.
     ///
     /// # Errors
-    /// An object contains itself (reading leniently, it is left out there), or the nodes are more or
-    /// deeper than the limits allow.
+    /// An object contains itself (reading leniently, it is left out there), or the nodes are more
+    /// or deeper than the limits allow.
     pub(super) fn count_nodes(
         &mut self,
         items: &[Placement],

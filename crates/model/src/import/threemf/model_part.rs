@@ -28,14 +28,14 @@ pub(super) struct ObjectReference {
     pub(super) location: String,
 }
 
-/// What a model part holds.
+/// The content of a model part.
 #[derive(Debug, Default)]
 pub(super) struct ModelPart {
     /// The unit of its lengths.
     pub(super) unit: LengthUnit,
     /// Its objects in their order.
     pub(super) objects: Vec<Object>,
-    /// What is to be built.
+    /// The build items.
     pub(super) items: Vec<ObjectReference>,
     /// Colors and materials.
     pub(super) properties: PartProperties,

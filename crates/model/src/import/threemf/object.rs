@@ -33,7 +33,7 @@ pub(super) struct Object {
     pub(super) content: ObjectContent,
 }
 
-/// What an object is made of.
+/// The content of an object.
 #[derive(Debug, Default)]
 pub(super) struct ObjectContent {
     pub(super) mesh: Option<ObjectMesh>,
@@ -229,14 +229,14 @@ impl ObjectMesh {
 
 /// The properties of the triangles of an object.
 struct PropertyLookup<'a> {
-    /// What each triangle names; empty if none names any.
+    /// The properties of each triangle; empty if none names any.
     properties: &'a [TriangleProperties],
-    /// What the object names for all of them.
+    /// The properties of the object, for triangles without their own.
     default: TriangleProperties,
     part: &'a PartProperties,
 }
 
-/// What the triangles of an object have.
+/// The properties of the triangles of an object.
 struct PropertySummary {
     /// The materials of the model that they have, in the order of their first use.
     numbers: Vec<u32>,

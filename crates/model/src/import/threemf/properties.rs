@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 /// The most layers of multiproperties; each entry of a group is mixed from all of them.
 const MAX_LAYERS: usize = 64;
 
-/// What a corner of a triangle is given.
+/// The property of a corner of a triangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Property {
     /// Index of the material in the model.
@@ -227,7 +227,7 @@ impl PartProperties {
         self.textures.insert(id, material);
     }
 
-    /// What the start tag of a group says; a message if it refers to nothing.
+    /// The group that a start tag begins; a message if it refers to nothing.
     pub(super) fn open_group(
         &self,
         element: &Element<'_>,
