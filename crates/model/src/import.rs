@@ -132,10 +132,17 @@ impl ImportOptions {
 /// the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || uri_resolver::read_file(path, &options.limits, "");
-    let loaded = options.timings.measure("read", read).and_then(|bytes| {
+    let load_bytes = || {
+        let bytes = options.timings.measure("read", read)?;
         let resolver = UriResolver::new(path, bytes.len(), options)?;
         import_model(path, &bytes, &resolver, options)
-    });
+    };
+    let loaded = match stl::import_binary_file(path, options) {
+        Some(imported) => {
+            imported.and_then(|model| complete_model(model, path, FileFormat::Stl, options))
+        }
+        None => load_bytes(),
+    };
     loaded.map_err(|diagnostic| ImportError {
         file: path.to_owned(),
         diagnostic: Box::new(diagnostic),
@@ -161,8 +168,6 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
 
 /// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
 ///
-/// The readers give each model the up axis and unit of its file; the options replace them here, and
-/// the model is turned upright.
 pub(crate) fn import_model(
     path: &Path,
     bytes: &[u8],
@@ -177,12 +182,22 @@ pub(crate) fn import_model(
         FileFormat::Ply => ply::import_ply,
         FileFormat::ThreeMf => threemf::import_threemf,
     };
-    let mut model = import(path, bytes, resolver, options)?;
+    complete_model(import(path, bytes, resolver, options)?, path, format, options)
+}
+
+/// Completes a model as its reader left it, with the up axis and unit of its file: the options
+/// replace these, and the model is turned upright.
+fn complete_model(
+    mut model: Model,
+    path: &Path,
+    format: FileFormat,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     model.length_unit = options.length_unit.unwrap_or(model.length_unit);
     model.rotate_roots(options.up.unwrap_or(model.up_axis));
     if format != FileFormat::Gltf {
-        check_scene_limits(&model, resolver.limits)?;
+        check_scene_limits(&model, &options.limits)?;
     }
     model.warnings.extend(misleading_name(path, format));
     Ok(model)

@@ -86,6 +86,11 @@ impl FileFormat {
         }
     }
 
+    /// Whether content of this format is that, even in a file as long as a binary STL file.
+    pub(super) fn precedes_binary_stl(self) -> bool {
+        matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
+    }
+
     /// The format of a file, by its content, else by its name.
     ///
     /// # Errors

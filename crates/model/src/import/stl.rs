@@ -18,13 +18,17 @@ mod facet_color;
 mod solid;
 
 use super::ImportOptions;
+use super::file_format::FileFormat;
 use super::memory_budget::MemoryBudget;
 use super::text::decode_text;
 use super::uri_resolver::UriResolver;
 use super::warnings::ImportWarnings;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::{LengthUnit, Material, Mesh, Model, Node, UpAxis};
+use binary::BinaryFile;
 use solid::Solid;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 /// Imports an STL file whose bytes have been read.
@@ -45,7 +49,12 @@ pub(super) fn import_stl(
     let budget = MemoryBudget::new(limits);
     let parse = || {
         if has_binary_length(bytes) || !is_text(bytes) {
-            binary::read_solid(bytes, &budget, &mut warnings).map(|solid| vec![solid])
+            let Some((header, mut body)) = bytes.split_first_chunk() else {
+                return Err(binary::no_stl(bytes));
+            };
+            let body_bytes = body.len();
+            let file = BinaryFile { header: *header, body: &mut body, body_bytes };
+            binary::read_solid(file, &budget, &mut warnings).map(|solid| vec![solid])
         } else {
             // A facet takes no more memory than the fewest characters that it can be written in.
             budget.charge_bytes("", 2 * bytes.len() as u64, resolver.total_bytes())?;
@@ -58,6 +67,36 @@ pub(super) fn import_stl(
     let mut model = options.timings.measure("geometry", build);
     model.warnings = warnings.into_list();
     Ok(model)
+}
+
+/// Imports a binary STL file of exactly the right length without holding all of it in memory;
+/// `None` if this is another file, or one that cannot be opened.
+///
+/// # Errors
+/// A limit is exceeded, or the file cannot be read to its end.
+pub(super) fn import_binary_file(
+    path: &Path,
+    options: &ImportOptions,
+) -> Option<Result<Model, Diagnostic>> {
+    let mut body = File::open(path).ok()?;
+    let metadata = body.metadata().ok().filter(std::fs::Metadata::is_file)?;
+    let length = usize::try_from(metadata.len()).ok()?;
+    let mut header = [0; HEADER_BYTES];
+    body.read_exact(&mut header).ok()?;
+    let is_other = FileFormat::from_content(&header).is_some_and(FileFormat::precedes_binary_stl);
+    let is_allowed = metadata.len() <= options.limits.file_bytes;
+    if is_other || !is_allowed || binary_length(&header) != Some(length) {
+        return None;
+    }
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let budget = MemoryBudget::new(&options.limits);
+    let file = BinaryFile { header, body: &mut body, body_bytes: length - HEADER_BYTES };
+    let parse = || binary::read_solid(file, &budget, &mut warnings);
+    Some(options.timings.measure("parse", parse).map(|solid| {
+        let build = || build_model(vec![solid], options.crease_degrees());
+        let model = options.timings.measure("geometry", build);
+        Model { warnings: warnings.into_list(), ..model }
+    }))
 }
 
 /// The model of some solids; those without triangles are left out.
@@ -105,8 +144,12 @@ fn declared_triangles(bytes: &[u8]) -> Option<usize> {
 ///
 /// No text is: four letters stand for more than 500 million triangles.
 fn has_binary_length(bytes: &[u8]) -> bool {
-    let length = |count: usize| count.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES);
-    declared_triangles(bytes).and_then(length) == Some(bytes.len())
+    binary_length(bytes) == Some(bytes.len())
+}
+
+/// The length of a binary file with this beginning; `None` if it is too short to tell.
+fn binary_length(bytes: &[u8]) -> Option<usize> {
+    declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
 }
 
 /// Whether a file that is not of the right length for a binary one is text.

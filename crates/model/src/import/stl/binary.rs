@@ -13,10 +13,24 @@ use super::{HEADER_BYTES, TRIANGLE_BYTES, declared_triangles, truncated};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::memory_budget::MemoryBudget;
 use crate::import::warnings::ImportWarnings;
+use std::io::Read;
 
 /// Bytes of the arrays for a triangle, at most: while normals are computed, without any vertex in
 /// common.
 const ARRAY_BYTES: u64 = 140;
+
+/// Bytes of triangles that are read at a time: 1,024 of them.
+const CHUNK_BYTES: usize = 1024 * TRIANGLE_BYTES;
+
+/// A binary file from which the header has been read.
+pub(super) struct BinaryFile<'a> {
+    /// The header: a comment and the number of triangles.
+    pub(super) header: [u8; HEADER_BYTES],
+    /// The bytes after it.
+    pub(super) body: &'a mut dyn Read,
+    /// The number of those bytes.
+    pub(super) body_bytes: usize,
+}
 
 /// Reads a binary file.
 ///
@@ -24,29 +38,30 @@ const ARRAY_BYTES: u64 = 140;
 /// back to write it leave 0; then it is as many as there are.
 ///
 /// # Errors
-/// The file is too short for its triangles, or too large for the budget.
+/// The file is too short for its triangles, too large for the budget, or cannot be read to its end.
 pub(super) fn read_solid(
-    bytes: &[u8],
+    file: BinaryFile<'_>,
     budget: &MemoryBudget<'_>,
     warnings: &mut ImportWarnings,
 ) -> Result<Solid, Diagnostic> {
-    let (Some(declared), Some(body)) = (declared_triangles(bytes), bytes.get(HEADER_BYTES..))
-    else {
-        return Err(no_stl(bytes));
-    };
-    let count = count_triangles(declared, body.len(), warnings)?;
-    budget.charge_bytes("", ARRAY_BYTES * count as u64, bytes.len() as u64)?;
+    let BinaryFile { header, body, body_bytes } = file;
+    let count = count_triangles(&header, body_bytes, warnings)?;
+    budget.charge_bytes("", ARRAY_BYTES * count as u64, (HEADER_BYTES + body_bytes) as u64)?;
     let mut solid = Solid::with_capacity(count);
-    let mut colors = FacetColors::from_header(&bytes[..80]);
-    for (at, facet) in body.as_chunks::<TRIANGLE_BYTES>().0.iter().take(count).enumerate() {
-        let number = |at: usize| {
-            f32::from_le_bytes([facet[at], facet[at + 1], facet[at + 2], facet[at + 3]])
-        };
-        let corners = [12, 24, 36].map(|at| [at, at + 4, at + 8].map(number));
-        let triangle = solid.triangle_count();
-        let locate = || format!("byte {}", HEADER_BYTES + at * TRIANGLE_BYTES);
-        if solid.push_triangle(corners, locate) {
-            colors.record(triangle, u16::from_le_bytes([facet[48], facet[49]]));
+    let mut colors = FacetColors::from_header(&header[..80]);
+    let mut chunk = vec![0; CHUNK_BYTES.min(count * TRIANGLE_BYTES)];
+    let mut at = 0;
+    while at < count {
+        let bytes = chunk.len().min((count - at) * TRIANGLE_BYTES);
+        let chunk = &mut chunk[..bytes];
+        body.read_exact(chunk).map_err(|error| unreadable_body(at, &error))?;
+        for facet in chunk.as_chunks::<TRIANGLE_BYTES>().0 {
+            let triangle = solid.triangle_count();
+            let locate = || format!("byte {}", HEADER_BYTES + at * TRIANGLE_BYTES);
+            if solid.push_triangle(corners(facet), locate) {
+                colors.record(triangle, u16::from_le_bytes([facet[48], facet[49]]));
+            }
+            at += 1;
         }
     }
     solid.colors = colors;
@@ -54,12 +69,28 @@ pub(super) fn read_solid(
     Ok(solid)
 }
 
+/// The corners of a triangle: nine numbers after its normal.
+fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
+    let words = facet[12..48].as_chunks::<4>().0;
+    std::array::from_fn(|corner| {
+        std::array::from_fn(|axis| f32::from_le_bytes(words[3 * corner + axis]))
+    })
+}
+
+/// The error for a file that ends, or fails, while it is read.
+fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
+    let location = format!("byte {}", HEADER_BYTES + triangle * TRIANGLE_BYTES);
+    let message = format!("the file cannot be read any further: {error}");
+    Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
+}
+
 /// The number of triangles to read: what the header declares, compared with what there is.
 fn count_triangles(
-    declared: usize,
+    header: &[u8; HEADER_BYTES],
     length: usize,
     warnings: &mut ImportWarnings,
 ) -> Result<usize, Diagnostic> {
+    let declared = declared_triangles(header).unwrap_or(0);
     let present = length / TRIANGLE_BYTES;
     if declared > present {
         let message = format!("the file declares {declared} triangles and has {present}");
@@ -84,7 +115,7 @@ fn count_triangles(
 }
 
 /// The error for a file that is too short to be binary, and no text either.
-fn no_stl(bytes: &[u8]) -> Diagnostic {
+pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
     let message = match bytes.len() {
         0 => "the file is empty".to_owned(),
         length => {
