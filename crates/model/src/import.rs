@@ -52,7 +52,8 @@ pub use limits::Limits;
 pub use name_or_index::NameOrIndex;
 
 use crate::diagnostic::{Diagnostic, Severity, codes};
-use crate::{LengthUnit, Model, Timings, UpAxis};
+use crate::{LengthUnit, Model, Timings, Topology, UpAxis};
+use glam::DVec3;
 use std::path::{Path, PathBuf};
 use uri_resolver::UriResolver;
 
@@ -167,7 +168,6 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
 }
 
 /// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
-///
 pub(crate) fn import_model(
     path: &Path,
     bytes: &[u8],
@@ -198,6 +198,7 @@ fn complete_model(
     model.rotate_roots(options.up.unwrap_or(model.up_axis));
     if format != FileFormat::Gltf {
         check_scene_limits(&model, &options.limits)?;
+        model.warnings.extend(surface_without_area(&model));
     }
     model.warnings.extend(misleading_name(path, format));
     Ok(model)
@@ -211,6 +212,28 @@ fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
     Some(Diagnostic {
         severity: Severity::Info,
         ..Diagnostic::error(codes::MISLEADING_NAME, "", message, &help)
+    })
+}
+
+/// The warning about a model none of whose triangles has an area: there is nothing to see.
+fn surface_without_area(model: &Model) -> Option<Diagnostic> {
+    let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut triangles = primitives
+        .filter(|primitive| primitive.topology == Topology::Triangles)
+        .flat_map(|primitive| {
+            let corners = primitive.indices.as_chunks::<3>().0.iter();
+            corners.map(|corners| corners.map(|vertex| primitive.positions[vertex as usize]))
+        })
+        .peekable();
+    triangles.peek()?;
+    let has_area = |[a, b, c]: [[f32; 3]; 3]| {
+        let [a, b, c] = [a, b, c].map(|corner| DVec3::from(corner.map(f64::from)));
+        (b - a).cross(c - a).length_squared() > 0.0
+    };
+    let help = "export the model again";
+    (!triangles.any(has_area)).then(|| Diagnostic {
+        severity: Severity::Warning,
+        ..Diagnostic::error(codes::LEFT_OUT, "", "no triangle of the file has an area", help)
     })
 }
 

@@ -39,6 +39,9 @@ pub(in crate::import) struct CreaseNormals {
 /// should be alike.
 const COSINE_TOLERANCE: f32 = 1e-5;
 
+/// Triangles this far from the mean at a vertex are looked at by their edges, in degrees.
+const MAX_SMOOTH_DEGREES: f64 = 45.0;
+
 impl CreaseNormals {
     /// Computes the normals of triangles whose vertices are the same where they are in one place.
     ///
@@ -114,8 +117,8 @@ struct SmoothVertices {
 
 impl SmoothVertices {
     /// Finds the vertices all of whose triangles are within half of the crease angle of the sum of
-    /// their weighted normals: no two of them enclose more than the whole. With smoothing groups
-    /// there are none.
+    /// their weighted normals, and within 45°: no two of them enclose more than the whole, and none
+    /// is a fin. With smoothing groups there are none.
     fn find(
         vertices: usize,
         triangles: &[[u32; 3]],
@@ -136,7 +139,8 @@ impl SmoothVertices {
         for normal in &mut normals {
             *normal = unit_or_z(Vec3::from(*normal)).to_array();
         }
-        let least = libm::cos(0.5 * degrees.clamp(0.0, 180.0).to_radians()) as f32;
+        let within = (0.5 * degrees).clamp(0.0, MAX_SMOOTH_DEGREES);
+        let least = libm::cos(within.to_radians()) as f32;
         let mut is_smooth = vec![true; vertices];
         for (corners, face) in triangles.iter().zip(faces) {
             if face.normal == Vec3::ZERO {

@@ -123,6 +123,18 @@ fn triangles_without_area_are_kept() {
 }
 
 #[test]
+fn a_surface_without_area_is_told() {
+    let line = [[0.0; 3], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let model = read(&binary(b"", &[(line, 0)]));
+    let told: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        told,
+        ["warning[LEFT_OUT] no triangle of the file has an area; export the model again"]
+    );
+    assert!(read(&binary(b"", &[(line, 0), (SQUARE[0], 0)])).warnings.is_empty());
+}
+
+#[test]
 fn a_triangle_far_away_is_a_triangle() {
     let far = SQUARE[0].map(|corner| corner.map(|x| x * 1e30));
     let model = read(&binary(b"", &[(far, 0)]));
