@@ -1,5 +1,5 @@
 //! Shared by the tests across crates: the [harness] of the table-driven programs, a corpus of
-//! [samples] with its [manifest], small [glTF documents](gltf), the path of the program under test,
+//! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path of the program under test,
 //! and a PNG reader.
 
 #![allow(clippy::print_stdout, reason = "the harness prints for test programs")]
@@ -9,6 +9,7 @@ pub mod harness;
 pub mod manifest;
 pub mod samples;
 pub mod statistics;
+pub mod threemf;
 
 use std::fs::File;
 use std::io::BufReader;

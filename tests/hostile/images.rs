@@ -36,7 +36,7 @@ fn jpeg_header(width: u16, height: u16, samplings: &[u8]) -> Vec<u8> {
 }
 
 /// A textured triangle with this image.
-fn textured_case(name: &str, image: &[u8], expected: Expected) -> Case {
+pub fn textured_case(name: &str, image: &[u8], expected: Expected) -> Case {
     let mut document = Document::with_all_members();
     let view = document.add_buffer_view(image);
     Case::from_document(
@@ -120,17 +120,24 @@ pub fn image_cases() -> Vec<Case> {
         textured_case(
             "text",
             b"hello",
-            warning_containing("this is of an unknown format; only PNG, JPEG and WebP are read"),
+            warning_containing(
+                "this is of an unknown format; only PNG, JPEG, WebP and KTX2 are read",
+            ),
         ),
         textured_case(
             "GIF",
             b"GIF89a",
-            warning_containing("this is a GIF image; only PNG, JPEG and WebP are read"),
+            warning_containing("this is a GIF image; only PNG, JPEG, WebP and KTX2 are read"),
+        ),
+        textured_case(
+            "KTX",
+            b"\xABKTX 11\xBB\r\n\x1A\n",
+            warning_containing("this is a KTX image; only PNG, JPEG, WebP and KTX2 are read"),
         ),
         textured_case(
             "KTX2",
             b"\xABKTX 20\xBB\r\n\x1A\n",
-            warning_containing("this is a KTX image; only PNG, JPEG and WebP are read"),
+            warning_containing("the KTX2 image is cut off"),
         ),
     ];
     cases.extend(jpeg_cases());

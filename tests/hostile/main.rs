@@ -14,9 +14,11 @@ mod bytes;
 mod case;
 mod draco;
 mod images;
+mod ktx2;
 mod members;
 mod meshes;
 mod meshopt;
+mod mutants;
 mod nodes;
 mod promises;
 mod text;
@@ -104,7 +106,7 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
 /// Builds the cases of a group.
 type Cases = fn() -> Vec<Case>;
 
-fn case_groups() -> [(&'static str, Cases); 11] {
+fn case_groups() -> [(&'static str, Cases); 12] {
     [
         ("types", types::type_cases),
         ("accessors", accessors::accessor_cases),
@@ -115,6 +117,7 @@ fn case_groups() -> [(&'static str, Cases); 11] {
         ("draco", draco::draco_cases),
         ("nodes", nodes::node_cases),
         ("images", images::image_cases),
+        ("ktx2", ktx2::ktx2_cases),
         ("text", text::text_cases),
         ("meshes", meshes::mesh_cases),
     ]

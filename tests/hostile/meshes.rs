@@ -1,7 +1,8 @@
-//! Mutants of small files of every format of meshes: bytes and numbers changed, parts left out,
-//! repeated and exchanged.
+//! Mutants of small files of every format of meshes.
 
 use crate::case::{Case, Expected};
+use crate::mutants::{Random, mutate};
+use alberti_tests::threemf::encode_3mf;
 
 /// Mutants of each format.
 const MUTANTS: usize = 2_000;
@@ -22,44 +23,18 @@ const FORMATS: [(&str, Files); 5] = [
 /// The name of the mutants that are put in an archive.
 const MODEL_PART: &str = "3dmodel.model";
 
-/// Words that readers might stumble over.
-const WORDS: [&[u8]; 22] = [
-    b"nan",
-    b"-inf",
-    b"1e999",
-    b"-0",
-    b"1e-46",
-    b"3.5e38",
-    b"0x10",
-    b"4294967295",
-    b"-1",
-    b"99999999999999999999",
-    b"\0",
-    b"\r",
-    b"\n",
-    b"\\\n",
-    b"\xFF\xFE",
-    b"\xEF\xBB\xBF",
-    b"/",
-    b"#",
-    b"solid",
-    b"\xFF\xFF\xFF\xFF",
-    b"\0\0\0\x80",
-    b"\0\0\xC0\x7F",
-];
-
 pub fn mesh_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for (file_name, files) in FORMATS {
         let files = files();
-        let finish = |file: Vec<u8>| if file_name == MODEL_PART { archive(&file) } else { file };
+        let finish = |file: Vec<u8>| if file_name == MODEL_PART { encode_3mf(&file) } else { file };
         for (at, file) in files.iter().enumerate() {
             let case =
                 Case::new(format!("{file_name} {at}"), finish(file.clone()), Expected::Loads);
             cases.push(Case { file_name, ..case });
         }
         for number in 0..MUTANTS {
-            let mut random = Random(number as u64);
+            let mut random = Random::new(number as u64);
             let file = &files[number % files.len()];
             let mut mutant = file.clone();
             for _ in 0..=random.below(4) {
@@ -70,54 +45,6 @@ pub fn mesh_cases() -> Vec<Case> {
         }
     }
     cases
-}
-
-/// A sequence of numbers that looks random (Knuth's linear congruence).
-struct Random(u64);
-
-impl Random {
-    /// A number below a limit; 0 if that is 0.
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % limit.max(1)
-    }
-
-    /// A part of some bytes, shorter than 64 of them.
-    fn range(&mut self, length: usize) -> std::ops::Range<usize> {
-        let start = self.below(length);
-        start..(start + self.below(64)).min(length)
-    }
-}
-
-/// Changes one place of a file.
-fn mutate(file: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
-    let range = random.range(file.len());
-    let at = range.start;
-    match random.below(8) {
-        0 => file.truncate(at),
-        1 => drop(file.drain(range)),
-        2 => {
-            let part = file[range].to_vec();
-            file.splice(at..at, part);
-        }
-        3 => {
-            let other = &others[random.below(others.len())];
-            let part = other[random.range(other.len())].to_vec();
-            file.splice(range, part);
-        }
-        4 => {
-            let word = WORDS[random.below(WORDS.len())];
-            file.splice(at..at, word.iter().copied());
-        }
-        5 => {
-            let word = WORDS[random.below(WORDS.len())];
-            let end = (at + word.len()).min(file.len());
-            file.splice(at..end, word.iter().copied());
-        }
-        6 => file.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 1 << random.below(8)),
-        _ => file.iter_mut().skip(at).take(1).for_each(|byte| *byte = random.below(256) as u8),
-    }
 }
 
 /// Two solids as text, and a binary file with colors of either convention.
@@ -212,27 +139,5 @@ z="0"/><vertex x="0" y="4" z="0"/><vertex x="0" y="0" z="5"/></vertices><triangl
 
 /// The same in archives.
 fn threemf_files() -> Vec<Vec<u8>> {
-    threemf_parts().iter().map(|part| archive(part)).collect()
-}
-
-/// A zip archive of a model part that is not compressed.
-fn archive(part: &[u8]) -> Vec<u8> {
-    let name = b"3D/3dmodel.model";
-    let length = (part.len() as u32).to_le_bytes();
-    let checksum = checksum(part).to_le_bytes();
-    let sizes = [&checksum[..], &length, &length, &[name.len() as u8, 0, 0, 0]].concat();
-    let mut file = [&b"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0"[..], &sizes, name, part].concat();
-    let directory = file.len() as u32;
-    file.extend([&b"PK\x01\x02\x14\0\x14\0\0\0\0\0\0\0\0\0"[..], &sizes, &[0; 14], name].concat());
-    let size = file.len() as u32 - directory;
-    file.extend(b"PK\x05\x06\0\0\0\0\x01\0\x01\0");
-    file.extend([size.to_le_bytes(), directory.to_le_bytes()].concat());
-    file.extend([0, 0]);
-    file
-}
-
-/// The checksum of zip archives: the polynomial 0xEDB88320, bits reflected.
-fn checksum(bytes: &[u8]) -> u32 {
-    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
-    !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+    threemf_parts().iter().map(|part| encode_3mf(part)).collect()
 }

@@ -63,9 +63,10 @@ fn files_below(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// The shared assets with these endings, and the scenes' models.
+/// The shared assets with these endings, the scenes' models and the data of tests.
 fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
     let mut paths = files_below(&project_root().join("scenes"), endings);
+    paths.extend(files_below(&project_root().join("crates/model/tests"), endings));
     match assets_folder() {
         Some(assets) => paths.extend(files_below(&assets, endings)),
         None => println!("SKIPPED shared assets as seeds: they are not there"),

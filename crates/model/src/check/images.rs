@@ -158,7 +158,8 @@ impl ImageChecker<'_> {
     /// Validates the header of an image; returns its media type by its first bytes.
     ///
     /// Only the header is decoded. Decoders distinguish a truncated file from a corrupt one in the
-    /// text of their errors alone, which decides the code here. KTX2 is recognized but not decoded.
+    /// text of their errors alone, which decides the code here. Without the feature `basisu`, KTX2 is
+    /// recognized alone.
     /// `None` stands for an unknown format, which has been reported.
     fn check_image_header(&self, bytes: &[u8]) -> Option<&'static str> {
         let diagnostics = self.document.diagnostics;
@@ -174,7 +175,7 @@ impl ImageChecker<'_> {
             return None;
         };
         let problem = match kind {
-            "image/ktx2" => None,
+            "image/ktx2" if cfg!(not(feature = "basisu")) => None,
             _ => image_decoder::image_size(bytes).err(),
         };
         if let Some(problem) = problem {

@@ -31,7 +31,7 @@ use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
 const DRACO_SUPPORT: ExtensionSupport =
     if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
 
-/// Basis Universal is an optional feature of this crate, off by default.
+/// Basis Universal is an optional feature of this crate, on by default.
 const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
 
