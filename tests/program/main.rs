@@ -38,5 +38,6 @@ mod scene;
 mod sections;
 mod sequences;
 mod sweep;
+mod thumbnailer;
 mod variants;
 mod vector_files;

@@ -6,7 +6,7 @@ use crate::vector_files::{layer_bounds, parse_pdf, parse_svg};
 use serde_json::Value;
 
 /// A box as ASCII STL, with one corner at the origin and these sides along x, y and z.
-fn stl_box([w, d, h]: [f32; 3]) -> String {
+pub(crate) fn stl_box([w, d, h]: [f32; 3]) -> String {
     let corner =
         |n: usize| [(n & 1, w), (n >> 1 & 1, d), (n >> 2, h)].map(|(bit, s)| bit as f32 * s);
     let quads =

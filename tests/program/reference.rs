@@ -26,6 +26,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
         "demo wrap-around",
         "animate",
         "batch",
+        "thumbnailer",
         "reference",
         "scene check",
         "scene init",

@@ -2,7 +2,7 @@
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
 
 /// An empty folder, and the program to run in it.
@@ -15,6 +15,18 @@ pub(crate) struct RunResult {
     pub(crate) code: i32,
     pub(crate) stdout: String,
     pub(crate) stderr: String,
+}
+
+impl RunResult {
+    /// Code and texts of a program that has ended by itself.
+    pub(crate) fn of(output: Output) -> Self {
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
+        Self {
+            code: output.status.code().expect("no signal ends the program"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
 }
 
 fn program() -> &'static Path {
@@ -35,13 +47,25 @@ impl Sandbox {
     pub(crate) fn run(&self, arguments: &[&str]) -> RunResult {
         let mut command = Command::new(program());
         let output = command.args(arguments).current_dir(&self.folder).output();
-        let output = output.expect("the program starts");
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
-        RunResult {
-            code: output.status.code().expect("no signal ends the program"),
-            stdout: text(output.stdout),
-            stderr: text(output.stderr),
-        }
+        RunResult::of(output.expect("the program starts"))
+    }
+
+    /// Runs the program here with another value of an environment variable.
+    pub(crate) fn run_with_variable(
+        &self,
+        (name, value): (&str, &Path),
+        arguments: &[&str],
+    ) -> RunResult {
+        let mut command = Command::new(program());
+        let output = command.args(arguments).current_dir(&self.folder).env(name, value).output();
+        RunResult::of(output.expect("the program starts"))
+    }
+
+    /// Starts the program here; its standard input is a pipe.
+    pub(crate) fn start(&self, arguments: &[&str]) -> Child {
+        let mut command = Command::new(program());
+        let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        pipes.args(arguments).current_dir(&self.folder).spawn().expect("the program starts")
     }
 
     /// Runs the program here with bytes on its standard input; gives its code and what it wrote to
@@ -58,10 +82,7 @@ impl Sandbox {
     }
 
     fn spawn_with_input(&self, arguments: &[&str], input: &[u8]) -> Output {
-        let mut command = Command::new(program());
-        let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child =
-            pipes.args(arguments).current_dir(&self.folder).spawn().expect("the program starts");
+        let mut child = self.start(arguments);
         // One that has read enough may close it.
         let _ = child.stdin.take().expect("a pipe").write_all(input);
         child.wait_with_output().expect("the program ends")

@@ -24,6 +24,7 @@ use super::scene::SceneArgs;
 use super::scene_overrides::{SceneOverrideArgs, named_view_parser};
 use super::sheet::SheetArgs;
 use super::sweep::SweepArgs;
+use super::thumbnailer::ThumbnailerArgs;
 use camera::NamedView;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -100,6 +101,8 @@ pub(crate) enum Command {
     Animate(Deferred<AnimateArgs>),
     /// Render many models: thumbnails, a report, a contact sheet
     Batch(Deferred<BatchArgs>),
+    /// Render a thumbnail within limits of time and memory, or install the thumbnailer
+    Thumbnailer(Deferred<ThumbnailerArgs>),
     /// Create, validate, format and look up scene files
     Scene(SceneArgs),
     /// Print the completion script of a shell

@@ -133,7 +133,7 @@ fn parse_crease_angle(text: &str) -> Result<f64, String> {
 ///
 /// # Errors
 /// If the text is no such number, or exceeds 64 bits.
-fn parse_byte_size(text: &str) -> Result<u64, String> {
+pub(crate) fn parse_byte_size(text: &str) -> Result<u64, String> {
     let fault = || "expected an integer such as 4096, 64k, 200M, 512MiB or 1GiB".to_owned();
     let start = text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len());
     let (digits, unit) = text.split_at(start);

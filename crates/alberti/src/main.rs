@@ -57,6 +57,7 @@ mod sheet;
 mod sweep;
 mod template;
 mod terminal_image;
+mod thumbnailer;
 
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
@@ -106,6 +107,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
         Command::Demo(args) => demo::run(&args)?,
         Command::Animate(Deferred(args)) => animate::run(&args)?,
         Command::Batch(Deferred(args)) => return batch::run(&args),
+        Command::Thumbnailer(Deferred(args)) => thumbnailer::run(&args)?,
         Command::Scene(args) => return scene::run(&args),
         Command::Completions(Deferred(args)) => manual::print_completions(&args, Args::command())?,
         Command::Man(Deferred(args)) => manual::print_man_pages(&args, Args::command())?,

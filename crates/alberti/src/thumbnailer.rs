@@ -1,0 +1,166 @@
+//! `alberti thumbnailer`: thumbnails for file managers, by the conventions of freedesktop.org.
+//!
+//! ```text
+//!  file manager ─► thumbnail service ─► alberti.thumbnailer ─► alberti thumbnailer INPUT OUTPUT
+//!                   MIME type of the file: alberti.xml              within time and memory
+//! ```
+//! A thumbnail service runs the program on whatever lies in a folder. Any input ends in a picture
+//! or in an exit code other than 0, within the limits, and never in part of a picture.
+
+mod installation;
+mod limits;
+
+use super::CliError;
+use super::load_options::parse_byte_size;
+use super::render::{open_input, thread_count};
+use clap::ValueEnum;
+use limits::Deadline;
+use model::codes;
+use model::import::{ImportError, ImportOptions};
+use pipeline::scene::ResolveOptions;
+use pipeline::{
+    OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
+};
+use std::fs::OpenOptions;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `alberti thumbnailer`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ThumbnailerArgs {
+    /// Model (.gltf, .glb, .stl, .obj, .ply, .3mf) or scene (.ron)
+    ///
+    /// What is broken, missing or unsupported in it is left out, as far as something is left to
+    /// show.
+    #[arg(required_unless_present_any = ["install", "uninstall", "print"], requires = "output")]
+    input: Option<PathBuf>,
+    /// Picture to write: a PNG
+    output: Option<PathBuf>,
+    /// Width and height of the picture in pixels
+    #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    size: u32,
+    /// Time after which the program ends without a picture
+    #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    max_seconds: u32,
+    /// Memory of the program, at least 64MiB; sizes of files, arrays and images are limited to parts
+    /// of it
+    ///
+    /// An input that would need more ends with an error before it is read. On Linux the system
+    /// holds the program to this number besides (RLIMIT_DATA).
+    #[arg(long, value_name = "SIZE", default_value = "1GiB", value_parser = parse_memory_size)]
+    max_memory_bytes: u64,
+    /// Install the thumbnailer and the MIME types for the current user, or below --prefix
+    ///
+    /// Writes thumbnailers/alberti.thumbnailer and mime/packages/alberti.xml to $XDG_DATA_HOME,
+    /// which is ~/.local/share if it is not set, and runs update-mime-database. File managers use
+    /// them once they are started again. Files that had no thumbnail before are tried again after
+    /// ~/.cache/thumbnails/fail is removed.
+    #[arg(long, conflicts_with_all = ["input", "uninstall", "print"])]
+    install: bool,
+    /// Remove the files that --install writes
+    #[arg(long, conflicts_with_all = ["input", "print"])]
+    uninstall: bool,
+    /// Folder to install in, such as /usr/local; the files are below DIR/share
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["input", "print"])]
+    prefix: Option<PathBuf>,
+    /// Print one of the two files that --install writes, for packages
+    #[arg(long, value_name = "FILE", conflicts_with = "input")]
+    print: Option<InstalledFile>,
+}
+
+/// The files that make a file manager show thumbnails.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum InstalledFile {
+    /// The thumbnailer entry, alberti.thumbnailer, for a program in the PATH
+    Entry,
+    /// The MIME types for shared-mime-info, alberti.xml
+    Mime,
+}
+
+/// Renders one thumbnail, or installs, removes or prints the files of the thumbnailer.
+///
+/// # Errors
+/// If the input cannot be shown within the limits, or a file cannot be written.
+pub(crate) fn run(args: &ThumbnailerArgs) -> Result<(), CliError> {
+    let prefix = args.prefix.as_deref();
+    match (&args.input, &args.output) {
+        (Some(input), Some(output)) => {
+            render_thumbnail(args, input, output).map_err(with_memory_help)
+        }
+        _ if args.install => installation::install_files(prefix),
+        _ if args.uninstall => installation::remove_files(prefix),
+        _ => match args.print {
+            Some(InstalledFile::Mime) => super::print_stdout(installation::MIME_TYPES.as_bytes()),
+            _ => {
+                let entry = installation::entry_of("alberti".as_ref())?;
+                super::print_stdout(entry.as_bytes())
+            }
+        },
+    }
+}
+
+/// Threads of a thumbnail at most: each takes memory, and thumbnails are small.
+const MAX_THREADS: usize = 8;
+
+/// Renders a square picture and writes it, if there is time and memory for it.
+fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Result<(), CliError> {
+    limits::limit_process_memory(args.max_memory_bytes);
+    let deadline = Deadline::start(args.max_seconds)?;
+    let import = ImportOptions {
+        limits: limits::import_limits(args.max_memory_bytes),
+        lenient: true,
+        ..ImportOptions::default()
+    };
+    let (origin, mut file) = open_input(input, &import)?;
+    file.image.size = (args.size, args.size);
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+    let textures = Textures::for_scene(&scene);
+    let threads = thread_count(None).min(MAX_THREADS);
+    let context =
+        RenderContext::new(&scene, &textures, threads).with_cancel(deadline.cancel_token());
+    match Renderer::default().render_png(&context) {
+        Ok((png, _)) => deadline.finish(|| Ok(write_thumbnail(output, &png)?)),
+        Err(RenderError::Cancelled) => deadline.finish(|| Err(limits::timeout(args.max_seconds))),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Writes a picture whole or not at all.
+///
+/// A new file takes its place under the name, unless the old one is empty: tumbler makes an empty
+/// file, keeps it open, and reads from it afterwards.
+fn write_thumbnail(path: &Path, png: &[u8]) -> Result<(), OutputError> {
+    if path.metadata().map_or(true, |old| !old.is_file() || old.len() > 0) {
+        return write_file(path, png);
+    }
+    let written = OpenOptions::new().write(true).open(path).and_then(|mut file| {
+        file.write_all(png).inspect_err(|_| {
+            // Best effort: an error is on its way already.
+            let _ = file.set_len(0);
+        })
+    });
+    written.map_err(|cause| OutputError { path: path.to_owned(), cause })
+}
+
+/// Names the flags of this command in the error of a limit, which are not those of the others.
+fn with_memory_help(error: CliError) -> CliError {
+    match error {
+        CliError::Resolve(ResolveError::Model(ImportError { file, diagnostic, .. }))
+            if diagnostic.code == codes::LIMIT_EXCEEDED =>
+        {
+            CliError::Usage(format!(
+                "{}: {}\n  = help: --max-memory-bytes allows more; `alberti render` has a flag for \
+                 each limit",
+                file.display(),
+                diagnostic.message
+            ))
+        }
+        other => other,
+    }
+}
+
+/// Parses the memory of the program, which needs some for itself.
+fn parse_memory_size(text: &str) -> Result<u64, String> {
+    let size = parse_byte_size(text)?;
+    if size >= 64 << 20 { Ok(size) } else { Err("the program needs at least 64MiB".to_owned()) }
+}

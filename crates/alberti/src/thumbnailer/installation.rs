@@ -1,0 +1,189 @@
+//! The files that make file managers show thumbnails: the thumbnailer entry and the MIME types.
+//!
+//! ```text
+//!  $XDG_DATA_HOME/thumbnailers/alberti.thumbnailer      or below PREFIX/share
+//!  $XDG_DATA_HOME/mime/packages/alberti.xml             then update-mime-database
+//! ```
+//! Sources: the shared MIME-info specification, the XDG base directory specification, and what
+//! tumbler and gnome-desktop read of a `.thumbnailer` file.
+
+use crate::CliError;
+use crate::messages::print_stdout;
+use pipeline::write_file;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The MIME types of all formats, for shared-mime-info.
+///
+/// That of Debian has those of glTF, STL, OBJ and 3MF since version 2.2, and none of PLY.
+pub(super) const MIME_TYPES: &str = include_str!("mime_types.xml");
+
+/// The MIME types that the entry names, with the other names in use.
+const MIME_TYPE_NAMES: [&str; 13] = [
+    "model/gltf+json",
+    "model/gltf-binary",
+    "model/stl",
+    "model/x.stl-ascii",
+    "model/x.stl-binary",
+    "application/sla",
+    "model/obj",
+    "model/x-ply",
+    "model/ply",
+    "application/ply",
+    "application/x-ply",
+    "model/3mf",
+    "application/vnd.ms-3mfdocument",
+];
+
+/// The thumbnailer entry that runs a program.
+///
+/// # Errors
+/// If its path cannot be written into such a file.
+pub(super) fn entry_of(program: &Path) -> Result<String, CliError> {
+    let path = program.to_str().filter(|path| !path.contains(char::is_control));
+    let path = path.ok_or_else(|| {
+        CliError::Usage(format!(
+            "the path of the program, {}, cannot be written into a thumbnailer entry",
+            program.display()
+        ))
+    })?;
+    let types: String = MIME_TYPE_NAMES.iter().flat_map(|name| [*name, ";"]).collect();
+    Ok(format!(
+        "[Thumbnailer Entry]\nTryExec={}\nExec={} thumbnailer %i %o --size %s\nMimeType={types}\n",
+        escape_value(path),
+        escape_value(&quote_argument(path)),
+    ))
+}
+
+/// An argument of `Exec`, which is split into words as a shell does; `%` begins a field code.
+fn quote_argument(path: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+".contains(c);
+    if path.chars().all(is_plain) {
+        return path.to_owned();
+    }
+    format!("'{}'", path.replace('\'', r"'\''").replace('%', "%%"))
+}
+
+/// A value of a key file, in which a backslash begins an escape.
+fn escape_value(text: &str) -> String {
+    text.replace('\\', r"\\")
+}
+
+/// Writes both files, updates the database, and says so.
+///
+/// # Errors
+/// If there is no folder for them, a file cannot be written, or the database cannot be updated.
+pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
+    let folder = data_folder(prefix)?;
+    let program = std::env::current_exe().map_err(|cause| {
+        CliError::Usage(format!("the path of the program is not known: {cause}"))
+    })?;
+    let mut done = String::new();
+    for (path, content) in file_paths(&folder).iter().zip([entry_of(&program)?, MIME_TYPES.into()])
+    {
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(|cause| {
+                CliError::Usage(format!("cannot create the folder {}: {cause}", parent.display()))
+            })?;
+        }
+        write_file(path, content.as_bytes())?;
+        done += &format!("wrote {}\n", path.display());
+    }
+    done += &update_database(&folder)?;
+    print_stdout(done.as_bytes())
+}
+
+/// Removes both files, updates the database, and says so.
+///
+/// # Errors
+/// If there is no such folder, a file cannot be removed, or the database cannot be updated.
+pub(super) fn remove_files(prefix: Option<&Path>) -> Result<(), CliError> {
+    let folder = data_folder(prefix)?;
+    let mut done = String::new();
+    let mut is_changed = false;
+    for path in file_paths(&folder) {
+        match std::fs::remove_file(&path) {
+            Ok(()) => {
+                is_changed = true;
+                done += &format!("removed {}\n", path.display());
+            }
+            Err(cause) if cause.kind() == ErrorKind::NotFound => {
+                done += &format!("{} is not there\n", path.display());
+            }
+            Err(cause) => {
+                return Err(CliError::Usage(format!("cannot remove {}: {cause}", path.display())));
+            }
+        }
+    }
+    if is_changed {
+        done += &update_database(&folder)?;
+    }
+    print_stdout(done.as_bytes())
+}
+
+/// The entry and the MIME types below a folder of data.
+fn file_paths(folder: &Path) -> [PathBuf; 2] {
+    [folder.join("thumbnailers/alberti.thumbnailer"), folder.join("mime/packages/alberti.xml")]
+}
+
+/// The folder of data below a prefix, else that of the user (XDG base directory specification).
+fn data_folder(prefix: Option<&Path>) -> Result<PathBuf, CliError> {
+    if let Some(prefix) = prefix {
+        return Ok(prefix.join("share"));
+    }
+    // Relative paths are to be ignored.
+    let named =
+        |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let of_home = || named("HOME").map(|home| home.join(".local/share"));
+    named("XDG_DATA_HOME").or_else(of_home).ok_or_else(|| {
+        CliError::Usage("neither XDG_DATA_HOME nor HOME names a folder; --prefix does".to_owned())
+    })
+}
+
+/// Runs update-mime-database on the MIME types below a folder of data; returns what to say of it.
+fn update_database(folder: &Path) -> Result<String, CliError> {
+    let mime = folder.join("mime");
+    let run = Command::new("update-mime-database").arg(&mime).stdout(Stdio::null()).status();
+    let call = format!("update-mime-database {}", mime.display());
+    match run {
+        Ok(status) if status.success() => Ok(format!("ran {call}\n")),
+        Ok(status) => Err(CliError::Usage(format!("{call} failed: {status}"))),
+        Err(cause) if cause.kind() == ErrorKind::NotFound => Ok(format!(
+            "update-mime-database is not installed (shared-mime-info); to be run: {call}\n"
+        )),
+        Err(cause) => Err(CliError::Usage(format!("cannot run {call}: {cause}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model::FileFormat;
+
+    #[test]
+    fn every_extension_and_every_type_is_in_the_mime_types() {
+        for extension in FileFormat::ALL.iter().flat_map(|format| format.extensions()) {
+            assert!(MIME_TYPES.contains(&format!("pattern=\"*.{extension}\"")), "{extension}");
+        }
+        for name in MIME_TYPE_NAMES {
+            assert!(MIME_TYPES.contains(&format!(" type=\"{name}\"")), "{name}");
+        }
+    }
+
+    #[test]
+    fn paths_are_quoted_as_a_shell_does_and_escaped_as_key_files_do() {
+        let entry = |path: &str| entry_of(path.as_ref()).unwrap_or_default();
+        let lines = |path: &str| entry(path).lines().skip(1).take(2).collect::<Vec<_>>().join("|");
+        assert_eq!(
+            lines("/usr/bin/alberti"),
+            "TryExec=/usr/bin/alberti|Exec=/usr/bin/alberti thumbnailer %i %o --size %s"
+        );
+        assert_eq!(
+            lines("/a b/it's 100%/\\x"),
+            "TryExec=/a b/it's 100%/\\\\x|\
+             Exec='/a b/it'\\\\''s 100%%/\\\\x' thumbnailer %i %o --size %s"
+        );
+        assert!(entry_of("/a\nb".as_ref()).is_err());
+    }
+}
