@@ -1,6 +1,6 @@
 //! Shared by the tests across crates: the [harness] of the table-driven programs, a corpus of
-//! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path of the program under test,
-//! and a PNG reader.
+//! [samples] with its [manifest], small [glTF documents](gltf) and [3MF files](threemf), the path of
+//! the program under test, and a PNG reader.
 
 #![allow(clippy::print_stdout, reason = "the harness prints for test programs")]
 

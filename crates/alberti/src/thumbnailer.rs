@@ -30,8 +30,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct ThumbnailerArgs {
     /// Model (.gltf, .glb, .stl, .obj, .ply, .3mf) or scene (.ron)
     ///
-    /// What is broken, missing or unsupported in it is left out, as far as something is left to
-    /// show.
+    /// Broken, missing and unsupported parts are left out, as far as something is left to show.
     #[arg(required_unless_present_any = ["install", "uninstall", "print"], requires = "output")]
     input: Option<PathBuf>,
     /// Picture to write: a PNG
@@ -42,8 +41,7 @@ pub(crate) struct ThumbnailerArgs {
     /// Time after which the program ends without a picture
     #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..=86_400))]
     max_seconds: u32,
-    /// Memory of the program, at least 64MiB; sizes of files, arrays and images are limited to parts
-    /// of it
+    /// Memory of the program, at least 64MiB, which limits the sizes of files, arrays and images
     ///
     /// An input that would need more ends with an error before it is read. On Linux the system
     /// holds the program to this number besides (RLIMIT_DATA).

@@ -1,8 +1,8 @@
 //! The OBJ importer: Wavefront's text format of polygons, with its material libraries (MTL).
 //!
 //! ```text
-//!  text ──parser──► vertices, elements ──parts──► triangles ──primitives──► meshes ──scene──► Model
-//!   └─ mtllib ──mtl──► statements ──material, textures───────────────────────────────────────┘
+//!  text ──parser──► vertices, elements ──parts──► triangles ──primitives──► meshes ─scene─► Model
+//!   └─ mtllib ──mtl──► statements ──material, textures─────────────────────────────────────┘
 //! ```
 //!
 //! Read are polygons of any number of corners, lines and points; positions, texture coordinates,

@@ -35,7 +35,7 @@ pub(in super::super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     }
 }
 
-/// What the texels are encoded as.
+/// The encoding of the texels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum TexelEncoding {
     /// Basis Universal's ETC1S, in codebooks and indices.
@@ -163,8 +163,8 @@ impl<'a> Ktx2File<'a> {
     /// The parts of an ETC1S image (KTX 2.0 §5.1: BasisLZ global data).
     ///
     /// ```text
-    ///  counts of endpoints, selectors │ lengths │ image descriptions │ endpoints │ selectors │ tables
-    ///             2 + 2                  4 × 4      20 for each level
+    ///  counts of endpoints, selectors │ lengths │ descriptions │ endpoints │ selectors │ tables
+    ///             2 + 2                  4 × 4    20 for a level
     /// ```
     ///
     /// # Errors
