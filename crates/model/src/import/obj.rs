@@ -223,12 +223,13 @@ fn report_undefined(names: &[&[u8]], warnings: &mut ImportWarnings) {
 /// A warning about surfaces with textures but without texture coordinates.
 fn report_missing_uvs(model: &Model, warnings: &mut ImportWarnings) {
     let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let is_bare = |material: usize| model.materials[material].all_textures().next().is_some();
-    let bare = primitives.filter(|at| at.uvs.is_empty() && at.material.is_some_and(is_bare));
+    let has_textures = |material: usize| model.materials[material].all_textures().next().is_some();
+    let bare = primitives.filter(|at| at.uvs.is_empty() && at.material.is_some_and(has_textures));
     let count = bare.count();
     if count > 0 {
-        let message =
-            format!("{count} surfaces have textures, but no texture coordinates: they lack them");
+        let message = format!(
+            "{count} surfaces have textures, but no texture coordinates: drawn without them"
+        );
         warnings.push_warning("", message);
     }
 }

@@ -123,7 +123,7 @@ fn triangles_without_area_are_kept() {
 }
 
 #[test]
-fn a_surface_without_area_is_told() {
+fn a_surface_without_area_is_a_warning() {
     let line = [[0.0; 3], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]];
     let model = read(&binary(b"", &[(line, 0)]));
     let told: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();

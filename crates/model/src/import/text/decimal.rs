@@ -51,51 +51,12 @@ pub(in crate::import) fn parse_integer(token: &[u8]) -> Option<i64> {
 }
 
 /// The float at the beginning of a text and the length of its token, in one pass; `None` unless it
-/// has few digits and a small exponent, no longer ones than exporters write.
+/// has few digits and a small exponent, and white space follows.
 #[inline]
 pub(super) fn simple_decimal(text: &[u8]) -> Option<(f32, usize)> {
-    let digit_at = |at: usize| text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d <= 9);
-    let is_negative = text.first() == Some(&b'-');
-    let first = usize::from(is_negative);
-    let (mut at, mut mantissa) = (first, 0u64);
-    while let Some(digit) = digit_at(at) {
-        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
-        at += 1;
-    }
-    let (mut digits, mut power) = (at - first, 0i32);
-    if text.get(at) == Some(&b'.') {
-        let point = at;
-        at += 1;
-        while let Some(digit) = digit_at(at) {
-            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
-            at += 1;
-        }
-        digits += at - point - 1;
-        power = -((at - point - 1) as i32);
-    }
-    if let Some(b'e' | b'E') = text.get(at) {
-        at += 1;
-        let sign = text.get(at).copied();
-        at += usize::from(matches!(sign, Some(b'-' | b'+')));
-        let start = at;
-        let mut exponent = 0;
-        while let Some(digit) = digit_at(at).filter(|_| at < start + 3) {
-            exponent = 10 * exponent + i32::from(digit);
-            at += 1;
-        }
-        if at == start {
-            return None;
-        }
-        power += if sign == Some(b'-') { -exponent } else { exponent };
-    }
-    // Fifteen digits are less than 2⁵³.
-    if !(1..=15).contains(&digits) || text.get(at).is_none_or(|byte| *byte > b' ') {
-        return None;
-    }
-    let factor = *POWERS_OF_TEN.get(power.unsigned_abs() as usize)?;
-    let magnitude = if power < 0 { mantissa as f64 / factor } else { mantissa as f64 * factor };
-    let number = round_to_f32(magnitude)?;
-    Some((if is_negative { -number } else { number }, at))
+    let (value, length) = scan_decimal(text)?;
+    let is_token = text.get(length).is_some_and(|byte| *byte <= b' ');
+    round_to_f32(value).filter(|_| is_token).map(|number| (number, length))
 }
 
 /// The float nearest to a correctly rounded double; `None` where the double may have been rounded
@@ -110,35 +71,54 @@ fn round_to_f32(value: f64) -> Option<f32> {
 /// A number of few digits and a small exponent, by one exact operation; `None` for any other token.
 #[inline]
 fn fast_decimal(token: &[u8]) -> Option<f64> {
-    let is_negative = token.first() == Some(&b'-');
-    let mut at = usize::from(is_negative || token.first() == Some(&b'+'));
-    let (mut mantissa, mut digits, mut scale) = (0u64, 0usize, 0i32);
-    let mut is_fraction = false;
-    let mut exponent = 0i32;
-    while let Some(&byte) = token.get(at) {
+    scan_decimal(token).filter(|(_, length)| *length == token.len()).map(|(value, _)| value)
+}
+
+/// The number at the beginning of a text and its length, by one exact operation; `None` if it has
+/// too many digits or too large an exponent for that.
+#[inline]
+fn scan_decimal(text: &[u8]) -> Option<(f64, usize)> {
+    let digit_at = |at: usize| text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d <= 9);
+    let is_negative = text.first() == Some(&b'-');
+    let first = usize::from(is_negative || text.first() == Some(&b'+'));
+    let (mut at, mut mantissa) = (first, 0u64);
+    while let Some(digit) = digit_at(at) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
         at += 1;
-        let digit = byte.wrapping_sub(b'0');
-        if digit <= 9 {
+    }
+    let (mut digits, mut power) = (at - first, 0i32);
+    if text.get(at) == Some(&b'.') {
+        let point = at;
+        at += 1;
+        while let Some(digit) = digit_at(at) {
             mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
-            digits += 1;
-            scale -= i32::from(is_fraction);
-        } else if byte == b'.' && !is_fraction {
-            is_fraction = true;
-        } else if matches!(byte, b'e' | b'E' | b'd' | b'D') {
-            exponent = i32::try_from(parse_integer(token.get(at..)?)?).ok()?;
-            break;
-        } else {
-            return None;
+            at += 1;
         }
+        digits += at - point - 1;
+        power = -i32::try_from(at - point - 1).ok()?;
     }
     // Nineteen digits cannot overflow 64 bits; more may have.
     if digits == 0 || digits > 19 || mantissa > 1 << 53 {
         return None;
     }
-    let power = exponent.checked_add(scale)?;
+    if let Some(b'e' | b'E' | b'd' | b'D') = text.get(at) {
+        at += 1;
+        let sign = text.get(at).copied();
+        at += usize::from(matches!(sign, Some(b'-' | b'+')));
+        let (start, mut exponent) = (at, 0);
+        // A fourth digit is left, and no token ends there.
+        while let Some(digit) = digit_at(at).filter(|_| at < start + 3) {
+            exponent = 10 * exponent + i32::from(digit);
+            at += 1;
+        }
+        if at == start {
+            return None;
+        }
+        power += if sign == Some(b'-') { -exponent } else { exponent };
+    }
     let factor = *POWERS_OF_TEN.get(power.unsigned_abs() as usize)?;
     let magnitude = if power < 0 { mantissa as f64 / factor } else { mantissa as f64 * factor };
-    Some(if is_negative { -magnitude } else { magnitude })
+    Some((if is_negative { -magnitude } else { magnitude }, at))
 }
 
 /// Any number, by the standard library; then the words for what is not finite.

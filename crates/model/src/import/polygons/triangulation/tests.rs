@@ -243,17 +243,7 @@ fn ten_thousand_corners_are_cut_within_the_limit() {
 #[test]
 fn a_file_may_take_so_many_tests_and_no_more() {
     let mut triangulator = Triangulator { tests_left: 3, ..Triangulator::default() };
-    let u_shape: [[f32; 3]; 8] = [
-        [0.0, 0.0],
-        [6.0, 0.0],
-        [6.0, 5.0],
-        [5.0, 5.0],
-        [5.0, 1.0],
-        [1.0, 1.0],
-        [1.0, 5.0],
-        [0.0, 5.0],
-    ]
-    .map(|[x, y]| [x, y, 0.0]);
+    let u_shape: Vec<[f32; 3]> = CONCAVE[2].iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let mut triangles = Vec::new();
     assert_eq!(triangulator.triangulate(&u_shape, &mut triangles), PolygonKind::Fan);
     assert_eq!(triangles.len(), 6);
