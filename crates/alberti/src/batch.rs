@@ -18,6 +18,7 @@
 mod contact_sheet;
 mod jobs;
 mod key;
+mod referenced_files;
 mod report;
 mod runner;
 mod shard;

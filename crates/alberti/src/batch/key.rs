@@ -6,9 +6,9 @@
 //! Content is hashed rather than compared by time, because models are copied, checked out and
 //! mounted in ways that change their times but not their bytes.
 
+use super::referenced_files::referenced_files;
 use crate::render::is_scene_file;
 use pipeline::Origin;
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> 
     hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Hashes a model with the buffers and images it refers to.
+/// Hashes a model with the buffers, material libraries and images it refers to.
 ///
 /// The file is read as bytes and not imported: a key costs a read of the files, not a parse of the
 /// meshes. Files in folders above the model are hashed as well, since only their bytes matter here;
@@ -40,7 +40,7 @@ fn hash_model(hash: &mut Sha256, path: &Path) {
     let bytes = std::fs::read(path).unwrap_or_default();
     hash_part(hash, &bytes);
     let folder = path.parent().unwrap_or(Path::new(""));
-    for name in referenced_files(&bytes) {
+    for name in referenced_files(path, &bytes) {
         hash_part(hash, &std::fs::read(folder.join(name)).unwrap_or_default());
     }
 }
@@ -69,73 +69,9 @@ fn hash_part(hash: &mut Sha256, part: &[u8]) {
     hash.update(part);
 }
 
-/// The external buffers and images of a glTF file.
-///
-/// Embedded `data:` URIs are part of the file's bytes and are left out, as are buffers without a
-/// URI, the binary chunk of a GLB. Invalid JSON refers to nothing.
-fn referenced_files(bytes: &[u8]) -> Vec<String> {
-    let Ok(json) = serde_json::from_slice::<Value>(json_chunk(bytes)) else { return Vec::new() };
-    let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
-    let all = list("buffers").into_iter().chain(list("images"));
-    let names = all.filter_map(|entry| Some(entry.get("uri")?.as_str()?.to_owned()));
-    names.filter(|uri| !uri.starts_with("data:")).map(|uri| percent_decode(&uri)).collect()
-}
-
-/// The JSON chunk of a GLB file, or all of a `.gltf` file.
-///
-/// A GLB begins with a header of 12 bytes (magic, version, length), then the length and the type of
-/// the first chunk, 4 bytes each, then the JSON (glTF 2.0 §4.4). Truncated files give a shorter
-/// slice and never a panic.
-fn json_chunk(bytes: &[u8]) -> &[u8] {
-    let Some(rest) = bytes.strip_prefix(b"glTF").and_then(|rest| rest.get(8..)) else {
-        return bytes;
-    };
-    let Some(length) = rest.first_chunk() else { return &[] };
-    let length = u32::from_le_bytes(*length) as usize;
-    rest.get(8..).map_or(&[], |json| &json[..length.min(json.len())])
-}
-
-/// Decodes the `%XX` escapes of a URI (RFC 3986 §2.1).
-///
-/// A `%` without two hexadecimal digits is left as it is. Bytes that are not UTF-8 become
-/// replacement characters; such a file is not found and counts as empty.
-fn percent_decode(uri: &str) -> String {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.as_bytes();
-    while let Some((&first, after)) = rest.split_first() {
-        let hex = |at: usize| after.get(at).and_then(|&digit| char::from(digit).to_digit(16));
-        match (first, hex(0), hex(1)) {
-            (b'%', Some(high), Some(low)) => {
-                bytes.push((high * 16 + low) as u8);
-                rest = &after[2..];
-            }
-            _ => {
-                bytes.push(first);
-                rest = after;
-            }
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_files_of_a_model_are_found_in_both_forms() {
-        let json =
-            br#"{"buffers":[{"uri":"a%20b.bin"},{}],"images":[{"uri":"data:x"},{"uri":"c.png"}]}"#;
-        assert_eq!(referenced_files(json), ["a b.bin", "c.png"]);
-        let mut glb = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
-        glb.extend((json.len() as u32).to_le_bytes());
-        glb.extend(b"JSON");
-        glb.extend(json);
-        assert_eq!(referenced_files(&glb), ["a b.bin", "c.png"]);
-        for end in 0..glb.len() {
-            referenced_files(&glb[..end]);
-        }
-    }
 
     #[test]
     fn the_models_and_the_includes_of_a_scene_change_its_key() {
