@@ -72,6 +72,21 @@ pub enum CameraError {
         /// The greatest allowed.
         limit: f64,
     },
+    /// A matrix that should be a rotation has rows that are not of length 1 and at right angles.
+    #[error(
+        "the matrix is no rotation: dot products of its rows are off by {deviation:.2e}, \
+         and 1e-4 is allowed"
+    )]
+    NotRotation {
+        /// The largest difference of a dot product of two rows from 1 or 0.
+        deviation: f64,
+    },
+    /// A matrix that should be a rotation mirrors.
+    #[error("the matrix mirrors, its determinant is negative: negate one of its rows or columns")]
+    MirroringRotation,
+    /// A quaternion is zero and turns nothing.
+    #[error("the quaternion is zero: one of its four numbers must be different from 0")]
+    ZeroQuaternion,
     /// Two opposite sides of the window coincide.
     #[error(
         "the window [{left}, {right}] x [{bottom}, {top}] is empty: opposite sides must differ"

@@ -42,6 +42,7 @@
 //! | round a target, or on a turntable | [`Orbit`] |
 //! | yaw, pitch and roll | [`Orientation`] |
 //! | a node of a scene | [`Camera::from_frame`] |
+//! | by R and t, a pose or a quaternion, of OpenCV, OpenGL, COLMAP, PyTorch3D | [`Extrinsics`] |
 //! | two eyes | [`StereoRig`], and [`apex_moved_view`] to see how not to |
 //! | before a screen that stands in the world | [`ScreenCorners`] |
 //!
@@ -64,6 +65,7 @@ mod basis;
 mod camera;
 mod error;
 mod exact_cross;
+mod extrinsics;
 mod framing;
 mod named_view;
 mod orbit;
@@ -79,6 +81,7 @@ mod window;
 pub use basis::Basis;
 pub use camera::Camera;
 pub use error::{CameraError, FramingError};
+pub use extrinsics::{CameraAxes, Extrinsics};
 pub use framing::{Framing, FramingConstraint, Slopes, frame_perspective};
 pub use named_view::{NamedView, UnknownView};
 pub use orbit::Orbit;

@@ -41,6 +41,7 @@
 //! | --- | --- |
 //! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
 //! | an off-centre one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
+//! | a calibrated camera, by its matrix K | [`Intrinsics`] |
 //! | a box without foreshortening | [`Orthographic`] |
 //! | part of a picture | `view_offset` of the three above, by a [`ViewOffset`] |
 //! | lens shift, antialiasing | `shifted`, `jittered` of the three above, by a [`Jitter`] |
@@ -82,6 +83,7 @@ mod depth_curve;
 mod error;
 mod fov;
 mod frustum;
+mod intrinsics;
 mod matrix;
 mod misprint;
 mod multiview;
@@ -110,6 +112,7 @@ pub use depth_curve::{DepthCurve, DepthFormat, third_row};
 pub use error::ProjectionError;
 pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
+pub use intrinsics::{Intrinsics, PixelCenters};
 pub use misprint::{IntendedProjection, Misprint, misprint_of};
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};
 pub use normalize::{FrustumFactors, ParallelFactors};

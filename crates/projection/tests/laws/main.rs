@@ -9,6 +9,7 @@ mod depth;
 mod doctor;
 mod exercises;
 mod extremes;
+mod intrinsics;
 mod parity;
 mod samples;
 mod vanishing;

@@ -1,0 +1,318 @@
+//! Pinhole cameras by intrinsic parameters, as camera calibration has them (C61, GL-1).
+//!
+//! ```text
+//!      [ fx  s  cx ]     column = fx X/Z + s Y/Z + cx      X right, Y down, Z ahead of the eye
+//!  K = [  0 fy  cy ]     row    =          fy Y/Z + cy
+//!      [  0  0   1 ]
+//! ```
+//!
+//! Source: R. Hartley, A. Zisserman, *Multiple View Geometry in Computer Vision*, 2nd ed., 2004,
+//! §6.1; with the names of OpenCV's module `calib3d`.
+
+use crate::error::{check_finite, check_positive};
+use crate::frustum::check_planes;
+use crate::matrix::{DepthRow, from_rows, is_bounded, is_invertible};
+use crate::{Convention, Frustum, ProjectionError, Window};
+use glam::{DMat4, DVec4};
+use homog::{Clip, Point, Projective, View};
+
+/// The pixel coordinates of the center of the upper left pixel.
+///
+/// Programs disagree by half a pixel, and nothing in a matrix says which is meant.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum PixelCenters {
+    /// (0, 0): OpenCV, and with it most of computer vision. The corner of the picture is at
+    /// (−½, −½), and the middle of 640 columns at 319.5.
+    #[default]
+    Integer,
+    /// (½, ½): OpenGL, COLMAP, and this project. The corner of the picture is at (0, 0), and the
+    /// middle of 640 columns at 320.
+    Half,
+}
+
+impl PixelCenters {
+    /// The coordinate of the center of the first pixel: 0 or ½.
+    #[must_use]
+    pub const fn first(self) -> f64 {
+        match self {
+            Self::Integer => 0.0,
+            Self::Half => 0.5,
+        }
+    }
+}
+
+/// The perspective of a pinhole camera by focal lengths and principal point in pixels.
+///
+/// # Guarantees
+/// All numbers are finite, fx, fy, width and height above 0.
+///
+/// ```
+/// use homog::Point;
+/// use projection::{Intrinsics, PixelCenters};
+/// let lens = Intrinsics::new([500.0, 500.0], [319.5, 239.5], [640, 480])?;
+/// // One unit to the right, two ahead: 250 columns beside the principal point.
+/// let pixel = lens.project(Point::new(1.0, 0.0, -2.0)).expect("ahead of the eye");
+/// assert_eq!(pixel, [569.5, 239.5]);
+/// assert_eq!(lens.pixel_centers(), PixelCenters::Integer);
+/// # Ok::<(), projection::ProjectionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Intrinsics {
+    focal_length: [f64; 2],
+    principal_point: [f64; 2],
+    skew: f64,
+    size: [u32; 2],
+    pixel_centers: PixelCenters,
+}
+
+impl Intrinsics {
+    /// The lens with the focal lengths (fx, fy) and the principal point (cx, cy), in pixels, of
+    /// pictures of `size` (columns, rows); without skew, pixel centers at whole numbers.
+    ///
+    /// # Errors
+    /// If a number is not finite, or a focal length or a side not above 0.
+    pub fn new(
+        [fx, fy]: [f64; 2],
+        [cx, cy]: [f64; 2],
+        size: [u32; 2],
+    ) -> Result<Self, ProjectionError> {
+        let focal_length = [check_positive("fx", fx)?, check_positive("fy", fy)?];
+        let principal_point = [check_finite("cx", cx)?, check_finite("cy", cy)?];
+        check_positive("width", f64::from(size[0]))?;
+        check_positive("height", f64::from(size[1]))?;
+        let pixel_centers = PixelCenters::Integer;
+        Self { focal_length, principal_point, skew: 0.0, size, pixel_centers }.checked()
+    }
+
+    /// The lens of a matrix K, row by row.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); or K[1][0] or the last row is not as above. A matrix that is scaled
+    /// as a whole is divided by its last entry.
+    pub fn from_rows(rows: [[f64; 3]; 3], size: [u32; 2]) -> Result<Self, ProjectionError> {
+        for value in rows.as_flattened() {
+            check_finite("K", *value)?;
+        }
+        let [[fx, skew, cx], [shear, fy, cy], [p, q, scale]] = rows;
+        for (parameter, value) in [("K[1][0]", shear), ("K[2][0]", p), ("K[2][1]", q)] {
+            if value != 0.0 {
+                return Err(ProjectionError::OutOfRange { parameter, value, allowed: "0" });
+            }
+        }
+        check_positive("K[2][2]", scale)?;
+        Self::new([fx / scale, fy / scale], [cx / scale, cy / scale], size)?.with_skew(skew / scale)
+    }
+
+    /// This lens with a skew: what a row downwards adds to the column.
+    ///
+    /// # Errors
+    /// If it is not finite, or too large to compute with.
+    pub fn with_skew(self, skew: f64) -> Result<Self, ProjectionError> {
+        Self { skew: check_finite("skew", skew)?, ..self }.checked()
+    }
+
+    /// This lens with its numbers read by another rule for pixel centers. The numbers stay.
+    #[must_use]
+    pub const fn with_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
+        Self { pixel_centers, ..self }
+    }
+
+    /// The same lens with its principal point told by another rule for pixel centers.
+    #[must_use]
+    pub fn in_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
+        let by = pixel_centers.first() - self.pixel_centers.first();
+        let principal_point = self.principal_point.map(|center| center + by);
+        Self { principal_point, pixel_centers, ..self }
+    }
+
+    /// The lens of a picture that shows the window of a frustum, with pixel centers at halves.
+    ///
+    /// # Errors
+    /// A window that is mirrored, or a size of 0.
+    pub fn from_frustum(frustum: Frustum, size: [u32; 2]) -> Result<Self, ProjectionError> {
+        let slopes = frustum.slopes();
+        let [width, height] = size.map(f64::from);
+        let fx = width / (slopes.right() - slopes.left());
+        let fy = height / (slopes.top() - slopes.bottom());
+        let lens = Self::new([fx, fy], [-slopes.left() * fx, slopes.top() * fy], size)?;
+        Ok(lens.with_pixel_centers(PixelCenters::Half))
+    }
+
+    /// The lens of a perspective's matrix, with pixel centers at halves: the inverse of
+    /// [`view_to_clip`](Self::view_to_clip).
+    ///
+    /// # Errors
+    /// If the matrix is no perspective whose rows and columns run as those of a picture.
+    pub fn from_view_to_clip(
+        view_to_clip: Projective<View, Clip>,
+        convention: Convention,
+        size: [u32; 2],
+    ) -> Result<Self, ProjectionError> {
+        let rows = view_to_clip.raw().transpose();
+        let (ahead, top) = (convention.ahead(), convention.top());
+        let (x, y, w) = (rows.x_axis, rows.y_axis * top, rows.w_axis);
+        let depth = w.z * ahead;
+        let is_pinhole = [x.w, y.x, y.w, w.x, w.y, w.w].into_iter().all(|entry| entry == 0.0);
+        if !is_pinhole || !is_invertible(depth) {
+            return Err(ProjectionError::Unrepresentable { what: "matrix as intrinsics" });
+        }
+        let [width, height] = size.map(|side| 0.5 * f64::from(side));
+        let (x, y) = (x / depth, y / depth);
+        let focal_length = [x.x * width, y.y * height];
+        let center = [(1.0 + x.z * ahead) * width, (1.0 - y.z * ahead) * height];
+        let lens = Self::new(focal_length, center, size)?.with_skew(-x.y * width)?;
+        Ok(lens.with_pixel_centers(PixelCenters::Half))
+    }
+
+    /// The focal lengths fx and fy, in pixels.
+    #[must_use]
+    pub const fn focal_length(self) -> [f64; 2] {
+        self.focal_length
+    }
+
+    /// The principal point (cx, cy): the pixel coordinates of what is straight ahead.
+    #[must_use]
+    pub const fn principal_point(self) -> [f64; 2] {
+        self.principal_point
+    }
+
+    /// The skew: what a row downwards adds to the column.
+    #[must_use]
+    pub const fn skew(self) -> f64 {
+        self.skew
+    }
+
+    /// Columns and rows of the picture.
+    #[must_use]
+    pub const fn size(self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Where the centers of pixels are.
+    #[must_use]
+    pub const fn pixel_centers(self) -> PixelCenters {
+        self.pixel_centers
+    }
+
+    /// The matrix K, row by row.
+    #[must_use]
+    pub const fn to_rows(self) -> [[f64; 3]; 3] {
+        let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
+        [[fx, self.skew, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
+    }
+
+    /// The pixel coordinates of a point; `None` unless it is ahead of the eye.
+    ///
+    /// View space is right-handed, y up, looking along −z: X = x, Y = −y, Z = −z.
+    #[must_use]
+    pub fn project(self, point: Point<View>) -> Option<[f64; 2]> {
+        let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
+        let ahead = -point.z();
+        let [x, y] = [point.x() / ahead, -point.y() / ahead];
+        let pixel = [fx * x + self.skew * y + cx, fy * y + cy];
+        (ahead > 0.0 && pixel.into_iter().all(f64::is_finite)).then_some(pixel)
+    }
+
+    /// The point of view space that is seen at pixel coordinates, `depth` ahead of the eye along
+    /// its axis; not finite if the numbers are not.
+    #[must_use]
+    pub fn unproject(self, [column, row]: [f64; 2], depth: f64) -> Point<View> {
+        let ([fx, fy], [cx, cy]) = (self.focal_length, self.principal_point);
+        let y = (row - cy) / fy;
+        let x = (column - cx - self.skew * y) / fx;
+        Point::new(x * depth, -y * depth, -depth)
+    }
+
+    /// The frustum with this window, if there is no skew.
+    ///
+    /// # Errors
+    /// A skew, or not 0 < near < far.
+    pub fn to_frustum(self, near: f64, far: f64) -> Result<Frustum, ProjectionError> {
+        if self.skew != 0.0 {
+            let (parameter, value) = ("skew", self.skew);
+            return Err(ProjectionError::OutOfRange { parameter, value, allowed: "0" });
+        }
+        let ([fx, fy], [cx, cy]) = (self.focal_length, self.corner_principal_point());
+        let [width, height] = self.size.map(f64::from);
+        let slopes = Window::new(-cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy)?;
+        Frustum::from_slopes(slopes, near, far)
+    }
+
+    /// The projection matrix; `far` may be infinite.
+    ///
+    /// ```text
+    ///  x' = 2fx/w x − 2s/w y + (2cx/w − 1) D       with cx, cy from the corner of the picture,
+    ///  y' =          2fy/h y + (1 − 2cy/h) D       and D ahead of the eye; depth as in GL-1
+    /// ```
+    ///
+    /// # Errors
+    /// Unless 0 < near < far.
+    pub fn view_to_clip(
+        self,
+        [near, far]: [f64; 2],
+        convention: Convention,
+    ) -> Result<Projective<View, Clip>, ProjectionError> {
+        check_planes(near, far)?;
+        let depth = DepthRow::central(near, far, convention);
+        let ([x, y], [right, up]) = (self.scale(), self.center());
+        let skew = -self.skew * 2.0 / f64::from(self.size[0]);
+        let (ahead, top) = (convention.ahead(), convention.top());
+        Ok(Projective::from_raw(from_rows([
+            [x, skew, right * ahead, 0.0],
+            [0.0, top * y, top * up * ahead, 0.0],
+            [0.0, 0.0, depth.factor * ahead, depth.offset],
+            [0.0, 0.0, ahead, 0.0],
+        ])))
+    }
+
+    /// The inverse of [`view_to_clip`](Self::view_to_clip) in closed form (IV-1).
+    ///
+    /// # Errors
+    /// Unless 0 < near < far.
+    pub fn clip_to_view(
+        self,
+        [near, far]: [f64; 2],
+        convention: Convention,
+    ) -> Result<Projective<Clip, View>, ProjectionError> {
+        check_planes(near, far)?;
+        let depth = DepthRow::central(near, far, convention);
+        let ([x, y], [right, up]) = (self.scale(), self.center());
+        let skew = self.skew * 2.0 / f64::from(self.size[0]) / (x * y);
+        let (ahead, top) = (convention.ahead(), convention.top());
+        Ok(Projective::from_raw(DMat4::from_cols(
+            DVec4::new(1.0 / x, 0.0, 0.0, 0.0),
+            DVec4::new(top * skew, top / y, 0.0, 0.0),
+            DVec4::new(0.0, 0.0, 0.0, 1.0 / depth.offset),
+            DVec4::new(-right / x - up * skew, -up / y, ahead, -depth.factor / depth.offset),
+        )))
+    }
+
+    /// NDC per slope, to the right and upwards.
+    fn scale(self) -> [f64; 2] {
+        let [width, height] = self.size.map(f64::from);
+        [2.0 * self.focal_length[0] / width, 2.0 * self.focal_length[1] / height]
+    }
+
+    /// What is straight ahead, in NDC with y up.
+    fn center(self) -> [f64; 2] {
+        let ([width, height], [cx, cy]) = (self.size.map(f64::from), self.corner_principal_point());
+        [2.0 * cx / width - 1.0, 1.0 - 2.0 * cy / height]
+    }
+
+    /// The principal point, counted from the corner of the picture.
+    fn corner_principal_point(self) -> [f64; 2] {
+        self.in_pixel_centers(PixelCenters::Half).principal_point
+    }
+
+    /// Refuses what would overflow in the matrix or in its inverse.
+    fn checked(self) -> Result<Self, ProjectionError> {
+        let ([x, y], [right, up]) = (self.scale(), self.center());
+        let usable = is_invertible(x)
+            && is_invertible(y)
+            && is_invertible(x * y)
+            && [right, up, right / x, up / y, self.skew, self.skew * up / (x * y)]
+                .into_iter()
+                .all(is_bounded);
+        usable.then_some(self).ok_or(ProjectionError::Unrepresentable { what: "intrinsics" })
+    }
+}
