@@ -11,7 +11,9 @@
 //! the words of other programs.
 
 mod backdrop;
+mod calibrated_lens;
 mod camera_path;
+mod camera_placement;
 mod caption;
 mod classical;
 mod color;

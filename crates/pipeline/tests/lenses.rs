@@ -151,3 +151,59 @@ fn what_the_sources_say_is_read_back_after_formatting() {
         assert_eq!(format_source("a", &formatted).as_ref(), Ok(&formatted));
     }
 }
+
+/// K of calibration: pixels of points are those of its definition, wherever its centers are.
+#[test]
+fn intrinsics_and_extrinsics_are_those_of_calibration() {
+    // OpenCV's axes, looking along −z of the world from z = 9: x right, y down, z ahead.
+    let view = "Extrinsics(rotation: Rows(((1, 0, 0), (0, -1, 0), (0, 0, -1))), translation: (0.25, 0, 9))";
+    for (numbers, [fx, fy, cx, cy, skew], half) in [
+        ("fx: 300", [300.0, 300.0, 199.5, 99.5, 0.0], 0.5),
+        (
+            "fx: 300, fy: 280, cx: 180, cy: 120, skew: 3, size: (400, 200)",
+            [300.0, 280.0, 180.0, 120.0, 3.0],
+            0.5,
+        ),
+        (
+            "fx: 150, cx: 90, size: (200, 100), pixel_centers: Half",
+            [300.0, 300.0, 180.0, 100.0, 0.0],
+            0.0,
+        ),
+    ] {
+        let scene = scene(&format!("view: {view}, projection: Intrinsics({numbers})"));
+        for [x, y, z] in [[0.5, 0.25, 0.5], [-1.0, 0.75, -0.5]] {
+            let world = homog::Point::new(x, y, z);
+            let view = scene.view_projection.camera.world_to_view().transform_point(world);
+            let clip = scene.view_projection.view_to_clip.transform_point(view);
+            let ndc = clip.divide().expect("ahead");
+            let [column, row] = [200.0 * (1.0 + ndc.x()), 100.0 * (1.0 - ndc.y())];
+            let [x, y, z] = [x + 0.25, -y, 9.0 - z];
+            check_near(column, fx * x / z + skew * y / z + cx + half);
+            check_near(row, fy * y / z + cy + half);
+        }
+    }
+}
+
+/// Pixels, to the billionth part.
+fn check_near(actual: f64, expected: f64) {
+    assert!((actual - expected).abs() < 1e-9, "{actual} is not {expected}");
+}
+
+/// R and t, columns of R, a quaternion and a pose are the same camera.
+#[test]
+fn a_camera_can_be_placed_in_the_ways_of_data_sets() {
+    let of = |view: &str| scene(&format!("view: {view}, projection: Intrinsics(fx: 300)"));
+    let first = of(
+        "Extrinsics(rotation: Rows(((1, 0, 0), (0, -1, 0), (0, 0, -1))), translation: (0, 1, 9))",
+    );
+    assert_eq!(<[f64; 3]>::from(first.view_projection.camera.eye()), [0.0, 1.0, 9.0]);
+    for view in [
+        "Extrinsics(rotation: Columns(((1, 0, 0), (0, -1, 0), (0, 0, -1))), translation: (0, 1, 9))",
+        "Extrinsics(rotation: Quaternion((0, 2, 0, 0)), translation: (0, 1, 9))",
+        "Pose(rotation: Rows(((1, 0, 0), (0, 1, 0), (0, 0, 1))), eye: (0, 1, 9))",
+        "Extrinsics(rotation: Columns(((-1, 0, 0), (0, 1, 0), (0, 0, -1))), translation: (0, -1, 9), axes: Pytorch3d)",
+        "LookTo(eye: (0, 1, 9), gaze: (0, 0, -1))",
+    ] {
+        assert_eq!(of(view).view_projection.camera, first.view_projection.camera, "{view}");
+    }
+}

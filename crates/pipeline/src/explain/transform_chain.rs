@@ -16,6 +16,7 @@ use super::{ExplanationEntry, ItemValue, Step};
 use camera::{Camera, ViewProjection, ViewTransform};
 use clip::{Outcode, Volume};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, Screen, View, World};
+use projection::Intrinsics;
 use viewport::{Viewport, ViewportError};
 
 /// Camera, projection and viewport in the conventions of a graphics API.
@@ -31,6 +32,8 @@ pub struct TransformChain {
     conventions: ApiConventions,
     /// The viewport, with its pixel convention.
     viewport: Viewport,
+    /// Columns and rows of the picture.
+    size: [u32; 2],
     /// World → clip → screen in these conventions.
     transform: ViewTransform,
     /// Whether the window exchanges left and right, or bottom and top; front faces then wind
@@ -66,7 +69,8 @@ impl TransformChain {
             view_projection.viewer(),
         );
         let is_mirrored = view_projection.is_mirrored();
-        Ok(Self { camera, view_to_clip, conventions, viewport, transform, is_mirrored })
+        let size = [width, height];
+        Ok(Self { camera, view_to_clip, conventions, viewport, size, transform, is_mirrored })
     }
 
     /// World to view space, which looks along −z, or along +z in left-handed conventions.
@@ -257,6 +261,13 @@ impl TransformChain {
         step.add_item(id, label, <[f64; 4]>::from(clip));
     }
 
+    /// The intrinsic parameters of a perspective that looks straight ahead, by the picture's rows
+    /// from the top.
+    fn intrinsics(&self) -> Option<Intrinsics> {
+        let volume = self.conventions.canonical_volume();
+        Intrinsics::from_view_to_clip(self.view_to_clip, volume, self.size).ok()
+    }
+
     /// The outcodes of points of clip space.
     ///
     /// A bit is set where the signed distance of the point from a plane is negative, such as w − x
@@ -289,6 +300,13 @@ impl TransformChain {
             Some(self.conventions.viewport_formulas()),
         )
         .with_item("ndc_to_screen", "M_vp", self.ndc_to_screen().rows());
+        if let Some(lens) = self.intrinsics() {
+            screen.add_item(
+                "intrinsics",
+                "K, pixel centers at halves",
+                ItemValue::PlanarMatrix(lens.to_rows()),
+            );
+        }
         let page = self.chapter_matrices();
         if let Some(page) = page {
             page.add_products(&mut screen, self.world_to_view(), self.ndc_to_screen());

@@ -25,7 +25,9 @@ mod sheet;
 mod viewport;
 
 pub use self::background::BackgroundFile;
-pub use self::camera::{CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, ViewFile};
+pub use self::camera::{
+    CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, RotationFile, ViewFile,
+};
 pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;

@@ -8,6 +8,7 @@
 //!          └──┴──────────┴──┘
 //! ```
 
+use super::calibrated_lens::calibrated_lens;
 use super::file::{FieldOfView, Finite, ProjectionFile};
 use super::number::Positive;
 use super::syntax::PathStep::Field;
@@ -196,6 +197,12 @@ fn check_planes(projection: &ProjectionFile) -> Option<ProjectionError> {
         }
         ProjectionFile::ApexMovedFrustum { near, far, .. } => {
             ApexMovedFrustum::new(l, r, b, t, near.value(), far_of(near, far)).err()
+        }
+        ProjectionFile::Intrinsics { near, far, .. } => {
+            let near = near.map_or(far.map_or(1.0, |far| 0.5 * far.value()), Positive::value);
+            let far = far.map_or(2.0 * near, Positive::value);
+            let lens = calibrated_lens(projection, [640, 480])?;
+            lens.and_then(|lens| lens.view_to_clip([near, far], Convention::CHAPTER)).err()
         }
         _ => None,
     }

@@ -6,9 +6,10 @@
 
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
+use camera::CameraAxes;
 use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join};
 use model::{LengthUnit, UpAxis};
-use projection::{PrincipalView, SheetAngle};
+use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
 
 /// A type whose values have names.
@@ -74,6 +75,23 @@ named_values! {
         X = "x is up, y to the left and z to the front, as in COLLADA.",
         Y = "y is up, x to the right and z to the front: glTF, OBJ and PLY.",
         Z = "z is up, x to the right and y to the back: STL and 3MF, Blender and CAD programs.",
+    }
+}
+
+named_values! {
+    /// The pixel coordinates of the center of the upper left pixel.
+    PixelCenters as "PixelCenters" {
+        Integer = "(0, 0): OpenCV, and most of computer vision. The middle of 640 columns is 319.5.",
+        Half = "(0.5, 0.5): OpenGL and COLMAP. The middle of 640 columns is 320.",
+    }
+}
+
+named_values! {
+    /// The directions of a camera's own axes.
+    CameraAxes as "CameraAxes" {
+        OpenCv = "x to the right, y down, z ahead: OpenCV, COLMAP, ROS.",
+        OpenGl = "x to the right, y up, z backwards: OpenGL, Blender, glTF, NeRF.",
+        Pytorch3d = "x to the left, y up, z ahead: PyTorch3D.",
     }
 }
 

@@ -8,6 +8,8 @@
 //! Framing finds the eye at which every vertex just fits into the window: in closed form for
 //! perspective, from the box of the images for parallel projections.
 
+use super::calibrated_lens::{calibrated_lens, check_calibrated_shape};
+use super::camera_placement::CameraPlacement;
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
 use super::file::{CameraChoice, CameraFile, Finite, FromFile, ProjectionFile, ViewFile};
@@ -23,7 +25,8 @@ use model::ModelInstance;
 use model::world_points;
 use model::{CameraProjection, MeshInstance, ModelCamera};
 use projection::{
-    ApexMovedFrustum, Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError,
+    ApexMovedFrustum, Convention, Fov, Frustum, Intrinsics, Orthographic, Perspective,
+    ProjectionError,
 };
 
 /// The path of the position and direction of the camera.
@@ -39,6 +42,8 @@ pub(super) struct CameraResolver<'a> {
     /// Points that a framed view shows beside the models: their shadows on the ground.
     shadow_points: Vec<Point<World>>,
     pub(super) aspect: f64,
+    /// Columns and rows of the picture.
+    picture_size: [u32; 2],
 }
 
 /// Camera and projection of a scene.
@@ -64,27 +69,20 @@ pub(super) fn resolve_view_of_points(
     let view_size = image.view_size();
     let aspect = view_size.x / view_size.y;
     let points = world_points(models);
-    let resolver = CameraResolver { origin, models, points, shadow_points, aspect };
+    let picture_size = [view_size.x as u32, view_size.y as u32];
+    let resolver = CameraResolver { origin, models, points, shadow_points, aspect, picture_size };
     let projection = file.projection.as_ref();
     let or_usual = projection.unwrap_or(&ProjectionFile::PERSPECTIVE);
-    if let Some(error) = check_lens_fields(origin, or_usual) {
+    let fault = check_lens_fields(origin, or_usual)
+        .or_else(|| check_calibrated_shape(origin, or_usual, picture_size));
+    if let Some(error) = fault {
         return Err(error);
     }
-    let view = match &file.view {
-        ViewFile::LookAt { eye, target, up } => {
-            let camera = Camera::look_at(eye.0.into(), target.0.into(), up.0.into());
-            let camera = camera.map_err(|error| resolver.camera_error(&error))?;
-            resolver.project_from_camera(camera, or_usual, None)
-        }
-        ViewFile::LookTo { eye, gaze, up } => {
-            let camera = Camera::look_to(eye.0.into(), gaze.0.into(), up.0.into());
-            let camera = camera.map_err(|error| resolver.camera_error(&error))?;
-            resolver.project_from_camera(camera, or_usual, None)
-        }
-        ViewFile::Frame { from, padding_percent } => {
-            resolver.frame_models(from.as_ref(), padding_percent.value() / 100.0, or_usual)
-        }
-        ViewFile::FromModel(choice) => resolver.project_from_model_camera(choice, projection),
+    let placement = CameraPlacement::from_file(&file.view);
+    let view = match placement.map_err(|error| resolver.camera_error(&error))? {
+        CameraPlacement::Placed(camera) => resolver.project_from_camera(camera, or_usual, None),
+        CameraPlacement::Framed { from, padding } => resolver.frame_models(from, padding, or_usual),
+        CameraPlacement::OfModel(choice) => resolver.project_from_model_camera(choice, projection),
     };
     view.map(|view| image.place_view(view))
 }
@@ -92,16 +90,8 @@ pub(super) fn resolve_view_of_points(
 /// The mistakes of a camera that can be found without the models: a direction that is none, planes
 /// in the wrong order.
 pub(super) fn check_camera(origin: &Origin, file: &CameraFile) -> Vec<SceneError> {
-    let camera = match &file.view {
-        ViewFile::LookAt { eye, target, up } => {
-            Camera::look_at(eye.0.into(), target.0.into(), up.0.into()).map(drop)
-        }
-        ViewFile::LookTo { eye, gaze, up } => {
-            Camera::look_to(eye.0.into(), gaze.0.into(), up.0.into()).map(drop)
-        }
-        ViewFile::Frame { .. } | ViewFile::FromModel(_) => Ok(()),
-    };
-    let view_error = camera.err().map(|error| origin.error_at(&VIEW_PATH, error.to_string(), None));
+    let view_error = CameraPlacement::from_file(&file.view).err();
+    let view_error = view_error.map(|error| origin.error_at(&VIEW_PATH, error.to_string(), None));
     let is_framed = matches!(file.view, ViewFile::Frame { .. });
     let projection = file.projection.as_ref();
     let projection_error = projection
@@ -117,7 +107,8 @@ pub(super) fn select_lens<'a>(
     choice: &CameraChoice,
 ) -> Option<&'a ModelCamera> {
     let (points, shadow_points) = (Vec::new(), Vec::new());
-    let resolver = CameraResolver { origin, models, points, shadow_points, aspect: 1.0 };
+    let (aspect, picture_size) = (1.0, [1; 2]);
+    let resolver = CameraResolver { origin, models, points, shadow_points, aspect, picture_size };
     Some(resolver.select_model_camera(choice).ok()?.2)
 }
 
@@ -156,6 +147,12 @@ impl<'a> CameraResolver<'a> {
             return self.nothing_to_draw_error();
         }
         self.view_error(error.to_string(), None)
+    }
+
+    /// The error of a lens with skew, which no place of the camera is found for.
+    fn skewed_framing_error(&self, error: &ProjectionError) -> SceneError {
+        let help = "say where the camera is: view: LookAt(…), Extrinsics(…) or Pose(…)";
+        self.projection_error_with(error.to_string(), Some(help.to_owned()))
     }
 
     /// Models without primitives: there is nothing to frame.
@@ -218,10 +215,22 @@ impl<'a> CameraResolver<'a> {
                 ApexMovedFrustum::new(l, r, b, t, near.value(), far)
                     .map(|p| p.view_to_clip(Convention::CHAPTER))
             }
+            ProjectionFile::Intrinsics { near, far, .. } => {
+                let planes =
+                    span.perspective_planes(near.map(Positive::value), far.map(Positive::value));
+                self.calibrated_lens(projection)?.view_to_clip(planes.into(), Convention::CHAPTER)
+            }
             _ => return self.project_classical(camera, projection),
         };
         let view_to_clip = view_to_clip.map_err(|error| self.projection_error(&error))?;
         Ok(ViewProjection { camera, view_to_clip })
+    }
+
+    /// The lens of a projection by intrinsic parameters.
+    fn calibrated_lens(&self, projection: &ProjectionFile) -> Result<Intrinsics, SceneError> {
+        let missing = ProjectionError::Unrepresentable { what: "intrinsics" };
+        let lens = calibrated_lens(projection, self.picture_size).unwrap_or(Err(missing));
+        lens.map_err(|error| self.projection_error(&error))
     }
 
     /// The height of the window, centred on the line of sight, into which the whole scene fits.
@@ -258,6 +267,12 @@ impl<'a> CameraResolver<'a> {
             }
             ProjectionFile::Perspective { .. } | ProjectionFile::Frustum { .. } => {
                 self.window_slopes(projection)?
+            }
+            ProjectionFile::Intrinsics { .. } => {
+                let frustum = self.calibrated_lens(projection)?.to_frustum(1.0, 2.0);
+                let window = frustum.map_err(|error| self.skewed_framing_error(&error))?.slopes();
+                let (left, right) = (window.left(), window.right());
+                Slopes { left, right, bottom: window.bottom(), top: window.top() }
             }
             ProjectionFile::ApexMovedFrustum { .. } => {
                 return self.frame_apex_moved(basis, padding, projection);

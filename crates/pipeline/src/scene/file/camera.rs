@@ -1,9 +1,9 @@
 //! The camera of a scene file: its position and direction, and its projection.
 
 use super::projection::ProjectionFile;
-use crate::scene::number::{NonNegative, Triple};
+use crate::scene::number::{Finite, NonNegative, Triple};
 use crate::scene::schema::{scene_enum, scene_struct};
-use camera::NamedView;
+use camera::{CameraAxes, NamedView};
 
 scene_struct! {
     /// The camera: its position and direction, and its projection.
@@ -37,6 +37,26 @@ scene_enum! {
             /// The view-up vector. Default: y.
             up: Triple = Triple::Y_AXIS,
         },
+        /// By rotation and translation from the world to the camera, as calibration gives them:
+        /// camera = R · world + t.
+        Extrinsics {
+            /// The rotation R.
+            rotation: RotationFile,
+            /// The translation t: the world's origin in the camera's coordinates.
+            translation: Triple,
+            /// The directions of the camera's axes. Default: `OpenCv`.
+            axes: CameraAxes = CameraAxes::OpenCv,
+        },
+        /// By the pose of the camera in the world, as data sets such as NeRF's have it: world =
+        /// R · camera + eye.
+        Pose {
+            /// The rotation R, whose columns are the camera's axes.
+            rotation: RotationFile,
+            /// The position of the eye.
+            eye: Triple,
+            /// The directions of the camera's axes. Default: `OpenGl`.
+            axes: CameraAxes = CameraAxes::OpenGl,
+        },
         /// From a direction, at the distance at which everything just fits into the image: the
         /// models and, with `ground`, the shadows of directional lights on it, up to the length of
         /// the models' diagonal.
@@ -58,6 +78,19 @@ impl ViewFile {
 
 /// The margin of framed pictures, in percent.
 pub const DEFAULT_PADDING: NonNegative = NonNegative::FIVE;
+
+scene_enum! {
+    /// A rotation.
+    pub enum RotationFile as "Rotation" {
+        /// By the three rows of its matrix, which stands before column vectors.
+        Rows((Triple, Triple, Triple)),
+        /// By the three columns of its matrix: the rows of one that stands behind row vectors, as
+        /// in PyTorch3D.
+        Columns((Triple, Triple, Triple)),
+        /// By a quaternion (w, x, y, z), as in COLMAP. Its length does not matter.
+        Quaternion((Finite, Finite, Finite, Finite)),
+    }
+}
 
 scene_enum! {
     /// The direction from which a picture is framed.

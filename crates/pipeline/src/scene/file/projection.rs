@@ -2,7 +2,7 @@
 
 use crate::scene::number::{FieldOfView, Finite, NonNegative, Positive};
 use crate::scene::schema::scene_enum;
-use projection::PrincipalView;
+use projection::{PixelCenters, PrincipalView};
 
 scene_enum! {
     /// A projection.
@@ -77,6 +77,29 @@ scene_enum! {
             top: Finite,
             /// The distance of the window, which is the near plane.
             near: Positive,
+            /// The distance of the far plane. Default: just behind the models.
+            far: Option<Positive>,
+        },
+        /// The perspective of a calibrated camera, by the numbers of its matrix K: focal lengths and
+        /// principal point in pixels, rows counted from the top.
+        Intrinsics {
+            /// The focal length in columns.
+            fx: Positive,
+            /// The focal length in rows. Default: `fx`.
+            fy: Option<Positive>,
+            /// The column of the principal point. Default: the middle of the image.
+            cx: Option<Finite>,
+            /// The row of the principal point. Default: the middle of the image.
+            cy: Option<Finite>,
+            /// The skew: what a row downwards adds to the column. Default: 0.
+            skew: Finite = Finite::ZERO,
+            /// Columns and rows of the pictures that the numbers are for. The image may be larger
+            /// or smaller, but has their shape. Default: the image's own.
+            size: Option<(u32, u32)>,
+            /// What the numbers count from. Default: `Integer`.
+            pixel_centers: PixelCenters = PixelCenters::Integer,
+            /// The distance of the near plane. Default: as far as the models allow.
+            near: Option<Positive>,
             /// The distance of the far plane. Default: just behind the models.
             far: Option<Positive>,
         },
@@ -232,6 +255,7 @@ impl ProjectionFile {
                 | Self::Orthographic { .. }
                 | Self::Frustum { .. }
                 | Self::ApexMovedFrustum { .. }
+                | Self::Intrinsics { .. }
         )
     }
 }

@@ -79,6 +79,7 @@ fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<crate::scene::syn
                 | ProjectionFile::Orthographic { .. }
                 | ProjectionFile::Frustum { .. }
                 | ProjectionFile::ApexMovedFrustum { .. }
+                | ProjectionFile::Intrinsics { .. }
         )
     );
     match adviser.file.camera.view {
