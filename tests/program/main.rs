@@ -5,6 +5,7 @@
 
 mod asset_models;
 mod batch;
+mod calibrated_cameras;
 mod captions;
 mod check;
 mod compare_projections;

@@ -21,6 +21,7 @@
 mod animate;
 mod args;
 mod batch;
+mod calibrated_camera;
 mod check;
 mod color;
 mod compare;

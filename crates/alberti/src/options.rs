@@ -10,8 +10,10 @@ use pipeline::options::NamedOption;
 ///
 /// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
 /// one that flags accept. Scene files keep the long name, because it is read more often than typed.
-const SHORT_NAMES: [(&str, &str); 7] = [
+const SHORT_NAMES: [(&str, &str); 9] = [
     ("ag-x", "agx"),
+    ("open-cv", "opencv"),
+    ("open-gl", "opengl"),
     ("meter", "m"),
     ("centimeter", "cm"),
     ("millimeter", "mm"),

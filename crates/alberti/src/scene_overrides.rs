@@ -11,6 +11,7 @@
 
 use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
+use super::calibrated_camera::CalibratedCameraArgs;
 use super::light::LightArgs;
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
@@ -51,6 +52,8 @@ pub(crate) struct SceneOverrideArgs {
     /// Projection of the camera
     #[arg(long)]
     pub(crate) projection: Option<ProjectionArg>,
+    #[command(flatten)]
+    pub(crate) calibrated: CalibratedCameraArgs,
     /// Guides drawn over the picture; can be repeated
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
@@ -115,7 +118,7 @@ impl SceneOverrideArgs {
         file: &SceneFile,
         scene: &mut Scene,
     ) -> Result<(), CliError> {
-        if self.view.is_some() || self.camera.is_some() {
+        if self.view.is_some() || self.camera.is_some() || self.calibrated.places_camera() {
             return Ok(());
         }
         self.model_state.place_camera(origin, file, scene)
@@ -177,6 +180,7 @@ impl SceneOverrideArgs {
         if let Some(projection) = self.projection {
             file.projection = Some(projection.into());
         }
+        self.calibrated.apply_to(file);
     }
 }
 

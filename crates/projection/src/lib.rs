@@ -64,8 +64,7 @@
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
-//! −z. Column vectors, angles in radians, f64. Two programs to play with are in `examples`:
-//! `gallery` draws a house in every projection, `doctor` reads matrices.
+//! −z. Column vectors, angles in radians, f64. Examples: `gallery`, and `doctor`, which reads matrices.
 #![no_std]
 
 extern crate alloc;
@@ -136,7 +135,6 @@ pub use view_volume::ViewVolume;
 pub use window::Window;
 pub use window_changes::{FourAngles, Jitter, ViewOffset};
 
-/// The examples of the README, compiled and run as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -47,7 +47,7 @@ const fn flag(
 }
 
 /// All of them, in the order of the help.
-const FLAGS: [BuilderFlag; 15] = [
+const FLAGS: [BuilderFlag; 16] = [
     flag(
         ("perspective", "FOVY,ASPECT,NEAR,FAR"),
         &[Conventions, Reversed],
@@ -65,6 +65,13 @@ const FLAGS: [BuilderFlag; 15] = [
         &[Conventions, Reversed],
         build_moved_apex,
         "Perspective of the WebGL lesson: its apex moved behind the window's center",
+    ),
+    flag(
+        ("intrinsics", "FX,FY,CX,CY,WIDTH,HEIGHT,NEAR,FAR"),
+        &[Conventions, Reversed],
+        build_intrinsics,
+        "Perspective of a calibrated camera by its matrix K for pictures of WIDTH x HEIGHT, pixel \
+         centers at whole numbers as in OpenCV",
     ),
     flag(
         ("ortho", "L,R,B,T,NEAR,FAR"),

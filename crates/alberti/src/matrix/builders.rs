@@ -7,8 +7,8 @@ use glam::{DMat3, DMat4};
 use homog::{Affine, Point, Space, Vector, View, World};
 use pipeline::explain::ApiConventions;
 use projection::{
-    ApexMovedFrustum, Axonometric, Convention, Fov, Frustum, NPoint, Oblique, Orthographic,
-    Perspective, ProjectionError, chapter,
+    ApexMovedFrustum, Axonometric, Convention, Fov, Frustum, Intrinsics, NPoint, Oblique,
+    Orthographic, Perspective, ProjectionError, chapter,
 };
 use viewport::{Limits, Rectangle, Viewport, WindowToViewport};
 
@@ -133,6 +133,23 @@ pub(super) fn build_moved_apex(list: &NumberList, options: BuildOptions) -> Buil
     let subject = format!("A perspective with its apex moved: {}", volume_words(numbers));
     let matrix = frustum.view_to_clip(options.volume()).raw();
     Ok(BuiltMatrix { factors, ..built(subject, "LW-1", matrix) })
+}
+
+pub(super) fn build_intrinsics(list: &NumberList, options: BuildOptions) -> Built {
+    let [fx, fy, cx, cy, width, height, near, far] = list.exactly("intrinsics")?;
+    check_distances("intrinsics", near, far, 0.0)?;
+    let side = |name: &str, value: f64| {
+        let is_whole = value >= 1.0 && value <= f64::from(u32::MAX) && value == libm::floor(value);
+        let message = || format!("--intrinsics: the {name} is {value}: it must be a whole number");
+        is_whole.then_some(value as u32).ok_or_else(|| CliError::Usage(message()))
+    };
+    let size = [side("width", width)?, side("height", height)?];
+    let lens = Intrinsics::new([fx, fy], [cx, cy], size).map_err(refused)?;
+    let frustum = lens.to_frustum(near, far).map_err(refused)?;
+    let subject = format!(
+        "A calibrated camera: fx {fx}, fy {fy}, cx {cx}, cy {cy}, {width} x {height} pixels, near {near}, far {far}"
+    );
+    Ok(perspective_of(subject, frustum, options))
 }
 
 pub(super) fn build_ortho(list: &NumberList, options: BuildOptions) -> Built {

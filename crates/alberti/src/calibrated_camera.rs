@@ -1,0 +1,141 @@
+//! Flags of calibrated cameras: intrinsic parameters, and rotation and translation or a pose.
+
+use super::number_list::parse_number_list;
+use super::options::option_parser;
+use camera::CameraAxes;
+use pipeline::scene::file::{
+    CameraFile, Finite, Positive, ProjectionFile, RotationFile, Triple, ViewFile,
+};
+use projection::PixelCenters;
+
+/// A camera as calibration, photogrammetry or a data set has it.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct CalibratedCameraArgs {
+    /// Lens of a calibrated camera, by focal lengths and principal point in pixels
+    ///
+    /// Or all nine numbers of the matrix K, row by row. They are for pictures of the size of this
+    /// one.
+    #[arg(
+        long,
+        value_name = "FX,FY,CX,CY",
+        value_parser = parse_intrinsics,
+        allow_hyphen_values = true,
+        conflicts_with = "projection"
+    )]
+    intrinsics: Option<ProjectionFile>,
+    /// What the principal point of --intrinsics counts from [default: integer]
+    #[arg(long, value_parser = option_parser::<PixelCenters>(), requires = "intrinsics")]
+    pixel_centers: Option<PixelCenters>,
+    /// Rotation and translation from the world to the camera: the 12 numbers of [R|t], row by row
+    #[arg(
+        long,
+        value_name = "NUMBERS",
+        value_parser = parse_frame,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["view", "camera", "pose"]
+    )]
+    extrinsics: Option<CameraFrame>,
+    /// Pose of the camera in the world: 12 numbers, row by row, the last column the eye's position
+    #[arg(
+        long,
+        value_name = "NUMBERS",
+        value_parser = parse_frame,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["view", "camera"]
+    )]
+    pose: Option<CameraFrame>,
+    /// Directions of the camera's axes [default: opencv for --extrinsics, opengl for --pose]
+    #[arg(long, value_name = "AXES", value_parser = option_parser::<CameraAxes>())]
+    camera_axes: Option<CameraAxes>,
+}
+
+/// Three rows of a rotation, and a column beside them.
+#[derive(Clone, Copy, Debug)]
+struct CameraFrame {
+    rotation: [[f64; 3]; 3],
+    column: [f64; 3],
+}
+
+impl CameraFrame {
+    /// The rotation as a scene file has it.
+    fn to_rotation_file(self) -> RotationFile {
+        let [x, y, z] = self.rotation.map(Triple);
+        RotationFile::Rows((x, y, z))
+    }
+}
+
+impl CalibratedCameraArgs {
+    /// Whether a flag says where the camera is.
+    pub(crate) fn places_camera(&self) -> bool {
+        self.extrinsics.is_some() || self.pose.is_some()
+    }
+
+    /// Replaces view and projection of the scene by the flags that were given.
+    pub(crate) fn apply_to(&self, file: &mut CameraFile) {
+        if let Some(frame) = self.extrinsics {
+            let (rotation, translation) = (frame.to_rotation_file(), Triple(frame.column));
+            let axes = self.camera_axes.unwrap_or(CameraAxes::OpenCv);
+            file.view = ViewFile::Extrinsics { rotation, translation, axes };
+        }
+        if let Some(frame) = self.pose {
+            let (rotation, eye) = (frame.to_rotation_file(), Triple(frame.column));
+            let axes = self.camera_axes.unwrap_or(CameraAxes::OpenGl);
+            file.view = ViewFile::Pose { rotation, eye, axes };
+        }
+        if let Some(lens) = &self.intrinsics {
+            let mut lens = lens.clone();
+            if let (Some(given), ProjectionFile::Intrinsics { pixel_centers, .. }) =
+                (self.pixel_centers, &mut lens)
+            {
+                *pixel_centers = given;
+            }
+            file.projection = Some(lens);
+        }
+    }
+}
+
+/// Parses `FX,FY,CX,CY`, or K row by row.
+fn parse_intrinsics(text: &str) -> Result<ProjectionFile, String> {
+    let numbers = parse_number_list(text)?;
+    let (fx, fy, cx, cy, skew) = match *numbers.as_slice() {
+        [fx, fy, cx, cy] => (fx, fy, cx, cy, 0.0),
+        [fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0] => (fx, fy, cx, cy, skew),
+        _ => {
+            let found = numbers.len();
+            return Err(format!(
+                "expected fx,fy,cx,cy or K as fx,skew,cx,0,fy,cy,0,0,1, found {found} numbers"
+            ));
+        }
+    };
+    let focal = |value: f64| Positive::new(value).ok_or("focal lengths must be greater than 0");
+    let finite = |value: f64| Finite::new(value).ok_or("numbers must be finite");
+    Ok(ProjectionFile::Intrinsics {
+        fx: focal(fx)?,
+        fy: Some(focal(fy)?),
+        cx: Some(finite(cx)?),
+        cy: Some(finite(cy)?),
+        skew: finite(skew)?,
+        size: None,
+        pixel_centers: PixelCenters::Integer,
+        near: None,
+        far: None,
+    })
+}
+
+/// Parses the 12 numbers of three rows of four; 16, whose last row is 0,0,0,1, will do as well.
+fn parse_frame(text: &str) -> Result<CameraFrame, String> {
+    let numbers = parse_number_list(text)?;
+    let rows = match numbers.as_slice() {
+        [rows @ .., 0.0, 0.0, 0.0, 1.0] if numbers.len() == 16 => rows,
+        rows if rows.len() == 12 => rows,
+        _ => {
+            let found = numbers.len();
+            return Err(format!(
+                "expected 12 numbers, or 16 whose last row is 0,0,0,1, found {found}"
+            ));
+        }
+    };
+    let row = |at: usize| [rows[4 * at], rows[4 * at + 1], rows[4 * at + 2]];
+    let rotation = [0, 1, 2].map(row);
+    Ok(CameraFrame { rotation, column: [rows[3], rows[7], rows[11]] })
+}
