@@ -18,7 +18,6 @@
 mod contact_sheet;
 mod jobs;
 mod key;
-mod referenced_files;
 mod report;
 mod runner;
 mod shard;

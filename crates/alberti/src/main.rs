@@ -47,6 +47,7 @@ mod panel_subject;
 mod passes;
 mod progress;
 mod reference;
+mod referenced_files;
 mod region;
 mod render;
 mod render_job;

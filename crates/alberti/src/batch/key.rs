@@ -6,10 +6,11 @@
 //! Content is hashed rather than compared by time, because models are copied, checked out and
 //! mounted in ways that change their times but not their bytes.
 
-use super::referenced_files::referenced_files;
+use crate::referenced_files::referenced_files;
 use crate::render::is_scene_file;
 use pipeline::Origin;
 use sha2::{Digest, Sha256};
+use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
 /// The key of a model or a scene: the first 16 bytes of a SHA-256, in hexadecimal.
@@ -37,12 +38,24 @@ pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> 
 /// meshes. Files in folders above the model are hashed as well, since only their bytes matter here;
 /// the importer decides whether they may be read.
 fn hash_model(hash: &mut Sha256, path: &Path) {
-    let bytes = std::fs::read(path).unwrap_or_default();
-    hash_part(hash, &bytes);
     let folder = path.parent().unwrap_or(Path::new(""));
-    for name in referenced_files(path, &bytes) {
-        hash_part(hash, &std::fs::read(folder.join(name)).unwrap_or_default());
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let (mut wanted, mut seen) = (VecDeque::from([name]), BTreeSet::new());
+    while let Some(name) = wanted.pop_front() {
+        if !seen.insert(name.clone()) {
+            continue;
+        }
+        let bytes = read_regular_file(&folder.join(&name));
+        hash_part(hash, &bytes);
+        wanted.extend(referenced_files(&name, &bytes));
     }
+}
+
+/// The bytes of a regular file; none of anything else. A name in a model may be that of a device or
+/// a pipe, which would never end.
+fn read_regular_file(path: &Path) -> Vec<u8> {
+    let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
+    if is_file { std::fs::read(path).unwrap_or_default() } else { Vec::new() }
 }
 
 /// Hashes a scene with its includes, models and images.
@@ -50,14 +63,14 @@ fn hash_model(hash: &mut Sha256, path: &Path) {
 /// A scene that cannot be parsed is hashed by its own text alone; it fails anyway, and failed jobs
 /// are always tried again.
 fn hash_scene(hash: &mut Sha256, path: &Path, allowed: &[PathBuf]) {
-    hash_part(hash, &std::fs::read(path).unwrap_or_default());
+    hash_part(hash, &read_regular_file(path));
     let Ok((origin, file)) = Origin::read_scene_allowing(path, allowed) else { return };
     origin.included_texts().for_each(|text| hash_part(hash, text.as_bytes()));
     for model in &file.models {
         hash_model(hash, &origin.folder.join(&model.path));
     }
     for path in file.image_paths() {
-        hash_part(hash, &std::fs::read(origin.folder.join(path)).unwrap_or_default());
+        hash_part(hash, &read_regular_file(&origin.folder.join(path)));
     }
 }
 
@@ -87,6 +100,25 @@ mod tests {
         };
         let keys = [of("style.ron", "()"), of("style.ron", "(style: Flat)"), of("a.gltf", "{}")];
         assert!(keys[0] != keys[1] && keys[1] != keys[2] && keys[2] == of("a.gltf", "{}"));
+        let _ = std::fs::remove_dir_all(&folder);
+    }
+
+    #[test]
+    fn libraries_and_textures_of_obj_change_the_key_and_devices_are_not_read() {
+        let folder = std::env::temp_dir().join(format!("alberti-key-obj-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let of = |name: &str, content: &str| {
+            std::fs::write(folder.join(name), content).expect("a file");
+            content_key(&folder.join("a.obj"), "", &[])
+        };
+        let keys = [
+            of("a.obj", "mtllib a.mtl\nmtllib /dev/zero\n"),
+            of("a.mtl", "newmtl a\nmap_Kd wood.png\n"),
+            of("wood.png", "1"),
+            of("wood.png", "2"),
+        ];
+        assert!((1..4).all(|at| keys[at] != keys[at - 1]), "{keys:?}");
+        assert_eq!(keys[2], of("wood.png", "1"));
         let _ = std::fs::remove_dir_all(&folder);
     }
 

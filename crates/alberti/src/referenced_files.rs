@@ -1,26 +1,32 @@
 //! The files that a model refers to: buffers and images of glTF, material libraries of OBJ with
 //! their textures, textures of PLY.
 //!
-//! They are found by a quick look at the text and not by the importer, so that a key costs a read
-//! of the files and no parse of the meshes. A name too many does no harm: it is a file that does
+//! They are found by a quick look at the text and not by the importer, so that it costs a read of
+//! the files and no parse of the meshes. A name too many does no harm: it is a file that does
 //! not exist, or one whose change renders a picture again.
 
 use pipeline::import::FileFormat;
 use serde_json::Value;
 use std::path::Path;
 
-/// Material libraries of an OBJ file, and textures of a library, that are looked for.
+/// Names of one file that are looked for.
 const MAX_NAMES: usize = 1024;
 
 /// Words of a statement that a file name may begin at.
 const MAX_WORDS: usize = 16;
 
-/// The names of the files that a model in a folder refers to, relative to that folder, in the order
-/// in which they are mentioned.
-pub(super) fn referenced_files(path: &Path, bytes: &[u8]) -> Vec<String> {
+/// The names of the files that a model or a material library refers to, relative to the model's
+/// folder, in the order in which they are mentioned. `name` is its own.
+///
+/// What a material library refers to is not among the names of the model that refers to it.
+pub(crate) fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
+    let path = Path::new(name);
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl")) {
+        return mtl_files(name, bytes);
+    }
     match FileFormat::from_content(bytes).or_else(|| FileFormat::from_extension(path)) {
         Some(FileFormat::Gltf) => gltf_files(bytes),
-        Some(FileFormat::Obj) => obj_files(path.parent().unwrap_or(Path::new("")), bytes),
+        Some(FileFormat::Obj) => obj_files(bytes),
         Some(FileFormat::Ply) => ply_files(bytes),
         Some(FileFormat::Stl | FileFormat::ThreeMf) | None => Vec::new(),
     }
@@ -38,43 +44,40 @@ fn gltf_files(bytes: &[u8]) -> Vec<String> {
     names.filter(|uri| !uri.starts_with("data:")).map(|uri| percent_decode(&uri)).collect()
 }
 
-/// The material libraries of an OBJ file and, after each, the textures that it names.
-///
-/// `mtllib` takes one name, which may contain spaces, or several; a texture is looked for beside
-/// its library, beside the model, and there by the last part of its name alone.
-fn obj_files(folder: &Path, bytes: &[u8]) -> Vec<String> {
+/// The material libraries of an OBJ file: `mtllib` takes one name, which may contain spaces, or
+/// several.
+fn obj_files(bytes: &[u8]) -> Vec<String> {
     let mut files = Vec::new();
     for statement in statements(bytes, |keyword| keyword == "mtllib").take(MAX_NAMES) {
         let words = statement.split_ascii_whitespace().map(str::to_owned);
-        for library in std::iter::once(statement.clone()).chain(words.take(MAX_WORDS)) {
-            let text = std::fs::read(folder.join(&library)).unwrap_or_default();
-            let beside = library.rfind('/').map_or("", |slash| &library[..=slash]).to_owned();
-            files.push(library);
-            for texture in statements(&text, is_texture).take(MAX_NAMES) {
-                push_texture(&mut files, &beside, &texture);
-            }
-        }
+        files.extend(words.take(MAX_WORDS).filter(|word| *word != statement));
+        files.push(statement);
     }
     files
 }
 
-/// Whether a statement of a material library, in lower case, names a texture.
-fn is_texture(keyword: &str) -> bool {
-    keyword.starts_with("map_") || matches!(keyword, "bump" | "norm")
-}
-
-/// Pushes the places of a texture whose name is the end of a statement: options come before it, and
-/// it may contain spaces.
-fn push_texture(files: &mut Vec<String>, beside: &str, statement: &str) {
-    let mut rest = statement;
-    for _ in 0..MAX_WORDS {
-        let name = rest.replace('\\', "/");
-        files.push(format!("{beside}{name}"));
-        files.push(name.rsplit('/').next().unwrap_or_default().to_owned());
-        files.push(name);
-        let Some((_, after)) = rest.split_once(|c: char| c.is_ascii_whitespace()) else { return };
-        rest = after.trim_start();
+/// The textures of a material library, which are looked for beside it, beside the model, and there
+/// by the last part of their name alone.
+fn mtl_files(name: &str, bytes: &[u8]) -> Vec<String> {
+    let folder = name.rfind('/').map_or("", |slash| &name[..=slash]);
+    let is_texture =
+        |keyword: &str| keyword.starts_with("map_") || matches!(keyword, "bump" | "norm");
+    let mut files = Vec::new();
+    for statement in statements(bytes, is_texture).take(MAX_NAMES) {
+        // Options come before the name, and it may contain spaces.
+        let mut rest = statement.as_str();
+        for _ in 0..MAX_WORDS {
+            let name = rest.replace('\\', "/");
+            files.push(format!("{folder}{name}"));
+            files.push(name.rsplit('/').next().unwrap_or_default().to_owned());
+            files.push(name);
+            let Some((_, after)) = rest.split_once(|c: char| c.is_ascii_whitespace()) else {
+                break;
+            };
+            rest = after.trim_start();
+        }
     }
+    files
 }
 
 /// The arguments of all statements of a text whose keyword, in lower case, is accepted.
@@ -160,26 +163,20 @@ mod tests {
     }
 
     #[test]
-    fn libraries_of_obj_bring_their_textures() {
-        let folder = std::env::temp_dir().join(format!("alberti-files-{}", std::process::id()));
-        std::fs::create_dir_all(folder.join("sub")).expect("a folder");
-        let library = "newmtl a\nKd 1 0 0\n  map_Kd -s 2 2 1 C:\\wood grain.png\r\nNORM n.png\n";
-        std::fs::write(folder.join("sub/a b.mtl"), library).expect("a file");
-        let files = referenced_files(
-            &folder.join("a.obj"),
-            b"# mtllib no.mtl\nv 0 0 0\nmtllib sub/a b.mtl\nf 1 1 1\n",
-        );
-        let has = |name: &str| files.iter().any(|file| file == name);
-        assert!(has("sub/a b.mtl") && has("sub/a") && has("b.mtl"), "{files:?}");
-        assert!(has("wood grain.png") && has("n.png") && has("sub/n.png"), "{files:?}");
-        assert!(!files.iter().any(|file| file.contains("no.mtl")), "{files:?}");
-        let _ = std::fs::remove_dir_all(&folder);
+    fn models_name_libraries_and_libraries_textures() {
+        let obj = b"# mtllib no.mtl\nv 0 0 0\nmtllib sub/a b.mtl\nf 1 1 1\n";
+        assert_eq!(referenced_files("a.obj", obj), ["sub/a", "b.mtl", "sub/a b.mtl"]);
+        let library = b"newmtl a\nKd 1 0 0\n  map_Kd -s 2 2 1 C:\\wood grain.png\r\nNORM n.png\n";
+        let files = referenced_files("sub/a b.mtl", library);
+        for name in ["wood grain.png", "n.png", "sub/n.png"] {
+            assert!(files.iter().any(|file| file == name), "{name}: {files:?}");
+        }
     }
 
     #[test]
     fn textures_of_ply_are_named_in_comments_of_its_header() {
         let ply = b"ply\r\nformat ascii 1.0\r\ncomment TextureFile a b.png\r\nend_header\r\n\
             comment TextureFile no.png";
-        assert_eq!(referenced_files(Path::new("a.ply"), ply), ["a b.png"]);
+        assert_eq!(referenced_files("a.ply", ply), ["a b.png"]);
     }
 }
