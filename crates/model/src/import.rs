@@ -27,6 +27,7 @@ pub(crate) mod gltf;
 pub(crate) mod image_decoder;
 mod limits;
 pub(crate) mod memory_budget;
+mod memory_folder;
 mod name_or_index;
 mod normals;
 mod obj;
@@ -49,6 +50,7 @@ pub use file_format::FileFormat;
 pub use gltf::{ExtensionUse, extension_use};
 pub use image_decoder::decode_bounded as decode_image;
 pub use limits::Limits;
+pub use memory_folder::MemoryFolder;
 pub use name_or_index::NameOrIndex;
 
 use crate::diagnostic::{Diagnostic, Severity, codes};
@@ -163,6 +165,40 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
         .and_then(|resolver| import_model(path, bytes, &resolver, options));
     loaded.map_err(|diagnostic| ImportError {
         file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
+}
+
+/// Loads a model from a file of a folder in memory, as [`load`] does from one of the disk.
+///
+/// Relative URIs are resolved within the folder; neither [`root`](ImportOptions::root) nor
+/// [`allow_outside`](ImportOptions::allow_outside) matters, and no file of the disk is read.
+///
+/// ```
+/// use model::import::{MemoryFolder, load_from_memory};
+/// let mut folder = MemoryFolder::default();
+/// folder.insert("triangle.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec());
+/// let model = load_from_memory(&folder, "triangle.obj", &Default::default())?;
+/// assert_eq!(model.meshes[0].primitives[0].indices.len(), 3);
+/// # Ok::<(), model::ImportError>(())
+/// ```
+///
+/// # Errors
+/// There is no such file in the folder; else as for [`load`].
+pub fn load_from_memory(
+    folder: &MemoryFolder,
+    path: &str,
+    options: &ImportOptions,
+) -> Result<Model, ImportError> {
+    let import = || {
+        let missing = || uri_resolver::missing_file("", path);
+        let bytes = folder.file(path).ok_or_else(missing)?;
+        let resolver = UriResolver::in_memory_folder(folder, path, bytes.len(), options);
+        uri_resolver::check_file_size(bytes.len(), &options.limits)?;
+        import_model(Path::new(path), bytes, &resolver, options)
+    };
+    import().map_err(|diagnostic| ImportError {
+        file: PathBuf::from(path),
         diagnostic: Box::new(diagnostic),
     })
 }

@@ -9,6 +9,7 @@
 
 use super::ImportOptions;
 use super::limits::Limits;
+use super::memory_folder::{MemoryFolder, normalize_path};
 use crate::diagnostic::{Diagnostic, codes};
 use base64::Engine;
 use base64::alphabet;
@@ -21,14 +22,25 @@ use std::path::{Component, Path, PathBuf};
 /// Reads the files and data URIs that a file refers to.
 #[derive(Debug)]
 pub(crate) struct UriResolver<'a> {
-    /// Where files may be; `None` if none may be read.
-    sandbox: Option<AssetSandbox>,
+    /// Where files may be.
+    source: AssetSource<'a>,
     /// The limits in effect.
     pub(crate) limits: &'a Limits,
     /// Whether a missing file is only a warning; see [`ImportOptions::lenient`].
     pub(crate) lenient: bool,
     /// Bytes that have been read so far.
     bytes_read: Cell<u64>,
+}
+
+/// Where referenced files may be.
+#[derive(Debug)]
+enum AssetSource<'a> {
+    /// Nowhere: the file is in memory, without a folder.
+    Nowhere,
+    /// In folders of the disk.
+    Disk(AssetSandbox),
+    /// In a folder in memory, relative to the folder of the file within it.
+    Memory(&'a MemoryFolder, String),
 }
 
 /// The folders that referenced files may be in.
@@ -68,6 +80,19 @@ impl<'a> UriResolver<'a> {
         Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
     }
 
+    /// A resolver for a file of a folder in memory: its assets are in the same folder.
+    pub(crate) fn in_memory_folder(
+        folder: &'a MemoryFolder,
+        path: &str,
+        length: usize,
+        options: &'a ImportOptions,
+    ) -> Self {
+        let base = path.rsplit_once('/').map_or("", |(base, _)| base).to_owned();
+        let ImportOptions { limits, lenient, .. } = options;
+        let (source, bytes_read) = (AssetSource::Memory(folder, base), Cell::new(length as u64));
+        Self { source, limits, lenient: *lenient, bytes_read }
+    }
+
     /// A resolver for assets whose paths begin at a folder and stay below a root.
     ///
     /// # Errors
@@ -80,11 +105,11 @@ impl<'a> UriResolver<'a> {
         let ImportOptions { limits, lenient, allow_outside, .. } = options;
         let further = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
         let further: Vec<PathBuf> = further.collect::<Result<_, _>>()?;
-        let sandbox = sandbox.map(|(folder, root)| {
+        let source = sandbox.map_or(AssetSource::Nowhere, |(folder, root)| {
             let roots = std::iter::once(root).chain(further).collect();
-            AssetSandbox { folder, roots }
+            AssetSource::Disk(AssetSandbox { folder, roots })
         });
-        Ok(Self { sandbox, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
+        Ok(Self { source, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
     }
 
     /// The bytes that a URI refers to; `pointer` is the location of the URI.
@@ -96,7 +121,7 @@ impl<'a> UriResolver<'a> {
             Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
                 decode_data_uri(data, pointer)?
             }
-            _ => read_file(&self.locate_file(uri, pointer)?, self.limits, pointer)?,
+            _ => self.read_asset(uri, pointer)?,
         };
         self.bytes_read.set(self.bytes_read.get().saturating_add(bytes.len() as u64));
         if self.bytes_read.get() > self.limits.total_bytes {
@@ -116,41 +141,64 @@ impl<'a> UriResolver<'a> {
         self.bytes_read.get()
     }
 
-    /// The file that a URI names: taken literally, else percent-decoded, else with `\` read as `/`.
+    /// The content of the file that a URI names: taken literally, else percent-decoded, else with
+    /// `\` read as `/`.
     ///
     /// Exporters disagree about escaping, and some write paths of Windows; the first candidate that
     /// exists is taken. Each candidate is checked against the sandbox.
     ///
     /// # Errors
-    /// The path leaves the sandbox, has a scheme, or no candidate exists.
-    fn locate_file(&self, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
+    /// The path leaves the sandbox, has a scheme, no candidate exists, or the file is too large.
+    fn read_asset(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
         }
-        let Some(sandbox) = &self.sandbox else {
-            let message = format!("the model is in memory and may not read the file {uri:?}");
-            return Err(forbidden_path(pointer, &message));
-        };
         let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
         let candidates =
             [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
         for candidate in candidates.into_iter().flatten() {
-            let path = sandbox.path_below_root(&candidate, pointer)?;
-            if let Ok(path) = path.canonicalize() {
-                return sandbox.check_path(path, uri, pointer);
+            if let Some(bytes) = self.read_candidate(&candidate, uri, pointer)? {
+                return Ok(bytes);
             }
         }
         Err(match uri_scheme(uri) {
             Some(scheme) => {
                 forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
             }
-            None => Diagnostic::error(
-                codes::IO_ERROR,
-                pointer,
-                format!("the file {uri:?} does not exist"),
-                "put it beside the model",
-            ),
+            None => missing_file(pointer, uri),
         })
+    }
+
+    /// The content of the file of a relative path, or `None` if there is none.
+    ///
+    /// # Errors
+    /// The path leaves the sandbox, or the file is too large or not a regular one.
+    fn read_candidate(
+        &self,
+        path: &str,
+        uri: &str,
+        pointer: &str,
+    ) -> Result<Option<Vec<u8>>, Diagnostic> {
+        match &self.source {
+            AssetSource::Nowhere => {
+                let message = format!("the model is in memory and may not read the file {uri:?}");
+                Err(forbidden_path(pointer, &message))
+            }
+            AssetSource::Disk(sandbox) => {
+                let Ok(path) = sandbox.path_below_root(path, pointer)?.canonicalize() else {
+                    return Ok(None);
+                };
+                let path = sandbox.check_path(path, uri, pointer)?;
+                read_file(&path, self.limits, pointer).map(Some)
+            }
+            AssetSource::Memory(folder, base) => {
+                let outside = || {
+                    forbidden_path(pointer, &format!("{path:?} is outside of the model's folder"))
+                };
+                let path = normalize_path(base, path).ok_or_else(outside)?;
+                Ok(folder.file(&path).map(<[u8]>::to_vec))
+            }
+        }
     }
 }
 
@@ -269,6 +317,29 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
         _ => (format!("{name} cannot be read: {error}"), "check the file"),
     };
     Diagnostic::error(codes::IO_ERROR, pointer, message, help)
+}
+
+/// The error for a file that is not there.
+pub(crate) fn missing_file(pointer: &str, name: &str) -> Diagnostic {
+    let message = format!("the file {name:?} does not exist");
+    Diagnostic::error(codes::IO_ERROR, pointer, message, "put it beside the model")
+}
+
+/// Checks the size of a file that is in memory.
+///
+/// # Errors
+/// It is larger than the limit.
+pub(crate) fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic> {
+    let (length, allowed) = (length as u64, limits.file_bytes);
+    if length <= allowed {
+        return Ok(());
+    }
+    Err(Diagnostic::limit_exceeded(
+        "",
+        &format!("the file has {length} bytes"),
+        "file_bytes",
+        allowed,
+    ))
 }
 
 /// The error for a path outside of the sandbox.

@@ -58,6 +58,16 @@ impl<'a> Textures<'a> {
         Self { mip_chains, chain_indices }
     }
 
+    /// The chains with copies of the full images, so that a program can keep them beside the models
+    /// they belong to.
+    #[must_use]
+    pub fn into_owned(self) -> Textures<'static> {
+        let own = |chains: ColorAndData<'_>| chains.map(|chain| chain.map(MipChain::into_owned));
+        let own_model = |chains: Vec<ColorAndData<'_>>| chains.into_iter().map(own).collect();
+        let mip_chains = self.mip_chains.into_iter().map(own_model).collect();
+        Textures { mip_chains, chain_indices: self.chain_indices }
+    }
+
     /// The chain of a texture of the model with this index in the scene, for a material slot.
     pub(super) fn mip_chain(
         &self,

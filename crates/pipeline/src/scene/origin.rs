@@ -6,6 +6,7 @@ use super::insets::is_viewport_field;
 use super::syntax::{PathStep, has_value, span_of};
 use super::validate::with_errors_of_description;
 use super::{ResolveError, SceneError, SceneErrors, SceneFile};
+use model::import::MemoryFolder;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -25,8 +26,19 @@ pub struct Origin {
     includes: IncludeMap,
     /// The viewport that is spoken of.
     viewport: Option<usize>,
-    /// The file of a bare model, if it is in memory.
-    pub(super) model: Option<Arc<[u8]>>,
+    /// Where the files of its models are.
+    pub(super) models: ModelSource,
+}
+
+/// Where the files of models are.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) enum ModelSource {
+    /// On the disk, from the folder of the scene on.
+    Disk,
+    /// One file in memory, which is complete in itself.
+    Bytes(Arc<[u8]>),
+    /// In a folder in memory.
+    Memory(MemoryFolder),
 }
 
 impl Origin {
@@ -39,8 +51,32 @@ impl Origin {
             folder,
             includes: IncludeMap::default(),
             viewport: None,
-            model: None,
+            models: ModelSource::Disk,
         }
+    }
+
+    /// Where a scene comes from whose text is at hand, and whose models are in memory: their paths
+    /// are those of the folder.
+    ///
+    /// ```
+    /// use pipeline::{Origin, Scene, import::MemoryFolder, scene::parse_scene};
+    /// let mut folder = MemoryFolder::default();
+    /// folder.insert("triangle.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec());
+    /// let text = "Scene(models: [Model(path: \"triangle.obj\")])";
+    /// let file = parse_scene("scene.ron", text)?;
+    /// let origin = Origin::from_text_in_memory("scene.ron", text, folder);
+    /// let scene = Scene::resolve(&origin, &file, &Default::default())?;
+    /// assert_eq!(scene.world_points().len(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn from_text_in_memory(
+        file: impl Into<String>,
+        text: impl Into<String>,
+        models: MemoryFolder,
+    ) -> Self {
+        let models = ModelSource::Memory(models);
+        Self { models, ..Self::from_text(file, text, PathBuf::new()) }
     }
 
     /// Reads and parses a scene file and those it includes, which must lie below its folder.
@@ -114,8 +150,9 @@ impl Origin {
     /// itself.
     #[must_use]
     pub fn from_model_bytes(name: &str, bytes: Vec<u8>) -> (Self, SceneFile) {
-        let origin = Self::from_text(name, "", PathBuf::new());
-        (Self { model: Some(bytes.into()), ..origin }, SceneFile::from_model_path(name.to_owned()))
+        let models = ModelSource::Bytes(bytes.into());
+        let origin = Self { models, ..Self::from_text(name, "", PathBuf::new()) };
+        (origin, SceneFile::from_model_path(name.to_owned()))
     }
 
     /// Whether a model of a scene file may be read: it must be below the file's folder, or below
@@ -124,7 +161,8 @@ impl Origin {
     /// anywhere: a person has named it.
     #[must_use]
     pub fn allows_path(&self, path: &Path, allowed: &[PathBuf]) -> bool {
-        if self.text.is_empty() {
+        // A folder in memory has no outside; loading tells which files it lacks.
+        if self.text.is_empty() || self.models != ModelSource::Disk {
             return true;
         }
         let here = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };

@@ -11,6 +11,7 @@ use super::instances;
 use super::lights::resolve_lights;
 use super::material_overrides::override_materials;
 use super::number::Positive;
+use super::origin::ModelSource;
 use super::overlays::resolve_overlays;
 use super::section::resolve_sections;
 use super::style::resolve_style;
@@ -21,7 +22,7 @@ use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
 use homog::Bounds;
-use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes};
+use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes, load_from_memory};
 use model::world_points;
 use model::{LengthUnit, Model, ModelInstance, UpAxis};
 use raster::Samples;
@@ -291,7 +292,9 @@ impl ModelError {
             Self::File(error) if origin.text.is_empty() => error.into(),
             Self::File(error) => {
                 let at = [Field("models"), Index(number), Field("path")];
-                let help = suggest_model_file(&origin.folder, &entry.path);
+                let on_disk = origin.models == ModelSource::Disk;
+                let suggest = || suggest_model_file(&origin.folder, &entry.path);
+                let help = on_disk.then(suggest).flatten();
                 origin
                     .error_at(&at, format!("{}: {}", entry.path, error.diagnostic.sentence()), help)
                     .into()
@@ -354,9 +357,10 @@ pub(super) fn load_model(
         crease_angle: options.import.crease_angle.or(resolve_crease(origin, number, entry)?),
         ..options.import.clone()
     };
-    let loaded = match &origin.model {
-        Some(bytes) => load_bytes(&entry.path, bytes, &import),
-        None => load(&origin.folder.join(&entry.path), &import),
+    let loaded = match &origin.models {
+        ModelSource::Bytes(bytes) => load_bytes(&entry.path, bytes, &import),
+        ModelSource::Memory(folder) => load_from_memory(folder, &entry.path, &import),
+        ModelSource::Disk => load(&origin.folder.join(&entry.path), &import),
     };
     let mut model = loaded.map_err(|error| choice_error(origin, number, entry, error))?;
     if entry.animation.is_some() || entry.time.is_some() {

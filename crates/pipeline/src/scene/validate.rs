@@ -16,7 +16,7 @@ use super::file::SceneFile;
 use super::include::FileMistake;
 use super::insets::{resolve_border, resolve_insets, resolve_viewport_rect};
 use super::lights::check_light;
-use super::origin::Origin;
+use super::origin::{ModelSource, Origin};
 use super::overlays::resolve_overlays;
 use super::resolve::{
     ModelError, load_model, missing_model_error, outside_folder_error, resolve_image,
@@ -221,7 +221,7 @@ fn errors_of_model_paths(
     let path_error = |(index, entry): (usize, &super::file::ModelFile)| {
         let error = if origin.allows_path(Path::new(&entry.path), allowed) {
             let path = origin.folder.join(&entry.path);
-            let is_missing = !path.exists() && origin.model.is_none();
+            let is_missing = origin.models == ModelSource::Disk && !path.exists();
             let missing = is_missing.then(|| load(&path, &ImportOptions::default()).err());
             ModelError::File(missing.flatten()?)
         } else {

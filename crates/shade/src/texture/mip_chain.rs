@@ -75,6 +75,17 @@ impl<'a> MipChain<'a> {
         }
     }
 
+    /// The chain with a copy of the full image, independent of the image's lifetime.
+    #[must_use]
+    pub fn into_owned(self) -> MipChain<'static> {
+        let own = |level: MipLevel<'_>| {
+            let texels = Cow::Owned(level.texels.into_owned());
+            MipLevel { width: level.width, height: level.height, texels }
+        };
+        let levels = self.levels.into_iter().map(own).collect();
+        MipChain { levels, addressing: self.addressing, srgb_table: self.srgb_table }
+    }
+
     /// All that decides which texels are read.
     #[inline(always)]
     pub(crate) const fn addressing(&self) -> &TexelAddressing {

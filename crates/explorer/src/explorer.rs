@@ -1,0 +1,184 @@
+//! The explorer: from a query string to a picture, numbers or sentences.
+
+use crate::ExplorerError;
+use crate::catalogue::catalogue_json;
+use crate::facts::Facts;
+use crate::lesson_state::LessonState;
+use crate::model_store::{LoadedScene, ModelStore};
+use crate::outside_view::{Observer, volume_scene, world_scene};
+use crate::pane_picture::PanePicture;
+use crate::request::{DEFAULT_SIZE, Question, Request};
+use crate::state_answer::state_json;
+use crate::words::sentence;
+use pipeline::scene::Scene;
+use pipeline::{Picture, Textures};
+use std::sync::Arc;
+
+/// What a request is answered with.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Answer {
+    /// The media type of the bytes, such as `image/svg+xml`; `application/octet-stream` for pixels:
+    /// sRGB with straight alpha, four bytes each, rows from the top.
+    pub content_type: &'static str,
+    /// The answer.
+    pub bytes: Vec<u8>,
+}
+
+/// Lessons on the viewing pipeline: answers requests about their states.
+///
+/// Models that were loaded and scenes that were resolved are kept, so that a drag of a control
+/// costs a picture and nothing else. Answers do not depend on the requests before.
+#[derive(Debug, Default)]
+pub struct Explorer {
+    store: ModelStore,
+    picture: PanePicture,
+    /// The pane `world` with its scene, by the key of its state.
+    world: Pane,
+    volume: Pane,
+}
+
+/// A pane around the picture: its pictures, and its last scene.
+#[derive(Debug, Default)]
+struct Pane {
+    picture: PanePicture,
+    scene: Option<(String, Arc<Scene>)>,
+}
+
+impl Explorer {
+    /// An explorer without files.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a file that models are loaded from, or replaces the one of this name: `name` is its
+    /// path in scene files, such as `models/house.glb`, and the buffers and images of a `.gltf`
+    /// file are found beside it.
+    ///
+    /// # Errors
+    /// The name is empty, absolute, or leads out of the folder of the files.
+    pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
+        self.store.add_file(name, bytes)?;
+        // Kept pictures may show the file that was replaced.
+        (self.picture, self.world, self.volume) = Default::default();
+        Ok(())
+    }
+
+    /// Answers a request: a query string, as the README lists its keys.
+    ///
+    /// # Errors
+    /// An unknown, repeated or malformed key; a model that is missing or broken; a scene that makes
+    /// no sense. The explorer is as before.
+    pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
+        let request = Request::parse(query)?;
+        match request.question {
+            Question::Lessons => Ok(json_answer(&catalogue_json())),
+            Question::State => self.state(&request),
+            Question::Picture => self.picture(&request),
+            Question::World | Question::Volume => self.pane(&request),
+            Question::Depth | Question::Drawing | Question::Pick => {
+                Err(ExplorerError::new("not_yet", "this cannot be asked yet", "ask something else"))
+            }
+        }
+    }
+
+    /// The text of the scene and the scene, for a picture of some size.
+    fn load(
+        &mut self,
+        state: &LessonState,
+        size: [u32; 2],
+        samples: u32,
+    ) -> Result<(String, LoadedScene), ExplorerError> {
+        let values = state.values(size);
+        let mut description = (state.lesson.describe)(&values);
+        if let Some(style) = state.style {
+            description.style = if style == "Lines" { "Lines()".into() } else { style.into() };
+        }
+        self.check_models(state)?;
+        let text = description.to_text(state.lesson.title.en, size, samples);
+        let loaded = self.store.resolve(&text, &description.models)?;
+        Ok((text, loaded))
+    }
+
+    /// Checks that the models of a state have been added.
+    fn check_models(&self, state: &LessonState) -> Result<(), ExplorerError> {
+        let own = state.model.as_deref().filter(|_| state.lesson.models.is_empty());
+        let missing =
+            state.lesson.models.iter().copied().chain(own).find(|name| !self.store.has_file(name));
+        if let Some(name) = missing {
+            let message = format!("the file `{name}` is not here");
+            let help = "add it first: drop it onto the page, or give it to the program";
+            return Err(ExplorerError::new("missing_model", message, help));
+        }
+        if state.lesson.models.is_empty() && own.is_none() {
+            return Err(ExplorerError::in_language(
+                "missing_model",
+                state.language,
+                sentence("no model has been chosen", "还没有选择模型"),
+                sentence("drop a model onto the page", "请把模型文件拖放到页面上"),
+            ));
+        }
+        Ok(())
+    }
+
+    fn state(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+        let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
+        let facts = Facts::new(&loaded);
+        Ok(json_answer(&state_json(request, &text, &loaded, &facts)?))
+    }
+
+    fn picture(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+        let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
+        let pane = (&*loaded.scene, &loaded.models.textures);
+        answer_with_pixels(&mut self.picture, request, &text, pane)
+    }
+
+    /// A pane around the picture.
+    fn pane(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+        let Request { question, state, size, samples, .. } = request;
+        let is_world = *question == Question::World;
+        let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
+        let observer = Observer { orbit, size: *size, samples: *samples };
+        // The state's own picture does not have the shape of the pane.
+        let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
+        let key = format!("{observer:?} {text}");
+        let known = if is_world { &self.world.scene } else { &self.volume.scene };
+        let known = known.as_ref().filter(|(known, _)| *known == key);
+        let scene = match known {
+            Some((_, scene)) => Arc::clone(scene),
+            None if is_world => {
+                let (_, defaults) = self.load(&state.with_defaults(), DEFAULT_SIZE, 4)?;
+                Arc::new(world_scene(&loaded, &defaults, observer)?)
+            }
+            None => Arc::new(volume_scene(&loaded, state.lesson.conventions, observer)?),
+        };
+        let pane = if is_world { &mut self.world } else { &mut self.volume };
+        pane.scene = Some((key.clone(), Arc::clone(&scene)));
+        let textures = Textures::for_models(&[]);
+        answer_with_pixels(&mut pane.picture, request, &key, (&scene, &textures))
+    }
+}
+
+fn answer_with_pixels(
+    pane: &mut PanePicture,
+    request: &Request,
+    key: &str,
+    (scene, textures): (&Scene, &Textures<'_>),
+) -> Result<Answer, ExplorerError> {
+    if let Some(rows) = request.rows {
+        return Ok(pixels_answer(pane.band(key, scene, textures, rows)?));
+    }
+    let whole: &Picture = pane.whole(key, scene, textures)?;
+    Ok(match request.is_png {
+        true => Answer { content_type: "image/png", bytes: whole.to_png() },
+        false => pixels_answer(whole.pixels.as_flattened().to_vec()),
+    })
+}
+
+fn pixels_answer(bytes: Vec<u8>) -> Answer {
+    Answer { content_type: "application/octet-stream", bytes }
+}
+
+fn json_answer(json: &serde_json::Value) -> Answer {
+    Answer { content_type: "application/json", bytes: json.to_string().into_bytes() }
+}

@@ -1,0 +1,169 @@
+//! A lesson: its statement, its parameters, and the scene that they make.
+
+use crate::facts::Facts;
+use crate::scene_description::SceneDescription;
+use crate::words::{Sentence, Words};
+use pipeline::explain::ApiConventions;
+
+/// A lesson of the explorer.
+#[derive(Debug)]
+pub(crate) struct Lesson {
+    /// The identifier in links.
+    pub(crate) id: &'static str,
+    /// Where it comes from.
+    pub(crate) source: Source,
+    /// The items of the sources' inventory that it shows.
+    pub(crate) items: &'static [&'static str],
+    pub(crate) title: Words,
+    /// What it teaches, in a sentence or two.
+    pub(crate) statement: Words,
+    /// The files of its models, as the scene names them.
+    pub(crate) models: &'static [&'static str],
+    pub(crate) parameters: &'static [Parameter],
+    /// The panes that have something to show.
+    pub(crate) panes: &'static [&'static str],
+    /// The point of the world that is pinned at first.
+    pub(crate) pin: [f64; 3],
+    /// Azimuth and elevation of the pane `world` at first, in degrees.
+    pub(crate) orbit: [f64; 2],
+    /// The conventions of all numbers that are told.
+    pub(crate) conventions: ApiConventions,
+    /// The scene of some values.
+    pub(crate) describe: fn(&Values<'_>) -> SceneDescription,
+    /// What follows from the values, besides what is clipped.
+    pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
+}
+
+/// Where a lesson comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Source {
+    /// The tutorial *Learn WebGL*.
+    LearnWebGl,
+    /// The chapter on viewing of *Fundamentals of Computer Graphics*.
+    Chapter,
+    /// The slides of a course on projections.
+    Slides,
+    /// The user's own model.
+    Own,
+}
+
+impl Source {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::LearnWebGl => "learnwebgl",
+            Self::Chapter => "chapter",
+            Self::Slides => "slides",
+            Self::Own => "own",
+        }
+    }
+}
+
+/// A control of a lesson.
+#[derive(Debug)]
+pub(crate) struct Parameter {
+    pub(crate) key: &'static str,
+    pub(crate) label: Words,
+    /// `°`, or empty for the units of the scene and plain ratios.
+    pub(crate) unit: &'static str,
+    pub(crate) domain: Domain,
+}
+
+/// The values that a parameter may have.
+#[derive(Debug)]
+pub(crate) enum Domain {
+    Number {
+        min: f64,
+        max: f64,
+        step: f64,
+        default: f64,
+    },
+    /// One of several; the first is the default.
+    Choice(&'static [Choice]),
+}
+
+/// One of the values of a parameter.
+#[derive(Debug)]
+pub(crate) struct Choice {
+    pub(crate) value: &'static str,
+    pub(crate) label: Words,
+}
+
+/// A number from `range[0]` to `range[1]`.
+pub(crate) const fn number(
+    key: &'static str,
+    label: Words,
+    unit: &'static str,
+    [min, max]: [f64; 2],
+    [step, default]: [f64; 2],
+) -> Parameter {
+    Parameter { key, label, unit, domain: Domain::Number { min, max, step, default } }
+}
+
+/// A choice; the first is the default.
+pub(crate) const fn choice(
+    key: &'static str,
+    label: Words,
+    choices: &'static [Choice],
+) -> Parameter {
+    Parameter { key, label, unit: "", domain: Domain::Choice(choices) }
+}
+
+/// The value of a parameter.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum ParameterValue {
+    Number(f64),
+    Choice(&'static str),
+}
+
+impl Parameter {
+    pub(crate) const fn default_value(&self) -> ParameterValue {
+        match self.domain {
+            Domain::Number { default, .. } => ParameterValue::Number(default),
+            Domain::Choice(choices) => ParameterValue::Choice(choices[0].value),
+        }
+    }
+}
+
+/// The values of all parameters of a lesson, and what else its scene depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct Values<'a> {
+    pub(crate) lesson: &'static Lesson,
+    /// One for each parameter, in their order.
+    pub(crate) parameters: &'a [ParameterValue],
+    /// Width and height of the picture in pixels.
+    pub(crate) size: [u32; 2],
+    /// The file of the lesson `model`.
+    pub(crate) model: Option<&'a str>,
+}
+
+impl Values<'_> {
+    /// The number of a parameter.
+    pub(crate) fn number(&self, key: &str) -> f64 {
+        let value = self.value(key);
+        debug_assert!(matches!(value, Some(ParameterValue::Number(_))), "no number {key}");
+        match value {
+            Some(ParameterValue::Number(number)) => number,
+            _ => 0.0,
+        }
+    }
+
+    /// The choice of a parameter.
+    pub(crate) fn choice(&self, key: &str) -> &'static str {
+        let value = self.value(key);
+        debug_assert!(matches!(value, Some(ParameterValue::Choice(_))), "no choice {key}");
+        match value {
+            Some(ParameterValue::Choice(choice)) => choice,
+            _ => "",
+        }
+    }
+
+    fn value(&self, key: &str) -> Option<ParameterValue> {
+        let at = self.lesson.parameters.iter().position(|parameter| parameter.key == key)?;
+        self.parameters.get(at).copied()
+    }
+
+    /// Width over height of the picture.
+    pub(crate) fn aspect(&self) -> f64 {
+        f64::from(self.size[0]) / f64::from(self.size[1])
+    }
+}

@@ -1,0 +1,234 @@
+//! The state of the page: a lesson, its values, the pinned point and the orbits, as a query string.
+
+use crate::ExplorerError;
+use crate::lesson::{Choice, Domain, Lesson, Parameter, ParameterValue, Values};
+use crate::lessons::LESSONS;
+use crate::query::{Query, encode};
+use crate::words::{Language, sentence};
+
+/// The version of the keys.
+const VERSION: &str = "1";
+
+/// Where the canonical view volume is seen from at first: azimuth and elevation in degrees.
+const VOLUME_ORBIT: [f64; 2] = [35.0, 25.0];
+
+/// The styles that a lesson can be drawn in, as scene files name them.
+pub(crate) const STYLES: [&str; 13] = [
+    "Shaded",
+    "Flat",
+    "Gouraud",
+    "Clay",
+    "Matcap",
+    "Normals",
+    "Depth",
+    "UvChecker",
+    "Ids",
+    "Toon",
+    "XRay",
+    "Wireframe",
+    "Lines",
+];
+
+/// The state of the page.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct LessonState {
+    pub(crate) lesson: &'static Lesson,
+    /// One for each parameter of the lesson.
+    pub(crate) parameters: Vec<ParameterValue>,
+    /// The pinned point; `None` for that of the lesson.
+    pin: Option<[f64; 3]>,
+    orbit: Option<[f64; 2]>,
+    volume_orbit: Option<[f64; 2]>,
+    pub(crate) style: Option<&'static str>,
+    /// The name of the user's own model.
+    pub(crate) model: Option<String>,
+    pub(crate) language: Language,
+}
+
+impl PartialEq for &'static Lesson {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl LessonState {
+    /// Takes the keys of the state out of a query.
+    ///
+    /// # Errors
+    /// Another version, an unknown lesson or style, a malformed number, a value out of range.
+    pub(crate) fn take_from(query: &mut Query) -> Result<Self, ExplorerError> {
+        check_version(query.take("v"))?;
+        let language = take_language(query)?;
+        let lesson = find_lesson(query.take("lesson").as_deref())?;
+        let take = |parameter: &Parameter| match query.take(parameter.key) {
+            None => Ok(parameter.default_value()),
+            Some(text) => parse_value(parameter, &text, language),
+        };
+        let parameters = lesson.parameters.iter().map(take).collect::<Result<_, _>>()?;
+        let pin = take_numbers(query, "pin", 1e9)?;
+        let orbit = take_numbers(query, "orbit", 1e6)?;
+        let volume_orbit = take_numbers(query, "volume_orbit", 1e6)?;
+        let style = query.take("style").map(|style| find_style(&style)).transpose()?;
+        let model = query.take("model").filter(|name| !name.is_empty());
+        Ok(Self { lesson, parameters, pin, orbit, volume_orbit, style, model, language })
+    }
+
+    /// The same lesson with the default of every parameter.
+    pub(crate) fn with_defaults(&self) -> Self {
+        let parameters = self.lesson.parameters.iter().map(Parameter::default_value).collect();
+        Self { parameters, style: None, ..self.clone() }
+    }
+
+    /// The pinned point of the world.
+    pub(crate) fn pin(&self) -> [f64; 3] {
+        self.pin.unwrap_or(self.lesson.pin)
+    }
+
+    /// Azimuth and elevation of the pane `world` in degrees.
+    pub(crate) fn orbit(&self) -> [f64; 2] {
+        self.orbit.unwrap_or(self.lesson.orbit)
+    }
+
+    /// Azimuth and elevation of the pane `volume` in degrees.
+    pub(crate) fn volume_orbit(&self) -> [f64; 2] {
+        self.volume_orbit.unwrap_or(VOLUME_ORBIT)
+    }
+
+    /// The values that the lesson's scene is described by.
+    pub(crate) fn values(&self, size: [u32; 2]) -> Values<'_> {
+        let model = self.model.as_deref();
+        Values { lesson: self.lesson, parameters: &self.parameters, size, model }
+    }
+
+    /// The link to the state: `#v=1&lesson=…`, without what has its default.
+    pub(crate) fn to_link(&self) -> String {
+        let mut link = format!("#v={VERSION}&lesson={}", self.lesson.id);
+        for (parameter, value) in self.lesson.parameters.iter().zip(&self.parameters) {
+            if *value != parameter.default_value() {
+                link += &format!("&{}={}", parameter.key, value_text(*value));
+            }
+        }
+        let mut add_numbers = |key: &str, values: Option<&[f64]>| {
+            let Some(values) = values else { return };
+            let texts: Vec<String> = values.iter().map(f64::to_string).collect();
+            link += &format!("&{key}={}", texts.join(","));
+        };
+        add_numbers("pin", self.pin.as_ref().map(|pin| &pin[..]));
+        add_numbers("orbit", self.orbit.as_ref().map(|orbit| &orbit[..]));
+        add_numbers("volume_orbit", self.volume_orbit.as_ref().map(|orbit| &orbit[..]));
+        link += &self.style.map_or(String::new(), |style| format!("&style={style}"));
+        let model = self.model.as_ref().map(|name| format!("&model={}", encode(name)));
+        link + &model.unwrap_or_default()
+    }
+}
+
+/// A value as in links.
+pub(crate) fn value_text(value: ParameterValue) -> String {
+    match value {
+        ParameterValue::Number(number) => number.to_string(),
+        ParameterValue::Choice(choice) => choice.to_owned(),
+    }
+}
+
+fn check_version(version: Option<String>) -> Result<(), ExplorerError> {
+    match version {
+        Some(version) if version != VERSION => {
+            let message = format!("this link is of version `{version}`");
+            let help = format!("this program reads version {VERSION}: open it with a newer one");
+            Err(ExplorerError::new("other_version", message, help))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn take_language(query: &mut Query) -> Result<Language, ExplorerError> {
+    match query.take("lang").as_deref() {
+        None | Some("en") => Ok(Language::English),
+        Some("zh") => Ok(Language::Chinese),
+        Some(other) => {
+            let message = format!("there is no language `{other}`");
+            Err(ExplorerError::new("malformed_value", message, "give lang=en or lang=zh"))
+        }
+    }
+}
+
+fn find_lesson(id: Option<&str>) -> Result<&'static Lesson, ExplorerError> {
+    let Some(id) = id else { return Ok(LESSONS[0]) };
+    LESSONS.into_iter().find(|lesson| lesson.id == id).ok_or_else(|| {
+        let ids: Vec<&str> = LESSONS.iter().map(|lesson| lesson.id).collect();
+        let message = format!("there is no lesson `{id}`");
+        ExplorerError::new("unknown_lesson", message, format!("there are {}", ids.join(", ")))
+    })
+}
+
+fn find_style(name: &str) -> Result<&'static str, ExplorerError> {
+    STYLES.into_iter().find(|style| *style == name).ok_or_else(|| {
+        let message = format!("there is no style `{name}`");
+        ExplorerError::new("malformed_value", message, format!("there are {}", STYLES.join(", ")))
+    })
+}
+
+/// Parses the value of a parameter.
+fn parse_value(
+    parameter: &Parameter,
+    text: &str,
+    language: Language,
+) -> Result<ParameterValue, ExplorerError> {
+    let Parameter { key, domain, label, .. } = parameter;
+    match *domain {
+        Domain::Number { min, max, .. } => {
+            let number = parse_number(key, text)?;
+            if (min..=max).contains(&number) {
+                return Ok(ParameterValue::Number(number));
+            }
+            Err(ExplorerError::in_language(
+                "value_out_of_range",
+                language,
+                sentence(
+                    format!("`{key}` cannot be {number}"),
+                    format!("{}（`{key}`）不能是 {number}", label.zh),
+                ),
+                sentence(
+                    format!("give a number from {min} to {max}"),
+                    format!("请给出 {min} 到 {max} 之间的数"),
+                ),
+            ))
+        }
+        Domain::Choice(choices) => {
+            let found = choices.iter().find(|choice| choice.value == text);
+            let known = || choices.iter().map(|Choice { value, .. }| *value).collect::<Vec<_>>();
+            found.map(|choice| ParameterValue::Choice(choice.value)).ok_or_else(|| {
+                let message = format!("`{key}` cannot be `{text}`");
+                let help = format!("give one of {}", known().join(", "));
+                ExplorerError::new("malformed_value", message, help)
+            })
+        }
+    }
+}
+
+fn parse_number(key: &str, text: &str) -> Result<f64, ExplorerError> {
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
+    // −0 would be another link to the same state.
+    number.map(|number| number + 0.0).ok_or_else(|| {
+        let message = format!("`{key}` is not a number: `{text}`");
+        ExplorerError::new("malformed_value", message, format!("write it as {key}=2.5"))
+    })
+}
+
+/// Takes a list of numbers, none of them above a limit.
+fn take_numbers<const N: usize>(
+    query: &mut Query,
+    key: &str,
+    limit: f64,
+) -> Result<Option<[f64; N]>, ExplorerError> {
+    let Some(text) = query.take(key) else { return Ok(None) };
+    let numbers: Vec<f64> =
+        text.split(',').map(|number| parse_number(key, number.trim())).collect::<Result<_, _>>()?;
+    let numbers = <[f64; N]>::try_from(numbers).ok();
+    let numbers = numbers.filter(|all| all.iter().all(|number| number.abs() <= limit));
+    numbers.map(Some).ok_or_else(|| {
+        let message = format!("`{key}` cannot be `{text}`");
+        let help = format!("give {N} numbers with commas between them, none above {limit}");
+        ExplorerError::new("malformed_value", message, help)
+    })
+}

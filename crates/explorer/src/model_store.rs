@@ -1,0 +1,111 @@
+//! The files and the loaded models: loaded once, shared by all states of a lesson.
+
+use crate::ExplorerError;
+use crate::triangle_survey::WorldTriangles;
+use model::ModelInstance;
+use model::import::MemoryFolder;
+use pipeline::scene::parse_scene;
+use pipeline::{Origin, Scene, Textures};
+use std::sync::Arc;
+
+/// How many sets of models are kept: the lesson at hand and the one before it.
+const KEPT_SETS: usize = 2;
+/// How many resolved scenes are kept: the state, the defaults, coarse and fine.
+const KEPT_SCENES: usize = 6;
+
+/// A resolved scene with what belongs to its models.
+#[derive(Clone, Debug)]
+pub(crate) struct LoadedScene {
+    pub(crate) scene: Arc<Scene>,
+    pub(crate) models: Arc<LoadedModels>,
+}
+
+/// The models of a scene, and what is computed from them once.
+#[derive(Debug)]
+pub(crate) struct LoadedModels {
+    /// The `models` of the scene file.
+    entries: Vec<String>,
+    instances: Vec<ModelInstance>,
+    pub(crate) textures: Textures<'static>,
+    pub(crate) triangles: WorldTriangles,
+}
+
+/// The files that were added, and what has been loaded of them; the latest last.
+#[derive(Debug, Default)]
+pub(crate) struct ModelStore {
+    folder: MemoryFolder,
+    models: Vec<Arc<LoadedModels>>,
+    scenes: Vec<(String, LoadedScene)>,
+}
+
+impl ModelStore {
+    /// Adds a file, or replaces the one of this name.
+    ///
+    /// # Errors
+    /// The name is no path below the folder of the files.
+    pub(crate) fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExplorerError> {
+        if !self.folder.insert(name, bytes) {
+            let message = format!("`{name}` is no name of a file");
+            let help = "give a relative path, such as models/house.glb";
+            return Err(ExplorerError::new("malformed_value", message, help));
+        }
+        // What was loaded may depend on the file.
+        self.models.clear();
+        self.scenes.clear();
+        Ok(())
+    }
+
+    /// Whether a file has been added.
+    pub(crate) fn has_file(&self, name: &str) -> bool {
+        self.folder.file(name).is_some()
+    }
+
+    /// Resolves the text of a scene; its models are loaded unless they are at hand.
+    ///
+    /// # Errors
+    /// A mistake in the scene, or a model that cannot be loaded.
+    pub(crate) fn resolve(
+        &mut self,
+        text: &str,
+        entries: &[String],
+    ) -> Result<LoadedScene, ExplorerError> {
+        if let Some(at) = self.scenes.iter().position(|(known, _)| known == text) {
+            let found = self.scenes.remove(at);
+            self.scenes.push(found);
+            return Ok(self.scenes[self.scenes.len() - 1].1.clone());
+        }
+        let loaded = self.resolve_anew(text, entries)?;
+        if self.scenes.len() == KEPT_SCENES {
+            self.scenes.remove(0);
+        }
+        self.scenes.push((text.to_owned(), loaded.clone()));
+        Ok(loaded)
+    }
+
+    fn resolve_anew(
+        &mut self,
+        text: &str,
+        entries: &[String],
+    ) -> Result<LoadedScene, ExplorerError> {
+        let file = parse_scene("scene.ron", text)
+            .map_err(|errors| ExplorerError::from(pipeline::ResolveError::Scene(errors)))?;
+        if let Some(models) = self.models.iter().find(|models| models.entries == entries) {
+            let models = Arc::clone(models);
+            let origin = Origin::from_text_in_memory("scene.ron", text, MemoryFolder::default());
+            let scene = Scene::from_models(&origin, &file, models.instances.clone())?;
+            return Ok(LoadedScene { scene: Arc::new(scene), models });
+        }
+        let origin = Origin::from_text_in_memory("scene.ron", text, self.folder.clone());
+        let scene = Scene::resolve(&origin, &file, &Default::default())?;
+        let instances = scene.models.clone();
+        let textures = Textures::for_models(&instances).into_owned();
+        let triangles = WorldTriangles::new(&instances);
+        let entries = entries.to_vec();
+        let models = Arc::new(LoadedModels { entries, instances, textures, triangles });
+        if self.models.len() == KEPT_SETS {
+            self.models.remove(0);
+        }
+        self.models.push(Arc::clone(&models));
+        Ok(LoadedScene { scene: Arc::new(scene), models })
+    }
+}

@@ -1,0 +1,33 @@
+//! Numbers in scene files and in sentences.
+
+/// A number as a person would write it in a scene file: rounded to six decimals.
+pub(crate) fn scene_number(value: f64) -> String {
+    let rounded = libm::round(value * 1e6) / 1e6;
+    // −0 is 0 to a reader.
+    format!("{}", rounded + 0.0)
+}
+
+/// Numbers in brackets, as a scene file has its points.
+pub(crate) fn scene_tuple(values: &[f64]) -> String {
+    let numbers: Vec<String> = values.iter().map(|value| scene_number(*value)).collect();
+    format!("({})", numbers.join(", "))
+}
+
+/// A number with so many decimals at most, without trailing zeros.
+pub(crate) fn decimals(value: f64, count: i32) -> String {
+    let scale = libm::pow(10.0, f64::from(count));
+    format!("{}", libm::round(value * scale) / scale + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(scene_number(0.1 + 0.2), "0.3");
+        assert_eq!(scene_number(-1e-9), "0");
+        assert_eq!(scene_tuple(&[1.0, -2.5]), "(1, -2.5)");
+        assert_eq!(decimals(36.869_897, 1), "36.9");
+    }
+}

@@ -1,0 +1,79 @@
+//! The pictures of a pane: whole or in bands, from the same memory.
+
+use crate::ExplorerError;
+use homog::PixelRect;
+use pipeline::scene::Style;
+use pipeline::{Picture, RenderContext, Renderer, Scene, Textures};
+
+/// The renderer of a pane, and its last whole picture.
+#[derive(Debug, Default)]
+pub(crate) struct PanePicture {
+    renderer: Renderer,
+    /// The last whole picture, with the key of its state.
+    whole: Option<(String, Picture)>,
+}
+
+impl PanePicture {
+    /// The whole picture of a scene; `key` stands for everything that it depends on.
+    ///
+    /// # Errors
+    /// As the renderer.
+    pub(crate) fn whole(
+        &mut self,
+        key: &str,
+        scene: &Scene,
+        textures: &Textures<'_>,
+    ) -> Result<&Picture, ExplorerError> {
+        let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
+        if !known {
+            let mut picture = self.whole.take().map_or_else(Picture::default, |(_, old)| old);
+            let context = RenderContext::new(scene, textures, thread_count());
+            self.renderer.render(&context, &mut picture)?;
+            self.whole = Some((key.to_owned(), picture));
+        }
+        let missing = || ExplorerError::new("cannot_render", "there is no picture", "try again");
+        self.whole.as_ref().map(|(_, picture)| picture).ok_or_else(missing)
+    }
+
+    /// The pixels of some rows of a picture: the same bytes as in the whole.
+    ///
+    /// Surfaces are rendered band by band. Lines and overlays are drawn once for all bands, with
+    /// the whole picture.
+    ///
+    /// # Errors
+    /// As the renderer.
+    pub(crate) fn band(
+        &mut self,
+        key: &str,
+        scene: &Scene,
+        textures: &Textures<'_>,
+        [from, to]: [u32; 2],
+    ) -> Result<Vec<u8>, ExplorerError> {
+        let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
+        if known || !renders_in_bands(scene) {
+            let whole = self.whole(key, scene, textures)?;
+            let width = whole.width as usize;
+            let rows = from as usize * width..to as usize * width;
+            return Ok(whole.pixels[rows].as_flattened().to_vec());
+        }
+        let region = PixelRect { x: 0, y: from, width: scene.image.width, height: to - from };
+        let context = RenderContext::new(scene, textures, thread_count());
+        let mut picture = Picture::default();
+        self.renderer.prepare(&context)?.render_region(region, &mut picture)?;
+        Ok(picture.pixels.as_flattened().to_vec())
+    }
+}
+
+/// Whether nothing but surfaces is drawn, so that a band costs no more than its share.
+fn renders_in_bands(scene: &Scene) -> bool {
+    let has_lines = matches!(scene.style, Style::Toon | Style::XRay);
+    scene.style.draws_surfaces()
+        && !has_lines
+        && scene.overlays.is_empty()
+        && scene.insets.is_empty()
+        && scene.occlusion_radius.is_none()
+}
+
+fn thread_count() -> usize {
+    std::thread::available_parallelism().map_or(1, Into::into)
+}

@@ -1,0 +1,124 @@
+//! Query strings: pairs of keys and values, percent-encoded.
+
+use crate::ExplorerError;
+
+/// The longest query that is read, in bytes.
+const MAX_QUERY_BYTES: usize = 16 * 1024;
+
+/// The pairs of a query string that have not been taken yet, in their order.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Query {
+    pairs: Vec<(String, String)>,
+}
+
+impl Query {
+    /// Parses a query string, with or without a leading `#` or `?`.
+    ///
+    /// # Errors
+    /// A pair without `=`, a broken percent-encoding, a key that occurs twice, a query that is too
+    /// long.
+    pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
+        if text.len() > MAX_QUERY_BYTES {
+            let message = format!("the request has {} bytes", text.len());
+            let help = format!("at most {MAX_QUERY_BYTES} are read");
+            return Err(ExplorerError::new("malformed_query", message, help));
+        }
+        let mut pairs: Vec<(String, String)> = Vec::new();
+        let text = text.strip_prefix(['#', '?']).unwrap_or(text);
+        for pair in text.split('&').filter(|pair| !pair.is_empty()) {
+            let (key, value) = pair.split_once('=').ok_or_else(|| missing_equals_sign(pair))?;
+            let (key, value) = (decode(key)?, decode(value)?);
+            if pairs.iter().any(|(known, _)| *known == key) {
+                let message = format!("the key `{key}` is given twice");
+                return Err(ExplorerError::new("repeated_key", message, "leave one of them out"));
+            }
+            pairs.push((key, value));
+        }
+        Ok(Self { pairs })
+    }
+
+    /// Takes the value of a key out.
+    pub(crate) fn take(&mut self, key: &str) -> Option<String> {
+        let at = self.pairs.iter().position(|(known, _)| known == key)?;
+        Some(self.pairs.remove(at).1)
+    }
+
+    /// The first key that nobody has taken.
+    pub(crate) fn first_key(&self) -> Option<&str> {
+        self.pairs.first().map(|(key, _)| key.as_str())
+    }
+}
+
+fn missing_equals_sign(pair: &str) -> ExplorerError {
+    let message = format!("`{pair}` has no value");
+    ExplorerError::new("malformed_query", message, format!("write it as `{pair}=…`"))
+}
+
+/// Decodes `%41` to A and `+` to a space.
+fn decode(text: &str) -> Result<String, ExplorerError> {
+    let malformed = || {
+        let message = format!("`{text}` is not percent-encoded UTF-8");
+        ExplorerError::new("malformed_query", message, "write a percent sign as %25")
+    };
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        let digit = |at: usize| after.get(at).and_then(|&digit| char::from(digit).to_digit(16));
+        rest = after;
+        match byte {
+            b'%' => {
+                let [high, low] = [digit(0), digit(1)].map(|digit| digit.ok_or_else(malformed));
+                bytes.push((high? * 16 + low?) as u8);
+                rest = &after[2..];
+            }
+            b'+' => bytes.push(b' '),
+            byte => bytes.push(byte),
+        }
+    }
+    String::from_utf8(bytes).map_err(|_| malformed())
+}
+
+/// Encodes what is neither a letter nor a digit nor one of `-_.,~/`, so that the text can be part
+/// of a query.
+pub(crate) fn encode(text: &str) -> String {
+    let mut encoded = String::with_capacity(text.len());
+    for byte in text.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' => encoded.push(char::from(byte)),
+            b'-' | b'_' | b'.' | b',' | b'~' | b'/' => encoded.push(char::from(byte)),
+            byte => encoded.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    encoded
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_decoded_and_taken_once() {
+        let mut query = Query::parse("#v=1&model=a%20b+c%E4%B8%AD.glb").expect("a query");
+        assert_eq!(query.take("model").as_deref(), Some("a b c中.glb"));
+        assert_eq!((query.take("model"), query.first_key()), (None, Some("v")));
+    }
+
+    #[test]
+    fn what_is_no_query_is_told() {
+        for (text, code) in [
+            ("near", "malformed_query"),
+            ("near=%4", "malformed_query"),
+            ("near=%ff", "malformed_query"),
+            ("near=1&near=2", "repeated_key"),
+        ] {
+            assert_eq!(Query::parse(text).expect_err(text).code, code);
+        }
+        assert!(Query::parse(&"a".repeat(MAX_QUERY_BYTES + 1)).is_err());
+    }
+
+    #[test]
+    fn encoding_is_undone_by_decoding() {
+        let text = "Ä b+c&d=e%/中.glb";
+        assert_eq!(decode(&encode(text)).as_deref(), Ok(text));
+    }
+}

@@ -1,0 +1,229 @@
+//! A request: the state, what is asked about it, and for pictures their size and format.
+
+use crate::ExplorerError;
+use crate::lesson_state::LessonState;
+use crate::query::Query;
+
+/// Size of a picture where none is given; the lessons are made for its shape.
+pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];
+
+/// The largest side of a picture in pixels.
+const MAX_SIDE: u32 = 8192;
+
+/// What is asked.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Question {
+    Lessons,
+    State,
+    Picture,
+    World,
+    Volume,
+    Depth,
+    Drawing,
+    Pick,
+}
+
+const QUESTIONS: [(&str, Question); 8] = [
+    ("lessons", Question::Lessons),
+    ("state", Question::State),
+    ("picture", Question::Picture),
+    ("world", Question::World),
+    ("volume", Question::Volume),
+    ("depth", Question::Depth),
+    ("drawing", Question::Drawing),
+    ("pick", Question::Pick),
+];
+
+/// The keys of requests and of all states.
+const KEYS: [&str; 14] = [
+    "what",
+    "size",
+    "samples",
+    "rows",
+    "format",
+    "pixel",
+    "v",
+    "lesson",
+    "pin",
+    "orbit",
+    "volume_orbit",
+    "style",
+    "model",
+    "lang",
+];
+
+/// A request.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Request {
+    pub(crate) question: Question,
+    pub(crate) state: LessonState,
+    /// Width and height of the picture in pixels.
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
+    /// The first row of a band, and the one after its last.
+    pub(crate) rows: Option<[u32; 2]>,
+    pub(crate) is_png: bool,
+    /// Column and row of a pixel.
+    pub(crate) pixel: Option<[u32; 2]>,
+}
+
+impl Request {
+    /// Parses a request.
+    ///
+    /// # Errors
+    /// An unknown key, a malformed value, a band of a PNG.
+    pub(crate) fn parse(text: &str) -> Result<Self, ExplorerError> {
+        let mut query = Query::parse(text)?;
+        let question = find_question(query.take("what").as_deref())?;
+        let state = LessonState::take_from(&mut query)?;
+        let size = take_pair(&mut query, "size", 'x')?.unwrap_or(DEFAULT_SIZE);
+        if size.iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+            let message = format!("a picture cannot have {} x {} pixels", size[0], size[1]);
+            let help = format!("each side must be between 1 and {MAX_SIDE}");
+            return Err(ExplorerError::new("malformed_value", message, help));
+        }
+        let samples = match query.take("samples").as_deref() {
+            None | Some("4") => 4,
+            Some("1") => 1,
+            Some(other) => return Err(malformed("samples", other, "give samples=1 or samples=4")),
+        };
+        let is_png = match query.take("format").as_deref() {
+            None | Some("rgba") => false,
+            Some("png") => true,
+            Some(other) => {
+                return Err(malformed("format", other, "give format=rgba or format=png"));
+            }
+        };
+        let rows = take_pair(&mut query, "rows", '-')?;
+        check_rows(rows, size[1], is_png)?;
+        let pixel = take_pair(&mut query, "pixel", ',')?;
+        match query.first_key() {
+            Some(key) => Err(unknown_key(key, &state)),
+            None => Ok(Self { question, state, size, samples, rows, is_png, pixel }),
+        }
+    }
+}
+
+fn find_question(name: Option<&str>) -> Result<Question, ExplorerError> {
+    let names = || QUESTIONS.map(|(name, _)| name).join(", ");
+    let Some(name) = name else {
+        let help = format!("add what=, with one of {}", names());
+        return Err(ExplorerError::new("malformed_query", "nothing is asked", help));
+    };
+    let found = QUESTIONS.into_iter().find(|(known, _)| *known == name);
+    found
+        .map(|(_, question)| question)
+        .ok_or_else(|| malformed("what", name, &format!("give one of {}", names())))
+}
+
+fn check_rows(rows: Option<[u32; 2]>, height: u32, is_png: bool) -> Result<(), ExplorerError> {
+    let Some([from, to]) = rows else { return Ok(()) };
+    let text = format!("{from}-{to}");
+    if is_png {
+        return Err(malformed("rows", &text, "a PNG is whole: leave rows or format=png out"));
+    }
+    if from < to && to <= height {
+        return Ok(());
+    }
+    Err(malformed("rows", &text, &format!("the rows of this picture are rows=0-{height}")))
+}
+
+/// Takes two whole numbers.
+fn take_pair(
+    query: &mut Query,
+    key: &str,
+    separator: char,
+) -> Result<Option<[u32; 2]>, ExplorerError> {
+    let Some(text) = query.take(key) else { return Ok(None) };
+    let pair =
+        text.split_once(separator).and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+    let help = format!("give two whole numbers, such as {key}=0{separator}100");
+    pair.map(Some).ok_or_else(|| malformed(key, &text, &help))
+}
+
+fn malformed(key: &str, value: &str, help: &str) -> ExplorerError {
+    ExplorerError::new("malformed_value", format!("`{key}` cannot be `{value}`"), help)
+}
+
+/// The error about a key that nobody knows, with the one that may have been meant.
+fn unknown_key(key: &str, state: &LessonState) -> ExplorerError {
+    let lesson = state.lesson;
+    let own: Vec<&str> = lesson.parameters.iter().map(|parameter| parameter.key).collect();
+    let known = own.iter().copied().chain(KEYS);
+    let closest = known.min_by_key(|known| edit_distance(known, key));
+    let similar = closest.filter(|known| edit_distance(known, key) <= 2);
+    let help = match similar {
+        Some(similar) => format!("did you mean `{similar}`?"),
+        None if own.is_empty() => format!("the lesson `{}` has no parameters", lesson.id),
+        None => format!("the lesson `{}` has {}", lesson.id, own.join(", ")),
+    };
+    ExplorerError::new("unknown_key", format!("there is no key `{key}` here"), help)
+}
+
+/// How many letters two words differ by: insertions, deletions, substitutions and exchanges of
+/// neighbors (optimal string alignment).
+fn edit_distance(a: &str, b: &str) -> usize {
+    // Long keys are no misspelt ones, and the table grows with their product.
+    let [a, b]: [Vec<char>; 2] = [a, b].map(|word| word.chars().take(24).collect());
+    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
+    for (i, x) in a.iter().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, y) in b.iter().enumerate() {
+            let substituted = rows[i][j] + usize::from(x != y);
+            let mut least = substituted.min(rows[i][j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i - 1] == *y && *x == b[j - 1] {
+                least = least.min(rows[i - 1][j - 1] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str) -> ExplorerError {
+        Request::parse(text).expect_err(text)
+    }
+
+    #[test]
+    fn a_misspelt_key_is_told_with_the_right_one() {
+        let error = error("what=picture&lesson=frustum&naer=2");
+        assert_eq!((error.code, error.help.as_str()), ("unknown_key", "did you mean `near`?"));
+    }
+
+    #[test]
+    fn nonsense_is_told() {
+        for (text, code) in [
+            ("", "malformed_query"),
+            ("what=soup", "malformed_value"),
+            ("what=state&v=2", "other_version"),
+            ("what=state&lesson=x", "unknown_lesson"),
+            ("what=state&lesson=frustum&near=NaN", "malformed_value"),
+            ("what=state&lesson=frustum&near=1e300", "value_out_of_range"),
+            ("what=state&lesson=frustum&apex=soup", "malformed_value"),
+            ("what=state&pin=1,2", "malformed_value"),
+            ("what=state&orbit=1,inf", "malformed_value"),
+            ("what=state&style=Falt", "malformed_value"),
+            ("what=picture&size=0x1", "malformed_value"),
+            ("what=picture&size=99999x1", "malformed_value"),
+            ("what=picture&samples=3", "malformed_value"),
+            ("what=picture&size=8x8&rows=4-4", "malformed_value"),
+            ("what=picture&size=8x8&rows=0-9", "malformed_value"),
+            ("what=picture&rows=0-9&format=png", "malformed_value"),
+            ("what=pick&pixel=1", "malformed_value"),
+        ] {
+            assert_eq!(error(text).code, code, "{text}");
+        }
+    }
+
+    #[test]
+    fn distances_count_exchanged_letters_once() {
+        assert_eq!(edit_distance("near", "naer"), 1);
+        assert_eq!(edit_distance("fov", "far"), 2);
+        assert_eq!(edit_distance("", "ab"), 2);
+    }
+}

@@ -1,0 +1,136 @@
+//! Everything that is said about a state, as JSON.
+
+use crate::ExplorerError;
+use crate::facts::{Facts, PLANES};
+use crate::lesson::ParameterValue;
+use crate::model_store::LoadedScene;
+use crate::outside_view::COLORS;
+use crate::request::Request;
+use crate::words::{Sentence, sentence};
+use homog::Point;
+use pipeline::explain::{TransformChain, explain_point, explain_transforms};
+use serde_json::{Map, Value as Json, json};
+
+/// The state as JSON: link, scene file, command, sentences, numbers, matrices, journey.
+///
+/// # Errors
+/// If the view has no pixels.
+pub(crate) fn state_json(
+    request: &Request,
+    text: &str,
+    loaded: &LoadedScene,
+    facts: &Facts,
+) -> Result<Json, ExplorerError> {
+    let state = &request.state;
+    let lesson = state.lesson;
+    let values = state.values(request.size);
+    let size = (facts.size[0], facts.size[1]);
+    let chain =
+        TransformChain::new(&facts.view_projection, size, lesson.conventions).map_err(|error| {
+            ExplorerError::new("cannot_render", error.to_string(), "make it larger")
+        })?;
+    let mut consequences = (lesson.consequences)(&values, facts);
+    consequences.extend(clipping_sentences(facts));
+    let pin = Point::from(state.pin());
+    let outcode = chain.clip_volume().outcode(chain.world_to_clip().transform_point(pin));
+    let outside_of: Vec<String> = outcode.planes().map(|plane| plane.to_string()).collect();
+    let parameters = lesson.parameters.iter().zip(&state.parameters);
+    let parameters: Map<String, Json> = parameters
+        .map(|(parameter, value)| (parameter.key.to_owned(), value_json(*value)))
+        .collect();
+    Ok(json!({
+        "lesson": lesson.id,
+        "parameters": parameters,
+        "link": state.to_link(),
+        "scene": text,
+        "command": command(lesson.id, text),
+        "consequences": consequences.iter().map(Sentence::to_json).collect::<Vec<_>>(),
+        "facts": facts.to_json(),
+        "colors": COLORS.map(|(name, [r, g, b])| (name, format!("#{r:02x}{g:02x}{b:02x}"))).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
+        "conventions": lesson.conventions.name(),
+        "matrix": explain_transforms(&chain).to_json(),
+        "journey": journey_json(&chain, pin, loaded),
+        "pin": state.pin(),
+        "orbit": state.orbit(),
+        "volume_orbit": state.volume_orbit(),
+        "outcode": {
+            "bits": format!("{:06b}", outcode.bits()),
+            "is_inside": outcode.is_inside(),
+            "outside_of": outside_of,
+        },
+    }))
+}
+
+fn value_json(value: ParameterValue) -> Json {
+    match value {
+        ParameterValue::Number(number) => number.into(),
+        ParameterValue::Choice(choice) => choice.into(),
+    }
+}
+
+/// The command that renders the same picture, in the folder that holds the models.
+fn command(lesson: &str, text: &str) -> String {
+    format!("alberti render - -o {lesson}.png <<'SCENE'\n{text}SCENE\n")
+}
+
+/// The explanation of a point, with its coordinates in each space.
+fn journey_json(chain: &TransformChain, pin: Point<homog::World>, loaded: &LoadedScene) -> Json {
+    let clip = chain.world_to_clip().transform_point(pin);
+    let ndc = clip.divide();
+    let screen = chain.project_to_screen(clip);
+    let model = loaded.scene.models.first().and_then(|first| first.model_to_world.inverse());
+    let model = model.map(|to_model| <[f64; 3]>::from(to_model.transform_point(pin)));
+    let view = chain.world_to_view().transform_point(pin);
+    let mut json = explain_point(chain, pin).to_json();
+    json["spaces"] = json!([
+        {"space": "model", "label": {"en": "model", "zh": "模型坐标"}, "value": model},
+        {"space": "world", "label": {"en": "world", "zh": "世界坐标"}, "value": <[f64; 3]>::from(pin)},
+        {"space": "view", "label": {"en": "view (camera)", "zh": "观察（相机）坐标"}, "value": <[f64; 3]>::from(view)},
+        {"space": "clip", "label": {"en": "clip, before the divide by w", "zh": "裁剪坐标（透视除法之前）"}, "value": <[f64; 4]>::from(clip)},
+        {"space": "ndc", "label": {"en": "NDC, after the divide", "zh": "规范化设备坐标（透视除法之后）"}, "value": ndc.map(<[f64; 3]>::from)},
+        {"space": "screen", "label": {"en": "screen: pixel, pixel, depth", "zh": "屏幕坐标：像素与深度"}, "value": screen.map(<[f64; 3]>::from)},
+    ]);
+    json
+}
+
+const PLANES_ZH: [&str; 6] = ["左", "右", "下", "上", "近", "远"];
+
+/// What the view volume cuts off, in sentences.
+fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
+    let survey = facts.survey;
+    let all = facts.triangles[1];
+    let mut sentences = Vec::new();
+    for (at, (plane, plane_zh)) in PLANES.iter().zip(PLANES_ZH).enumerate() {
+        let (clipped, outside) = (survey.clipped_by[at], survey.outside_of[at]);
+        let (are, is_or_are) =
+            (if clipped == 1 { "is" } else { "are" }, if outside == 1 { "is" } else { "are" });
+        match (clipped, outside) {
+            (0, 0) => {}
+            (clipped, 0) => sentences.push(sentence(
+                format!("{clipped} of {all} triangles {are} clipped by the {plane} plane."),
+                format!("{all} 个三角形中有 {clipped} 个被{plane_zh}平面裁剪。"),
+            )),
+            (0, outside) => sentences.push(sentence(
+                format!("{outside} of {all} triangles {is_or_are} outside of the {plane} plane."),
+                format!("{all} 个三角形中有 {outside} 个完全在{plane_zh}平面之外。"),
+            )),
+            (clipped, outside) => sentences.push(sentence(
+                format!("{clipped} of {all} triangles {are} clipped by the {plane} plane, and {outside} {is_or_are} wholly outside of it."),
+                format!("{all} 个三角形中有 {clipped} 个被{plane_zh}平面裁剪，{outside} 个完全在它之外。"),
+            )),
+        }
+    }
+    if survey.inside == all && all > 0 {
+        sentences.push(sentence(
+            "The whole model is inside the view volume: nothing is clipped.",
+            "整个模型都在视见体之内：没有任何裁剪。",
+        ));
+    }
+    if survey.inside + survey.clipped == 0 && all > 0 {
+        sentences.push(sentence(
+            "Nothing of the model is inside the view volume: the picture is empty.",
+            "模型完全在视见体之外：画面是空的。",
+        ));
+    }
+    sentences
+}
