@@ -2,16 +2,21 @@
 
 use crate::ExplorerError;
 use crate::catalogue::catalogue_json;
+use crate::depth_pane::depth_svg;
 use crate::facts::Facts;
 use crate::lesson_state::LessonState;
+use crate::line_of_sight::LineOfSight;
 use crate::model_store::{LoadedScene, ModelStore};
-use crate::outside_view::{Observer, volume_scene, world_scene};
-use crate::pane_picture::PanePicture;
+use crate::pane_picture::{PanePicture, thread_count};
+use crate::pane_scene::Observer;
+use crate::pick::pick_json;
 use crate::request::{DEFAULT_SIZE, Question, Request};
 use crate::state_answer::state_json;
+use crate::volume_pane::volume_scene;
 use crate::words::sentence;
+use crate::world_pane::{Pointer, world_scene};
 use pipeline::scene::Scene;
-use pipeline::{Picture, Textures};
+use pipeline::{Picture, Textures, draw_lines};
 use std::sync::Arc;
 
 /// What a request is answered with.
@@ -76,9 +81,9 @@ impl Explorer {
             Question::State => self.state(&request),
             Question::Picture => self.picture(&request),
             Question::World | Question::Volume => self.pane(&request),
-            Question::Depth | Question::Drawing | Question::Pick => {
-                Err(ExplorerError::new("not_yet", "this cannot be asked yet", "ask something else"))
-            }
+            Question::Depth => self.depth(&request),
+            Question::Drawing => self.drawing(&request),
+            Question::Pick => self.pick(&request),
         }
     }
 
@@ -133,6 +138,28 @@ impl Explorer {
         answer_with_pixels(&mut self.picture, request, &text, pane)
     }
 
+    fn depth(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+        let (_, loaded) = self.load(&request.state, DEFAULT_SIZE, 4)?;
+        let svg = depth_svg(&Facts::new(&loaded), request.state.lesson.conventions)?;
+        Ok(svg_answer(svg))
+    }
+
+    fn drawing(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+        let (_, loaded) = self.load(&request.state, request.size, 4)?;
+        let page = draw_lines(&loaded.scene, thread_count(), &Default::default())?;
+        Ok(svg_answer(page.to_svg()))
+    }
+
+    fn pick(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+        let pixel = request.pixel.ok_or_else(|| {
+            let help = "add pixel=x,y, counted from the upper left corner";
+            ExplorerError::new("malformed_query", "no pixel is given", help)
+        })?;
+        let (_, loaded) = self.load(&request.state, request.size, request.samples)?;
+        let conventions = request.state.lesson.conventions;
+        Ok(json_answer(&pick_json(&loaded.scene, conventions, pixel)?))
+    }
+
     /// A pane around the picture.
     fn pane(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
         let Request { question, state, size, samples, .. } = request;
@@ -141,21 +168,44 @@ impl Explorer {
         let observer = Observer { orbit, size: *size, samples: *samples };
         // The state's own picture does not have the shape of the pane.
         let (text, loaded) = self.load(state, DEFAULT_SIZE, 4)?;
-        let key = format!("{observer:?} {text}");
+        let key = format!("{observer:?} {} {text}", state.to_link());
         let known = if is_world { &self.world.scene } else { &self.volume.scene };
         let known = known.as_ref().filter(|(known, _)| *known == key);
         let scene = match known {
             Some((_, scene)) => Arc::clone(scene),
             None if is_world => {
                 let (_, defaults) = self.load(&state.with_defaults(), DEFAULT_SIZE, 4)?;
-                Arc::new(world_scene(&loaded, &defaults, observer)?)
+                let pointer = pointer(state, &Facts::new(&loaded));
+                Arc::new(world_scene(&loaded, &defaults, observer, pointer)?)
             }
-            None => Arc::new(volume_scene(&loaded, state.lesson.conventions, observer)?),
+            None => {
+                let (facts, lesson) = (Facts::new(&loaded), state.lesson);
+                let stage = (lesson.volume)(&state.values(DEFAULT_SIZE));
+                let pointer = pointer(state, &facts);
+                let conventions = lesson.conventions;
+                Arc::new(volume_scene(&facts, (stage, conventions), observer, pointer)?)
+            }
         };
         let pane = if is_world { &mut self.world } else { &mut self.volume };
         pane.scene = Some((key.clone(), Arc::clone(&scene)));
         let textures = Textures::for_models(&[]);
         answer_with_pixels(&mut pane.picture, request, &key, (&scene, &textures))
+    }
+}
+
+/// What the state points at: the pixel under the mouse of the lesson, or the pinned point.
+fn pointer(state: &LessonState, facts: &Facts) -> Pointer {
+    let view = &facts.view_projection;
+    match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {
+        Some(position) => {
+            let sight = LineOfSight::through_picture(view, position);
+            let triangles = &facts.loaded.models.triangles.counted;
+            Pointer { point: sight.and_then(|sight| sight.first_hit(triangles)), sight }
+        }
+        None => {
+            let point = state.pin().into();
+            Pointer { point: Some(point), sight: LineOfSight::through_point(view, point) }
+        }
     }
 }
 
@@ -177,6 +227,10 @@ fn answer_with_pixels(
 
 fn pixels_answer(bytes: Vec<u8>) -> Answer {
     Answer { content_type: "application/octet-stream", bytes }
+}
+
+fn svg_answer(svg: String) -> Answer {
+    Answer { content_type: "image/svg+xml", bytes: svg.into_bytes() }
 }
 
 fn json_answer(json: &serde_json::Value) -> Answer {

@@ -28,6 +28,8 @@ pub(crate) struct Facts {
     pub(crate) planes: [Option<f64>; 2],
     /// The least and the greatest distance of the models along the gaze.
     pub(crate) model_range: Option<[f64; 2]>,
+    /// The scene with its models.
+    pub(crate) loaded: LoadedScene,
 }
 
 /// The views of a scene: its own, or those of its viewports or stereo pair.
@@ -57,6 +59,7 @@ impl Facts {
             window: window.map(|(low, high)| [low.x(), high.x(), low.y(), high.y()]),
             planes: [0, 4].map(|at| corner(at).map(|corner| -corner.z())),
             model_range: model_range(&view_projection, &triangles.counted),
+            loaded: loaded.clone(),
         }
     }
 
@@ -79,6 +82,12 @@ impl Facts {
     /// Width over height of the view in pixels.
     pub(crate) fn picture_aspect(&self) -> f64 {
         f64::from(self.size[0]) / f64::from(self.size[1])
+    }
+
+    /// NDC depth of a distance along the gaze in the pipeline's own volume, near at 1.
+    pub(crate) fn depth_at(&self, distance: f64) -> Option<f64> {
+        let point = Point::<View>::new(0.0, 0.0, -distance);
+        Some(self.view_projection.view_to_clip.transform_point(point).divide()?.z())
     }
 
     /// The facts as JSON.

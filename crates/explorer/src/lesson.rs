@@ -1,8 +1,9 @@
 //! A lesson: its statement, its parameters, and the scene that they make.
 
 use crate::facts::Facts;
+use crate::lessons::{ALL_PANES, HOUSE};
 use crate::scene_description::SceneDescription;
-use crate::words::{Sentence, Words};
+use crate::words::{Sentence, Words, words};
 use pipeline::explain::ApiConventions;
 
 /// A lesson of the explorer.
@@ -32,6 +33,46 @@ pub(crate) struct Lesson {
     pub(crate) describe: fn(&Values<'_>) -> SceneDescription,
     /// What follows from the values, besides what is clipped.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
+    /// What the pane `volume` shows.
+    pub(crate) volume: fn(&Values<'_>) -> VolumeStage,
+    /// The position in the picture, in fractions from its upper left corner, through which the line
+    /// of sight is drawn; `None` for that of the pinned point.
+    pub(crate) pointer: fn(&Values<'_>) -> Option<[f64; 2]>,
+}
+
+/// The stage of the pipeline at which the pane `volume` shows the model.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum VolumeStage {
+    /// In the canonical view volume: clipped, then divided by w.
+    Divided,
+    /// Divided by w without clipping: torn where w changes its sign.
+    Torn,
+    /// In view space, behind so many of the affine factors of a frustum: shear, scale (VV-2).
+    Factors(usize),
+}
+
+/// The front end of the ridge of the house.
+pub(crate) const RIDGE: [f64; 3] = [0.0, 4.38, 3.15];
+
+impl Lesson {
+    /// A lesson with what most have in common.
+    pub(crate) const USUAL: Self = Self {
+        id: "",
+        source: Source::LearnWebGl,
+        items: &[],
+        title: words("", ""),
+        statement: words("", ""),
+        models: &[HOUSE],
+        parameters: &[],
+        panes: ALL_PANES,
+        pin: RIDGE,
+        orbit: [78.0, 20.0],
+        conventions: ApiConventions::OpenGl,
+        describe: |_| SceneDescription::default(),
+        consequences: |_, _| Vec::new(),
+        volume: |_| VolumeStage::Divided,
+        pointer: |_| None,
+    };
 }
 
 /// Where a lesson comes from.

@@ -1,15 +1,45 @@
 //! The lessons, in the order of the page.
 
 mod chapter;
+mod chapter_exercises;
+mod clipping;
+mod effects;
 mod learn_webgl;
+mod learn_webgl_screen;
+mod own_model;
+mod slides;
+mod slides_parallel;
+mod slides_perspective;
 
 use crate::lesson::Lesson;
 
 /// All lessons.
-pub(crate) static LESSONS: [&Lesson; 3] =
-    [&learn_webgl::PERSPECTIVE, &learn_webgl::FRUSTUM, &chapter::ORTHOGRAPHIC_VOLUME];
+pub(crate) static LESSONS: [&Lesson; 22] = [
+    &learn_webgl::PERSPECTIVE,
+    &learn_webgl::FRUSTUM,
+    &learn_webgl::ORTHO,
+    &learn_webgl_screen::STEREO,
+    &learn_webgl_screen::VIEWPORT,
+    &learn_webgl_screen::PICKING,
+    &learn_webgl_screen::DEPTH_TABLE,
+    &chapter::ORTHOGRAPHIC_VOLUME,
+    &chapter::PERSPECTIVE_VOLUME,
+    &chapter::MIDPOINT_DEPTH,
+    &chapter_exercises::EXERCISES,
+    &slides_parallel::MULTIVIEW,
+    &slides_parallel::AXONOMETRIC,
+    &slides_parallel::OBLIQUE,
+    &slides_perspective::ONE_POINT,
+    &slides_perspective::TWO_POINT,
+    &slides_perspective::THREE_POINT,
+    &slides::NORMALIZATION,
+    &slides::WINDOW_VIEWPORT,
+    &slides::MEXICAN_HAT,
+    &clipping::TEAR,
+    &own_model::MODEL,
+];
 
-/// The model of most lessons: 5 m high, its front at z = 3.4.
+/// The model of most lessons: 4.75 m high, its front at z = 2.8.
 pub(crate) const HOUSE: &str = "models/house.glb";
 
 /// The panes of a lesson of one perspective.

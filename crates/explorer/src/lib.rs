@@ -1,22 +1,27 @@
 #![doc = include_str!("../README.md")]
 
 mod catalogue;
+mod depth_pane;
 mod error;
 mod explorer;
 mod facts;
 mod lesson;
 mod lesson_state;
 mod lessons;
+mod line_of_sight;
 mod model_store;
 mod number_text;
-mod outside_view;
 mod pane_picture;
+mod pane_scene;
+mod pick;
 mod query;
 mod request;
 mod scene_description;
 mod state_answer;
 mod triangle_survey;
+mod volume_pane;
 mod words;
+mod world_pane;
 
 pub use error::ExplorerError;
 pub use explorer::{Answer, Explorer};

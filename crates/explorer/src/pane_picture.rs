@@ -74,6 +74,7 @@ fn renders_in_bands(scene: &Scene) -> bool {
         && scene.occlusion_radius.is_none()
 }
 
-fn thread_count() -> usize {
+/// As many threads as the machine runs; their number changes no answer.
+pub(crate) fn thread_count() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }

@@ -1,5 +1,6 @@
 //! The scene file of a state, as a person would write it.
 
+use crate::lessons::HOUSE;
 use crate::number_text::scene_tuple;
 
 /// The parts of a scene file that differ between lessons.
@@ -18,7 +19,9 @@ pub(crate) struct SceneDescription {
     /// Further fields, each in a line.
     pub(crate) fields: Vec<String>,
     /// The color behind everything; empty for that of the lessons.
-    pub(crate) background: String,
+    pub(crate) background: &'static str,
+    /// What a reader of the scene may wonder about; empty for nothing.
+    pub(crate) comment: &'static str,
 }
 
 /// The color behind the models of lessons.
@@ -30,9 +33,16 @@ impl SceneDescription {
         Self { models: vec![model_entry(model)], view, projection, ..Self::default() }
     }
 
+    /// The house as a line drawing, by a classical projection that finds its own window.
+    pub(crate) fn line_drawing(projection: String, padding: u32) -> Self {
+        let view = format!("Frame(padding_percent: {padding})");
+        let (style, background) = ("Lines()".to_owned(), "#ffffff");
+        Self { style, background, ..Self::new(HOUSE, view, projection) }
+    }
+
     /// The text of the scene file, for a picture of this size with so many samples.
     pub(crate) fn to_text(&self, title: &str, size: [u32; 2], samples: u32) -> String {
-        let mut text = format!("// {title}\nScene(\n");
+        let mut text = format!("// {title}{}\nScene(\n", self.comment);
         text += &list("models", &self.models);
         let view = field("view", &self.view, 8);
         let projection = field("projection", &self.projection, 8);
@@ -48,8 +58,7 @@ impl SceneDescription {
             text += &format!("    {line},\n");
         }
         let size = scene_tuple(&size.map(f64::from));
-        let background =
-            if self.background.is_empty() { BACKGROUND } else { self.background.as_str() };
+        let background = if self.background.is_empty() { BACKGROUND } else { self.background };
         // Four samples are the default of scene files.
         let samples = if samples == 4 { String::new() } else { format!(", samples: {samples}") };
         text += &format!(

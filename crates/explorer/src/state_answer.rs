@@ -1,10 +1,11 @@
 //! Everything that is said about a state, as JSON.
 
 use crate::ExplorerError;
+use crate::depth_pane::depth_table_json;
 use crate::facts::{Facts, PLANES};
 use crate::lesson::ParameterValue;
 use crate::model_store::LoadedScene;
-use crate::outside_view::COLORS;
+use crate::pane_scene::COLORS;
 use crate::request::Request;
 use crate::words::{Sentence, sentence};
 use homog::Point;
@@ -50,6 +51,7 @@ pub(crate) fn state_json(
         "conventions": lesson.conventions.name(),
         "matrix": explain_transforms(&chain).to_json(),
         "journey": journey_json(&chain, pin, loaded),
+        "depth_table": lesson.panes.contains(&"depth").then(|| depth_table_json(facts, lesson.conventions)).flatten(),
         "pin": state.pin(),
         "orbit": state.orbit(),
         "volume_orbit": state.volume_orbit(),

@@ -40,6 +40,11 @@ impl WorldTriangles {
         }
     }
 
+    /// Whether fewer triangles are drawn than the models have.
+    pub(crate) fn is_reduced(&self) -> bool {
+        self.drawn().len() < self.count
+    }
+
     /// Those that are drawn.
     pub(crate) fn drawn(&self) -> &[WorldTriangle] {
         self.reduced.as_deref().unwrap_or(&self.counted)

@@ -1,75 +1,143 @@
-//! The lessons of the chapter on viewing: the orthographic volume.
+//! The lessons of the chapter on viewing: its two view volumes and the depth between its planes.
 
+use super::effects::{distortion, planes_only_clip};
 use super::{HOUSE, PARALLEL_PANES};
 use crate::facts::Facts;
-use crate::lesson::{Lesson, Source, Values, number};
-use crate::number_text::scene_number;
+use crate::lesson::{Lesson, Parameter, Source, Values, number};
+use crate::number_text::{decimals, scene_number};
 use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{Sentence, sentence, words};
 use pipeline::explain::ApiConventions;
 
-/// C7, OR-1: the orthographic view volume, in the chapter's own signs.
-pub(crate) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
+/// What the chapter's lessons have in common.
+const USUAL: Lesson =
+    Lesson { source: Source::Chapter, conventions: ApiConventions::Chapter, ..Lesson::USUAL };
+
+const fn plane_n(default: f64) -> Parameter {
+    let label = words("n, near (a z-coordinate)", "n，近（z 坐标）");
+    number("n", label, "", [-11.0, -0.5], [0.1, default])
+}
+
+const fn plane_f(default: f64) -> Parameter {
+    let label = words("f, far (a z-coordinate)", "f，远（z 坐标）");
+    number("f", label, "", [-60.0, -11.5], [0.5, default])
+}
+
+/// The text of a projection through the chapter's window: n and f are coordinates there, and
+/// distances in scene files.
+fn through_window(name: &str, values: &Values<'_>) -> String {
+    let [l, r, b, t] = ["l", "r", "b", "t"].map(|key| scene_number(values.number(key)));
+    let [n, f] = ["n", "f"].map(|key| scene_number(-values.number(key)));
+    format!("{name}(left: {l}, right: {r}, bottom: {b}, top: {t}, near: {n}, far: {f})")
+}
+
+fn house(projection: String) -> SceneDescription {
+    SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+}
+
+/// OR-1: the orthographic view volume, in the chapter's own signs.
+pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     id: "orthographic-volume",
-    source: Source::Chapter,
     items: &["C7", "C8"],
     title: words("Orthographic view volume", "正交视见体"),
     statement: words(
         "The box [l, r] × [b, t] × [f, n] of camera space becomes the canonical view volume [−1, 1]³ by a scale and a translation. The camera looks along −z, so 0 > n > f. w stays 1: nothing shrinks with distance.",
         "相机空间中的长方体 [l, r] × [b, t] × [f, n] 经缩放和平移变成规范视见体 [−1, 1]³。相机看向 −z，所以 0 > n > f。w 始终为 1：物体不随距离变小。",
     ),
-    models: &[HOUSE],
     parameters: &[
-        number("l", words("l, left", "l，左"), "", [-8.0, -0.5], [0.1, -5.6]),
-        number("r", words("r, right", "r，右"), "", [0.5, 8.0], [0.1, 5.6]),
-        number("b", words("b, bottom", "b，下"), "", [-6.0, -0.5], [0.1, -3.5]),
-        number("t", words("t, top", "t，上"), "", [0.5, 6.0], [0.1, 3.5]),
-        number(
-            "n",
-            words("n, near (a coordinate)", "n，近（坐标）"),
-            "",
-            [-11.0, -0.5],
-            [0.1, -5.0],
-        ),
-        number(
-            "f",
-            words("f, far (a coordinate)", "f，远（坐标）"),
-            "",
-            [-40.0, -11.5],
-            [0.5, -17.0],
-        ),
+        number("l", words("l, left", "l，左"), "", [-8.0, -0.5], [0.1, -4.8]),
+        number("r", words("r, right", "r，右"), "", [0.5, 8.0], [0.1, 4.8]),
+        number("b", words("b, bottom", "b，下"), "", [-6.0, -0.5], [0.1, -3.0]),
+        number("t", words("t, top", "t，上"), "", [0.5, 6.0], [0.1, 3.0]),
+        plane_n(-5.0),
+        plane_f(-17.0),
     ],
     panes: PARALLEL_PANES,
-    pin: [0.0, 4.75, 0.0],
     orbit: [72.0, 22.0],
-    conventions: ApiConventions::Chapter,
-    describe: |values| {
-        let [l, r, b, t] = ["l", "r", "b", "t"].map(|key| scene_number(values.number(key)));
-        let [n, f] = ["n", "f"].map(|key| scene_number(-values.number(key)));
-        let projection = format!(
-            "Orthographic(left: {l}, right: {r}, bottom: {b}, top: {t}, near: {n}, far: {f})"
-        );
-        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+    describe: |values| house(through_window("Orthographic", values)),
+    consequences: |values, facts| {
+        let size = values.number("r") - values.number("l");
+        let pixels = decimals(f64::from(facts.size[0]) / size, 1);
+        let mut all = vec![sentence(
+            format!("One unit is {pixels} pixels wide, at every distance."),
+            format!("一个单位在任何距离上都是 {pixels} 像素宽。"),
+        )];
+        all.extend(distortion(facts));
+        all.extend(planes_only_clip(facts));
+        all
     },
-    consequences: box_consequences,
+    ..USUAL
 };
 
-fn box_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
-    let [l, r, b, t] = ["l", "r", "b", "t"].map(|key| values.number(key));
-    let pixels = scene_number(libm::round(f64::from(facts.size[0]) / (r - l) * 10.0) / 10.0);
-    let vertical = scene_number(libm::round(f64::from(facts.size[1]) / (t - b) * 10.0) / 10.0);
-    vec![match pixels == vertical {
-        true => sentence(
-            format!("One unit is {pixels} pixels wide and high, at every distance."),
-            format!("一个单位在任何距离上都是 {pixels} 像素宽和高。"),
-        ),
-        false => sentence(
-            format!(
-                "One unit is {pixels} pixels wide and {vertical} high: the window does not have the picture's shape, so everything is distorted."
-            ),
-            format!(
-                "一个单位宽 {pixels} 像素、高 {vertical} 像素：窗口与画面的宽高比不同，所以图像变形。"
-            ),
-        ),
-    }]
+/// PE-2: the perspective view volume, M_per = M_orth P.
+pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
+    id: "perspective-volume",
+    items: &["C25", "C26", "C34"],
+    title: words("Perspective view volume", "透视视见体"),
+    statement: words(
+        "P keeps the plane z = n as it is and squeezes the planes behind it, until the truncated pyramid is the box of the orthographic view; then M_orth does the rest: M_per = M_orth P. The window [l, r] × [b, t] lies on z = n.",
+        "P 保持 z = n 平面不变，并压缩它后面的平面，使截头锥体变成正交视图的长方体；其余由 M_orth 完成：M_per = M_orth P。窗口 [l, r] × [b, t] 位于 z = n 上。",
+    ),
+    parameters: &[
+        number("l", words("l, left", "l，左"), "", [-4.0, -0.2], [0.05, -2.0]),
+        number("r", words("r, right", "r，右"), "", [0.2, 4.0], [0.05, 2.0]),
+        number("b", words("b, bottom", "b，下"), "", [-4.0, -0.2], [0.05, -1.25]),
+        number("t", words("t, top", "t，上"), "", [0.2, 4.0], [0.05, 1.25]),
+        plane_n(-4.0),
+        plane_f(-18.0),
+    ],
+    describe: |values| house(through_window("Frustum", values)),
+    consequences: |values, facts| {
+        let [n, f] = ["n", "f"].map(|key| values.number(key));
+        let shrink = decimals(n / f, 3);
+        let mut all = vec![sentence(
+            format!("P leaves z = {n} as it is; on z = {f} it scales x and y by n/f = {shrink}."),
+            format!("P 保持 z = {n} 不变；在 z = {f} 上把 x、y 缩小为 n/f = {shrink} 倍。"),
+        )];
+        all.extend(opening_angle(facts));
+        all.extend(distortion(facts));
+        all.extend(planes_only_clip(facts));
+        all
+    },
+    ..USUAL
+};
+
+fn opening_angle(facts: &Facts) -> Option<Sentence> {
+    let [_, vertical] = facts.opening_angles()?;
+    let angle = decimals(vertical, 1);
+    Some(sentence(
+        format!("The vertical field of view is {angle}°."),
+        format!("垂直视场角为 {angle}°。"),
+    ))
 }
+
+/// The middle of the depths, and where P takes it.
+pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
+    id: "midpoint-depth",
+    items: &["C29", "C34"],
+    title: words("Depth of the midpoint", "中点的深度"),
+    statement: words(
+        "P keeps the order of depths but not their ratios: the middle z = (n + f)/2 goes to (n² + f²)/(n + f), which is nearer to f. The farther apart n and f are, the more of the range is spent near the eye.",
+        "P 保持深度的次序，但不保持比例：中点 z = (n + f)/2 变到 (n² + f²)/(n + f)，更靠近 f。n 与 f 相差越大，深度范围越多地用在近处。",
+    ),
+    parameters: &[plane_n(-4.0), plane_f(-40.0)],
+    describe: |values| {
+        let [n, f] = ["n", "f"].map(|key| scene_number(-values.number(key)));
+        house(format!("Perspective(fov_y_degrees: 40, near: {n}, far: {f})"))
+    },
+    consequences: |values, facts| {
+        let [n, f] = ["n", "f"].map(|key| values.number(key));
+        let (middle, image) = (0.5 * (n + f), (n * n + f * f) / (n + f));
+        let depth = facts.depth_at(-middle).map_or(String::new(), |depth| decimals(depth, 3));
+        let [middle, image] = [middle, image].map(|z| decimals(z, 3));
+        vec![sentence(
+            format!(
+                "The middle z = {middle} goes to {image}; in the canonical view volume, where near is 1 and far −1, that is {depth} and not 0."
+            ),
+            format!(
+                "中点 z = {middle} 变到 {image}；在近为 1、远为 −1 的规范视见体中是 {depth}，而不是 0。"
+            ),
+        )]
+    },
+    ..USUAL
+};

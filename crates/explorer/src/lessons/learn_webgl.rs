@@ -1,24 +1,22 @@
-//! The lessons of *Learn WebGL*: perspective, frustum.
+//! The lessons of *Learn WebGL* on projections: perspective, frustum, ortho.
 
-use super::{ALL_PANES, HOUSE};
+use super::effects::{distortion, planes_only_clip};
+use super::{HOUSE, PARALLEL_PANES};
 use crate::facts::Facts;
-use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
+use crate::lesson::{Choice, Lesson, Values, choice, number};
 use crate::number_text::{decimals, scene_number};
 use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{Sentence, sentence, words};
-use pipeline::explain::ApiConventions;
 
 /// C62: the field of view enlarges, a wrong aspect distorts, near and far only clip.
-pub(crate) static PERSPECTIVE: Lesson = Lesson {
+pub(super) static PERSPECTIVE: Lesson = Lesson {
     id: "perspective",
-    source: Source::LearnWebGl,
     items: &["C61", "C62"],
     title: words("Perspective", "透视投影"),
     statement: words(
         "A smaller field of view enlarges. An aspect ratio that is not the picture's distorts. The near and far planes only clip: they move nothing.",
         "视场角越小，物体越大。宽高比与画面不一致时图像会变形。近平面和远平面只裁剪，不移动任何东西。",
     ),
-    models: &[HOUSE],
     parameters: &[
         number(
             "fov",
@@ -31,10 +29,6 @@ pub(crate) static PERSPECTIVE: Lesson = Lesson {
         number("near", words("near plane", "近平面"), "", [0.5, 11.0], [0.1, 4.0]),
         number("far", words("far plane", "远平面"), "", [11.5, 60.0], [0.5, 18.0]),
     ],
-    panes: ALL_PANES,
-    pin: [0.0, 4.75, 0.0],
-    orbit: [78.0, 20.0],
-    conventions: ApiConventions::OpenGl,
     describe: |values| {
         let projection = perspective(values);
         SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
@@ -48,9 +42,10 @@ pub(crate) static PERSPECTIVE: Lesson = Lesson {
             format!("视场角 {fov}°：所有物体的大小是 40° 时的 {factor} 倍。"),
         )];
         all.extend(distortion(facts));
-        all.extend(planes_only_clip(values, facts));
+        all.extend(planes_only_clip(facts));
         all
     },
+    ..Lesson::USUAL
 };
 
 /// A perspective by its angle; through a window of another shape if the aspect ratio is not that of
@@ -67,70 +62,15 @@ fn perspective(values: &Values<'_>) -> String {
     format!("Frustum(left: -{r}, right: {r}, bottom: -{t}, top: {t}, near: {n}, far: {f})")
 }
 
-/// How the window's shape distorts, if it is not that of the picture.
-fn distortion(facts: &Facts) -> Option<Sentence> {
-    let wide = facts.picture_aspect() / facts.window_aspect()?;
-    if (wide - 1.0).abs() < 1e-3 {
-        return Some(sentence(
-            "The window has the shape of the picture: nothing is distorted.",
-            "窗口与画面的宽高比相同：没有变形。",
-        ));
-    }
-    let (window, picture) =
-        (decimals(facts.window_aspect()?, 2), decimals(facts.picture_aspect(), 2));
-    let stretch = decimals(wide, 2);
-    Some(sentence(
-        format!(
-            "The window is {window} : 1 and the picture {picture} : 1: everything is {stretch} times as wide as it should be."
-        ),
-        format!(
-            "窗口为 {window} : 1，画面为 {picture} : 1：所有物体的宽度是应有宽度的 {stretch} 倍。"
-        ),
-    ))
-}
-
-/// What near and far cut off of the model.
-fn planes_only_clip(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
-    let (Some([nearest, farthest]), [Some(near), Some(far)]) = (facts.model_range, facts.planes)
-    else {
-        return Vec::new();
-    };
-    let (near_text, far_text) =
-        (scene_number(values.number("near")), scene_number(values.number("far")));
-    let mut all = Vec::new();
-    if near > farthest {
-        all.push(sentence(
-            format!("near {near_text}: the whole house is before the near plane and cut off."),
-            format!("近平面 {near_text}：整座房子都在近平面之前，全部被裁掉。"),
-        ));
-    } else if near > nearest {
-        let depth = decimals(nearest, 2);
-        all.push(sentence(
-            format!("near {near_text}: the front corner, at distance {depth}, is cut off."),
-            format!("近平面 {near_text}：距离 {depth} 处的前角被裁掉。"),
-        ));
-    }
-    if far < farthest {
-        let depth = decimals(farthest, 2);
-        all.push(sentence(
-            format!("far {far_text}: the back, as far as {depth}, is cut off."),
-            format!("远平面 {far_text}：最远到 {depth} 的后部被裁掉。"),
-        ));
-    }
-    all
-}
-
 /// C63, C64: the window stays, so near changes the angle; the apex that moves (M12).
-pub(crate) static FRUSTUM: Lesson = Lesson {
+pub(super) static FRUSTUM: Lesson = Lesson {
     id: "frustum",
-    source: Source::LearnWebGl,
     items: &["C63", "C64", "C66", "M12"],
     title: words("Frustum", "视锥体（frustum）"),
     statement: words(
         "The window on the near plane keeps its size, so the distance of the near plane changes the lens angle; the far plane only clips. Left, right, bottom and top move the window. The lesson's createFrustum moves the apex behind the window's center instead of shearing the volume: another picture unless the window is centered.",
         "近平面上的窗口大小不变，所以近平面的距离会改变视角；远平面只裁剪。左、右、下、上移动窗口。教程中的 createFrustum 把顶点移到窗口中心的正后方，而不是剪切视锥体：除非窗口居中，否则画面不同。",
     ),
-    models: &[HOUSE],
     parameters: &[
         number("left", words("left", "左"), "", [-4.0, 0.0], [0.1, -2.0]),
         number("right", words("right", "右"), "", [0.2, 4.0], [0.1, 2.0]),
@@ -156,10 +96,6 @@ pub(crate) static FRUSTUM: Lesson = Lesson {
             ],
         ),
     ],
-    panes: ALL_PANES,
-    pin: [0.0, 4.75, 0.0],
-    orbit: [78.0, 20.0],
-    conventions: ApiConventions::OpenGl,
     describe: |values| {
         let name = if values.choice("apex") == "moved" { "ApexMovedFrustum" } else { "Frustum" };
         let fields = ["left", "right", "bottom", "top", "near", "far"]
@@ -168,6 +104,7 @@ pub(crate) static FRUSTUM: Lesson = Lesson {
         SceneDescription::new(HOUSE, look_at([3.0, 3.0, 10.5], [0.0, 2.2, 0.0]), projection)
     },
     consequences: frustum_consequences,
+    ..Lesson::USUAL
 };
 
 fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
@@ -199,6 +136,47 @@ fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
         ),
     });
     all.extend(distortion(facts));
-    all.extend(planes_only_clip(values, facts));
+    all.extend(planes_only_clip(facts));
     all
 }
+
+/// C94: the box of createOrthographic.
+pub(super) static ORTHO: Lesson = Lesson {
+    id: "ortho",
+    items: &["C94", "C90"],
+    title: words("Orthographic projection", "正交投影"),
+    statement: words(
+        "A box of the world is shown without foreshortening: what is twice as far is as large. A smaller window enlarges; near and far only clip, and near may even be behind the camera.",
+        "长方体视见体中的物体没有近大远小：远一倍的物体同样大。窗口越小，物体越大；近、远平面只裁剪，近平面甚至可以在相机后面。",
+    ),
+    parameters: &[
+        number("left", words("left", "左"), "", [-8.0, 0.0], [0.1, -4.8]),
+        number("right", words("right", "右"), "", [0.2, 8.0], [0.1, 4.8]),
+        number("bottom", words("bottom", "下"), "", [-6.0, 0.0], [0.1, -3.0]),
+        number("top", words("top", "上"), "", [0.2, 6.0], [0.1, 3.0]),
+        number("near", words("near plane", "近平面"), "", [-6.0, 11.0], [0.1, 5.0]),
+        number("far", words("far plane", "远平面"), "", [11.5, 40.0], [0.5, 17.0]),
+    ],
+    panes: PARALLEL_PANES,
+    orbit: [72.0, 22.0],
+    describe: |values| {
+        let fields = ["left", "right", "bottom", "top", "near", "far"]
+            .map(|key| format!("{key}: {}", scene_number(values.number(key))));
+        let projection = format!("Orthographic({})", fields.join(", "));
+        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+    },
+    consequences: |values, facts| {
+        let width = values.number("right") - values.number("left");
+        let (width, pixels) = (decimals(width, 2), decimals(f64::from(facts.size[0]) / width, 1));
+        let mut all = vec![sentence(
+            format!(
+                "The window is {width} wide, so one unit is {pixels} pixels wide at every distance."
+            ),
+            format!("窗口宽 {width}，所以一个单位在任何距离上都是 {pixels} 像素宽。"),
+        )];
+        all.extend(distortion(facts));
+        all.extend(planes_only_clip(facts));
+        all
+    },
+    ..Lesson::USUAL
+};

@@ -1,0 +1,148 @@
+//! The exercises of the chapter that can be drawn.
+
+use super::HOUSE;
+use crate::facts::Facts;
+use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
+use crate::number_text::{decimals, scene_number, scene_tuple};
+use crate::scene_description::{SceneDescription, look_at};
+use crate::words::{Sentence, sentence, words};
+use pipeline::explain::ApiConventions;
+
+/// The ends of the segment of exercise 11: along the ridge of the house.
+const RIDGE_ENDS: [[f64; 3]; 2] = [[0.0, 4.38, 3.15], [0.0, 4.38, -3.15]];
+
+/// Exercises 2, 7, 10 and 11.
+pub(super) static EXERCISES: Lesson = Lesson {
+    id: "exercises",
+    source: Source::Chapter,
+    items: &["C36", "C37", "C38"],
+    title: words("Exercises", "习题"),
+    statement: words(
+        "Figures to the chapter's exercises: 2, M_vp M_orth maps a window to pixels; 7, M_per takes the corner (r, t, n) to (1, 1, 1); 10, the camera at (0, 1, 0) that looks down; 11, where the point at fraction t of a segment has its image.",
+        "本章习题的图：2，M_vp M_orth 把窗口映射到像素；7，M_per 把角点 (r, t, n) 变到 (1, 1, 1)；10，位于 (0, 1, 0) 向下看的相机；11，线段上比例 t 处的点的像在哪里。",
+    ),
+    models: &[HOUSE, CRATE],
+    parameters: &[
+        choice(
+            "exercise",
+            words("exercise", "习题"),
+            &[
+                Choice {
+                    value: "7", label: words("7: the corner (r, t, n)", "7：角点 (r, t, n)")
+                },
+                Choice { value: "2", label: words("2: window to pixels", "2：窗口到像素") },
+                Choice {
+                    value: "10",
+                    label: words("10: a camera that looks down", "10：向下看的相机"),
+                },
+                Choice {
+                    value: "11", label: words("11: f(t) of a segment", "11：线段的 f(t)")
+                },
+            ],
+        ),
+        number("t", words("t, for exercise 11", "t，用于习题 11"), "", [0.0, 1.0], [0.01, 0.5]),
+    ],
+    // The corner (r, t, n) of exercise 7 in the world: eye (0, 2, 12), window 2 and 1.25 on n = −4.
+    pin: [2.0, 3.25, 8.0],
+    conventions: ApiConventions::Chapter,
+    describe: |values| match values.choice("exercise") {
+        "2" => {
+            let projection =
+                "Orthographic(left: -4, right: 4, bottom: -2.5, top: 2.5, near: 4, far: 18)";
+            straight_ahead(projection)
+        }
+        "10" => SceneDescription::new(
+            CRATE,
+            "LookTo(eye: (0, 1, 0), gaze: (0, -1, 0), up: (1, 0, 0))".to_owned(),
+            "Orthographic(left: -1.6, right: 1.6, bottom: -1, top: 1, near: -0.5, far: 2)"
+                .to_owned(),
+        ),
+        "11" => {
+            let point = segment_point(values.number("t"));
+            let ends = RIDGE_ENDS.map(|end| scene_tuple(&end));
+            let projection = "Perspective(fov_y_degrees: 40, near: 4, far: 18)".to_owned();
+            let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
+            let overlays = vec![
+                format!("Label(at: {}, text: \"a\", leader: true)", ends[0]),
+                format!("Label(at: {}, text: \"b\", leader: true)", ends[1]),
+                format!(
+                    "Label(at: {}, text: \"t = {}\", leader: true)",
+                    scene_tuple(&point),
+                    scene_number(values.number("t"))
+                ),
+            ];
+            SceneDescription { overlays, ..SceneDescription::new(HOUSE, view, projection) }
+        }
+        _ => straight_ahead(
+            "Frustum(left: -2, right: 2, bottom: -1.25, top: 1.25, near: 4, far: 18)",
+        ),
+    },
+    consequences: exercise_consequences,
+    ..Lesson::USUAL
+};
+
+/// The model of exercise 10: a cube whose top is at y = 1.
+const CRATE: &str = "models/crate.glb";
+
+fn straight_ahead(projection: &str) -> SceneDescription {
+    let view = "LookTo(eye: (0, 2, 12), gaze: (0, 0, -1))".to_owned();
+    SceneDescription::new(HOUSE, view, projection.to_owned())
+}
+
+fn segment_point(t: f64) -> [f64; 3] {
+    let [a, b] = RIDGE_ENDS;
+    [0, 1, 2].map(|axis| a[axis] + t * (b[axis] - a[axis]))
+}
+
+fn exercise_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
+    let [width, height] = facts.size.map(f64::from);
+    match values.choice("exercise") {
+        "2" => {
+            // nx / (r − l) and −1/2 − l nx / (r − l)
+            let [scale, offset] = [width / 8.0, 4.0 * width / 8.0 - 0.5].map(|n| decimals(n, 3));
+            vec![sentence(
+                format!(
+                    "x_s = {scale} x + {offset}: the window from −4 to 4 becomes −½ … {}.",
+                    decimals(width - 0.5, 1)
+                ),
+                format!(
+                    "x_s = {scale} x + {offset}：从 −4 到 4 的窗口变成 −½ … {}。",
+                    decimals(width - 0.5, 1)
+                ),
+            )]
+        }
+        "10" => vec![sentence(
+            "w = (0, 1, 0), u = t × w = (0, 0, 1), v = w × u = (1, 0, 0): x of the world points up in the picture, z to the right.",
+            "w = (0, 1, 0)，u = t × w = (0, 0, 1)，v = w × u = (1, 0, 0)：世界的 x 轴在画面中向上，z 轴向右。",
+        )],
+        "11" => {
+            let world_to_clip = facts.view_projection.world_to_clip();
+            let [start, end] =
+                RIDGE_ENDS.map(|point| world_to_clip.transform_point(point.into()).w());
+            let t = values.number("t");
+            // f(t) = w_R t / (w_r + t (w_R − w_r)), with r at t = 0 and R at t = 1 (IN-1)
+            let image = decimals(end * t / (start + t * (end - start)), 4);
+            let (start, end) = (decimals(start, 2), decimals(end, 2));
+            vec![sentence(
+                format!(
+                    "w is {start} at a and {end} at b: the point at {t} of the segment has its image at f(t) = {image} of the segment's image."
+                ),
+                format!(
+                    "a 处 w 为 {start}，b 处 w 为 {end}：线段上 {t} 处的点，其像在像线段的 f(t) = {image} 处。"
+                ),
+            )]
+        }
+        _ => vec![sentence(
+            format!(
+                "The corner (r, t, n) of the window goes to (1, 1, 1), and to the upper right corner of the picture: ({}, {}).",
+                decimals(width - 0.5, 1),
+                decimals(height - 0.5, 1)
+            ),
+            format!(
+                "窗口的角点 (r, t, n) 变到 (1, 1, 1)，也就是画面的右上角：({}, {})。",
+                decimals(width - 0.5, 1),
+                decimals(height - 0.5, 1)
+            ),
+        )],
+    }
+}

@@ -1,0 +1,76 @@
+//! The lesson on the order of clipping and dividing.
+
+use crate::facts::Facts;
+use crate::lesson::{Choice, Lesson, Source, Values, VolumeStage, choice, number};
+use crate::number_text::scene_number;
+use crate::scene_description::SceneDescription;
+use crate::words::{Sentence, sentence, words};
+
+/// A floor that passes under the eye.
+const FLOOR: &str = "models/floor.glb";
+
+/// C36: what tears if w is divided by before clipping.
+pub(super) static TEAR: Lesson = Lesson {
+    id: "tear",
+    source: Source::Chapter,
+    items: &["C36"],
+    title: words("Clip before the divide", "先裁剪，后做透视除法"),
+    statement: words(
+        "Behind the eye w is negative. Divided by it, a point comes out upside down and in front, and a triangle with corners on both sides is torn through infinity. So clipping comes first, where w is still a coordinate.",
+        "视点之后 w 为负。除以它，点会颠倒并出现在前方；两侧都有顶点的三角形会被撕裂到无穷远。所以先裁剪，这时 w 还是一个坐标。",
+    ),
+    models: &[FLOOR],
+    parameters: &[
+        choice(
+            "order",
+            words("order", "次序"),
+            &[
+                Choice {
+                    value: "divide", label: words("divide first (wrong)", "先除（错误）")
+                },
+                Choice { value: "clip", label: words("clip first", "先裁剪") },
+            ],
+        ),
+        number(
+            "z",
+            words("eye along the floor", "视点沿地面的位置"),
+            "",
+            [-20.0, 23.0],
+            [0.5, 0.0],
+        ),
+        number("near", words("near plane", "近平面"), "", [0.05, 5.0], [0.05, 0.5]),
+    ],
+    pin: [0.5, 0.0, -6.0],
+    orbit: [65.0, 25.0],
+    describe: |values| {
+        let [z, near] = ["z", "near"].map(|key| scene_number(values.number(key)));
+        let view = format!("LookTo(eye: (0.5, 0.8, {z}), gaze: (-0.05, -0.02, -1))");
+        let projection = format!("Perspective(fov_y_degrees: 62, near: {near}, far: 100)");
+        SceneDescription::new(FLOOR, view, projection)
+    },
+    consequences: tear_consequences,
+    volume: |values| match values.choice("order") {
+        "divide" => VolumeStage::Torn,
+        _ => VolumeStage::Divided,
+    },
+    ..Lesson::USUAL
+};
+
+fn tear_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
+    let (behind, all) = (facts.survey.behind_eye, facts.triangles[1]);
+    let mut sentences = vec![sentence(
+        format!("{behind} of {all} triangles have a corner with w ≤ 0."),
+        format!("{all} 个三角形中有 {behind} 个带有 w ≤ 0 的顶点。"),
+    )];
+    sentences.push(match values.choice("order") {
+        "divide" => sentence(
+            "Divided first, they land where nothing is: the view volume pane shows what would be drawn.",
+            "如果先除，它们会落到本来没有东西的地方：视见体窗格显示会画出什么。",
+        ),
+        _ => sentence(
+            "Clipped first, every corner that is left has w > 0.",
+            "先裁剪，剩下的每个顶点都有 w > 0。",
+        ),
+    });
+    sentences
+}

@@ -1,0 +1,62 @@
+//! Sentences that several lessons share: distortion by another aspect ratio, planes that cut off.
+
+use crate::facts::Facts;
+use crate::number_text::decimals;
+use crate::words::{Sentence, sentence};
+
+/// How the window's shape distorts, or that it does not.
+pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
+    let stretch = facts.picture_aspect() / facts.window_aspect()?;
+    if (stretch - 1.0).abs() < 5e-3 {
+        return Some(sentence(
+            "The window has the shape of the picture: nothing is distorted.",
+            "窗口与画面的宽高比相同：没有变形。",
+        ));
+    }
+    let (window, picture) =
+        (decimals(facts.window_aspect()?, 2), decimals(facts.picture_aspect(), 2));
+    let stretch = decimals(stretch, 2);
+    Some(sentence(
+        format!(
+            "The window is {window} : 1 and the picture {picture} : 1: everything is {stretch} \
+             times as wide as it should be."
+        ),
+        format!(
+            "窗口为 {window} : 1，画面为 {picture} : 1：所有物体的宽度是应有宽度的 {stretch} 倍。"
+        ),
+    ))
+}
+
+/// What the near and the far plane cut off of the model.
+pub(super) fn planes_only_clip(facts: &Facts) -> Vec<Sentence> {
+    let (Some([nearest, farthest]), [Some(near), Some(far)]) = (facts.model_range, facts.planes)
+    else {
+        return Vec::new();
+    };
+    let [near_text, far_text, nearest_text, farthest_text] =
+        [near, far, nearest, farthest].map(|distance| decimals(distance, 2));
+    let mut all = Vec::new();
+    if near > farthest {
+        all.push(sentence(
+            format!("near {near_text}: the whole model is before the near plane and cut off."),
+            format!("近平面 {near_text}：整个模型都在近平面之前，全部被裁掉。"),
+        ));
+    } else if near > nearest {
+        all.push(sentence(
+            format!("near {near_text}: the front corner, at distance {nearest_text}, is cut off."),
+            format!("近平面 {near_text}：距离 {nearest_text} 处的前角被裁掉。"),
+        ));
+    }
+    if far < nearest {
+        all.push(sentence(
+            format!("far {far_text}: the whole model is behind the far plane and cut off."),
+            format!("远平面 {far_text}：整个模型都在远平面之后，全部被裁掉。"),
+        ));
+    } else if far < farthest {
+        all.push(sentence(
+            format!("far {far_text}: the back, as far as {farthest_text}, is cut off."),
+            format!("远平面 {far_text}：最远到 {farthest_text} 的后部被裁掉。"),
+        ));
+    }
+    all
+}

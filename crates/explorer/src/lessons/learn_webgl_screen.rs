@@ -1,0 +1,257 @@
+//! The lessons of *Learn WebGL* on eyes, viewports, the mouse and depth.
+
+use super::effects::{distortion, planes_only_clip};
+use super::{ALL_PANES, HOUSE};
+use crate::facts::Facts;
+use crate::lesson::{Choice, Lesson, Values, choice, number};
+use crate::line_of_sight::LineOfSight;
+use crate::number_text::{decimals, scene_number, scene_tuple};
+use crate::scene_description::{SceneDescription, look_at};
+use crate::words::{Sentence, sentence, words};
+
+/// C65: two eyes, each with an off-axis window.
+pub(super) static STEREO: Lesson = Lesson {
+    id: "stereo",
+    items: &["C65"],
+    title: words("Stereo pair", "立体像对"),
+    statement: words(
+        "Two eyes look in one direction through off-axis windows that agree at the convergence distance. What is there has no parallax; what is nearer stands out of the picture. The eyes are not turned towards each other, and the apex is not moved: both would give vertical parallax or another picture.",
+        "两只眼睛朝同一方向，透过在会聚距离上重合的离轴窗口观看。会聚距离处没有视差；更近的物体凸出画面。眼睛不向内转动，也不移动顶点：那样会产生垂直视差或不同的画面。",
+    ),
+    parameters: &[
+        number("eyes", words("distance of the eyes", "两眼间距"), "", [0.02, 1.5], [0.02, 0.6]),
+        number(
+            "convergence",
+            words("convergence distance", "会聚距离"),
+            "",
+            [4.0, 30.0],
+            [0.1, 9.0],
+        ),
+        choice(
+            "mode",
+            words("pictures", "画面"),
+            &[
+                Choice { value: "side", label: words("side by side", "左右并列") },
+                Choice { value: "anaglyph", label: words("red and cyan", "红青立体") },
+            ],
+        ),
+    ],
+    describe: |values| {
+        let [eyes, convergence] =
+            ["eyes", "convergence"].map(|key| scene_number(values.number(key)));
+        let mode = if values.choice("mode") == "side" { "SideBySide" } else { "Anaglyph" };
+        let stereo = format!("stereo: {mode}(eye_distance: {eyes}, convergence: {convergence})");
+        let projection = "Perspective(fov_y_degrees: 40, near: 4, far: 18)".to_owned();
+        let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
+        SceneDescription { fields: vec![stereo], ..SceneDescription::new(HOUSE, view, projection) }
+    },
+    consequences: stereo_consequences,
+    ..Lesson::USUAL
+};
+
+fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
+    let Some([nearest, farthest]) = facts.model_range else { return Vec::new() };
+    let [eyes, convergence] = ["eyes", "convergence"].map(|key| values.number(key));
+    // On the plane of convergence the image of a point at distance D is e (1 − c / D) farther right
+    // for the right eye.
+    let parallax = |distance: f64| eyes * (1.0 - convergence / distance);
+    let sentence_for = |distance: f64, what: [&str; 2]| {
+        let (shift, text) = (parallax(distance), decimals(distance, 2));
+        let amount = decimals(shift.abs(), 3);
+        match shift < 0.0 {
+            true => sentence(
+                format!(
+                    "{} (distance {text}): crossed parallax {amount}, it stands out of the picture.",
+                    what[0]
+                ),
+                format!("{}（距离 {text}）：交叉视差 {amount}，凸出画面。", what[1]),
+            ),
+            false => sentence(
+                format!(
+                    "{} (distance {text}): parallax {amount}, it lies behind the picture.",
+                    what[0]
+                ),
+                format!("{}（距离 {text}）：视差 {amount}，位于画面之后。", what[1]),
+            ),
+        }
+    };
+    vec![
+        sentence_for(nearest, ["The nearest corner", "最近的角"]),
+        sentence_for(farthest, ["The farthest corner", "最远的角"]),
+    ]
+}
+
+/// C59, C99: the viewport transform.
+pub(super) static VIEWPORT: Lesson = Lesson {
+    id: "viewport",
+    items: &["C59", "C75", "C99"],
+    title: words("Viewport", "视口"),
+    statement: words(
+        "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, as glViewport(x, y, width, height) does; y counts from the bottom. A rectangle of another shape than the window distorts.",
+        "视口变换把 −1 … 1 的 x、y 映射到画面中的一个矩形，如 glViewport(x, y, width, height)；y 从下往上数。矩形与窗口的宽高比不同时图像变形。",
+    ),
+    parameters: &[
+        number("x", words("x, left", "x，左"), "%", [0.0, 80.0], [1.0, 10.0]),
+        number("y", words("y, bottom", "y，下"), "%", [0.0, 80.0], [1.0, 10.0]),
+        number("width", words("width", "宽"), "%", [20.0, 100.0], [1.0, 60.0]),
+        number("height", words("height", "高"), "%", [20.0, 100.0], [1.0, 80.0]),
+    ],
+    describe: |values| {
+        let [x, y, width, height] = viewport_rectangle(values);
+        let at = scene_tuple(&[x, 1.0 - y - height, width, height]);
+        SceneDescription {
+            viewports: vec![framed_viewport(
+                &at,
+                "Frustum(left: -2, right: 2, bottom: -1.25, top: 1.25, near: 4, far: 18)",
+            )],
+            ..around_viewport()
+        }
+    },
+    consequences: |values, facts| {
+        let [x, y, width, height] = viewport_rectangle(values);
+        let [picture_width, picture_height] = values.size.map(f64::from);
+        let pixels =
+            [x * picture_width, y * picture_height, width * picture_width, height * picture_height];
+        let [x, y, w, h] = pixels.map(|length| decimals(length, 1));
+        let mut all = vec![sentence(
+            format!(
+                "glViewport({x}, {y}, {w}, {h}): x_s = {x} + (x + 1) · {w} / 2, y_s = {y} + (y + 1) · {h} / 2 from the bottom."
+            ),
+            format!(
+                "glViewport({x}, {y}, {w}, {h})：x_s = {x} + (x + 1) · {w} / 2，y_s = {y} + (y + 1) · {h} / 2（从下往上）。"
+            ),
+        )];
+        all.extend(distortion(facts));
+        all
+    },
+    ..Lesson::USUAL
+};
+
+/// The rectangle in fractions of the picture, from its lower left corner; it ends at the borders.
+fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
+    let [x, y, width, height] = ["x", "y", "width", "height"].map(|key| values.number(key) / 100.0);
+    [x, y, width.min(1.0 - x), height.min(1.0 - y)]
+}
+
+/// A viewport with a border.
+pub(super) fn framed_viewport(at: &str, projection: &str) -> String {
+    let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
+    format!(
+        "Viewport(at: {at}, camera: Camera(view: {view}, projection: {projection}), \
+         background: Color(\"#ffffff\"), border: Border(color: \"#1a5680\", width: 1))"
+    )
+}
+
+/// A scene of which only the viewports show something.
+pub(super) fn around_viewport() -> SceneDescription {
+    SceneDescription {
+        comment: ": the scene's own camera looks away, so that only the viewport shows the model",
+        ..SceneDescription::new(
+            HOUSE,
+            "LookTo(eye: (0, 0, 100), gaze: (0, 0, 1))".to_owned(),
+            "Orthographic(height: 1, near: 1, far: 2)".to_owned(),
+        )
+    }
+}
+
+/// The mouse: from a pixel back to the world.
+pub(super) static PICKING: Lesson = Lesson {
+    id: "picking",
+    items: &["C97"],
+    title: words("Picking", "拾取"),
+    statement: words(
+        "A pixel goes back: to −1 … 1, then by the inverse matrix to a point on the near plane and one on the far plane, divided by w. The line through both is the line of sight; the first triangle on it is what is picked.",
+        "像素沿管线返回：先变到 −1 … 1，再用逆矩阵变成近平面和远平面上的点并除以 w。过这两点的直线就是视线；视线上的第一个三角形就是被拾取的物体。",
+    ),
+    parameters: &[
+        number("x", words("x of the mouse", "鼠标 x"), "%", [0.0, 100.0], [0.5, 50.0]),
+        number(
+            "y",
+            words("y of the mouse, from the top", "鼠标 y（从上往下）"),
+            "%",
+            [0.0, 100.0],
+            [0.5, 60.0],
+        ),
+    ],
+    describe: |_| {
+        let projection = "Perspective(fov_y_degrees: 40, near: 4, far: 18)".to_owned();
+        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+    },
+    consequences: |values, facts| {
+        let Some(pointer) = (values.lesson.pointer)(values) else { return Vec::new() };
+        let Some(line) = LineOfSight::through_picture(&facts.view_projection, pointer) else {
+            return Vec::new();
+        };
+        let text = |point: [f64; 3]| {
+            let numbers = point.map(|c| decimals(c, 2));
+            format!("({})", numbers.join(", "))
+        };
+        let [x, y] = [decimals(2.0 * pointer[0] - 1.0, 3), decimals(1.0 - 2.0 * pointer[1], 3)];
+        let [near, far] = line.ends.map(|end| text(end.into()));
+        let mut all = vec![sentence(
+            format!(
+                "NDC ({x}, {y}): the line of sight runs from {near} on the near plane to {far} on the far plane."
+            ),
+            format!("NDC ({x}, {y})：视线从近平面上的 {near} 到远平面上的 {far}。"),
+        )];
+        all.push(match line.first_hit(&facts.loaded.models.triangles.counted) {
+            Some(hit) => {
+                let hit = text(hit.into());
+                sentence(
+                    format!("It first meets the model at {hit}."),
+                    format!("它首先在 {hit} 处与模型相交。"),
+                )
+            }
+            None => sentence("It misses the model.", "它没有碰到模型。"),
+        });
+        all
+    },
+    pointer: |values| Some(["x", "y"].map(|key| values.number(key) / 100.0)),
+    ..Lesson::USUAL
+};
+
+/// C67, C68: how distance becomes depth.
+pub(super) static DEPTH_TABLE: Lesson = Lesson {
+    id: "depth-table",
+    items: &["C48", "C67", "C68"],
+    title: words("Depth after the divide", "透视除法之后的深度"),
+    statement: words(
+        "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of its range is spent on the distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly does.",
+        "深度与距离不是线性关系：z = c₁/D + c₂，c₁ = 2FN/(N − F)，c₂ = (F + N)/(F − N)。一半的深度范围用在 N 到 2FN/(F + N) 的距离上。把近平面移远有用；把远平面移近几乎无用。",
+    ),
+    parameters: &[
+        number("near", words("near plane", "近平面"), "", [0.1, 11.0], [0.1, 2.0]),
+        number("far", words("far plane", "远平面"), "", [11.5, 1000.0], [0.5, 40.0]),
+    ],
+    panes: ALL_PANES,
+    describe: |values| {
+        let [near, far] = ["near", "far"].map(|key| scene_number(values.number(key)));
+        let projection = format!("Perspective(fov_y_degrees: 40, near: {near}, far: {far})");
+        SceneDescription::new(HOUSE, look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]), projection)
+    },
+    consequences: |values, facts| {
+        let [near, far] = ["near", "far"].map(|key| values.number(key));
+        let half = decimals(2.0 * far * near / (far + near), 4);
+        let mut all = vec![sentence(
+            format!(
+                "Depth 0, half of the range, is at distance {half}; the far plane is at {far}."
+            ),
+            format!("深度 0（一半的范围）在距离 {half} 处；远平面在 {far} 处。"),
+        )];
+        all.extend(used_depths(facts));
+        all.extend(planes_only_clip(facts));
+        all
+    },
+    ..Lesson::USUAL
+};
+
+/// The part of the depth range that the model takes.
+fn used_depths(facts: &Facts) -> Option<Sentence> {
+    let [near, far] = facts.model_range?;
+    let [low, high] = [facts.depth_at(near)?, facts.depth_at(far)?];
+    let percent = decimals(50.0 * (low.min(1.0) - high.max(-1.0)), 1);
+    Some(sentence(
+        format!("The model takes {percent} % of the depth range."),
+        format!("模型占用了 {percent} % 的深度范围。"),
+    ))
+}

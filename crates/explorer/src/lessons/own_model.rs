@@ -1,0 +1,87 @@
+//! The lesson of any model.
+
+use super::slides_parallel::direction;
+use crate::lesson::{Choice, Lesson, Source, choice, number};
+use crate::number_text::{decimals, scene_number, scene_tuple};
+use crate::scene_description::SceneDescription;
+use crate::words::{sentence, words};
+
+/// The user's own model, by any projection.
+pub(super) static MODEL: Lesson = Lesson {
+    id: "model",
+    source: Source::Own,
+    title: words("Your own model", "自己的模型"),
+    statement: words(
+        "Any model by any projection: what holds for the house holds for it too.",
+        "任何模型都可以用任何投影来看：对房子成立的，对它也成立。",
+    ),
+    models: &[],
+    parameters: &[
+        choice(
+            "projection",
+            words("projection", "投影"),
+            &[
+                Choice { value: "perspective", label: words("perspective", "透视投影") },
+                Choice { value: "orthographic", label: words("orthographic", "正交投影") },
+                Choice { value: "isometric", label: words("isometric", "等轴测") },
+                Choice { value: "cavalier", label: words("cavalier", "斜等测") },
+                Choice { value: "cabinet", label: words("cabinet", "斜二测") },
+                Choice {
+                    value: "two-point", label: words("two-point perspective", "两点透视")
+                },
+            ],
+        ),
+        number("azimuth", words("azimuth", "方位角"), "°", [-180.0, 180.0], [1.0, 30.0]),
+        number("elevation", words("elevation", "仰角"), "°", [-85.0, 85.0], [1.0, 20.0]),
+        number(
+            "fov",
+            words("vertical field of view", "垂直视场角"),
+            "°",
+            [5.0, 120.0],
+            [1.0, 35.0],
+        ),
+    ],
+    pin: [0.0, 0.0, 0.0],
+    describe: |values| {
+        let direction = direction(values.number("azimuth"), values.number("elevation"));
+        let frame = format!("Frame(from: Direction({}))", scene_tuple(&direction));
+        let fov = scene_number(values.number("fov"));
+        let (view, projection) = match values.choice("projection") {
+            "orthographic" => (frame, "Orthographic()".to_owned()),
+            // These have a direction of their own.
+            "isometric" => (String::new(), "Isometric".to_owned()),
+            "cavalier" => (String::new(), "Cavalier()".to_owned()),
+            "cabinet" => (String::new(), "Cabinet()".to_owned()),
+            "two-point" => (String::new(), "TwoPoint()".to_owned()),
+            _ => (frame, format!("Perspective(fov_y_degrees: {fov})")),
+        };
+        SceneDescription {
+            style: "Shaded".to_owned(),
+            fields: vec!["environment: Studio(strength: 0.5)".to_owned()],
+            ..SceneDescription::new(values.model.unwrap_or_default(), view, projection)
+        }
+    },
+    consequences: |_, facts| {
+        let count = facts.triangles[0];
+        let mut all = vec![sentence(
+            format!("The model has {count} triangles."),
+            format!("模型有 {count} 个三角形。"),
+        )];
+        if facts.loaded.models.triangles.is_reduced() {
+            let drawn = facts.loaded.models.triangles.drawn().len();
+            all.push(sentence(
+                format!("The world and the view volume show {drawn} triangles of the same shape."),
+                format!("世界窗格和视见体窗格用形状相同的 {drawn} 个三角形显示。"),
+            ));
+        }
+        if let Some([near, far]) = facts.model_range {
+            let [near, far] = [near, far].map(|distance| decimals(distance, 3));
+            all.push(sentence(
+                format!("It is {near} to {far} ahead of the camera."),
+                format!("它在相机前方 {near} 到 {far} 处。"),
+            ));
+        }
+        all
+    },
+    ..Lesson::USUAL
+};

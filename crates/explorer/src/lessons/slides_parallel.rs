@@ -1,0 +1,187 @@
+//! The lessons of the slides on parallel projections: multiview, axonometric, oblique.
+
+use super::PARALLEL_PANES;
+use crate::lesson::{Choice, Lesson, Source, Values, choice, number};
+use crate::number_text::{decimals, scene_tuple};
+use crate::scene_description::SceneDescription;
+use crate::words::{Sentence, sentence, words};
+
+/// What these lessons have in common.
+const USUAL: Lesson = Lesson { source: Source::Slides, panes: PARALLEL_PANES, ..Lesson::USUAL };
+
+/// MV-1 to MV-3: onto the principal planes.
+pub(super) static MULTIVIEW: Lesson = Lesson {
+    id: "multiview",
+    items: &["C75"],
+    title: words("Multiview projection", "三视图"),
+    statement: words(
+        "Each view projects orthographically onto a principal plane: the front onto XOY leaves z out, the side onto YOZ leaves x out, the top onto ZOX leaves y out. Faces parallel to the plane keep their true shape; no single view shows the whole.",
+        "每个视图都正交投影到一个坐标平面：主视图投影到 XOY 面，去掉 z；侧视图投影到 YOZ 面，去掉 x；俯视图投影到 ZOX 面，去掉 y。平行于投影面的面保持真实形状；单个视图不能表示整个物体。",
+    ),
+    parameters: &[choice(
+        "view",
+        words("view", "视图"),
+        &[
+            Choice {
+                value: "all",
+                label: words("front, top, side, isometric", "主、俯、侧视图与等轴测图"),
+            },
+            Choice { value: "front", label: words("front, onto XOY", "主视图（XOY 面）") },
+            Choice {
+                value: "side", label: words("right side, onto YOZ", "右视图（YOZ 面）")
+            },
+            Choice { value: "top", label: words("top, onto ZOX", "俯视图（ZOX 面）") },
+        ],
+    )],
+    describe: |values| match values.choice("view") {
+        "front" => SceneDescription::line_drawing("Multiview(Front)".to_owned(), 12),
+        "side" => SceneDescription::line_drawing("Multiview(Right)".to_owned(), 12),
+        "top" => SceneDescription::line_drawing("Multiview(Top)".to_owned(), 12),
+        _ => four_views(),
+    },
+    consequences: |values, _| {
+        let lost = match values.choice("view") {
+            "front" => [("x", "y", "z")],
+            "side" => [("z", "y", "x")],
+            "top" => [("x", "z", "y")],
+            _ => {
+                return vec![sentence(
+                    "The views are at one scale: widths agree between front and top, heights between front and side.",
+                    "各视图比例相同：主、俯视图长对正，主、侧视图高平齐。",
+                )];
+            }
+        };
+        let [(a, b, lost)] = lost;
+        vec![sentence(
+            format!(
+                "{a} and {b} are in true length; every point loses its {lost}, so the matrix is singular."
+            ),
+            format!("{a} 和 {b} 为真实长度；每个点都失去了 {lost}，所以矩阵是奇异的。"),
+        )]
+    },
+    ..USUAL
+};
+
+/// Front, top, side and an isometric view at one scale.
+fn four_views() -> SceneDescription {
+    let view = |at: &str, projection: &str, caption: &str| {
+        format!(
+            "Viewport(at: {at}, camera: Camera(projection: {projection}), caption: \"{caption}\")"
+        )
+    };
+    SceneDescription {
+        fields: vec!["viewports_scale: Shared".to_owned()],
+        viewports: vec![
+            view("(0, 0.5, 0.5, 0.5)", "Multiview(Front)", "front: x, y"),
+            view("(0.5, 0.5, 0.5, 0.5)", "Multiview(Right)", "right side: z, y"),
+            view("(0, 0, 0.5, 0.5)", "Multiview(Top)", "top: x, z"),
+            view("(0.5, 0, 0.5, 0.5)", "Isometric", "isometric"),
+        ],
+        ..SceneDescription::line_drawing("Multiview(Front)".to_owned(), 5)
+    }
+}
+
+/// AX-1: turned by α and tilted by β, then onto XOY.
+pub(super) static AXONOMETRIC: Lesson = Lesson {
+    id: "axonometric",
+    items: &["C76", "C77"],
+    title: words("Axonometric projection", "轴测投影"),
+    statement: words(
+        "The object is turned by α about y and tilted by β about x, then projected orthographically: all three axes show. Equal foreshortening of three axes is isometric, of two dimetric, of none trimetric; the squares of the factors always sum to 2.",
+        "物体先绕 y 轴旋转 α，再绕 x 轴旋转 β，然后正交投影：三个轴都可见。三个轴的变形系数相等为等轴测，两个相等为二轴测，都不等为三轴测；系数的平方和恒为 2。",
+    ),
+    parameters: &[
+        number("alpha", words("α, about y", "α，绕 y 轴"), "°", [-90.0, 90.0], [0.5, 45.0]),
+        number("beta", words("β, about x", "β，绕 x 轴"), "°", [0.0, 90.0], [0.01, 35.26]),
+    ],
+    describe: |values| {
+        let [alpha, beta] = ["alpha", "beta"].map(|key| values.number(key));
+        // Straight from above, the direction alone does not say what is up in the picture.
+        let direction = scene_tuple(&direction(alpha, beta.min(89.9)));
+        SceneDescription {
+            view: format!("Frame(from: Direction({direction}), padding_percent: 10)"),
+            overlays: vec!["Axes(length: 5)".to_owned()],
+            ..SceneDescription::line_drawing("Orthographic()".to_owned(), 10)
+        }
+    },
+    consequences: |values, _| vec![foreshortening(values)],
+    ..USUAL
+};
+
+/// The unit vector of an azimuth and an elevation in degrees.
+pub(super) fn direction(azimuth: f64, elevation: f64) -> [f64; 3] {
+    let [(sa, ca), (se, ce)] = [azimuth, elevation].map(|angle| libm::sincos(angle.to_radians()));
+    [sa * ce, se, ca * ce]
+}
+
+fn foreshortening(values: &Values<'_>) -> Sentence {
+    let [(sa, ca), (sb, cb)] =
+        ["alpha", "beta"].map(|key| libm::sincos(values.number(key).to_radians()));
+    // x √(cos²α + sin²α sin²β), y |cos β|, z √(sin²α + cos²α sin²β)
+    let factors = [
+        libm::sqrt(ca * ca + sa * sa * sb * sb),
+        cb.abs(),
+        libm::sqrt(sa * sa + ca * ca * sb * sb),
+    ];
+    let [x, y, z] = factors;
+    let equal = [(x, y), (y, z), (z, x)].iter().filter(|(a, b)| (a - b).abs() < 2e-3).count();
+    let (kind, kind_zh) = match equal {
+        3 => ("isometric", "等轴测"),
+        0 => ("trimetric", "三轴测"),
+        _ => ("dimetric", "二轴测"),
+    };
+    let [x, y, z] = factors.map(|factor| decimals(factor, 3));
+    sentence(
+        format!("Foreshortening: x {x}, y {y}, z {z}: {kind}."),
+        format!("变形系数：x {x}，y {y}，z {z}：{kind_zh}。"),
+    )
+}
+
+/// OB-1: projectors that are not perpendicular to the picture.
+pub(super) static OBLIQUE: Lesson = Lesson {
+    id: "oblique",
+    items: &["C77", "C78"],
+    title: words("Oblique projection", "斜投影"),
+    statement: words(
+        "The projectors are parallel to each other, but not perpendicular to the picture: the front keeps its true shape, and depth recedes at the angle φ with the length L₁ = cot α. Cavalier has L₁ = 1, cabinet ½; L₁ = 0 is orthographic.",
+        "投影线互相平行但不垂直于投影面：正面保持真实形状，深度沿角 φ 方向以长度 L₁ = cot α 画出。斜等测 L₁ = 1，斜二测 L₁ = ½；L₁ = 0 就是正投影。",
+    ),
+    parameters: &[
+        number(
+            "length",
+            words("L₁, drawn length of depth", "L₁，深度的画出长度"),
+            "",
+            [0.0, 1.5],
+            [0.01, 1.0],
+        ),
+        number("phi", words("φ, direction of depth", "φ，深度方向"), "°", [0.0, 90.0], [1.0, 45.0]),
+    ],
+    describe: |values| {
+        let [length, phi] =
+            ["length", "phi"].map(|key| crate::number_text::scene_number(values.number(key)));
+        let projection = format!("Oblique(length: {length}, angle_degrees: {phi})");
+        SceneDescription {
+            overlays: vec!["Axes(length: 5)".to_owned()],
+            ..SceneDescription::line_drawing(projection, 10)
+        }
+    },
+    consequences: |values, _| {
+        let length = values.number("length");
+        let alpha = decimals(libm::atan2(1.0, length).to_degrees(), 1);
+        let (name, name_zh) = match length {
+            0.0 => ("orthographic", "正投影"),
+            0.5 => ("cabinet", "斜二测"),
+            1.0 => ("cavalier", "斜等测"),
+            _ => ("oblique", "斜投影"),
+        };
+        vec![sentence(
+            format!(
+                "The projectors meet the picture at α = {alpha}°: {name}. x_p = x + z L₁ cos φ, y_p = y + z L₁ sin φ."
+            ),
+            format!(
+                "投影线与投影面的夹角 α = {alpha}°：{name_zh}。x_p = x + z L₁ cos φ，y_p = y + z L₁ sin φ。"
+            ),
+        )]
+    },
+    ..USUAL
+};

@@ -1,0 +1,161 @@
+//! The lessons of the slides on vanishing points: perspectives with one, two and three of them.
+
+use crate::lesson::{Lesson, Source, Values, number};
+use crate::number_text::{scene_number, scene_tuple};
+use crate::scene_description::SceneDescription;
+use crate::words::{Sentence, sentence, words};
+
+/// What these lessons have in common.
+const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
+
+/// A construction: the house as a line drawing, with horizon and vanishing points.
+fn construction(projection: String) -> SceneDescription {
+    SceneDescription {
+        overlays: vec!["Horizon".to_owned(), "VanishingPoints".to_owned()],
+        ..SceneDescription::line_drawing(projection, 16)
+    }
+}
+
+/// The bottom row of the matrix, as the slides speak of it.
+fn bottom_row(row: &str, which: [&str; 2]) -> Vec<Sentence> {
+    vec![sentence(
+        format!("The bottom row of the matrix is {row}: {}.", which[0]),
+        format!("矩阵的最后一行是 {row}：{}。", which[1]),
+    )]
+}
+
+fn point(values: &Values<'_>, keys: [&str; 2]) -> String {
+    scene_tuple(&keys.map(|key| values.number(key)))
+}
+
+/// ONE-1: the front parallel to the picture.
+pub(super) static ONE_POINT: Lesson = Lesson {
+    id: "one-point",
+    items: &["C79", "C82"],
+    title: words("One-point perspective", "一点透视"),
+    statement: words(
+        "The front is parallel to the picture plane: it keeps its shape, and all lines in depth meet in one vanishing point. A nearer eye makes depth steeper.",
+        "正面平行于画面：形状不变，所有深度方向的直线交于一个灭点。视点越近，透视越强烈。",
+    ),
+    parameters: &[
+        number("x", words("vanishing point, x", "灭点 x"), "", [-0.9, 0.9], [0.01, 0.5]),
+        number("y", words("vanishing point, y", "灭点 y"), "", [-0.9, 0.9], [0.01, 0.45]),
+        number("distance", words("distance of the eye", "视距"), "", [1.2, 8.0], [0.1, 2.2]),
+    ],
+    describe: |values| {
+        let distance = scene_number(values.number("distance"));
+        let at = point(values, ["x", "y"]);
+        construction(format!("OnePoint(at: {at}, distance: {distance})"))
+    },
+    consequences: |values, _| {
+        let distance = scene_number(values.number("distance"));
+        bottom_row(
+            "(0, 0, r, 1)",
+            [
+                &format!(
+                    "only lines along z meet, at ({}, {}) half heights from the center; the eye is {distance} half heights before the picture",
+                    scene_number(values.number("x")),
+                    scene_number(values.number("y"))
+                ),
+                &format!(
+                    "只有 z 方向的直线相交，灭点距画面中心 ({}, {}) 个半高；视点在画面前 {distance} 个半高处",
+                    scene_number(values.number("x")),
+                    scene_number(values.number("y"))
+                ),
+            ],
+        )
+    },
+    ..USUAL
+};
+
+/// TWO-1: uprights stay upright.
+pub(super) static TWO_POINT: Lesson = Lesson {
+    id: "two-point",
+    items: &["C80", "C82"],
+    title: words("Two-point perspective", "两点透视"),
+    statement: words(
+        "Uprights are parallel to the picture and stay upright; lines along x and along z meet in two vanishing points on the horizon. Points close together look like a wide-angle lens.",
+        "竖直线平行于画面，保持竖直；x 方向和 z 方向的直线分别交于地平线上的两个灭点。两灭点靠得越近，越像广角镜头。",
+    ),
+    parameters: &[
+        number("x", words("vanishing point of x", "x 方向灭点"), "", [-6.0, -1.2], [0.05, -2.4]),
+        number("z", words("vanishing point of z", "z 方向灭点"), "", [1.2, 6.0], [0.05, 1.8]),
+        number(
+            "horizon",
+            words("height of the horizon", "地平线高度"),
+            "",
+            [-0.9, 0.9],
+            [0.01, 0.4],
+        ),
+        number(
+            "fraction",
+            words("eye between the points", "视点在两灭点之间的位置"),
+            "",
+            [0.3, 0.7],
+            [0.01, 0.5],
+        ),
+    ],
+    describe: |values| {
+        let [x, z] = [point(values, ["x", "horizon"]), point(values, ["z", "horizon"])];
+        let fraction = scene_number(values.number("fraction"));
+        construction(format!("TwoPoint(x: {x}, z: {z}, fraction: {fraction})"))
+    },
+    consequences: |values, _| {
+        let apart = scene_number(values.number("z") - values.number("x"));
+        bottom_row(
+            "(p, 0, r, 1)",
+            [
+                &format!(
+                    "lines along x and z meet, and verticals do not; the points are {apart} half heights apart"
+                ),
+                &format!("x 和 z 方向的直线相交，竖直线不相交；两灭点相距 {apart} 个半高"),
+            ],
+        )
+    },
+    ..USUAL
+};
+
+/// THREE-1: no axis parallel to the picture.
+pub(super) static THREE_POINT: Lesson = Lesson {
+    id: "three-point",
+    items: &["C81", "C82"],
+    title: words("Three-point perspective", "三点透视"),
+    statement: words(
+        "No axis is parallel to the picture: verticals meet too, far below when one looks down. The eye stands over the orthocenter of the triangle of the three vanishing points.",
+        "没有坐标轴平行于画面：竖直线也相交，俯视时灭点在下方远处。视点位于三个灭点所成三角形垂心的正前方。",
+    ),
+    parameters: &[
+        number("x", words("vanishing point of x", "x 方向灭点"), "", [-5.0, -2.4], [0.05, -3.2]),
+        number("z", words("vanishing point of z", "z 方向灭点"), "", [1.8, 4.0], [0.05, 2.4]),
+        number(
+            "horizon",
+            words("height of the horizon", "地平线高度"),
+            "",
+            [0.6, 1.8],
+            [0.02, 1.2],
+        ),
+        number(
+            "y",
+            words("vanishing point of verticals", "竖直方向灭点"),
+            "",
+            [-9.0, -3.5],
+            [0.1, -5.0],
+        ),
+    ],
+    describe: |values| {
+        let [x, z] = [point(values, ["x", "horizon"]), point(values, ["z", "horizon"])];
+        let y = scene_tuple(&[0.1, values.number("y")]);
+        construction(format!("ThreePoint(x: {x}, y: {y}, z: {z})"))
+    },
+    consequences: |values, _| {
+        let y = scene_number(values.number("y"));
+        bottom_row(
+            "(p, q, r, 1)",
+            [
+                &format!("all three axes have a vanishing point; verticals meet at height {y}"),
+                &format!("三个坐标轴都有灭点；竖直线交于高度 {y} 处"),
+            ],
+        )
+    },
+    ..USUAL
+};

@@ -1,0 +1,174 @@
+//! The scenes of the panes around the picture: triangles in the colors of what clipping does to
+//! them, with view volumes and labels.
+
+use crate::ExplorerError;
+use crate::triangle_survey::Containment;
+use camera::{Basis, ViewProjection, frame_parallel};
+use drawing::{Overlay, PointLabel, palette};
+use glam::DVec2;
+use homog::{Affine, Point, World};
+use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
+use pipeline::scene::parse_scene;
+use pipeline::{Origin, Scene};
+use projection::{Convention, Orthographic};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The colors of triangles inside, clipped and outside, and of the line of sight, in sRGB.
+pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
+    ("inside", [122, 166, 218]),
+    ("clipped", [230, 159, 0]),
+    ("outside", [190, 186, 180]),
+    ("sight", [200, 30, 90]),
+];
+
+/// What the panes have in common; camera, size and overlays follow.
+const SCENE: &str = r##"Scene(
+    models: [Model(path: "triangles")],
+    camera: Camera(projection: Orthographic()),
+    lights: [Directional(direction: (-1, -2, -1.5), intensity: 1.6), Ambient(intensity: 1)],
+    style: Flat,
+    image: Image(background: Color("#ffffff")),
+)"##;
+
+/// The margin around what is framed, as a part of the picture's side.
+const PADDING: f64 = 0.07;
+
+/// How a pane is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Observer {
+    /// Azimuth and elevation in degrees.
+    pub(crate) orbit: [f64; 2],
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
+}
+
+/// The geometry of a pane.
+#[derive(Debug, Default)]
+pub(crate) struct PaneGeometry {
+    /// The triangles inside, clipped and outside.
+    triangles: [Vec<[[f32; 3]; 3]>; 3],
+    /// The ends of the line of sight.
+    sight: Option<[[f32; 3]; 2]>,
+}
+
+impl PaneGeometry {
+    /// Adds a triangle.
+    pub(crate) fn add_triangle(&mut self, containment: Containment, corners: [[f64; 3]; 3]) {
+        self.triangles[containment as usize].push(corners.map(to_f32));
+    }
+
+    /// Adds the line of sight.
+    pub(crate) fn add_sight(&mut self, ends: [[f64; 3]; 2]) {
+        self.sight = Some(ends.map(to_f32));
+    }
+
+    /// The scene, framed around points.
+    ///
+    /// # Errors
+    /// There are no points, or one is not finite.
+    pub(crate) fn into_scene(
+        self,
+        observer: Observer,
+        framed: Vec<Point<World>>,
+    ) -> Result<Scene, ExplorerError> {
+        let mut file = parse_scene("pane", SCENE)
+            .map_err(|errors| ExplorerError::from(pipeline::ResolveError::Scene(errors)))?;
+        let origin = Origin::from_text("pane", SCENE, PathBuf::new());
+        let [width, height] = observer.size;
+        file.image.size = (width, height);
+        file.image.samples = observer.samples;
+        let instance = self.into_model(&framed);
+        let mut scene = Scene::from_models(&origin, &file, vec![instance])?;
+        scene.view_projection = observer_view(observer, framed)?;
+        Ok(scene)
+    }
+
+    /// The model. Without any triangle it has one without area, so that the overlays have something
+    /// to stand around.
+    fn into_model(self, framed: &[Point<World>]) -> ModelInstance {
+        let groups = self.triangles.iter().enumerate();
+        let mut primitives: Vec<Primitive> = groups
+            .filter(|(_, triangles)| !triangles.is_empty())
+            .map(|(at, all)| primitive(at, Topology::Triangles, all.as_flattened()))
+            .collect();
+        if primitives.is_empty() {
+            let point = framed.first().map_or([0.0; 3], |point| to_f32((*point).into()));
+            primitives.push(primitive(0, Topology::Triangles, &[point; 3]));
+        }
+        primitives.extend(self.sight.map(|ends| primitive(3, Topology::Lines, &ends)));
+        let model = Model {
+            name: "triangles".to_owned(),
+            meshes: vec![Mesh { primitives, ..Mesh::default() }],
+            materials: COLORS.map(|(name, color)| material(name, color)).to_vec(),
+            nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+            roots: vec![0],
+            ..Model::default()
+        };
+        ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }
+    }
+}
+
+fn to_f32(point: [f64; 3]) -> [f32; 3] {
+    point.map(|c| c as f32)
+}
+
+fn primitive(material: usize, topology: Topology, positions: &[[f32; 3]]) -> Primitive {
+    Primitive {
+        topology,
+        indices: (0..positions.len() as u32).collect(),
+        positions: positions.to_vec(),
+        material: Some(material),
+        ..Primitive::default()
+    }
+}
+
+fn material(name: &str, color: [u8; 3]) -> Material {
+    // The linear part of the sRGB curve is below all of these codes.
+    let [r, g, b] = color.map(|code| {
+        let encoded = (f64::from(code) / 255.0 + 0.055) / 1.055;
+        libm::pow(encoded, 2.4) as f32
+    });
+    Material {
+        name: Some(name.to_owned()),
+        base_color: [r, g, b, 1.0],
+        metallic: 0.0,
+        double_sided: true,
+        unlit: name == "sight",
+        ..Material::default()
+    }
+}
+
+/// A parallel view of points, with room in depth for what is beside them.
+fn observer_view(
+    observer: Observer,
+    points: Vec<Point<World>>,
+) -> Result<ViewProjection, ExplorerError> {
+    let invalid = |message: String| ExplorerError::new("invalid_scene", message, "reset the view");
+    let [azimuth, elevation] = observer.orbit.map(f64::to_radians);
+    let basis = Basis::from_azimuth_elevation(azimuth, elevation)
+        .map_err(|error| invalid(error.to_string()))?;
+    let aspect = f64::from(observer.size[0]) / f64::from(observer.size[1]);
+    let framed = frame_parallel(points, basis, aspect, PADDING)
+        .map_err(|error| invalid(error.to_string()))?;
+    let room = 4.0 * (framed.far - framed.near + framed.top - framed.bottom);
+    let [near, far] = [framed.near - room, framed.far + room];
+    let camera::ParallelFraming { left, right, bottom, top, camera, .. } = framed;
+    let volume = Orthographic::new(left, right, bottom, top, near, far)
+        .map_err(|error| invalid(error.to_string()))?;
+    Ok(ViewProjection { camera, view_to_clip: volume.view_to_clip(Convention::CHAPTER) })
+}
+
+/// Text at a point, `offset` pixels beside it.
+pub(crate) fn label_at(at: Point<World>, text: &str, [x, y]: [f64; 2]) -> Overlay {
+    let (ink, height) = (palette::INK, 12.0);
+    let offset = DVec2::new(x, y);
+    Overlay::Label(PointLabel { at, text: text.to_owned(), offset, ink, height, leader: false })
+}
+
+/// A point with a name, at the end of a short line.
+pub(crate) fn named_point(at: Point<World>, text: &str) -> Overlay {
+    let [_, _, _, (_, ink)] = COLORS;
+    let (offset, height) = (DVec2::new(14.0, -14.0), 12.0);
+    Overlay::Label(PointLabel { at, text: text.to_owned(), offset, ink, height, leader: true })
+}

@@ -1,0 +1,152 @@
+//! The pane `volume`: the canonical view volume with what clipping and the divide leave in it, or a
+//! step on the way there.
+
+use crate::ExplorerError;
+use crate::facts::Facts;
+use crate::lesson::VolumeStage;
+use crate::pane_scene::{Observer, PaneGeometry, label_at, named_point};
+use crate::triangle_survey::{Containment, classify, project};
+use crate::world_pane::Pointer;
+use camera::{Basis, Camera, ViewProjection};
+use clip::{Volume, clip_triangle};
+use drawing::Overlay;
+use glam::DMat4;
+use homog::{Affine, Clip, HPoint, Point, Projective, View, World};
+use pipeline::Scene;
+use pipeline::explain::ApiConventions;
+use projection::{Convention, Frustum, ViewVolume};
+
+/// How far torn triangles are drawn, in half sides of the view volume: beyond it they would only be
+/// larger.
+const TORN_LIMIT: f64 = 40.0;
+
+/// The scene of the pane at a stage of the pipeline.
+///
+/// # Errors
+/// The scene cannot be framed.
+pub(crate) fn volume_scene(
+    facts: &Facts,
+    (stage, conventions): (VolumeStage, ApiConventions),
+    observer: Observer,
+    pointer: Pointer,
+) -> Result<Scene, ExplorerError> {
+    match stage {
+        VolumeStage::Factors(count) => factor_scene(facts, count, observer),
+        stage => canonical_scene(facts, (stage, conventions), observer, pointer),
+    }
+}
+
+/// The canonical view volume.
+fn canonical_scene(
+    facts: &Facts,
+    (stage, conventions): (VolumeStage, ApiConventions),
+    observer: Observer,
+    pointer: Pointer,
+) -> Result<Scene, ExplorerError> {
+    let view = facts.view_projection;
+    let mut geometry = PaneGeometry::default();
+    for triangle in facts.loaded.models.triangles.drawn() {
+        add_divided(&mut geometry, project(&view, triangle), stage);
+    }
+    let to_ndc = |point| view.world_to_clip().transform_point(point).divide();
+    let ends =
+        pointer.sight.and_then(|sight| Some([to_ndc(sight.ends[0])?, to_ndc(sight.ends[1])?]));
+    if let Some(ends) = ends {
+        geometry.add_sight(ends.map(<[f64; 3]>::from));
+    }
+    let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| [x, y, z])));
+    let cube = corners.as_flattened().as_flattened().iter().map(|corner| Point::from(*corner));
+    let mut scene = geometry.into_scene(observer, cube.collect())?;
+    let camera = camera_at_origin()?;
+    let canonical = ViewProjection { camera, view_to_clip: Projective::from_raw(DMat4::IDENTITY) };
+    scene.overlays.push(Overlay::Volume(Box::new(canonical)));
+    scene.overlays.extend(face_labels(conventions));
+    let image = pointer.point.and_then(to_ndc).map(|ndc| Point::from(<[f64; 3]>::from(ndc)));
+    scene.overlays.extend(image.map(|point| named_point(point, "P")));
+    Ok(scene)
+}
+
+/// Adds a triangle of clip space, divided by w: what clipping leaves of it, or all of it.
+fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: VolumeStage) {
+    let (containment, _) = classify(corners);
+    if stage == VolumeStage::Torn {
+        let divided = corners.map(|corner| corner.divide().map(<[f64; 3]>::from));
+        let [Some(a), Some(b), Some(c)] = divided else { return };
+        let triangle = [a, b, c].map(|ndc| ndc.map(|c| c.clamp(-TORN_LIMIT, TORN_LIMIT)));
+        // Behind the eye in part: what a divide without clipping tears.
+        let is_torn = corners.iter().any(|corner| corner.w() <= 0.0);
+        let shown = if is_torn { Containment::Clipped } else { containment };
+        if is_torn || containment != Containment::Outside {
+            geometry.add_triangle(shown, triangle);
+        }
+        return;
+    }
+    for fan in clip_triangle(corners, &Volume::CHAPTER).triangles() {
+        if let [Some(a), Some(b), Some(c)] = fan.map(|corner| corner.point.divide()) {
+            geometry.add_triangle(containment, [a, b, c].map(<[f64; 3]>::from));
+        }
+    }
+}
+
+/// View space behind some of the affine factors of a frustum, with the view volume as it is there.
+fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene, ExplorerError> {
+    let view = facts.view_projection;
+    let to_stage = affine_factors(facts, count).unwrap_or(Affine::IDENTITY);
+    let to_stage = view.camera.world_to_view().then(to_stage);
+    let mut geometry = PaneGeometry::default();
+    for triangle in facts.loaded.models.triangles.drawn() {
+        let (containment, _) = classify(project(&view, triangle));
+        let corners = triangle.map(|corner| to_stage.transform_point(corner));
+        geometry.add_triangle(containment, corners.map(<[f64; 3]>::from));
+    }
+    let from_stage = to_stage.inverse().unwrap_or(view.camera.view_to_world());
+    let stage_to_clip = from_stage.then_project(view.world_to_clip());
+    let volume = ViewVolume::new(stage_to_clip, Convention::CHAPTER);
+    let corners = volume.corners().into_iter().flatten().chain(volume.eye());
+    let finite = corners.filter_map(|corner| corner.divide());
+    let framed: Vec<Point<World>> =
+        finite.map(|point| Point::from(<[f64; 3]>::from(point))).collect();
+    let labels = [(3, "near"), (6, "far")];
+    let labels = labels.map(|(at, text)| Some(label_at(*framed.get(at)?, text, [4.0, -4.0])));
+    let mut scene = geometry.into_scene(observer, framed)?;
+    let seen = ViewProjection { camera: camera_at_origin()?, view_to_clip: stage_to_clip };
+    scene.overlays.push(Overlay::Volume(Box::new(seen)));
+    scene.overlays.extend(labels.into_iter().flatten());
+    Ok(scene)
+}
+
+/// The first of the factors shear and scale; `None` if the view is no frustum.
+fn affine_factors(facts: &Facts, count: usize) -> Option<Affine<View, View>> {
+    let ([left, right, bottom, top], [near, far]) = (facts.window?, facts.planes);
+    let frustum = Frustum::new(left, right, bottom, top, near?, far?).ok()?;
+    let factors = frustum.factors(Convention::CHAPTER);
+    Some(match count {
+        0 => Affine::IDENTITY,
+        1 => factors.shear,
+        _ => factors.shear.then(factors.scale),
+    })
+}
+
+fn camera_at_origin() -> Result<Camera, ExplorerError> {
+    Camera::new(Point::ORIGIN, Basis::WORLD)
+        .map_err(|error| ExplorerError::new("invalid_scene", error.to_string(), "reset the view"))
+}
+
+/// The coordinates of the faces of the canonical view volume, in these conventions.
+fn face_labels(conventions: ApiConventions) -> Vec<Overlay> {
+    let [near, far] = match conventions {
+        ApiConventions::OpenGl => [-1, 1],
+        ApiConventions::Vulkan | ApiConventions::Direct3d | ApiConventions::WebGpu => [0, 1],
+        _ => [1, -1],
+    };
+    let faces: [([f64; 3], String); 6] = [
+        ([-1.0, -1.0, 0.0], "x = -1".to_owned()),
+        ([1.0, -1.0, 0.0], "x = 1".to_owned()),
+        ([-1.0, -1.0, -1.0], "y = -1".to_owned()),
+        ([-1.0, 1.0, -1.0], "y = 1".to_owned()),
+        ([0.0, -1.0, 1.0], format!("near z = {near}")),
+        ([0.0, 1.0, -1.0], format!("far z = {far}")),
+    ];
+    let label = |(at, text): ([f64; 3], String)| label_at(Point::from(at), &text, [0.0, -4.0]);
+    faces.into_iter().map(label).collect()
+}

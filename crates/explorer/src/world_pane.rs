@@ -1,0 +1,91 @@
+//! The pane `world`: the world from outside, with the view volume, the eye and a line of sight.
+//!
+//! ```text
+//!           ╱│near      │far
+//!    eye ──●─┼────P─────┼      triangles inside, clipped and outside in three colors
+//!           ╲│          │
+//! ```
+
+use crate::ExplorerError;
+use crate::facts::views;
+use crate::line_of_sight::LineOfSight;
+use crate::model_store::LoadedScene;
+use crate::pane_scene::{Observer, PaneGeometry, label_at, named_point};
+use crate::triangle_survey::{WorldTriangle, classify, project};
+use camera::ViewProjection;
+use drawing::Overlay;
+use homog::{Point, View, World};
+use pipeline::Scene;
+use projection::{Convention, ViewVolume};
+
+/// The most view volumes that are drawn: those of all viewports of a sheet.
+const MAX_VOLUMES: usize = 4;
+
+/// What is pointed at: a point of the world, and the line on which it is seen.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pointer {
+    pub(crate) point: Option<Point<World>>,
+    pub(crate) sight: Option<LineOfSight>,
+}
+
+/// The scene of the world from outside. It is framed around the scene of the lesson's defaults, so
+/// that it stands still while a value is dragged.
+///
+/// # Errors
+/// The scene cannot be framed.
+pub(crate) fn world_scene(
+    loaded: &LoadedScene,
+    defaults: &LoadedScene,
+    observer: Observer,
+    pointer: Pointer,
+) -> Result<Scene, ExplorerError> {
+    let shown = views(&loaded.scene);
+    let first = shown[0].view_projection;
+    let mut geometry = PaneGeometry::default();
+    for triangle in loaded.models.triangles.drawn() {
+        let (containment, _) = classify(project(&first, triangle));
+        geometry.add_triangle(containment, triangle.map(<[f64; 3]>::from));
+    }
+    if let Some(sight) = pointer.sight {
+        geometry.add_sight([eye(&first).unwrap_or(sight.ends[0]), sight.ends[1]].map(Into::into));
+    }
+    let framed = framed_points(&views(&defaults.scene), defaults.models.triangles.drawn());
+    let mut scene = geometry.into_scene(observer, framed)?;
+    for view in shown.iter().take(MAX_VOLUMES) {
+        scene.overlays.push(Overlay::Volume(Box::new(view.view_projection)));
+    }
+    scene.overlays.extend(plane_labels(&first));
+    scene.overlays.extend(pointer.point.map(|point| named_point(point, "P")));
+    Ok(scene)
+}
+
+/// The center of projection; `None` in a parallel projection.
+fn eye(view: &ViewProjection) -> Option<Point<World>> {
+    let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
+    Some(view.camera.view_to_world().transform_point(volume.eye()?.divide()?))
+}
+
+/// The points that the world is framed around: the models, the eyes and the corners of the volumes.
+fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<World>> {
+    let mut points: Vec<Point<World>> = triangles.iter().flatten().copied().collect();
+    for scene in shown {
+        let view = scene.view_projection;
+        let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
+        let to_world = view.camera.view_to_world();
+        let corners = volume.corners().into_iter().flatten().chain(volume.eye());
+        let finite = corners.filter_map(|corner| corner.divide());
+        points.extend(finite.map(|point: Point<View>| to_world.transform_point(point)));
+    }
+    points
+}
+
+/// The names of the near and the far plane, at a corner of each.
+fn plane_labels(view: &ViewProjection) -> Vec<Overlay> {
+    let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
+    let Some(corners) = volume.corners() else { return Vec::new() };
+    let to_world = view.camera.view_to_world();
+    let label = |(at, text, offset): (usize, &str, [f64; 2])| {
+        Some(label_at(to_world.transform_point(corners[at].divide()?), text, offset))
+    };
+    [(3, "near", [-3.0, -4.0]), (6, "far", [4.0, -4.0])].into_iter().filter_map(label).collect()
+}
