@@ -102,7 +102,7 @@ impl Explorer {
         self.check_models(state)?;
         let text = description.to_text(state.lesson.title.en, size, samples);
         let loaded = self.store.resolve(&text, &description.models)?;
-        Ok((text, loaded))
+        Ok((text, LoadedScene { first_view: description.first_view, ..loaded }))
     }
 
     /// Checks that the models of a state have been added.

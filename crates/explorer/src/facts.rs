@@ -4,7 +4,6 @@ use crate::model_store::LoadedScene;
 use crate::triangle_survey::Survey;
 use camera::ViewProjection;
 use homog::{Point, View, World};
-use pipeline::Scene;
 use projection::{Convention, ViewVolume};
 use serde_json::{Value as Json, json};
 
@@ -32,18 +31,10 @@ pub(crate) struct Facts {
     pub(crate) loaded: LoadedScene,
 }
 
-/// The views of a scene: its own, or those of its viewports or stereo pair.
-pub(crate) fn views(scene: &Scene) -> Vec<&Scene> {
-    match scene.insets.as_slice() {
-        [] => vec![scene],
-        insets => insets.iter().map(|inset| &inset.scene).collect(),
-    }
-}
-
 impl Facts {
     /// The numbers of the first view of a scene.
     pub(crate) fn new(loaded: &LoadedScene) -> Self {
-        let scene = views(&loaded.scene)[0];
+        let scene = loaded.views()[0];
         let view_projection = scene.view_projection;
         let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
         let corners = volume.corners();

@@ -18,6 +18,18 @@ const KEPT_SCENES: usize = 6;
 pub(crate) struct LoadedScene {
     pub(crate) scene: Arc<Scene>,
     pub(crate) models: Arc<LoadedModels>,
+    /// The first viewport that shows the model.
+    pub(crate) first_view: usize,
+}
+
+impl LoadedScene {
+    /// The views of the scene, at least one: its own, or those of its viewports or stereo pair.
+    pub(crate) fn views(&self) -> Vec<&Scene> {
+        match self.scene.insets.get(self.first_view..) {
+            None | Some([]) => vec![&self.scene],
+            Some(insets) => insets.iter().map(|inset| &inset.scene).collect(),
+        }
+    }
 }
 
 /// The models of a scene, and what is computed from them once.
@@ -93,7 +105,7 @@ impl ModelStore {
             let models = Arc::clone(models);
             let origin = Origin::from_text_in_memory("scene.ron", text, MemoryFolder::default());
             let scene = Scene::from_models(&origin, &file, models.instances.clone())?;
-            return Ok(LoadedScene { scene: Arc::new(scene), models });
+            return Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 });
         }
         let origin = Origin::from_text_in_memory("scene.ron", text, self.folder.clone());
         let scene = Scene::resolve(&origin, &file, &Default::default())?;
@@ -106,6 +118,6 @@ impl ModelStore {
             self.models.remove(0);
         }
         self.models.push(Arc::clone(&models));
-        Ok(LoadedScene { scene: Arc::new(scene), models })
+        Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 })
     }
 }

@@ -22,6 +22,9 @@ pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
     ("sight", [200, 30, 90]),
 ];
 
+/// The index of the color of the line of sight.
+const SIGHT: usize = 3;
+
 /// What the panes have in common; camera, size and overlays follow.
 const SCENE: &str = r##"Scene(
     models: [Model(path: "triangles")],
@@ -48,8 +51,8 @@ pub(crate) struct Observer {
 pub(crate) struct PaneGeometry {
     /// The triangles inside, clipped and outside.
     triangles: [Vec<[[f32; 3]; 3]>; 3],
-    /// The ends of the line of sight.
-    sight: Option<[[f32; 3]; 2]>,
+    /// The ends of the lines of each color.
+    lines: [Vec<[[f32; 3]; 2]>; 4],
 }
 
 impl PaneGeometry {
@@ -60,7 +63,13 @@ impl PaneGeometry {
 
     /// Adds the line of sight.
     pub(crate) fn add_sight(&mut self, ends: [[f64; 3]; 2]) {
-        self.sight = Some(ends.map(to_f32));
+        self.lines[SIGHT].push(ends.map(to_f32));
+    }
+
+    /// Adds the edges of a triangle.
+    pub(crate) fn add_edges(&mut self, containment: Containment, [a, b, c]: [[f64; 3]; 3]) {
+        let edges = [[a, b], [b, c], [c, a]].map(|ends| ends.map(to_f32));
+        self.lines[containment as usize].extend(edges);
     }
 
     /// The scene, framed around points.
@@ -96,11 +105,15 @@ impl PaneGeometry {
             let point = framed.first().map_or([0.0; 3], |point| to_f32((*point).into()));
             primitives.push(primitive(0, Topology::Triangles, &[point; 3]));
         }
-        primitives.extend(self.sight.map(|ends| primitive(3, Topology::Lines, &ends)));
+        let lines = self.lines.iter().enumerate().filter(|(_, lines)| !lines.is_empty());
+        let first = COLORS.len();
+        primitives.extend(
+            lines.map(|(at, all)| primitive(first + at, Topology::Lines, all.as_flattened())),
+        );
         let model = Model {
             name: "triangles".to_owned(),
             meshes: vec![Mesh { primitives, ..Mesh::default() }],
-            materials: COLORS.map(|(name, color)| material(name, color)).to_vec(),
+            materials: [false, true].map(|unlit| COLORS.map(|it| material(it, unlit))).concat(),
             nodes: vec![Node { mesh: Some(0), ..Node::default() }],
             roots: vec![0],
             ..Model::default()
@@ -123,7 +136,8 @@ fn primitive(material: usize, topology: Topology, positions: &[[f32; 3]]) -> Pri
     }
 }
 
-fn material(name: &str, color: [u8; 3]) -> Material {
+/// Surfaces are lit, lines are not.
+fn material((name, color): (&str, [u8; 3]), unlit: bool) -> Material {
     // The linear part of the sRGB curve is below all of these codes.
     let [r, g, b] = color.map(|code| {
         let encoded = (f64::from(code) / 255.0 + 0.055) / 1.055;
@@ -134,7 +148,7 @@ fn material(name: &str, color: [u8; 3]) -> Material {
         base_color: [r, g, b, 1.0],
         metallic: 0.0,
         double_sided: true,
-        unlit: name == "sight",
+        unlit,
         ..Material::default()
     }
 }
@@ -168,7 +182,7 @@ pub(crate) fn label_at(at: Point<World>, text: &str, [x, y]: [f64; 2]) -> Overla
 
 /// A point with a name, at the end of a short line.
 pub(crate) fn named_point(at: Point<World>, text: &str) -> Overlay {
-    let [_, _, _, (_, ink)] = COLORS;
+    let (_, ink) = COLORS[SIGHT];
     let (offset, height) = (DVec2::new(14.0, -14.0), 12.0);
     Overlay::Label(PointLabel { at, text: text.to_owned(), offset, ink, height, leader: true })
 }

@@ -16,6 +16,8 @@ pub(crate) struct SceneDescription {
     pub(crate) style: String,
     pub(crate) overlays: Vec<String>,
     pub(crate) viewports: Vec<String>,
+    /// The first viewport that shows the model.
+    pub(crate) first_view: usize,
     /// Further fields, each in a line.
     pub(crate) fields: Vec<String>,
     /// The color behind everything; empty for that of the lessons.

@@ -16,9 +16,9 @@ use pipeline::Scene;
 use pipeline::explain::ApiConventions;
 use projection::{Convention, Frustum, ViewVolume};
 
-/// How far torn triangles are drawn, in half sides of the view volume: beyond it they would only be
-/// larger.
-const TORN_LIMIT: f64 = 40.0;
+/// How far out torn triangles are drawn, in half sides of the view volume: single precision ends
+/// somewhere.
+const TORN_LIMIT: f64 = 1e6;
 
 /// The scene of the pane at a stage of the pipeline.
 ///
@@ -60,7 +60,7 @@ fn canonical_scene(
     let camera = camera_at_origin()?;
     let canonical = ViewProjection { camera, view_to_clip: Projective::from_raw(DMat4::IDENTITY) };
     scene.overlays.push(Overlay::Volume(Box::new(canonical)));
-    scene.overlays.extend(face_labels(conventions));
+    scene.overlays.extend(corner_labels(conventions));
     let image = pointer.point.and_then(to_ndc).map(|ndc| Point::from(<[f64; 3]>::from(ndc)));
     scene.overlays.extend(image.map(|point| named_point(point, "P")));
     Ok(scene)
@@ -72,12 +72,13 @@ fn add_divided(geometry: &mut PaneGeometry, corners: [HPoint<Clip>; 3], stage: V
     if stage == VolumeStage::Torn {
         let divided = corners.map(|corner| corner.divide().map(<[f64; 3]>::from));
         let [Some(a), Some(b), Some(c)] = divided else { return };
-        let triangle = [a, b, c].map(|ndc| ndc.map(|c| c.clamp(-TORN_LIMIT, TORN_LIMIT)));
+        let is_far = [a, b, c].as_flattened().iter().any(|c| c.abs() > TORN_LIMIT);
         // Behind the eye in part: what a divide without clipping tears.
-        let is_torn = corners.iter().any(|corner| corner.w() <= 0.0);
-        let shown = if is_torn { Containment::Clipped } else { containment };
-        if is_torn || containment != Containment::Outside {
-            geometry.add_triangle(shown, triangle);
+        match corners.iter().any(|corner| corner.w() <= 0.0) {
+            true if is_far => {}
+            true => geometry.add_edges(Containment::Clipped, [a, b, c]),
+            false if containment == Containment::Outside => {}
+            false => geometry.add_triangle(containment, [a, b, c]),
         }
         return;
     }
@@ -132,21 +133,16 @@ fn camera_at_origin() -> Result<Camera, ExplorerError> {
         .map_err(|error| ExplorerError::new("invalid_scene", error.to_string(), "reset the view"))
 }
 
-/// The coordinates of the faces of the canonical view volume, in these conventions.
-fn face_labels(conventions: ApiConventions) -> Vec<Overlay> {
+/// The coordinates of two opposite corners of the canonical view volume, in these conventions.
+fn corner_labels(conventions: ApiConventions) -> [Overlay; 2] {
     let [near, far] = match conventions {
         ApiConventions::OpenGl => [-1, 1],
         ApiConventions::Vulkan | ApiConventions::Direct3d | ApiConventions::WebGpu => [0, 1],
         _ => [1, -1],
     };
-    let faces: [([f64; 3], String); 6] = [
-        ([-1.0, -1.0, 0.0], "x = -1".to_owned()),
-        ([1.0, -1.0, 0.0], "x = 1".to_owned()),
-        ([-1.0, -1.0, -1.0], "y = -1".to_owned()),
-        ([-1.0, 1.0, -1.0], "y = 1".to_owned()),
-        ([0.0, -1.0, 1.0], format!("near z = {near}")),
-        ([0.0, 1.0, -1.0], format!("far z = {far}")),
-    ];
-    let label = |(at, text): ([f64; 3], String)| label_at(Point::from(at), &text, [0.0, -4.0]);
-    faces.into_iter().map(label).collect()
+    let label = |at: [f64; 3], text: &str, offset| label_at(Point::from(at), text, offset);
+    [
+        label([-1.0, -1.0, 1.0], &format!("near (-1, -1, {near})"), [-2.0, 8.0]),
+        label([1.0, 1.0, -1.0], &format!("far (1, 1, {far})"), [2.0, -6.0]),
+    ]
 }

@@ -7,7 +7,6 @@
 //! ```
 
 use crate::ExplorerError;
-use crate::facts::views;
 use crate::line_of_sight::LineOfSight;
 use crate::model_store::LoadedScene;
 use crate::pane_scene::{Observer, PaneGeometry, label_at, named_point};
@@ -20,6 +19,8 @@ use projection::{Convention, ViewVolume};
 
 /// The most view volumes that are drawn: those of all viewports of a sheet.
 const MAX_VOLUMES: usize = 4;
+/// How far the framed part of a view volume goes, in distances of the farthest point of the models.
+const MAX_FRAMED_DEPTH: f64 = 1.6;
 
 /// What is pointed at: a point of the world, and the line on which it is seen.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,7 +40,7 @@ pub(crate) fn world_scene(
     observer: Observer,
     pointer: Pointer,
 ) -> Result<Scene, ExplorerError> {
-    let shown = views(&loaded.scene);
+    let shown = loaded.views();
     let first = shown[0].view_projection;
     let mut geometry = PaneGeometry::default();
     for triangle in loaded.models.triangles.drawn() {
@@ -49,7 +50,7 @@ pub(crate) fn world_scene(
     if let Some(sight) = pointer.sight {
         geometry.add_sight([eye(&first).unwrap_or(sight.ends[0]), sight.ends[1]].map(Into::into));
     }
-    let framed = framed_points(&views(&defaults.scene), defaults.models.triangles.drawn());
+    let framed = framed_points(&defaults.views(), defaults.models.triangles.drawn());
     let mut scene = geometry.into_scene(observer, framed)?;
     for view in shown.iter().take(MAX_VOLUMES) {
         scene.overlays.push(Overlay::Volume(Box::new(view.view_projection)));
@@ -65,16 +66,28 @@ fn eye(view: &ViewProjection) -> Option<Point<World>> {
     Some(view.camera.view_to_world().transform_point(volume.eye()?.divide()?))
 }
 
-/// The points that the world is framed around: the models, the eyes and the corners of the volumes.
+/// The points that the world is framed around: the models, the eyes and the corners of the volumes,
+/// those not far behind the models.
 fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<World>> {
     let mut points: Vec<Point<World>> = triangles.iter().flatten().copied().collect();
-    for scene in shown {
+    for scene in shown.iter().take(MAX_VOLUMES) {
         let view = scene.view_projection;
         let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
-        let to_world = view.camera.view_to_world();
-        let corners = volume.corners().into_iter().flatten().chain(volume.eye());
-        let finite = corners.filter_map(|corner| corner.divide());
-        points.extend(finite.map(|point: Point<View>| to_world.transform_point(point)));
+        let (to_view, to_world) = (view.camera.world_to_view(), view.camera.view_to_world());
+        let Some(corners) = volume.corners().map(|all| all.map(|corner| corner.divide())) else {
+            continue;
+        };
+        let depths = triangles.iter().flatten().map(|point| -to_view.transform_point(*point).z());
+        let limit = MAX_FRAMED_DEPTH * depths.fold(0.0, f64::max);
+        let sides = (0..4).filter_map(|at| Some([corners[at]?, corners[at + 4]?]));
+        let shortened = sides.flat_map(|[near, far]| {
+            let [n, f] = [-near.z(), -far.z()];
+            let t = if f > limit && limit > n { (limit - n) / (f - n) } else { 1.0 };
+            [near, near.lerp(far, t)]
+        });
+        let eye = volume.eye().and_then(|eye| eye.divide());
+        let all = shortened.chain(eye);
+        points.extend(all.map(|point: Point<View>| to_world.transform_point(point)));
     }
     points
 }

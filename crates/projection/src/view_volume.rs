@@ -30,6 +30,9 @@ pub struct ViewVolume {
     convention: Convention,
 }
 
+/// The largest w of an eye at infinity, as a fraction of its other coordinates.
+const ROUNDING: f64 = 1e-13;
+
 impl ViewVolume {
     /// The pairs of corners that an edge joins: four near, four far, four along the line of sight.
     pub const EDGES: [[usize; 2]; 12] = [
@@ -101,6 +104,10 @@ impl ViewVolume {
         let towards = self.convention.near_depth() - self.convention.far_depth();
         let eye =
             clip_to_view.transform_hpoint(HPoint::from_raw(DVec4::new(0.0, 0.0, towards, 0.0)));
+        let direction = eye.raw().truncate();
+        // The inverse of a parallel projection may have a w that is nothing but rounding.
+        let is_infinite = eye.w().abs() <= ROUNDING * direction.abs().max_element();
+        let eye = if is_infinite { HPoint::from_raw(direction.extend(0.0)) } else { eye };
         eye.is_finite().then_some(eye)
     }
 }

@@ -15,7 +15,7 @@ const USUAL: Lesson =
 
 const fn plane_n(default: f64) -> Parameter {
     let label = words("n, near (a z-coordinate)", "n，近（z 坐标）");
-    number("n", label, "", [-11.0, -0.5], [0.1, default])
+    number("n", label, "", [-11.0, -1.0], [0.1, default])
 }
 
 const fn plane_f(default: f64) -> Parameter {
@@ -79,10 +79,10 @@ pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
         "P 保持 z = n 平面不变，并压缩它后面的平面，使截头锥体变成正交视图的长方体；其余由 M_orth 完成：M_per = M_orth P。窗口 [l, r] × [b, t] 位于 z = n 上。",
     ),
     parameters: &[
-        number("l", words("l, left", "l，左"), "", [-4.0, -0.2], [0.05, -2.0]),
-        number("r", words("r, right", "r，右"), "", [0.2, 4.0], [0.05, 2.0]),
-        number("b", words("b, bottom", "b，下"), "", [-4.0, -0.2], [0.05, -1.25]),
-        number("t", words("t, top", "t，上"), "", [0.2, 4.0], [0.05, 1.25]),
+        number("l", words("l, left", "l，左"), "", [-4.0, -0.2], [0.05, -2.4]),
+        number("r", words("r, right", "r，右"), "", [0.2, 4.0], [0.05, 2.4]),
+        number("b", words("b, bottom", "b，下"), "", [-4.0, -0.2], [0.05, -1.5]),
+        number("t", words("t, top", "t，上"), "", [0.2, 4.0], [0.05, 1.5]),
         plane_n(-4.0),
         plane_f(-18.0),
     ],

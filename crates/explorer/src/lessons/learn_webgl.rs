@@ -72,10 +72,10 @@ pub(super) static FRUSTUM: Lesson = Lesson {
         "近平面上的窗口大小不变，所以近平面的距离会改变视角；远平面只裁剪。左、右、下、上移动窗口。教程中的 createFrustum 把顶点移到窗口中心的正后方，而不是剪切视锥体：除非窗口居中，否则画面不同。",
     ),
     parameters: &[
-        number("left", words("left", "左"), "", [-4.0, 0.0], [0.1, -2.0]),
-        number("right", words("right", "右"), "", [0.2, 4.0], [0.1, 2.0]),
-        number("bottom", words("bottom", "下"), "", [-4.0, 0.0], [0.05, -1.25]),
-        number("top", words("top", "上"), "", [0.2, 4.0], [0.05, 1.25]),
+        number("left", words("left", "左"), "", [-4.0, 0.0], [0.1, -2.4]),
+        number("right", words("right", "右"), "", [0.2, 4.0], [0.1, 2.4]),
+        number("bottom", words("bottom", "下"), "", [-4.0, 0.0], [0.05, -1.5]),
+        number("top", words("top", "上"), "", [0.2, 4.0], [0.05, 1.5]),
         number("near", words("near plane", "近平面"), "", [1.0, 11.0], [0.1, 4.0]),
         number("far", words("far plane", "远平面"), "", [11.5, 60.0], [0.5, 18.0]),
         choice(

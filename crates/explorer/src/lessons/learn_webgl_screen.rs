@@ -41,7 +41,7 @@ pub(super) static STEREO: Lesson = Lesson {
             ["eyes", "convergence"].map(|key| scene_number(values.number(key)));
         let mode = if values.choice("mode") == "side" { "SideBySide" } else { "Anaglyph" };
         let stereo = format!("stereo: {mode}(eye_distance: {eyes}, convergence: {convergence})");
-        let projection = "Perspective(fov_y_degrees: 40, near: 4, far: 18)".to_owned();
+        let projection = "Perspective(fov_y_degrees: 52, near: 4, far: 18)".to_owned();
         let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
         SceneDescription { fields: vec![stereo], ..SceneDescription::new(HOUSE, view, projection) }
     },
@@ -135,7 +135,7 @@ fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
 
 /// A viewport with a border.
 pub(super) fn framed_viewport(at: &str, projection: &str) -> String {
-    let view = look_at([4.0, 3.0, 10.0], [0.0, 2.2, 0.0]);
+    let view = look_at([4.4, 3.2, 11.0], [0.0, 2.2, 0.0]);
     format!(
         "Viewport(at: {at}, camera: Camera(view: {view}, projection: {projection}), \
          background: Color(\"#ffffff\"), border: Border(color: \"#1a5680\", width: 1))"

@@ -125,19 +125,18 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
         let projection = format!(
             "Orthographic(left: -{w}, right: {w}, bottom: -{h}, top: {h}, near: 2, far: 20)"
         );
-        let [width, height] = viewport_pixels(values)
-            .iter()
-            .zip(values.size)
-            .map(|(length, side)| length / f64::from(side))
-            .collect::<Vec<_>>()[..]
-        else {
-            return around_viewport();
+        let size = values.size.map(f64::from);
+        let at = |[width, height]: [f64; 2]| {
+            let [width, height] = [width / size[0], height / size[1]];
+            scene_tuple(&[0.5 - 0.5 * width, 0.5 - 0.5 * height, width, height])
         };
-        let at = scene_tuple(&[0.5 - 0.5 * width, 0.5 - 0.5 * height, width, height]);
-        SceneDescription { viewports: vec![framed_viewport(&at, &projection)], ..around_viewport() }
+        let bars =
+            format!("Viewport(at: {}, background: Color(\"#1a1f26\"))", at(viewport(values)));
+        let view = framed_viewport(&at(shown_pixels(values)), &projection);
+        SceneDescription { viewports: vec![bars, view], first_view: 1, ..around_viewport() }
     },
     consequences: |values, _| {
-        let pixels = viewport_pixels(values);
+        let pixels = shown_pixels(values);
         let [sx, sy] = [(pixels[0], "window_width"), (pixels[1], "window_height")]
             .map(|(pixels, key)| decimals(pixels / values.number(key), 2));
         vec![match sx == sy {
@@ -154,11 +153,16 @@ pub(super) static WINDOW_VIEWPORT: Lesson = Lesson {
     ..USUAL
 };
 
+/// Width and height of the viewport in pixels.
+fn viewport(values: &Values<'_>) -> [f64; 2] {
+    let [width, height] = values.size.map(f64::from);
+    [0.01 * values.number("width") * width, 0.01 * values.number("height") * height]
+}
+
 /// Width and height in pixels of what the window is mapped to: the viewport, or the largest
 /// rectangle of the window's shape in it.
-fn viewport_pixels(values: &Values<'_>) -> [f64; 2] {
-    let [width, height] = values.size.map(f64::from);
-    let viewport = [0.01 * values.number("width") * width, 0.01 * values.number("height") * height];
+fn shown_pixels(values: &Values<'_>) -> [f64; 2] {
+    let viewport = viewport(values);
     if values.choice("fit") == "stretch" {
         return viewport;
     }
