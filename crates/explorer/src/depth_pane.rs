@@ -3,6 +3,7 @@
 use crate::ExplorerError;
 use crate::facts::Facts;
 use crate::number_text::decimals;
+use crate::words::{Words, words};
 use drawing::{Axis, AxisMark, Chart, Curve, Ink, Page, Spacing};
 use glam::DVec2;
 use pipeline::demonstration::DepthTable;
@@ -99,9 +100,15 @@ pub(crate) fn depth_table_json(facts: &Facts, conventions: ApiConventions) -> Op
     let table = DepthTable::new(near, far, convention, DepthFormat::FixedPoint(24)).ok()?;
     let row = |distance: f64| {
         let row = table.row_at(distance).ok()?;
-        Some(json!({"distance": row.distance, "depth": row.depths[0], "step": row.steps[0]}))
+        Some(json!([row.distance, row.depths[0], row.steps[0]]))
     };
     let rows: Vec<Json> = table.default_distances().into_iter().filter_map(row).collect();
     let half = 2.0 * far * near / (far + near);
-    Some(json!({"near": near, "far": far, "half_range_distance": half, "bits": 24, "rows": rows}))
+    let columns = [
+        words("distance", "距离"),
+        words("depth", "深度"),
+        words("least step of 24 bits", "24 位深度的最小步长"),
+    ];
+    let columns = columns.map(Words::to_json);
+    Some(json!({"columns": columns, "rows": rows, "half_range_distance": half}))
 }

@@ -15,6 +15,11 @@ pub struct ExplorerError {
     pub help: String,
 }
 
+/// What to do about a scene that makes no sense.
+const RESET: &str = "change a value, or reset the lesson";
+/// What to do about a model that cannot be loaded.
+const OTHER_FILE: &str = "check the file, or choose another one";
+
 impl ExplorerError {
     pub(crate) fn new(
         code: &'static str,
@@ -22,6 +27,18 @@ impl ExplorerError {
         help: impl Into<String>,
     ) -> Self {
         Self { code, message: message.into(), help: help.into() }
+    }
+
+    /// The error as one of the user's own model, if it speaks of its file.
+    pub(crate) fn about_model(self, name: &str) -> Self {
+        let is_of_model = !name.is_empty() && self.message.starts_with(&format!("{name}: "));
+        match is_of_model {
+            true if self.help == RESET => {
+                Self { code: "broken_model", help: OTHER_FILE.into(), ..self }
+            }
+            true => Self { code: "broken_model", ..self },
+            false => self,
+        }
     }
 
     /// An error in the language of the request.
@@ -44,16 +61,16 @@ impl From<ResolveError> for ExplorerError {
             ResolveError::Scene(errors) => {
                 let first = errors.first();
                 let help = first.help.clone();
-                let usual = || "change a value, or reset the lesson".to_owned();
-                Self::new("invalid_scene", first.message.clone(), help.unwrap_or_else(usual))
+                let help = help.unwrap_or_else(|| RESET.to_owned());
+                Self::new("invalid_scene", first.message.clone(), help)
             }
-            other => Self::new("broken_model", other.to_string(), "choose another file"),
+            other => Self::new("broken_model", other.to_string(), OTHER_FILE),
         }
     }
 }
 
 impl From<RenderError> for ExplorerError {
     fn from(error: RenderError) -> Self {
-        Self::new("cannot_render", error.to_string(), "change a value, or reset the lesson")
+        Self::new("cannot_render", error.to_string(), RESET)
     }
 }

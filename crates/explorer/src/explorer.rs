@@ -101,7 +101,9 @@ impl Explorer {
         }
         self.check_models(state)?;
         let text = description.to_text(state.lesson.title.en, size, samples);
-        let loaded = self.store.resolve(&text, &description.models)?;
+        let own = state.model.as_deref().unwrap_or_default();
+        let loaded = self.store.resolve(&text, &description.models);
+        let loaded = loaded.map_err(|error| error.about_model(own))?;
         Ok((text, LoadedScene { first_view: description.first_view, ..loaded }))
     }
 
@@ -175,13 +177,13 @@ impl Explorer {
             Some((_, scene)) => Arc::clone(scene),
             None if is_world => {
                 let (_, defaults) = self.load(&state.with_defaults(), DEFAULT_SIZE, 4)?;
-                let pointer = pointer(state, &Facts::new(&loaded));
+                let pointer = pointer(state, &loaded);
                 Arc::new(world_scene(&loaded, &defaults, observer, pointer)?)
             }
             None => {
-                let (facts, lesson) = (Facts::new(&loaded), state.lesson);
+                let (facts, lesson) = (Facts::without_survey(&loaded), state.lesson);
                 let stage = (lesson.volume)(&state.values(DEFAULT_SIZE));
-                let pointer = pointer(state, &facts);
+                let pointer = pointer(state, &loaded);
                 let conventions = lesson.conventions;
                 Arc::new(volume_scene(&facts, (stage, conventions), observer, pointer)?)
             }
@@ -194,12 +196,12 @@ impl Explorer {
 }
 
 /// What the state points at: the pixel under the mouse of the lesson, or the pinned point.
-fn pointer(state: &LessonState, facts: &Facts) -> Pointer {
-    let view = &facts.view_projection;
+fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
+    let view = &loaded.views()[0].view_projection;
     match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {
         Some(position) => {
             let sight = LineOfSight::through_picture(view, position);
-            let triangles = &facts.loaded.models.triangles.counted;
+            let triangles = &loaded.models.triangles.counted;
             Pointer { point: sight.and_then(|sight| sight.first_hit(triangles)), sight }
         }
         None => {

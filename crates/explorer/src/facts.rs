@@ -34,6 +34,14 @@ pub(crate) struct Facts {
 impl Facts {
     /// The numbers of the first view of a scene.
     pub(crate) fn new(loaded: &LoadedScene) -> Self {
+        let view = Self::without_survey(loaded);
+        let triangles = &loaded.models.triangles.counted;
+        let survey = Survey::new(&view.view_projection, triangles);
+        Self { survey, model_range: model_range(&view.view_projection, triangles), ..view }
+    }
+
+    /// The numbers of the first view alone, without those of its triangles.
+    pub(crate) fn without_survey(loaded: &LoadedScene) -> Self {
         let scene = loaded.views()[0];
         let view_projection = scene.view_projection;
         let volume = ViewVolume::new(view_projection.view_to_clip, Convention::CHAPTER);
@@ -44,12 +52,12 @@ impl Facts {
         Self {
             size: [scene.image.width, scene.image.height - scene.image.caption_height],
             view_projection,
-            survey: Survey::new(&view_projection, &triangles.counted),
+            survey: Survey::default(),
             triangles: [triangles.count, triangles.counted.len()],
             apex: volume.eye().and_then(|eye| eye.divide()),
             window: window.map(|(low, high)| [low.x(), high.x(), low.y(), high.y()]),
             planes: [0, 4].map(|at| corner(at).map(|corner| -corner.z())),
-            model_range: model_range(&view_projection, &triangles.counted),
+            model_range: None,
             loaded: loaded.clone(),
         }
     }

@@ -8,8 +8,8 @@ use crate::model_store::LoadedScene;
 use crate::pane_scene::COLORS;
 use crate::request::Request;
 use crate::words::{Sentence, sentence};
-use homog::Point;
-use pipeline::explain::{TransformChain, explain_point, explain_transforms};
+use homog::{Point, Screen};
+use pipeline::explain::{ApiConventions, TransformChain, explain_point, explain_transforms};
 use serde_json::{Map, Value as Json, json};
 
 /// The state as JSON: link, scene file, command, sentences, numbers, matrices, journey.
@@ -50,7 +50,7 @@ pub(crate) fn state_json(
         "colors": COLORS.map(|(name, [r, g, b])| (name, format!("#{r:02x}{g:02x}{b:02x}"))).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
         "conventions": lesson.conventions.name(),
         "matrix": explain_transforms(&chain).to_json(),
-        "journey": journey_json(&chain, pin, loaded),
+        "journey": journey_json(&chain, pin, loaded, lesson.conventions),
         "depth_table": lesson.panes.contains(&"depth").then(|| depth_table_json(facts, lesson.conventions)).flatten(),
         "pin": state.pin(),
         "orbit": state.orbit(),
@@ -76,10 +76,16 @@ fn command(lesson: &str, text: &str) -> String {
 }
 
 /// The explanation of a point, with its coordinates in each space.
-fn journey_json(chain: &TransformChain, pin: Point<homog::World>, loaded: &LoadedScene) -> Json {
+fn journey_json(
+    chain: &TransformChain,
+    pin: Point<homog::World>,
+    loaded: &LoadedScene,
+    conventions: ApiConventions,
+) -> Json {
     let clip = chain.world_to_clip().transform_point(pin);
     let ndc = clip.divide();
-    let screen = chain.project_to_screen(clip);
+    let screen =
+        chain.project_to_screen(clip).map(|screen| in_picture(screen, loaded, conventions));
     let model = loaded.scene.models.first().and_then(|first| first.model_to_world.inverse());
     let model = model.map(|to_model| <[f64; 3]>::from(to_model.transform_point(pin)));
     let view = chain.world_to_view().transform_point(pin);
@@ -90,9 +96,23 @@ fn journey_json(chain: &TransformChain, pin: Point<homog::World>, loaded: &Loade
         {"space": "view", "label": {"en": "view (camera)", "zh": "观察（相机）坐标"}, "value": <[f64; 3]>::from(view)},
         {"space": "clip", "label": {"en": "clip, before the divide by w", "zh": "裁剪坐标（透视除法之前）"}, "value": <[f64; 4]>::from(clip)},
         {"space": "ndc", "label": {"en": "NDC, after the divide", "zh": "规范化设备坐标（透视除法之后）"}, "value": ndc.map(<[f64; 3]>::from)},
-        {"space": "screen", "label": {"en": "screen: pixel, pixel, depth", "zh": "屏幕坐标：像素与深度"}, "value": screen.map(<[f64; 3]>::from)},
+        {"space": "screen", "label": {"en": "screen: pixel, pixel, depth", "zh": "屏幕坐标：像素与深度"}, "value": screen},
     ]);
     json
+}
+
+/// Screen coordinates of the first view as those of the whole picture: a viewport begins elsewhere.
+fn in_picture(
+    screen: Point<Screen>,
+    loaded: &LoadedScene,
+    conventions: ApiConventions,
+) -> [f64; 3] {
+    let [x, y, depth] = <[f64; 3]>::from(screen);
+    let Some(inset) = loaded.scene.insets.get(loaded.first_view) else { return [x, y, depth] };
+    let below = loaded.scene.image.height - inset.rect.y - inset.rect.height;
+    let runs_up = matches!(conventions, ApiConventions::OpenGl | ApiConventions::Chapter);
+    let corner = [inset.rect.x, if runs_up { below } else { inset.rect.y }].map(f64::from);
+    [x + corner[0], y + corner[1], depth]
 }
 
 const PLANES_ZH: [&str; 6] = ["左", "右", "下", "上", "近", "远"];

@@ -25,7 +25,7 @@
 //! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
 //! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
 //! | lessons: projections, sweeps, depth curves | [`demonstration`] | its documentation |
-//! | models from memory | [`import::load_bytes`], [`Scene::from_models`] | |
+//! | models from memory | [`Origin::from_text_in_memory`], [`import::load_bytes`], [`Scene::from_models`] | |
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
 //!

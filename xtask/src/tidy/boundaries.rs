@@ -44,6 +44,21 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "explorer",
+        &[
+            "homog",
+            "camera",
+            "projection",
+            "clip",
+            "viewport",
+            "raster",
+            "model",
+            "shade",
+            "drawing",
+            "pipeline",
+        ],
+    ),
+    (
         "alberti",
         &[
             "homog",
@@ -56,6 +71,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "shade",
             "drawing",
             "pipeline",
+            "explorer",
         ],
     ),
 ];

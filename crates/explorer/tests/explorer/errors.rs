@@ -17,7 +17,7 @@ fn a_broken_model_is_an_error_and_the_next_request_works() {
     for name in ["broken.glb", "empty.glb"] {
         for what in ["picture", "world", "volume", "state", "depth", "drawing"] {
             let query = format!("what={what}&lesson=model&model={name}");
-            assert_eq!(code(&mut explorer, &query), "invalid_scene");
+            assert_eq!(code(&mut explorer, &query), "broken_model");
             assert!(explorer.answer("what=picture&size=8x8").is_ok());
         }
     }
@@ -58,13 +58,13 @@ fn companions_of_a_model_are_found() {
     let bytes: Vec<u8> = corners.iter().flat_map(|c| c.to_le_bytes()).collect();
     explorer.add_file("a/model.gltf", document("data/b.bin").into_bytes()).expect("a name");
     let state = "lesson=model&model=a/model.gltf";
-    assert_eq!(code(&mut explorer, &format!("what=state&{state}")), "invalid_scene");
+    assert_eq!(code(&mut explorer, &format!("what=state&{state}")), "broken_model");
     explorer.add_file("a/data/b.bin", bytes).expect("a name");
     let said = json(&mut explorer, &format!("what=state&{state}"));
     assert_eq!(said["facts"]["triangles"], 1);
     for uri in ["../../b.bin", "/etc/hostname", "https://example.org/b.bin"] {
         explorer.add_file("a/model.gltf", document(uri).into_bytes()).expect("a name");
-        assert_eq!(code(&mut explorer, &format!("what=state&{state}")), "invalid_scene", "{uri}");
+        assert_eq!(code(&mut explorer, &format!("what=state&{state}")), "broken_model", "{uri}");
     }
 }
 
@@ -80,7 +80,7 @@ fn files_that_are_replaced_are_loaded_anew() {
 }
 
 #[test]
-fn equal_borders_of_a_window_are_told_by_the_scene() {
+fn a_pixel_must_be_given_and_be_in_the_picture() {
     let mut explorer = explorer_with_models();
     let query = "what=pick&lesson=frustum";
     assert_eq!(code(&mut explorer, query), "malformed_query");

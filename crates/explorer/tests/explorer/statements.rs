@@ -150,11 +150,11 @@ fn half_of_the_depth_range_is_at_the_harmonic_mean() {
     let table = &state["depth_table"];
     close(&table["half_range_distance"], 80.0 / 21.0);
     let rows = table["rows"].as_array().expect("rows");
-    close(&rows[0]["depth"], -1.0);
-    close(&rows[rows.len() - 1]["depth"], 1.0);
+    close(&rows[0][1], -1.0);
+    close(&rows[rows.len() - 1][1], 1.0);
     for row in rows {
-        let distance = row["distance"].as_f64().expect("a distance");
-        close(&row["depth"], -80.0 * 2.0 / (38.0 * distance) + 42.0 / 38.0);
+        let distance = row[0].as_f64().expect("a distance");
+        close(&row[1], -80.0 * 2.0 / (38.0 * distance) + 42.0 / 38.0);
     }
 }
 
@@ -227,4 +227,15 @@ fn picking_hits_what_is_seen() {
     assert!(said[1].starts_with("It first meets the model at ("), "{said:?}");
     let said = consequences(&mut explorer, "lesson=picking&x=2&y=2");
     assert_eq!(said[1], "It misses the model.");
+}
+
+/// VP-1: x_s = x + (x_ndc + 1) w / 2, y_s = y + (y_ndc + 1) h / 2 from the bottom.
+#[test]
+fn screen_coordinates_begin_at_the_corner_of_the_viewport() {
+    let mut explorer = explorer_with_models();
+    let query = "what=state&size=600x400&lesson=viewport&x=10&y=20&width=50&height=60";
+    let spaces = json(&mut explorer, query)["journey"]["spaces"].take();
+    let [ndc, screen] = [4, 5].map(|at| numbers(&spaces[at]["value"]));
+    assert!((screen[0] - (60.0 + (ndc[0] + 1.0) * 150.0)).abs() < 1e-9, "{screen:?} {ndc:?}");
+    assert!((screen[1] - (80.0 + (ndc[1] + 1.0) * 120.0)).abs() < 1e-9, "{screen:?} {ndc:?}");
 }
