@@ -95,7 +95,7 @@ fn field(name: &str, value: &str, indent: usize) -> String {
 fn list(name: &str, values: &[String]) -> String {
     match values {
         [] => String::new(),
-        [value] if value.len() < 80 => format!("    {name}: [{value}],\n"),
+        [value] if value.len() < 80 && !value.contains('\n') => format!("    {name}: [{value}],\n"),
         values => {
             let lines: String = values.iter().map(|value| format!("        {value},\n")).collect();
             format!("    {name}: [\n{lines}    ],\n")

@@ -3,7 +3,7 @@
 use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_triangle};
 use homog::{Bounds, Clip, HPoint, Point, World};
-use model::{ModelInstance, Topology};
+use model::{MeshInstance, ModelInstance, Topology};
 use std::collections::BTreeMap;
 
 /// The most triangles that are drawn in the panes around the picture.
@@ -30,13 +30,16 @@ pub(crate) struct WorldTriangles {
 impl WorldTriangles {
     /// Collects the triangles of models.
     pub(crate) fn new(models: &[ModelInstance]) -> Self {
-        let mut all = Vec::new();
-        models.iter().for_each(|model| collect_triangles(model, &mut all));
-        let count = all.len();
-        let reduced = (count > MAX_DRAWN).then(|| merge_vertices(&all));
+        let mut count = 0;
+        visit_triangles(models, &mut |_| count += 1);
+        let reduced = (count > MAX_DRAWN).then(|| merge_vertices(models));
         match reduced {
             Some(few) if count > MAX_COUNTED => Self { count, counted: few, reduced: None },
-            reduced => Self { count, counted: all, reduced },
+            reduced => {
+                let mut counted = Vec::with_capacity(count);
+                visit_triangles(models, &mut |triangle| counted.push(triangle));
+                Self { count, counted, reduced }
+            }
         }
     }
 
@@ -51,57 +54,78 @@ impl WorldTriangles {
     }
 }
 
-fn collect_triangles(placed: &ModelInstance, triangles: &mut Vec<WorldTriangle>) {
-    let model = &placed.model;
-    for instance in model.mesh_instances() {
-        let Some(mesh) = model.nodes[instance.node].mesh else { continue };
-        for primitive in &model.meshes[mesh].primitives {
-            if primitive.topology != Topology::Triangles {
-                continue;
-            }
-            let skinned = model.skin_primitive(instance, primitive);
-            let to_world = skinned.to_model.then(placed.model_to_world);
-            let corner = |index: &u32| {
-                let position = skinned.positions[*index as usize];
-                to_world.transform_point(Point::from(position.map(f64::from)))
-            };
-            let corners = primitive.indices.as_chunks::<3>().0.iter();
-            triangles.extend(corners.map(|[a, b, c]| [a, b, c].map(corner)));
+/// Visits the triangles of models: a list of those of a large model would not fit into the memory of
+/// a page.
+fn visit_triangles(models: &[ModelInstance], visit: &mut dyn FnMut(WorldTriangle)) {
+    for placed in models {
+        for instance in placed.model.mesh_instances() {
+            visit_triangles_of_mesh(placed, instance, visit);
         }
     }
 }
 
+fn visit_triangles_of_mesh(
+    placed: &ModelInstance,
+    instance: MeshInstance,
+    visit: &mut dyn FnMut(WorldTriangle),
+) {
+    let model = &placed.model;
+    let mesh = model.nodes[instance.node].mesh.and_then(|mesh| model.meshes.get(mesh));
+    let primitives = mesh.map_or(&[][..], |mesh| &mesh.primitives);
+    for primitive in primitives.iter().filter(|it| it.topology == Topology::Triangles) {
+        let skinned = model.skin_primitive(instance, primitive);
+        let to_world = skinned.to_model.then(placed.model_to_world);
+        let corner = |index: &u32| {
+            let position = skinned.positions[*index as usize];
+            to_world.transform_point(Point::from(position.map(f64::from)))
+        };
+        for triangle in primitive.indices.as_chunks::<3>().0 {
+            visit(triangle.each_ref().map(corner));
+        }
+    }
+}
+
+/// A cell of the grid that vertices are merged in.
+type Cell = [i32; 3];
+
 /// Fewer triangles of the same shape: vertices of one cell of a grid become the first of them, and
 /// triangles that lose a corner vanish (vertex clustering; Rossignac and Borrel 1993).
-fn merge_vertices(triangles: &[WorldTriangle]) -> Vec<WorldTriangle> {
-    let Some(bounds) = Bounds::from_points(triangles.iter().flatten().copied()) else {
-        return Vec::new();
-    };
-    let (min, size) = (bounds.min(), bounds.max() - bounds.min());
+fn merge_vertices(models: &[ModelInstance]) -> Vec<WorldTriangle> {
+    let Some(bounds) = Bounds::from_points(model::world_points(models)) else { return Vec::new() };
+    let size = bounds.max() - bounds.min();
     let longest = size.x().max(size.y()).max(size.z());
     let mut cells = FIRST_GRID;
     loop {
-        let step = longest / cells;
-        let mut first: BTreeMap<[i32; 3], Point<World>> = BTreeMap::new();
-        let mut merged = |point: &Point<World>| {
-            let offset = *point - min;
-            let cell = [offset.x(), offset.y(), offset.z()].map(|c| (c / step) as i32);
-            (cell, *first.entry(cell).or_insert(*point))
-        };
-        let mut kept: BTreeMap<[[i32; 3]; 3], WorldTriangle> = BTreeMap::new();
-        for triangle in triangles {
-            let [(a, p), (b, q), (c, r)] = triangle.each_ref().map(&mut merged);
-            if a != b && b != c && c != a {
-                let mut key = [a, b, c];
-                key.sort_unstable();
-                kept.entry(key).or_insert([p, q, r]);
-            }
-        }
+        let kept = merge_in_grid(models, bounds.min(), longest / cells);
         if kept.len() <= MAX_DRAWN || cells < 4.0 {
             return kept.into_values().collect();
         }
         cells *= 0.7;
     }
+}
+
+/// The triangles whose corners are in three cells of this size, one for each three cells.
+fn merge_in_grid(
+    models: &[ModelInstance],
+    origin: Point<World>,
+    step: f64,
+) -> BTreeMap<[Cell; 3], WorldTriangle> {
+    let mut first: BTreeMap<Cell, Point<World>> = BTreeMap::new();
+    let mut kept: BTreeMap<[Cell; 3], WorldTriangle> = BTreeMap::new();
+    visit_triangles(models, &mut |triangle| {
+        let merged = triangle.map(|point| {
+            let offset = point - origin;
+            let cell = [offset.x(), offset.y(), offset.z()].map(|c| (c / step) as i32);
+            (cell, *first.entry(cell).or_insert(point))
+        });
+        let [(a, p), (b, q), (c, r)] = merged;
+        if a != b && b != c && c != a {
+            let mut key = [a, b, c];
+            key.sort_unstable();
+            kept.entry(key).or_insert([p, q, r]);
+        }
+    });
+    kept
 }
 
 /// What clipping does to a triangle.
@@ -175,5 +199,61 @@ impl Survey {
         for (count, plane) in by_plane.iter_mut().zip(PlaneIndex::BOX) {
             *count += usize::from(planes.contains(plane));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::Affine;
+    use model::import::MemoryFolder;
+    use std::fmt::Write as _;
+    use std::sync::Arc;
+
+    /// A grid of `side` × `side` squares on the unit square, as OBJ.
+    fn grid(side: usize) -> ModelInstance {
+        let mut obj = String::new();
+        let row = side + 1;
+        for vertex in 0..row * row {
+            let [x, y] = [vertex % row, vertex / row].map(|at| at as f64 / side as f64);
+            let _ = writeln!(obj, "v {x} {y} 0");
+        }
+        for square in 0..side * side {
+            let a = square / side * row + square % side + 1;
+            let _ = writeln!(
+                obj,
+                "f {} {} {}\nf {} {} {}",
+                a,
+                a + 1,
+                a + row,
+                a + 1,
+                a + row + 1,
+                a + row
+            );
+        }
+        let mut folder = MemoryFolder::default();
+        assert!(folder.insert("grid.obj", obj.into_bytes()));
+        let model = model::import::load_from_memory(&folder, "grid.obj", &Default::default());
+        ModelInstance { model: Arc::new(model.expect("a model")), model_to_world: Affine::IDENTITY }
+    }
+
+    fn area(triangles: &[WorldTriangle]) -> f64 {
+        let area = |[a, b, c]: &WorldTriangle| 0.5 * (*b - *a).cross(*c - *a).length();
+        triangles.iter().map(area).sum()
+    }
+
+    #[test]
+    fn few_triangles_are_all_drawn() {
+        let triangles = WorldTriangles::new(&[grid(10)]);
+        assert_eq!((triangles.count, triangles.drawn().len()), (200, 200));
+        assert!(!triangles.is_reduced());
+    }
+
+    #[test]
+    fn many_triangles_are_counted_and_fewer_drawn_with_the_same_area() {
+        let triangles = WorldTriangles::new(&[grid(150)]);
+        assert_eq!((triangles.count, triangles.counted.len()), (45_000, 45_000));
+        assert!(triangles.is_reduced() && triangles.drawn().len() <= MAX_DRAWN);
+        assert!((area(triangles.drawn()) - 1.0).abs() < 0.06, "{}", area(triangles.drawn()));
     }
 }

@@ -137,8 +137,15 @@ fn viewport_rectangle(values: &Values<'_>) -> [f64; 4] {
 pub(super) fn framed_viewport(at: &str, projection: &str) -> String {
     let view = look_at([4.4, 3.2, 11.0], [0.0, 2.2, 0.0]);
     format!(
-        "Viewport(at: {at}, camera: Camera(view: {view}, projection: {projection}), \
-         background: Color(\"#ffffff\"), border: Border(color: \"#1a5680\", width: 1))"
+        r##"Viewport(
+            at: {at},
+            camera: Camera(
+                view: {view},
+                projection: {projection},
+            ),
+            background: Color("#ffffff"),
+            border: Border(color: "#1a5680"),
+        )"##
     )
 }
 

@@ -66,7 +66,11 @@ pub(super) static MULTIVIEW: Lesson = Lesson {
 fn four_views() -> SceneDescription {
     let view = |at: &str, projection: &str, caption: &str| {
         format!(
-            "Viewport(at: {at}, camera: Camera(projection: {projection}), caption: \"{caption}\")"
+            "Viewport(
+            at: {at},
+            camera: Camera(projection: {projection}),
+            caption: \"{caption}\",
+        )"
         )
     };
     SceneDescription {

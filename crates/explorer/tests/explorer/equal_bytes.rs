@@ -24,7 +24,8 @@ fn bands_are_parts_of_the_whole() {
     }
 }
 
-/// The saved picture has the bytes of `alberti render` of the scene file that is shown.
+/// The saved picture has the bytes of `alberti render` of the scene file that is shown, which is
+/// formatted as `alberti scene fmt` does it and has no lint.
 #[test]
 fn a_png_is_that_of_the_scene_file() {
     let mut explorer = explorer_with_models();
@@ -41,6 +42,8 @@ fn a_png_is_that_of_the_scene_file() {
         assert!(picture.to_png() == png, "{id}");
         let command = state["command"].as_str().expect("a command");
         assert!(command.contains(text), "{id}");
+        let formatted = pipeline::scene::format_source("scene.ron", text).expect("a scene file");
+        assert_eq!(formatted, text, "{id}");
         assert_eq!(pipeline::scene::lint_description(&origin, &file), [], "{id}");
     }
 }
