@@ -205,7 +205,7 @@ fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
             Pointer { point: sight.and_then(|sight| sight.first_hit(triangles)), sight }
         }
         None => {
-            let point = state.pin().into();
+            let point = state.pin(loaded).into();
             Pointer { point: Some(point), sight: LineOfSight::through_point(view, point) }
         }
     }

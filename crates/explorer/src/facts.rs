@@ -3,7 +3,7 @@
 use crate::model_store::LoadedScene;
 use crate::triangle_survey::Survey;
 use camera::ViewProjection;
-use homog::{Point, View, World};
+use homog::{HPoint, Point, View, World};
 use projection::{Convention, ViewVolume};
 use serde_json::{Value as Json, json};
 
@@ -54,7 +54,7 @@ impl Facts {
             view_projection,
             survey: Survey::default(),
             triangles: [triangles.count, triangles.counted.len()],
-            apex: volume.eye().and_then(|eye| eye.divide()),
+            apex: volume.eye().and_then(HPoint::divide),
             window: window.map(|(low, high)| [low.x(), high.x(), low.y(), high.y()]),
             planes: [0, 4].map(|at| corner(at).map(|corner| -corner.z())),
             model_range: None,

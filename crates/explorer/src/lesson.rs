@@ -33,6 +33,8 @@ pub(crate) struct Lesson {
     pub(crate) describe: fn(&Values<'_>) -> SceneDescription,
     /// What follows from the values, besides what is clipped.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
+    /// The point of the world that is pinned at first, where it depends on the values.
+    pub(crate) point: fn(&Values<'_>) -> Option<[f64; 3]>,
     /// What the pane `volume` shows.
     pub(crate) volume: fn(&Values<'_>) -> VolumeStage,
     /// The position in the picture, in fractions from its upper left corner, through which the line
@@ -70,6 +72,7 @@ impl Lesson {
         conventions: ApiConventions::OpenGl,
         describe: |_| SceneDescription::default(),
         consequences: |_, _| Vec::new(),
+        point: |_| None,
         volume: |_| VolumeStage::Divided,
         pointer: |_| None,
     };

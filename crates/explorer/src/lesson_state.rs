@@ -3,7 +3,9 @@
 use crate::ExplorerError;
 use crate::lesson::{Choice, Domain, Lesson, Parameter, ParameterValue, Values};
 use crate::lessons::LESSONS;
+use crate::model_store::LoadedScene;
 use crate::query::{Query, encode};
+use crate::request::DEFAULT_SIZE;
 use crate::words::{Language, sentence};
 
 /// The version of the keys.
@@ -73,15 +75,26 @@ impl LessonState {
         Ok(Self { lesson, parameters, pin, orbit, volume_orbit, style, model, language })
     }
 
-    /// The same lesson with the default of every parameter.
+    /// The same lesson with the default of every number; choices stay.
     pub(crate) fn with_defaults(&self) -> Self {
-        let parameters = self.lesson.parameters.iter().map(Parameter::default_value).collect();
+        let default = |(parameter, value): (&Parameter, &ParameterValue)| match *value {
+            ParameterValue::Number(_) => parameter.default_value(),
+            choice @ ParameterValue::Choice(_) => choice,
+        };
+        let parameters = self.lesson.parameters.iter().zip(&self.parameters).map(default).collect();
         Self { parameters, style: None, ..self.clone() }
     }
 
-    /// The pinned point of the world.
-    pub(crate) fn pin(&self) -> [f64; 3] {
-        self.pin.unwrap_or(self.lesson.pin)
+    /// The pinned point of the world: that of the lesson unless another one was chosen, and of the
+    /// user's own model a corner of it.
+    pub(crate) fn pin(&self, loaded: &LoadedScene) -> [f64; 3] {
+        let of_lesson = || (self.lesson.point)(&self.values(DEFAULT_SIZE));
+        let of_model = || {
+            let is_own = self.lesson.models.is_empty();
+            let first = loaded.models.triangles.counted.first().filter(|_| is_own);
+            first.map(|[corner, ..]| (*corner).into())
+        };
+        self.pin.or_else(of_lesson).or_else(of_model).unwrap_or(self.lesson.pin)
     }
 
     /// Azimuth and elevation of the pane `world` in degrees.

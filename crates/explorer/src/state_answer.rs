@@ -32,7 +32,7 @@ pub(crate) fn state_json(
         })?;
     let mut consequences = (lesson.consequences)(&values, facts);
     consequences.extend(clipping_sentences(facts));
-    let pin = Point::from(state.pin());
+    let pin = Point::from(state.pin(loaded));
     let outcode = chain.clip_volume().outcode(chain.world_to_clip().transform_point(pin));
     let outside_of: Vec<String> = outcode.planes().map(|plane| plane.to_string()).collect();
     let parameters = lesson.parameters.iter().zip(&state.parameters);
@@ -52,7 +52,7 @@ pub(crate) fn state_json(
         "matrix": explain_transforms(&chain).to_json(),
         "journey": journey_json(&chain, pin, loaded, lesson.conventions),
         "depth_table": lesson.panes.contains(&"depth").then(|| depth_table_json(facts, lesson.conventions)).flatten(),
-        "pin": state.pin(),
+        "pin": <[f64; 3]>::from(pin),
         "orbit": state.orbit(),
         "volume_orbit": state.volume_orbit(),
         "outcode": {

@@ -104,7 +104,7 @@ fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene
     let stage_to_clip = from_stage.then_project(view.world_to_clip());
     let volume = ViewVolume::new(stage_to_clip, Convention::CHAPTER);
     let corners = volume.corners().into_iter().flatten().chain(volume.eye());
-    let finite = corners.filter_map(|corner| corner.divide());
+    let finite = corners.filter_map(HPoint::divide);
     let framed: Vec<Point<World>> =
         finite.map(|point| Point::from(<[f64; 3]>::from(point))).collect();
     let labels = [(3, "near"), (6, "far")];

@@ -13,7 +13,7 @@ use crate::pane_scene::{Observer, PaneGeometry, label_at, named_point};
 use crate::triangle_survey::{WorldTriangle, classify, project};
 use camera::ViewProjection;
 use drawing::Overlay;
-use homog::{Point, View, World};
+use homog::{HPoint, Point, View, World};
 use pipeline::Scene;
 use projection::{Convention, ViewVolume};
 
@@ -74,7 +74,7 @@ fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<Wor
         let view = scene.view_projection;
         let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
         let (to_view, to_world) = (view.camera.world_to_view(), view.camera.view_to_world());
-        let Some(corners) = volume.corners().map(|all| all.map(|corner| corner.divide())) else {
+        let Some(corners) = volume.corners().map(|all| all.map(HPoint::divide)) else {
             continue;
         };
         let depths = triangles.iter().flatten().map(|point| -to_view.transform_point(*point).z());
@@ -85,7 +85,7 @@ fn framed_points(shown: &[&Scene], triangles: &[WorldTriangle]) -> Vec<Point<Wor
             let t = if f > limit && limit > n { (limit - n) / (f - n) } else { 1.0 };
             [near, near.lerp(far, t)]
         });
-        let eye = volume.eye().and_then(|eye| eye.divide());
+        let eye = volume.eye().and_then(HPoint::divide);
         let all = shortened.chain(eye);
         points.extend(all.map(|point: Point<View>| to_world.transform_point(point)));
     }

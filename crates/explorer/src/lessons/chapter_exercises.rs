@@ -78,6 +78,11 @@ pub(super) static EXERCISES: Lesson = Lesson {
         ),
     },
     consequences: exercise_consequences,
+    point: |values| match values.choice("exercise") {
+        "10" => Some([0.5, 1.0, 0.5]),
+        "11" => Some(segment_point(values.number("t"))),
+        _ => None,
+    },
     ..Lesson::USUAL
 };
 

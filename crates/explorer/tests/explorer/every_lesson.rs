@@ -31,7 +31,7 @@ fn drawn_pixels(pixels: &[u8]) -> usize {
 
 fn drawn(explorer: &mut Explorer, what: &str, state: &str) -> usize {
     let query = format!("what={what}&size=96x60&samples=1&{state}");
-    let answer = explorer.answer(&query).unwrap_or_else(|error| panic!("{query}: {error}"));
+    let answer = explorer.answer(&query).expect(&query);
     assert_eq!(answer.bytes.len(), 96 * 60 * 4, "{query}");
     drawn_pixels(&answer.bytes)
 }

@@ -27,7 +27,7 @@ fn explorer_with_models() -> Explorer {
 
 /// The answer to a request, as JSON.
 fn json(explorer: &mut Explorer, query: &str) -> Json {
-    let answer = explorer.answer(query).unwrap_or_else(|error| panic!("{query}: {error}"));
+    let answer = explorer.answer(query).expect(query);
     assert_eq!(answer.content_type, "application/json");
     serde_json::from_slice(&answer.bytes).expect("JSON")
 }

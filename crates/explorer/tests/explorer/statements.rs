@@ -5,7 +5,7 @@ use explorer::Explorer;
 use serde_json::Value as Json;
 
 fn close(actual: &Json, expected: f64) {
-    let actual = actual.as_f64().unwrap_or_else(|| panic!("{actual} is no number"));
+    let actual = actual.as_f64().expect("a number");
     assert!((actual - expected).abs() < 1e-6 * expected.abs().max(1.0), "{actual} {expected}");
 }
 
@@ -14,7 +14,7 @@ fn degrees(slope: f64) -> f64 {
 }
 
 fn numbers(values: &Json) -> Vec<f64> {
-    let values = values.as_array().unwrap_or_else(|| panic!("{values} is no list"));
+    let values = values.as_array().expect("a list");
     values.iter().map(|value| value.as_f64().expect("a number")).collect()
 }
 
@@ -238,4 +238,38 @@ fn screen_coordinates_begin_at_the_corner_of_the_viewport() {
     let [ndc, screen] = [4, 5].map(|at| numbers(&spaces[at]["value"]));
     assert!((screen[0] - (60.0 + (ndc[0] + 1.0) * 150.0)).abs() < 1e-9, "{screen:?} {ndc:?}");
     assert!((screen[1] - (80.0 + (ndc[1] + 1.0) * 120.0)).abs() < 1e-9, "{screen:?} {ndc:?}");
+}
+
+/// IN-1: f(t) is where on the image of the segment the point at t is seen.
+#[test]
+fn f_of_t_is_the_fraction_of_the_image() {
+    let mut explorer = explorer_with_models();
+    let mut seen = |t: f64| {
+        let query = format!("what=state&lesson=exercises&exercise=11&t={t}");
+        let spaces = json(&mut explorer, &query)["journey"]["spaces"].take();
+        numbers(&spaces[5]["value"])
+    };
+    let [a, b, middle] = [0.0, 1.0, 0.5].map(&mut seen);
+    let fraction = (middle[0] - a[0]) / (b[0] - a[0]);
+    let said = consequences(&mut explorer, "lesson=exercises&exercise=11&t=0.5");
+    let expected = format!("f(t) = {}", (fraction * 1e4).round() / 1e4);
+    assert!(fraction > 0.5 && said[0].contains(&expected), "{expected}: {said:?}");
+}
+
+/// OB-1, TWO-1, WV-2: what the classical lessons say of their numbers.
+#[test]
+fn classical_projections_are_named_by_their_numbers() {
+    let mut explorer = explorer_with_models();
+    for (state, expected) in [
+        ("lesson=oblique", "α = 45°: cavalier"),
+        ("lesson=oblique&length=0.5", "α = 63.4°: cabinet"),
+        ("lesson=oblique&length=0", "α = 90°: orthographic"),
+        ("lesson=two-point&x=-2&z=3", "5 half heights apart"),
+        ("lesson=window-viewport&window_width=8&window_height=4&width=100", "sx = sy = 80 pixels"),
+        ("lesson=window-viewport&fit=stretch&width=100&height=100", "sx = 64 and sy = 66.67"),
+        ("lesson=normalization&left=-1&right=3&near=2", "Shear: x + 0.5 z"),
+    ] {
+        let said = consequences(&mut explorer, state);
+        assert!(said[0].contains(expected), "{state}: {said:?}");
+    }
 }
