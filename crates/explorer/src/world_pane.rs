@@ -10,10 +10,11 @@ use crate::ExplorerError;
 use crate::line_of_sight::LineOfSight;
 use crate::model_store::LoadedScene;
 use crate::pane_scene::{Observer, PaneGeometry, label_at, named_point};
-use crate::triangle_survey::{WorldTriangle, classify, project};
+use crate::triangle_survey::{Containment, WorldTriangle, classify, project};
 use camera::ViewProjection;
+use clip::cut_triangle;
 use drawing::Overlay;
-use homog::{HPoint, Point, View, World};
+use homog::{HPoint, Plane, Point, View, World};
 use pipeline::Scene;
 use projection::{Convention, ViewVolume};
 
@@ -43,9 +44,15 @@ pub(crate) fn world_scene(
     let shown = loaded.views();
     let first = shown[0].view_projection;
     let mut geometry = PaneGeometry::default();
+    let planes = world_planes(&first);
     for triangle in loaded.models.triangles.drawn() {
-        let (containment, _) = classify(project(&first, triangle));
-        geometry.add_triangle(containment, triangle.map(<[f64; 3]>::from));
+        let mut add = |containment, triangle: WorldTriangle| {
+            geometry.add_triangle(containment, triangle.map(<[f64; 3]>::from));
+        };
+        match classify(project(&first, triangle)).0 {
+            Containment::Clipped => cut_at_planes(*triangle, &planes, &mut add),
+            containment => add(containment, *triangle),
+        }
     }
     if let Some(sight) = pointer.sight {
         geometry.add_sight([eye(&first).unwrap_or(sight.ends[0]), sight.ends[1]].map(Into::into));
@@ -58,6 +65,38 @@ pub(crate) fn world_scene(
     scene.overlays.extend(plane_labels(&first));
     scene.overlays.extend(pointer.point.map(|point| named_point(point, "P")));
     Ok(scene)
+}
+
+/// The planes of a view volume in the world; their positive sides are inside.
+fn world_planes(view: &ViewProjection) -> [Plane<World>; 6] {
+    let volume = ViewVolume::new(view.view_to_clip, Convention::CHAPTER);
+    // A plane is a row: (plane · M_cam) p = plane · (M_cam p).
+    let to_view = view.camera.world_to_view().raw().transpose();
+    volume.planes().map(|plane| Plane::from_raw(to_view * plane.raw()))
+}
+
+/// Cuts a triangle that is clipped into what is left of it and what is cut off.
+fn cut_at_planes(
+    triangle: WorldTriangle,
+    planes: &[Plane<World>; 6],
+    add: &mut dyn FnMut(Containment, WorldTriangle),
+) {
+    let mut inside = vec![triangle];
+    for plane in planes {
+        let outwards = Plane::from_raw(-plane.raw());
+        for piece in std::mem::take(&mut inside) {
+            // A piece on the plane is inside, and both sides of a cut would have it.
+            if piece.iter().any(|corner| plane.evaluate(*corner) < 0.0) {
+                let cut_off = cut_triangle(piece, outwards);
+                for fan in cut_off.triangles() {
+                    add(Containment::Outside, fan.map(|vertex| vertex.point));
+                }
+            }
+            let left = cut_triangle(piece, *plane);
+            inside.extend(left.triangles().map(|fan| fan.map(|vertex| vertex.point)));
+        }
+    }
+    inside.into_iter().for_each(|piece| add(Containment::Clipped, piece));
 }
 
 /// The center of projection; `None` in a parallel projection.
@@ -101,4 +140,39 @@ fn plane_labels(view: &ViewProjection) -> Vec<Overlay> {
         Some(label_at(to_world.transform_point(corners[at].divide()?), text, offset))
     };
     [(3, "near", [-3.0, -4.0]), (6, "far", [4.0, -4.0])].into_iter().filter_map(label).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use camera::{Camera, ViewProjection};
+    use homog::Vector;
+    use projection::Frustum;
+
+    fn area(triangles: &[WorldTriangle]) -> f64 {
+        let area = |[a, b, c]: &WorldTriangle| 0.5 * (*b - *a).cross(*c - *a).length();
+        triangles.iter().map(area).sum()
+    }
+
+    /// The parts of a triangle that passes the eye are the whole, and those inside are in the
+    /// volume.
+    #[test]
+    fn a_cut_loses_nothing() {
+        let camera = Camera::look_to(Point::ORIGIN, -Vector::Z, Vector::Y).expect("a camera");
+        let frustum = Frustum::new(-1.0, 1.0, -0.5, 0.5, 1.0, 9.0).expect("a frustum");
+        let view =
+            ViewProjection { camera, view_to_clip: frustum.view_to_clip(Convention::CHAPTER) };
+        let triangle = [[-8.0, -1.0, 5.0], [7.0, 0.3, 2.0], [0.5, 0.2, -14.0]].map(Point::from);
+        let mut parts: [Vec<WorldTriangle>; 3] = Default::default();
+        cut_at_planes(triangle, &world_planes(&view), &mut |containment, part| {
+            parts[containment as usize].push(part);
+        });
+        let [inside, clipped, outside] = parts;
+        assert!(inside.is_empty() && !clipped.is_empty());
+        assert!((area(&clipped) + area(&outside) - area(&[triangle])).abs() < 1e-9);
+        for corner in clipped.iter().flatten() {
+            let values = world_planes(&view).map(|plane| plane.evaluate(*corner));
+            assert!(values.iter().all(|value| *value > -1e-9), "{values:?}");
+        }
+    }
 }

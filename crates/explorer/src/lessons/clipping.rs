@@ -41,11 +41,11 @@ pub(super) static TEAR: Lesson = Lesson {
         number("near", words("near plane", "近平面"), "", [0.05, 5.0], [0.05, 0.5]),
     ],
     pin: [0.5, 0.0, -6.0],
-    orbit: [65.0, 25.0],
+    orbit: [62.0, 22.0],
     describe: |values| {
         let [z, near] = ["z", "near"].map(|key| scene_number(values.number(key)));
         let view = format!("LookTo(eye: (0.5, 0.8, {z}), gaze: (-0.05, -0.02, -1))");
-        let projection = format!("Perspective(fov_y_degrees: 62, near: {near}, far: 100)");
+        let projection = format!("Perspective(fov_y_degrees: 62, near: {near}, far: 40)");
         SceneDescription::new(FLOOR, view, projection)
     },
     consequences: tear_consequences,
