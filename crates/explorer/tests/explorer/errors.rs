@@ -87,3 +87,37 @@ fn a_pixel_must_be_given_and_be_in_the_picture() {
     let query = "what=pick&lesson=frustum&pixel=640,0";
     assert_eq!(code(&mut explorer, query), "nothing_there");
 }
+
+/// Queries with changed bytes are answered or refused; none of them panics.
+#[test]
+fn damaged_queries_are_answered_or_refused() {
+    let mut explorer = explorer_with_models();
+    let queries = [
+        "what=state&v=1&lesson=frustum&near=2&pin=0,1,2&orbit=10,20",
+        "what=world&size=9x7&samples=1&lesson=stereo&eyes=0.5&orbit=1e5,-3",
+        "what=volume&size=9x7&rows=1-3&lesson=normalization&step=1&volume_orbit=0,90",
+        "what=pick&size=9x7&pixel=3,4&lesson=exercises&exercise=11&style=Lines",
+        "what=picture&size=9x7&format=png&lesson=perspective&aspect=1.6&fov=70&lang=zh",
+    ];
+    // A linear congruential generator, so that failures can be repeated.
+    let mut seed = 1_u64;
+    let mut random = |below: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % below
+    };
+    let mut answered = 0;
+    for round in 0..9000 {
+        let mut query = queries[round % queries.len()].as_bytes().to_vec();
+        for _ in 0..=random(2) {
+            let at = random(query.len());
+            query[at] = b"0123456789.,-=&%ex"[random(18)];
+        }
+        // A large picture takes long and shows nothing more.
+        let query = String::from_utf8(query).expect("ASCII");
+        if !query.contains("size=9x7") && !query.starts_with("what=state") {
+            continue;
+        }
+        answered += usize::from(explorer.answer(&query).is_ok());
+    }
+    assert!(answered > 100, "{answered}");
+}
