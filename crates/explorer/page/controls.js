@@ -1,0 +1,76 @@
+// The controls of a lesson's parameters: native inputs, each with a label, its unit and its limits.
+
+import { element, formatNumber } from './dom.js';
+
+/**
+ * Fills the form with the parameters of a lesson.
+ * @param {HTMLFormElement} form
+ * @param {object[]} parameters as the engine lists them
+ * @param {{value: (key: string) => string, change: (key: string, value: string) => void, word: (texts: object) => string}} page
+ * @returns {() => void} sets the controls to the state
+ */
+export function buildControls(form, parameters, page) {
+  const controls = parameters.map((parameter) =>
+    parameter.kind === 'choice' ? choiceControl(parameter, page) : numberControl(parameter, page),
+  );
+  form.replaceChildren(...controls.map((control) => control.element));
+  return () => controls.forEach((control) => control.update());
+}
+
+function choiceControl(parameter, page) {
+  const id = `parameter-${parameter.key}`;
+  const options = parameter.choices.map(({ value, label }) => element('option', { value }, page.word(label)));
+  const select = element('select', { id, name: parameter.key }, ...options);
+  select.addEventListener('change', () => page.change(parameter.key, select.value));
+  const label = element('label', { for: id }, page.word(parameter.label));
+  return {
+    element: element('div', { class: 'control choice' }, label, select),
+    update: () => (select.value = page.value(parameter.key)),
+  };
+}
+
+function numberControl(parameter, page) {
+  const { key, min, max, step, unit } = parameter;
+  const id = `parameter-${key}`;
+  const name = page.word(parameter.label);
+  const attributes = { min, max, step, name: key };
+  const range = element('input', { type: 'range', id, ...attributes });
+  const number = element('input', {
+    type: 'number',
+    id: `${id}-number`,
+    ...attributes,
+    step: 'any',
+    'aria-label': unit ? `${name} (${unit})` : name,
+    'aria-describedby': `${id}-limits`,
+  });
+  range.addEventListener('input', () => page.change(key, range.value));
+  number.addEventListener('input', () => {
+    if (number.value !== '' && number.checkValidity()) page.change(key, String(number.valueAsNumber));
+  });
+  number.addEventListener('change', () => {
+    if (number.value === '') number.value = page.value(key);
+    number.reportValidity();
+  });
+  const row = element(
+    'div',
+    { class: 'control' },
+    element('label', { for: id }, name),
+    element('span', { class: 'value' }, number, element('span', { class: 'unit' }, unit ?? '')),
+    element(
+      'span',
+      { class: 'track', id: `${id}-limits` },
+      element('small', {}, formatNumber(min)),
+      range,
+      element('small', {}, formatNumber(max)),
+    ),
+  );
+  return {
+    element: row,
+    update() {
+      const value = page.value(key);
+      range.value = value;
+      range.setAttribute('aria-valuetext', unit ? `${formatNumber(Number(value))} ${unit}` : formatNumber(Number(value)));
+      if (Number(number.value) !== Number(value) || number.value === '') number.value = value;
+    },
+  };
+}
