@@ -14,6 +14,7 @@ mod drawings;
 mod examples;
 mod exercises;
 mod explain;
+mod explore;
 mod external_viewers;
 mod files;
 mod gltf_builder;

@@ -12,6 +12,7 @@ use super::curve::CurveArgs;
 use super::deferred::Deferred;
 use super::demo::DemoArgs;
 use super::explain::ExplainArgs;
+use super::explore::ExploreArgs;
 use super::format::OutputFormat;
 use super::load_options::LoadArgs;
 use super::manual::{CompletionArgs, ManArgs};
@@ -58,6 +59,7 @@ Examples:
   alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
+  alberti explore model.glb                       the same live, in a browser on this machine
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12
   alberti curve depth --near 0.1 --far 1000 -o depth.svg
@@ -89,6 +91,8 @@ pub(crate) enum Command {
     Matrix(Deferred<MatrixArgs>),
     /// Print every stage of the pipeline for a point, a segment, a pixel, a vertex or a triangle
     Explain(Deferred<ExplainArgs>),
+    /// Explore the viewing pipeline in a browser: lessons, or a model
+    Explore(ExploreArgs),
     /// Draw a subject in every classical projection, side by side, with formulas and numbers
     CompareProjections(Deferred<CompareProjectionsArgs>),
     /// Draw a series of pictures that differ in one parameter of the camera, side by side

@@ -31,6 +31,7 @@ mod deferred;
 mod demo;
 mod error;
 mod explain;
+mod explore;
 mod format;
 mod info;
 mod light;
@@ -65,7 +66,7 @@ use args::{Args, Command};
 use clap::{CommandFactory, Parser};
 use deferred::Deferred;
 use error::CliError;
-use messages::{print_message, print_stdout};
+use messages::{print_message, print_note, print_stdout};
 use std::process::ExitCode;
 
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap).
@@ -103,6 +104,7 @@ pub(crate) fn run(args: Args) -> Result<ExitCode, CliError> {
         Command::Check(Deferred(args)) => return check::run(&args),
         Command::Matrix(Deferred(args)) => matrix::run(&args)?,
         Command::Explain(Deferred(args)) => explain::run(&args)?,
+        Command::Explore(args) => explore::run(&args)?,
         Command::CompareProjections(Deferred(args)) => compare_projections::run(&args)?,
         Command::Sweep(Deferred(args)) => sweep::run(&args)?,
         Command::Curve(args) => curve::run(&args)?,

@@ -69,7 +69,7 @@ fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     for path in paths {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if path.is_dir() {
-            if name != "target" && !name.starts_with('.') {
+            if !matches!(&*name, "target" | "node_modules") && !name.starts_with('.') {
                 found.extend(walk_files(&path)?);
             }
         } else {

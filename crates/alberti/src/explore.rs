@@ -1,0 +1,86 @@
+//! `alberti explore`: the explorer in a browser, served to this machine alone.
+//!
+//! ```text
+//!  browser ─► connections ─► request ─► site: page, models of the lessons, the model given
+//!             few at once    checked     └──► compute: the explorer's answers
+//! ```
+//! The server listens on the loopback address. Other pages of the same browser can reach it too:
+//! requests that another page has caused are refused. No request names a file of the disk; all that
+//! is served is in memory before the first request.
+
+mod companions;
+mod connections;
+mod embedded;
+mod request;
+mod response;
+mod site;
+
+use super::CliError;
+use super::{print_note, print_stdout};
+use site::Site;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+/// Arguments of `alberti explore`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ExploreArgs {
+    /// Model to explore (.gltf, .glb, .stl, .obj, .ply, .3mf), with the files it refers to
+    ///
+    /// Without a model the page begins with the first lesson; models can also be dropped onto it.
+    model: Option<PathBuf>,
+    /// Port to listen on [default: one that is free]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    port: Option<u16>,
+    /// Open the page in the default browser
+    #[arg(long)]
+    open: bool,
+    /// Compute in this program rather than in the browser: faster, with the same bytes
+    #[arg(long)]
+    native: bool,
+}
+
+/// Serves the explorer until the program is interrupted, and prints its address.
+///
+/// # Errors
+/// If the model cannot be read or shown, or the port is in use.
+pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
+    let site = Site::prepare(args.model.as_deref())?;
+    let (listener, port) = listen(args.port.unwrap_or(0))?;
+    let query = if args.native { "?native" } else { "" };
+    let address = format!("http://127.0.0.1:{port}/{query}");
+    print_stdout(format!("{address}\n").as_bytes())?;
+    print_note("note: open this address in a browser; Ctrl+C stops the server");
+    if args.open {
+        open_browser(&address);
+    }
+    connections::serve(&listener, port, site)
+}
+
+/// Listens on the loopback address; returns the port, which the system chooses for 0.
+fn listen(port: u16) -> Result<(TcpListener, u16), CliError> {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))
+        .and_then(|listener| listener.local_addr().map(|address| (listener, address.port())));
+    listener.map_err(|error| {
+        CliError::Usage(format!(
+            "cannot listen on 127.0.0.1:{port}: {error}\n  = help: choose another --port, or leave \
+             the flag out for one that is free"
+        ))
+    })
+}
+
+/// Opens an address in the default browser; a note says if there is none.
+fn open_browser(address: &str) {
+    let opener = if cfg!(target_os = "macos") {
+        "open"
+    } else if cfg!(windows) {
+        "explorer"
+    } else {
+        "xdg-open"
+    };
+    let mut command = Command::new(opener);
+    command.arg(address).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    if let Err(error) = command.spawn() {
+        print_note(&format!("note: {opener} cannot be run ({error}); open the address by hand"));
+    }
+}

@@ -1,0 +1,54 @@
+//! The files of the page, the models of its lessons and its engine, as they were when the program
+//! was built.
+
+use std::collections::BTreeMap;
+
+/// Paths with compressed contents; see `build.rs`.
+const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/explorer_files.rs"));
+
+/// All files by their paths in addresses, without the first slash.
+pub(super) fn embedded_files() -> BTreeMap<String, Vec<u8>> {
+    let unpack = |(path, bytes): &(&str, &[u8])| {
+        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(bytes);
+        Some(((*path).to_owned(), bytes.ok()?))
+    };
+    FILES.iter().filter_map(unpack).collect()
+}
+
+/// The type of a file, by the ending of its path.
+pub(super) fn content_type(path: &str) -> &'static str {
+    match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
+        "html" => "text/html; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "js" => "text/javascript; charset=utf-8",
+        "svg" => "image/svg+xml",
+        "wasm" => "application/wasm",
+        "glb" => "model/gltf-binary",
+        _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_files_of_the_page_are_embedded_and_have_a_type() {
+        let files = embedded_files();
+        for path in ["index.html", "main.js", "style.css", "worker.js", "models/house.glb"] {
+            assert!(files.contains_key(path), "{path}");
+        }
+        assert_eq!(files.len(), FILES.len(), "a file cannot be unpacked");
+        for path in files.keys() {
+            assert_ne!(content_type(path), "application/octet-stream", "{path}");
+        }
+    }
+
+    #[test]
+    fn the_page_without_its_engine_is_at_most_80_kilobytes() {
+        let files = embedded_files();
+        let page = files.iter().filter(|(path, _)| !path.contains('/') && !path.starts_with("web"));
+        let bytes: usize = page.map(|(_, bytes)| bytes.len()).sum();
+        assert!(bytes <= 80_000, "{bytes} bytes");
+    }
+}

@@ -1,0 +1,105 @@
+//! What is served: the page, the models, and the explorer's answers.
+
+use super::companions::ModelFiles;
+use super::embedded::{content_type, embedded_files};
+use super::request::Request;
+use super::response::Response;
+use crate::CliError;
+use explorer::{Explorer, ExplorerError};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// The page itself, also the answer to an empty path.
+const INDEX: &str = "index.html";
+
+/// Everything that can be asked for.
+pub(super) struct Site {
+    /// All files by their paths in addresses: the page, the models of the lessons, the model given.
+    files: BTreeMap<String, Vec<u8>>,
+    /// One explorer for all requests: it keeps models and scenes between them.
+    explorer: Mutex<Explorer>,
+}
+
+impl Site {
+    /// Reads the model that is given, and tries whether it can be shown.
+    ///
+    /// # Errors
+    /// If it cannot be read or shown.
+    pub(super) fn prepare(model: Option<&Path>) -> Result<Self, CliError> {
+        let mut files = embedded_files();
+        let mut explorer = Explorer::new();
+        for (path, bytes) in files.iter().filter(|(path, _)| path.starts_with("models/")) {
+            explorer.add_file(path, bytes.clone()).map_err(as_cli_error)?;
+        }
+        let given = model.map_or_else(|| Ok(ModelFiles::default()), ModelFiles::read)?;
+        for (name, bytes) in &given.files {
+            explorer.add_file(name, bytes.clone()).map_err(as_cli_error)?;
+        }
+        let mut open = String::new();
+        if model.is_some() {
+            open = format!("v=1&lesson=model&model={}", percent_encode(&given.name));
+            explorer.answer(&format!("{open}&what=state")).map_err(as_cli_error)?;
+        }
+        let names: Vec<&String> = given.files.keys().collect();
+        let has_engine = files.contains_key("web_bg.wasm");
+        let said = json!({"native": true, "wasm": has_engine, "files": names, "open": open});
+        if let Some(page) = files.get_mut(INDEX) {
+            *page = with_server_info(&String::from_utf8_lossy(page), &said.to_string()).into();
+        }
+        files.extend(given.files.into_iter().map(|(name, bytes)| (format!("files/{name}"), bytes)));
+        Ok(Self { files, explorer: Mutex::new(explorer) })
+    }
+
+    /// The response to a request.
+    pub(super) fn respond(&self, request: &Request) -> Response<'_> {
+        let path = if request.path.is_empty() { INDEX } else { request.path.as_str() };
+        if path == "compute" {
+            return self.compute(&request.query);
+        }
+        match self.files.get(path) {
+            Some(bytes) => Response::ok(content_type(path), bytes.as_slice()),
+            None => Response::text(404, "There is no such file."),
+        }
+    }
+
+    /// The explorer's answer to a query.
+    ///
+    /// An error of the explorer is an answer like any other, told by its type: browsers write every
+    /// response with another status than 200 to the console, and a value that cannot be drawn is no
+    /// fault of the page.
+    fn compute(&self, query: &str) -> Response<'_> {
+        let answer = self.explorer.lock().unwrap_or_else(PoisonError::into_inner).answer(query);
+        match answer {
+            Ok(answer) => Response::ok(answer.content_type, answer.bytes),
+            Err(ExplorerError { code, message, help }) => {
+                let error = json!({ "code": code, "message": message, "help": help });
+                Response::ok("application/problem+json", error.to_string().into_bytes())
+            }
+        }
+    }
+}
+
+fn as_cli_error(error: ExplorerError) -> CliError {
+    let ExplorerError { message, help, .. } = error;
+    CliError::Usage(format!("{message}\n  = help: {help}"))
+}
+
+/// The page with what the server says about itself, in an attribute.
+fn with_server_info(page: &str, said: &str) -> String {
+    let said = said.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;");
+    let place = r#"name="explorer-server" content=""#;
+    page.replacen(&format!("{place}\""), &format!("{place}{said}\""), 1)
+}
+
+/// A name as the value of a key in a query.
+fn percent_encode(name: &str) -> String {
+    let encode = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
+            char::from(byte).to_string()
+        }
+        byte => format!("%{byte:02X}"),
+    };
+    name.bytes().map(encode).collect()
+}

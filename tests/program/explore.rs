@@ -1,0 +1,230 @@
+//! `alberti explore`: what the server answers, what it refuses, and that it goes on.
+
+use crate::sandbox::Sandbox;
+use std::collections::VecDeque;
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::{TcpListener, TcpStream};
+use std::process::{Child, Command};
+use std::time::Duration;
+
+/// A server of a test, ended with it.
+struct Server {
+    child: Child,
+    port: u16,
+    /// The line that it has printed.
+    address: String,
+}
+
+impl Server {
+    fn start(sandbox: &Sandbox, arguments: &[&str]) -> Self {
+        let mut child = sandbox.start(&[&["explore"], arguments].concat());
+        let mut address = String::new();
+        let stdout = child.stdout.as_mut().expect("a pipe");
+        BufReader::new(stdout).read_line(&mut address).expect("a line");
+        let port = address.split(':').nth(2).and_then(|rest| rest.split('/').next());
+        let port = port.and_then(|port| port.parse().ok());
+        let port = port.unwrap_or_else(|| panic!("no address: {address:?}"));
+        Self { child, port, address: address.trim_end().to_owned() }
+    }
+
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(("127.0.0.1", self.port)).expect("a connection");
+        stream.set_read_timeout(Some(Duration::from_secs(60))).expect("a time limit");
+        stream
+    }
+
+    /// Sends lines, and returns all that comes back; nothing if the connection is dropped.
+    fn send(&self, lines: &[&str]) -> String {
+        let mut stream = self.connect();
+        // The server may have closed the connection before it has read everything.
+        let _ = stream.write_all(format!("{}\r\n\r\n", lines.join("\r\n")).as_bytes());
+        let mut bytes = Vec::new();
+        let _ = stream.read_to_end(&mut bytes);
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
+
+    /// The status of a GET with the server's own name, and the body.
+    fn get(&self, target: &str) -> (u16, String) {
+        let host = format!("Host: 127.0.0.1:{}", self.port);
+        let answer = self.send(&[&format!("GET {target} HTTP/1.1"), &host]);
+        let (head, body) = answer.split_once("\r\n\r\n").unwrap_or((&answer, ""));
+        (status(head), body.to_owned())
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // It may have ended already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// The status in the first line of a response; 0 for a dropped connection.
+fn status(response: &str) -> u16 {
+    response.split(' ').nth(1).and_then(|status| status.parse().ok()).unwrap_or(0)
+}
+
+#[test]
+fn the_page_its_modules_and_the_model_are_served() {
+    let sandbox = Sandbox::new("explore_files");
+    sandbox.copy_model("house.glb");
+    let server = Server::start(&sandbox, &["house.glb"]);
+    let (code, page) = server.get("/");
+    assert_eq!(code, 200);
+    assert!(page.contains("&quot;files&quot;:[&quot;house.glb&quot;]"), "{page}");
+    for path in ["/main.js", "/style.css", "/worker.js", "/models/house.glb", "/files/house.glb"] {
+        assert_eq!(server.get(path).0, 200, "{path}");
+    }
+    let (code, lessons) = server.get("/compute?v=1&what=lessons");
+    assert_eq!(code, 200);
+    let lessons: serde_json::Value = serde_json::from_str(&lessons).expect("JSON");
+    let lessons = lessons["lessons"].as_array().expect("a list");
+    for model in lessons.iter().flat_map(|lesson| lesson["models"].as_array().expect("models")) {
+        let path = format!("/{}", model.as_str().expect("a path"));
+        assert_eq!(server.get(&path).0, 200, "{path}");
+    }
+    let host = format!("Host: localhost:{}", server.port);
+    let head = server.send(&["HEAD / HTTP/1.1", &host]);
+    assert!(head.starts_with("HTTP/1.1 200 OK\r\n") && head.ends_with("\r\n\r\n"), "{head}");
+    let length = format!("\r\nContent-Length: {}\r\n", page.len());
+    assert!(head.contains(&length), "{head}");
+}
+
+#[test]
+fn an_error_of_a_request_is_an_answer() {
+    let sandbox = Sandbox::new("explore_errors");
+    let server = Server::start(&sandbox, &[]);
+    let (code, error) = server.get("/compute?v=1&what=state&naer=2");
+    let error: serde_json::Value = serde_json::from_str(&error).expect("JSON");
+    assert_eq!((code, error["code"].as_str()), (200, Some("unknown_key")), "{error}");
+    assert!(error["message"].as_str().is_some_and(|text| text.contains("naer")), "{error}");
+    assert_eq!(server.get("/compute?v=1&what=lessons").0, 200);
+}
+
+#[test]
+fn foreign_pages_names_and_methods_are_refused() {
+    let sandbox = Sandbox::new("explore_foreign");
+    let server = Server::start(&sandbox, &[]);
+    let own = format!("Host: 127.0.0.1:{}", server.port);
+    let first = "GET / HTTP/1.1";
+    let refused = |lines: &[&str], expected: u16| {
+        assert_eq!(status(&server.send(lines)), expected, "{lines:?}");
+    };
+    refused(&[first, "Host: a.example"], 421);
+    refused(&[first, &format!("Host: a.example:{}", server.port)], 421);
+    refused(&[first], 421);
+    refused(&[first, &own, "Origin: http://a.example"], 403);
+    refused(&[first, &own, "Sec-Fetch-Site: cross-site"], 403);
+    for method in ["POST", "PUT", "DELETE", "OPTIONS", "TRACE", "PATCH"] {
+        refused(&[&format!("{method} / HTTP/1.1"), &own, "Content-Length: 0"], 405);
+    }
+    refused(&["nonsense"], 400);
+    assert_eq!(server.get("/").0, 200);
+}
+
+#[test]
+fn paths_never_leave_what_is_served() {
+    let sandbox = Sandbox::new("explore_paths");
+    sandbox.write_file("secret.txt", "secret");
+    std::fs::create_dir(sandbox.path_of("models")).expect("a folder");
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":36},
+        {"uri":"../secret.txt","byteLength":6},{"uri":"link.bin","byteLength":6}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+        "min":[0,0,0],"max":[1,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}"#;
+    sandbox.write_file("models/a.gltf", gltf);
+    let corners = [[0f32, 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+    let bytes: Vec<u8> = corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    sandbox.write_file("models/a.bin", bytes);
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../secret.txt", sandbox.path_of("models/link.bin"))
+        .expect("a link");
+    // No accessor reads the other two buffers, so the model is shown without them.
+    let server = Server::start(&sandbox, &["models/a.gltf"]);
+    assert_eq!(server.get("/files/a.bin").0, 200);
+    let hidden = [
+        "/files/../secret.txt",
+        "/../secret.txt",
+        "/files/%2e%2e/secret.txt",
+        "/%2e%2e%2fsecret.txt",
+        "/files/..%5csecret.txt",
+        "/files/link.bin",
+        "/files/..%2fsecret.txt",
+        "/files//etc/passwd",
+        "//etc/passwd",
+        "/secret.txt",
+        "/models/a.gltf",
+        "/files/",
+        "/models/",
+    ];
+    for target in hidden {
+        let (code, body) = server.get(target);
+        assert_eq!(code, 404, "{target}");
+        assert!(!body.contains("secret\n"), "{target}");
+    }
+}
+
+#[test]
+fn a_header_of_a_megabyte_is_dropped() {
+    let sandbox = Sandbox::new("explore_header");
+    let server = Server::start(&sandbox, &[]);
+    let long = format!("X: {}", "a".repeat(1 << 20));
+    let answer = server.send(&["GET / HTTP/1.1", &long]);
+    assert!(matches!(status(&answer), 0 | 431), "{answer}");
+    assert_eq!(server.get("/").0, 200);
+}
+
+#[test]
+fn a_thousand_silent_connections_do_not_stop_it() {
+    let sandbox = Sandbox::new("explore_silent");
+    let server = Server::start(&sandbox, &[]);
+    let mut silent = VecDeque::new();
+    for _ in 0..1000 {
+        silent.push_back(server.connect());
+        // A process may have a thousand files open, all tests together.
+        if silent.len() > 300 {
+            let mut oldest = silent.pop_front().expect("the oldest");
+            assert!(matches!(oldest.read(&mut [0]), Ok(0) | Err(_)), "it is still open");
+        }
+    }
+    assert_eq!(server.get("/").0, 200);
+    assert_eq!(server.get("/compute?v=1&what=lessons").0, 200);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_it() {
+    use std::os::unix::process::ExitStatusExt as _;
+    let sandbox = Sandbox::new("explore_interrupt");
+    let mut server = Server::start(&sandbox, &["--native"]);
+    assert!(server.address.ends_with("/?native"), "{}", server.address);
+    let _open = server.connect();
+    let process = server.child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &process]).status().expect("kill");
+    assert!(kill.success());
+    // Like the other commands: the signal ends it, there is nothing to clean up.
+    let status = server.child.wait().expect("it ends");
+    assert_eq!(status.signal(), Some(2), "{status}");
+}
+
+#[test]
+fn ports_in_use_and_broken_models_are_told() {
+    let sandbox = Sandbox::new("explore_refused");
+    let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = taken.local_addr().expect("its number").port().to_string();
+    let run = sandbox.run(&["explore", "--port", &port]);
+    let expected = format!("error: cannot listen on 127.0.0.1:{port}: ");
+    assert!(run.code == 1 && run.stderr.starts_with(&expected), "{}", run.stderr);
+    assert!(run.stderr.contains("  = help: choose another --port"), "{}", run.stderr);
+    assert_eq!(sandbox.run(&["explore", "--port", "0"]).code, 2);
+    sandbox.write_file("broken.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff");
+    sandbox.write_file("words.txt", "no model");
+    for name in ["broken.glb", "words.txt", "missing.glb", "."] {
+        let run = sandbox.run(&["explore", name]);
+        assert!(run.code == 1 && run.stderr.starts_with("error: "), "{name}: {}", run.stderr);
+        assert_eq!(run.stdout, "", "{name}");
+    }
+}
