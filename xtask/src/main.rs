@@ -6,6 +6,7 @@
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod bench;
+mod browser;
 mod conformance;
 mod determinism;
 mod fuzz;
@@ -64,6 +65,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--threads N] [--wide]",
         about: "Render every scene in debug and release builds, and compare the bytes",
         run: determinism::run_determinism,
+    },
+    Command {
+        name: "browser",
+        arguments: "",
+        about: "Test the explorer's page in Chromium",
+        run: browser::run_browser,
     },
     Command {
         name: "gallery",

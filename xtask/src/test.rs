@@ -96,7 +96,12 @@ fn all_steps() -> Result<Vec<Step>, String> {
         "debug and release builds render the same bytes, with every number of threads",
         || crate::determinism::run_determinism(&[]),
     ));
-    // As a process, so that its SKIPPED lines are repeated at the end.
+    // As processes, so that their SKIPPED lines are repeated at the end.
+    steps.push(Step::cargo(
+        "browser",
+        "the explorer's lessons hold in a browser, by mouse and by keyboard",
+        &["xtask browser"],
+    ));
     steps.push(Step::cargo(
         "instructions",
         "fixed workloads take no more instructions than are recorded",

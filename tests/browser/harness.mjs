@@ -1,0 +1,155 @@
+// A server or a folder of static files, a browser, and the page in it.
+
+import { spawn } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+/** The root of the project. */
+export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
+const AXE = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
+
+/** Fails with a message. */
+export function assert(condition, message) {
+  if (!condition) throw new Error(message);
+}
+
+/** Fails unless two numbers are equal up to the digits that the page shows. */
+export function assertNear(actual, expected, message) {
+  const tolerance = 2e-4 * Math.max(1, Math.abs(expected));
+  assert(Math.abs(actual - expected) <= tolerance, `${message}: ${actual}, expected ${expected}`);
+}
+
+/** Starts `alberti explore`; gives its address and how to end it. */
+export async function startProgram(program, args) {
+  const child = spawn(program, ['explore', ...args], { cwd: path.join(ROOT, 'scenes/models'), stdio: ['ignore', 'pipe', 'ignore'] });
+  const address = await new Promise((resolve, reject) => {
+    child.stdout.once('data', (line) => resolve(String(line).trim()));
+    child.once('exit', () => reject(new Error('the server has ended')));
+  });
+  return { address, stop: () => child.kill('SIGINT') };
+}
+
+const TYPES = { html: 'text/html', css: 'text/css', js: 'text/javascript', svg: 'image/svg+xml', wasm: 'application/wasm' };
+
+/** Serves a folder as any static host does. */
+export async function serveFolder(folder) {
+  const server = createServer(async ({ url }, response) => {
+    const name = new URL(url, 'http://a').pathname.replace(/\/$/, '/index.html');
+    try {
+      const bytes = await readFile(path.join(folder, path.normalize(name)));
+      response.writeHead(200, { 'content-type': TYPES[name.split('.').pop()] ?? 'application/octet-stream' }).end(bytes);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return { address: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
+}
+
+/** A browser without a display. */
+export const launchBrowser = () =>
+  chromium.launch({ executablePath: '/usr/bin/chromium', args: process.getuid?.() === 0 ? ['--no-sandbox'] : [] });
+
+/** A page of the explorer, with all that a test asks of it. */
+export class Explorer {
+  /** Opens the page in a context of its own. */
+  static async open(browser, address, { hash = '', ...options } = {}) {
+    const context = await browser.newContext({ locale: 'en-US', viewport: { width: 1280, height: 900 }, ...options });
+    await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+    const page = await context.newPage();
+    const explorer = new Explorer(page, address);
+    await page.goto(address + hash);
+    return explorer;
+  }
+
+  constructor(page, address) {
+    this.page = page;
+    this.address = address;
+    /** What a page should not do: write to the console, fail, or ask another host. */
+    this.faults = [];
+    page.on('console', (message) => this.faults.push(`console: ${message.text()}`));
+    page.on('pageerror', (error) => this.faults.push(`error: ${error.message}`));
+    page.on('request', (request) => {
+      const url = new URL(request.url());
+      const isOwn = url.host === new URL(address).host || ['blob:', 'data:'].includes(url.protocol);
+      if (!isOwn) this.faults.push(`request: ${url}`);
+    });
+  }
+
+  async close() {
+    await this.page.context().close();
+    assert(this.faults.length === 0, this.faults.join('; '));
+  }
+
+  /** Waits until everything shows the state. */
+  settled() {
+    return this.page.waitForFunction(() => document.body.dataset.settled !== undefined, null, { timeout: 60_000 });
+  }
+
+  /** Goes to a state by its link. */
+  async goTo(hash) {
+    await this.page.evaluate((to) => {
+      delete document.body.dataset.settled;
+      location.hash = to;
+    }, hash);
+    await this.settled();
+  }
+
+  text(selector) {
+    return this.page.locator(selector).innerText();
+  }
+
+  consequences() {
+    return this.text('#consequences');
+  }
+
+  /** The coordinates of the pinned point in a space, as the page shows them. */
+  async coordinates(space) {
+    const cells = await this.page.locator(`tr[data-space=${space}] td`).allInnerTexts();
+    return cells.filter((cell) => cell !== '').map((cell) => Number(cell.replace('−', '-')));
+  }
+
+  /** The numbers of triangles in the legend of the world. */
+  async triangles() {
+    const entries = await this.page.locator('.legend[data-of=world] li').allInnerTexts();
+    return Object.fromEntries(entries.map((entry) => entry.split(': ')).map(([name, count]) => [name, Number(count)]));
+  }
+
+  /** Types a value into the number field of a parameter. */
+  async type(key, value) {
+    await this.page.locator(`#parameter-${key}-number`).fill(String(value));
+    await this.settled();
+  }
+
+  async choose(key, value) {
+    await this.page.locator(`#parameter-${key}`).selectOption(value);
+    await this.settled();
+  }
+
+  value(key) {
+    return this.page.locator(`#parameter-${key}`).inputValue();
+  }
+
+  /** Faults of accessibility that axe finds. */
+  async violations() {
+    // Read rather than loaded by the page, whose policy allows no other script.
+    await this.page.evaluate(await readFile(AXE, 'utf8'));
+    const { violations } = await this.page.evaluate(() => globalThis.axe.run());
+    return violations.map(({ id, nodes }) => `${id} (${nodes.map(({ target }) => target.join(' ')).join(', ')})`);
+  }
+
+  /** How many colors the canvas of a pane has, counted up to 50. */
+  colors(pane) {
+    return this.page.evaluate((id) => {
+      const canvas = document.getElementById(id);
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      const found = new Set();
+      for (const color of new Uint32Array(data.buffer)) if (found.add(color).size >= 50) break;
+      return found.size;
+    }, pane);
+  }
+}

@@ -1,0 +1,270 @@
+// The explorer in a real browser: `node main.mjs PROGRAM [FOLDER]`.
+//
+// PROGRAM is `alberti`, whose server computes; FOLDER is what `cargo xtask web` writes, where WebAssembly computes.
+// A line for each test, and the exit code 1 if one has failed.
+
+import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { readFile } from 'node:fs/promises';
+import path from 'node:path';
+import { Explorer, ROOT, assert, launchBrowser, serveFolder, startProgram } from './harness.mjs';
+import { STATEMENTS } from './lessons.mjs';
+
+const [program, folder] = process.argv.slice(2).map((one) => path.resolve(one));
+let failures = 0;
+
+async function test(name, run) {
+  try {
+    await run();
+    console.log(`ok      ${name}`);
+  } catch (error) {
+    failures += 1;
+    console.log(`FAILED  ${name}: ${error.message}`);
+  }
+}
+
+const hashOf = (bytes) => createHash('sha256').update(bytes).digest('hex');
+
+/** The picture that the program renders from a scene, in the folder of its models. */
+function programPicture(scene, isOwn) {
+  const cwd = path.join(ROOT, isOwn ? 'scenes/models' : 'scenes');
+  return execFileSync(program, ['render', '-', '-o', '-', '--format', 'png'], { input: scene, cwd, maxBuffer: 1 << 26 });
+}
+
+/** Presses a button of the page whose answer is a file. */
+async function saved(explorer, button) {
+  const [download] = await Promise.all([explorer.page.waitForEvent('download'), explorer.page.click(button)]);
+  return readFile(await download.path());
+}
+
+async function copied(explorer, button) {
+  await explorer.page.click(button);
+  await explorer.page.waitForFunction(() => document.getElementById('status').textContent !== '');
+  return explorer.page.evaluate(() => navigator.clipboard.readText());
+}
+
+/** The first control of the lesson changes by the mouse, and then by the keyboard. */
+async function moveControls({ page }) {
+  const state = () => page.evaluate(() => location.hash);
+  const control = page.locator('#parameters input[type=range], #parameters select').first();
+  const isRange = (await control.getAttribute('type')) === 'range';
+  const before = await state();
+  await control.scrollIntoViewIfNeeded();
+  if (isRange) {
+    const box = await control.boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    for (const part of [0.55, 0.6, 0.65, 0.7]) await page.mouse.move(box.x + box.width * part, box.y + box.height / 2);
+    await page.mouse.up();
+  } else {
+    await control.selectOption({ index: 1 });
+  }
+  await page.waitForFunction((old) => location.hash !== old, before);
+  const dragged = await state();
+  await control.focus();
+  await page.keyboard.press(isRange ? 'ArrowLeft' : 'ArrowUp');
+  await page.waitForFunction((old) => location.hash !== old, dragged);
+}
+
+/** Every lesson: opened by its link, looked at, moved, saved. */
+async function testLessons(browser, server, engine, model) {
+  const catalogue = await Explorer.open(browser, server.address);
+  await catalogue.settled();
+  const lessons = await catalogue.page.locator('#lesson option').evaluateAll((all) => all.map((one) => one.value));
+  await catalogue.close();
+  assert(lessons.length >= 20, `only ${lessons.length} lessons`);
+  for (const lesson of lessons) {
+    const isOwn = lesson === 'model';
+    if (isOwn && !model) continue;
+    await test(`${engine}: ${lesson}: its link, no fault of accessibility, mouse and keyboard, the program's bytes`, async () => {
+      const hash = `#v=1&lesson=${lesson}${isOwn ? `&model=${model}` : ''}`;
+      const explorer = await Explorer.open(browser, server.address, { hash });
+      await explorer.settled();
+      assert((await explorer.page.locator('#lesson').inputValue()) === lesson, 'another lesson');
+      assert((await explorer.text('#statement')).length > 40, 'no statement');
+      assert(await explorer.page.locator('#notice').isHidden(), await explorer.text('#notice'));
+      for (const pane of ['picture', 'world', 'volume']) {
+        if (await explorer.page.locator(`#${pane}`).isVisible()) assert((await explorer.colors(pane)) > 2, `${pane} is empty`);
+      }
+      const violations = await explorer.violations();
+      assert(violations.length === 0, violations.join('; '));
+      await moveControls(explorer);
+      await explorer.settled();
+      await explorer.page.click('summary >> nth=0');
+      const [picture, scene] = [await saved(explorer, '#save-picture'), await copied(explorer, '#copy-scene')];
+      assert(hashOf(picture) === hashOf(programPicture(scene, isOwn)), 'the saved picture is not that of the program');
+      await explorer.close();
+    });
+  }
+  for (const { name, lesson, check } of STATEMENTS) {
+    await test(`${engine}: ${name}`, async () => {
+      const explorer = await Explorer.open(browser, server.address, { hash: `#v=1&lesson=${lesson}` });
+      await explorer.settled();
+      await check(explorer);
+      await explorer.close();
+    });
+  }
+}
+
+/** The page itself: keys, history, links, languages, themes, widths, errors. */
+async function testPage(browser, server, engine) {
+  const open = async (options) => {
+    const explorer = await Explorer.open(browser, server.address, options);
+    await explorer.settled();
+    return explorer;
+  };
+
+  await test(`${engine}: the keyboard alone reaches every control, pins a point and orbits`, async () => {
+    const explorer = await open();
+    const { page } = explorer;
+    const focusOn = async (id) => {
+      for (let i = 0; i < 80; i += 1) {
+        if (await page.evaluate((wanted) => document.activeElement.id === wanted, id)) return;
+        await page.keyboard.press('Tab');
+      }
+      throw new Error(`Tab does not reach ${id}`);
+    };
+    await focusOn('parameter-fov');
+    await page.keyboard.press('End');
+    await page.waitForFunction(() => location.hash.includes('fov=120'));
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => !location.hash.includes('fov=120'));
+    await focusOn('picture');
+    for (const key of ['ArrowDown', 'ArrowLeft', 'Shift+ArrowUp', 'Enter']) await page.keyboard.press(key);
+    await page.locator('#pick .verdict').waitFor();
+    await page.waitForFunction(() => location.hash.includes('pin='));
+    await focusOn('world');
+    await page.keyboard.press('ArrowRight');
+    await page.waitForFunction(() => location.hash.includes('&orbit='));
+    await focusOn('volume');
+    await page.keyboard.press('ArrowUp');
+    await page.waitForFunction(() => location.hash.includes('volume_orbit='));
+    await explorer.close();
+  });
+
+  await test(`${engine}: undo, redo and reset`, async () => {
+    const explorer = await open();
+    await explorer.type('near', 6);
+    await explorer.type('fov', 60);
+    await explorer.page.click('#undo');
+    assert((await explorer.value('fov')) === '40' && (await explorer.value('near')) === '6', 'undo');
+    await explorer.page.click('#redo');
+    assert((await explorer.value('fov')) === '60', 'redo');
+    await explorer.page.click('#reset');
+    assert((await explorer.value('fov')) === '40' && (await explorer.value('near')) === '4', 'reset');
+    await explorer.page.click('#undo');
+    assert((await explorer.value('fov')) === '60', 'undo of reset');
+    await explorer.settled();
+    await explorer.close();
+  });
+
+  await test(`${engine}: a copied link restores the state, and a copied command is the program's`, async () => {
+    const explorer = await open({ hash: '#v=1&lesson=frustum&near=6' });
+    await explorer.type('right', 1);
+    await explorer.page.click('summary >> nth=0');
+    const link = await copied(explorer, '#copy-link');
+    const command = await copied(explorer, '#copy-command');
+    assert(command.startsWith('alberti render - -o frustum.png'), command);
+    const [clip, consequences] = [await explorer.coordinates('clip'), await explorer.consequences()];
+    await explorer.close();
+    const again = await open({ hash: new URL(link).hash });
+    assert((await again.coordinates('clip')).join() === clip.join(), 'other coordinates');
+    assert((await again.consequences()) === consequences, 'other consequences');
+    await again.close();
+  });
+
+  await test(`${engine}: nonsense in a link is told, and the page lives`, async () => {
+    for (const hash of ['#v=1&lesson=perspective&naer=2', '#v=9', '#v=1&lesson=none', '#%zz', '#v=1&lesson=perspective&near=x', '#near=1&near=2']) {
+      const explorer = await open({ hash });
+      const notice = explorer.page.locator('#notice');
+      assert(await notice.isVisible(), `${hash}: nothing is said`);
+      assert((await notice.innerText()).length > 20, hash);
+      await explorer.type('near', 5);
+      await explorer.close();
+    }
+  });
+
+  await test(`${engine}: a click pins the point that is there`, async () => {
+    const explorer = await open();
+    const { page } = explorer;
+    const box = await page.locator('#picture').boundingBox();
+    await page.mouse.click(box.x + box.width * 0.5, box.y + box.height * 0.6);
+    await page.waitForFunction(() => location.hash.includes('pin='));
+    await explorer.settled();
+    // The lesson counts y from the bottom, as OpenGL does. The mouse is at a whole pixel of the screen, which is larger.
+    const [x, y] = await explorer.coordinates('screen');
+    assert(Math.abs(x - 320) <= 2.5 && Math.abs(400 - y - 240) <= 2.5, `${x}, ${y}`);
+    const w = (await explorer.coordinates('clip'))[3];
+    const [, , z] = await explorer.coordinates('view');
+    assert(Math.abs(w + z) < 1e-3, `w ${w}, z ${z}`);
+    await explorer.close();
+  });
+
+  await test(`${engine}: Chinese by the browser's language and by the switch`, async () => {
+    const explorer = await open({ locale: 'zh-CN' });
+    assert((await explorer.text('#title')) === '透视投影', await explorer.text('#title'));
+    assert((await explorer.page.locator('html').getAttribute('lang')) === 'zh-CN', 'lang');
+    const violations = await explorer.violations();
+    assert(violations.length === 0, violations.join('; '));
+    await explorer.page.selectOption('#language', 'en');
+    assert((await explorer.text('#title')) === 'Perspective', 'English');
+    await explorer.settled();
+    await explorer.close();
+  });
+
+  await test(`${engine}: dark and narrow and wide pages fit and have no fault of accessibility`, async () => {
+    for (const [width, height, colorScheme] of [[320, 640, 'light'], [800, 600, 'dark'], [1440, 900, 'dark'], [3840, 2160, 'light']]) {
+      const explorer = await open({ viewport: { width, height }, colorScheme });
+      const over = await explorer.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert(over <= 0, `${width}: ${over} pixels too wide`);
+      const violations = await explorer.violations();
+      assert(violations.length === 0, `${width} ${colorScheme}: ${violations.join('; ')}`);
+      await explorer.close();
+    }
+  });
+
+  await test(`${engine}: a worker that dies is told and started again`, async () => {
+    const explorer = await open();
+    await explorer.page.workers()[0].evaluate(() => { setTimeout(() => { throw new Error('out of memory'); }); });
+    await explorer.page.locator('#notice').waitFor();
+    assert((await explorer.text('#notice')).includes('out of memory'), await explorer.text('#notice'));
+    explorer.faults.length = 0;
+    await explorer.type('near', 6);
+    assert(await explorer.page.locator('#notice').isHidden(), 'the message stays');
+    await explorer.close();
+  });
+
+  await test(`${engine}: files that are no model, and broken ones, are told`, async () => {
+    const explorer = await open();
+    const give = async (name, text) => {
+      await explorer.page.setInputFiles('#files', { name, mimeType: 'application/octet-stream', buffer: Buffer.from(text) });
+      await explorer.page.locator('#notice').waitFor();
+      assert((await explorer.text('#notice-message')).length > 10, name);
+      await explorer.page.click('#notice-close');
+    };
+    await give('words.txt', 'no model');
+    await give('broken.glb', 'glTF');
+    await explorer.goTo('#v=1&lesson=frustum');
+    await explorer.type('near', 6);
+    await explorer.close();
+  });
+}
+
+const browser = await launchBrowser();
+const native = await startProgram(program, ['--native', 'teapot.glb']);
+await testLessons(browser, native, 'native', 'teapot.glb');
+const plain = await startProgram(program, ['--native']);
+await testPage(browser, plain, 'native');
+plain.stop();
+native.stop();
+if (folder) {
+  const site = await serveFolder(folder);
+  await testLessons(browser, site, 'WebAssembly', null);
+  await testPage(browser, site, 'WebAssembly');
+  site.stop();
+}
+await browser.close();
+if (failures > 0) {
+  console.log(`${failures} failed`);
+  process.exitCode = 1;
+}

@@ -1,0 +1,74 @@
+//! `cargo xtask browser`: the explorer's page in a real browser, computed by the program and by
+//! WebAssembly.
+//!
+//! The tests are `tests/browser/main.mjs`. They need Chromium, Node and two npm packages, which are
+//! fetched once; what cannot be had is skipped, by name.
+
+use crate::Outcome;
+use crate::program::{Build, Program, capture_output, run_command, run_visibly};
+use crate::workspace::{project_root, target_folder};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Where Debian installs it. Playwright's own browsers are not used.
+const CHROMIUM: &str = "/usr/bin/chromium";
+
+/// The least major version of Node that Playwright runs on.
+const NODE: u32 = 20;
+
+/// Seconds for fetching the packages.
+const FETCH_SECONDS: &str = "120";
+
+/// Runs the tests, or says why they are skipped.
+pub fn run_browser(_arguments: &[String]) -> Outcome {
+    let folder = project_root().join("tests/browser");
+    if let Some(missing) = missing_tool(&folder) {
+        println!("SKIPPED browser: {missing}");
+        return Ok(());
+    }
+    let program = Program::build(Build::Debug)?;
+    let mut node = Command::new("node");
+    node.current_dir(&folder).arg("main.mjs").arg(program.path());
+    match current_site() {
+        Some(site) => drop(node.arg(site)),
+        None => println!(
+            "SKIPPED browser: WebAssembly in the browser: there is no build of this page; `cargo xtask web` makes it"
+        ),
+    }
+    run_visibly(&mut node)
+}
+
+/// What the tests need and cannot get.
+fn missing_tool(folder: &Path) -> Option<String> {
+    if !Path::new(CHROMIUM).exists() {
+        return Some("chromium is not installed (Debian: chromium)".into());
+    }
+    let version = capture_output(Command::new("node").arg("--version")).ok();
+    let major = version.as_deref().and_then(|text| text.trim_start_matches('v').split('.').next());
+    match major.and_then(|major| major.parse::<u32>().ok()) {
+        Some(major) if major >= NODE => {}
+        Some(major) => return Some(format!("node {major} is too old, {NODE} is needed")),
+        None => return Some("node is not installed (Debian: nodejs)".into()),
+    }
+    let has_packages = ["playwright-core", "axe-core"]
+        .iter()
+        .all(|name| folder.join("node_modules").join(name).is_dir());
+    let mut npm = Command::new("timeout");
+    npm.args([FETCH_SECONDS, "npm", "ci", "--no-audit", "--no-fund"]).current_dir(folder);
+    if !has_packages && run_command(&mut npm).is_err() {
+        return Some("npm cannot fetch playwright-core and axe-core".into());
+    }
+    None
+}
+
+/// The folder that `cargo xtask web` has written, if it holds the page as it is now.
+fn current_site() -> Option<PathBuf> {
+    let site = target_folder().join("web");
+    site.join("web_bg.wasm").metadata().ok()?;
+    let page = std::fs::read_dir(project_root().join("crates/explorer/page")).ok()?;
+    let is_same = |path: PathBuf| {
+        let copy = site.join(path.file_name().unwrap_or_default());
+        std::fs::read(path).ok() == std::fs::read(copy).ok()
+    };
+    page.flatten().all(|file| is_same(file.path())).then_some(site)
+}
