@@ -1,22 +1,23 @@
-//! Packs the relocations of the program, and embeds the explorer: its page, and its engine if it has been
-//! built.
+//! Packs the relocations of the program, and embeds the explorer.
 //!
-//! The relocations: a quarter of a megabyte of addresses, mostly of texts,
-//! takes some kilobytes (`DT_RELR`).
+//! The relocations: a quarter of a megabyte of addresses, mostly of texts, takes some kilobytes
+//! (`DT_RELR`).
 //!
 //! The dynamic linker must know the format: glibc does from 2.36 on. A program that is built on a
 //! machine with an older one, or for another machine, stays as it is.
 //!
-//! The engine: `ALBERTI_WEB=FOLDER cargo build`, where FOLDER is what `cargo xtask web` has written,
-//! makes `alberti explore` serve its WebAssembly. Without it the page computes in the program.
+//! The explorer: its page and the models of its lessons. With `ALBERTI_WEB=FOLDER cargo build`,
+//! where FOLDER is what `cargo xtask web` has written, its engine in WebAssembly as well; without it
+//! the program computes what the page shows.
 
+use std::io::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-fn main() {
+fn main() -> Result<()> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=ALBERTI_WEB");
-    embed_explorer(std::env::var_os("ALBERTI_WEB").map(PathBuf::from).as_deref());
+    embed_explorer(std::env::var_os("ALBERTI_WEB").map(PathBuf::from).as_deref())?;
     let variable = |name: &str| std::env::var(name).unwrap_or_default();
     let is_gnu_linux =
         variable("CARGO_CFG_TARGET_OS") == "linux" && variable("CARGO_CFG_TARGET_ENV") == "gnu";
@@ -24,6 +25,7 @@ fn main() {
     if is_gnu_linux && is_native && glibc_version().is_some_and(|version| version >= [2, 36]) {
         println!("cargo::rustc-link-arg-bins=-Wl,-z,pack-relative-relocs");
     }
+    Ok(())
 }
 
 /// The models of the explorer's lessons, in `scenes/models`.
@@ -32,30 +34,29 @@ const LESSON_MODELS: [&str; 5] =
 
 /// Writes `explorer_files.rs`: the explorer's page, the models of its lessons, and its engine, each
 /// compressed (zlib).
-fn embed_explorer(engine: Option<&Path>) {
-    let root = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").expect("Cargo sets it"));
+fn embed_explorer(engine: Option<&Path>) -> Result<()> {
+    let folder_of = |name: &str| PathBuf::from(std::env::var_os(name).unwrap_or_default());
+    let (root, out) = (folder_of("CARGO_MANIFEST_DIR"), folder_of("OUT_DIR"));
     let page = root.join("../explorer/page");
     println!("cargo::rerun-if-changed={}", page.display());
-    let entries = std::fs::read_dir(&page).expect("the explorer's page");
-    let path_of = |entry: Result<std::fs::DirEntry, _>| entry.expect("a file of the page").path();
+    let entries: Result<Vec<_>> = std::fs::read_dir(&page)?.collect();
     let mut files: Vec<(String, PathBuf)> =
-        entries.map(path_of).map(|path| (file_name(&path), path)).collect();
+        entries?.iter().map(|entry| (file_name(&entry.path()), entry.path())).collect();
     files.sort();
     let models = root.join("../../scenes/models");
     files.extend(LESSON_MODELS.map(|name| (format!("models/{name}"), models.join(name))));
     let engine_files = |folder: &Path| ["web.js", "web_bg.wasm"].map(|name| folder.join(name));
     files.extend(engine.into_iter().flat_map(engine_files).map(|path| (file_name(&path), path)));
-    let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("Cargo sets it"));
     let mut list = String::new();
     for (at, (name, path)) in files.iter().enumerate() {
         println!("cargo::rerun-if-changed={}", path.display());
-        let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let named = |error: Error| Error::new(error.kind(), format!("{}: {error}", path.display()));
+        let bytes = std::fs::read(path).map_err(named)?;
         let packed = out.join(format!("explorer_file_{at}"));
-        let compressed = miniz_oxide::deflate::compress_to_vec_zlib(&bytes, 10);
-        std::fs::write(&packed, compressed).expect("the folder for output");
+        std::fs::write(&packed, miniz_oxide::deflate::compress_to_vec_zlib(&bytes, 10))?;
         list += &format!("({name:?}, include_bytes!({packed:?})),");
     }
-    std::fs::write(out.join("explorer_files.rs"), format!("&[{list}]")).expect("the same folder");
+    std::fs::write(out.join("explorer_files.rs"), format!("&[{list}]"))
 }
 
 fn file_name(path: &Path) -> String {

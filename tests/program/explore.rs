@@ -92,6 +92,18 @@ fn the_page_its_modules_and_the_model_are_served() {
 }
 
 #[test]
+fn the_first_model_of_a_scene_is_explored() {
+    let sandbox = Sandbox::new("explore_scene");
+    sandbox.copy_model("house.glb");
+    sandbox.write_file("a.ron", r#"Scene(models: [Model(path: "house.glb")])"#);
+    sandbox.write_file("empty.ron", "Scene()");
+    let server = Server::start(&sandbox, &["a.ron"]);
+    assert_eq!(server.get("/files/house.glb").0, 200);
+    let run = sandbox.run(&["explore", "empty.ron"]);
+    assert!(run.code == 1 && run.stderr.starts_with("error: "), "{}", run.stderr);
+}
+
+#[test]
 fn an_error_of_a_request_is_an_answer() {
     let sandbox = Sandbox::new("explore_errors");
     let server = Server::start(&sandbox, &[]);

@@ -25,10 +25,11 @@ use std::process::{Command, Stdio};
 /// Arguments of `alberti explore`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExploreArgs {
-    /// Model to explore (.gltf, .glb, .stl, .obj, .ply, .3mf), with the files it refers to
+    /// Model to explore (.gltf, .glb, .stl, .obj, .ply, .3mf), or a scene (.ron): its first model
     ///
-    /// Without a model the page begins with the first lesson; models can also be dropped onto it.
-    model: Option<PathBuf>,
+    /// The files that a model refers to come along. Without a model the page begins with the first
+    /// lesson; models can also be dropped onto it.
+    input: Option<PathBuf>,
     /// Port to listen on [default: one that is free]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     port: Option<u16>,
@@ -45,7 +46,7 @@ pub(crate) struct ExploreArgs {
 /// # Errors
 /// If the model cannot be read or shown, or the port is in use.
 pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
-    let site = Site::prepare(args.model.as_deref())?;
+    let site = Site::prepare(args.input.as_deref())?;
     let (listener, port) = listen(args.port.unwrap_or(0))?;
     let query = if args.native { "?native" } else { "" };
     let address = format!("http://127.0.0.1:{port}/{query}");

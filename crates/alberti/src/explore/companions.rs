@@ -6,11 +6,12 @@
 use super::request::percent_decode;
 use crate::CliError;
 use model::import::Limits;
+use pipeline::Origin;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 /// A model and the files it refers to, by their paths in the model's folder.
 #[derive(Debug, Default)]
@@ -50,6 +51,19 @@ impl ModelFiles {
         }
         Ok(Self { name, files })
     }
+}
+
+/// The model that is explored: the file itself, or the first model of a scene file.
+///
+/// # Errors
+/// If the scene cannot be read, or has no model.
+pub(super) fn model_path(path: &Path) -> Result<PathBuf, CliError> {
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("ron")) {
+        return Ok(path.to_owned());
+    }
+    let (origin, scene) = Origin::read_scene(path)?;
+    let first = scene.models.first().map(|model| origin.folder.join(&model.path));
+    first.ok_or_else(|| CliError::Usage(format!("the scene {} has no model", path.display())))
 }
 
 /// The content of a file below a folder, if it is there.

@@ -48,12 +48,9 @@ pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(),
     let site = Arc::new(site);
     let all = Arc::new(Mutex::new(Connections::default()));
     loop {
-        let stream = match listener.accept() {
-            Ok((stream, _)) => stream,
-            Err(_) => {
-                std::thread::sleep(PAUSE);
-                continue;
-            }
+        let Ok((stream, _)) = listener.accept() else {
+            std::thread::sleep(PAUSE);
+            continue;
         };
         let Some(connection) = Connection::admit(stream, &all) else { continue };
         let site = Arc::clone(&site);

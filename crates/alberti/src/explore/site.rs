@@ -1,6 +1,6 @@
 //! What is served: the page, the models, and the explorer's answers.
 
-use super::companions::ModelFiles;
+use super::companions::{ModelFiles, model_path};
 use super::embedded::{content_type, embedded_files};
 use super::request::Request;
 use super::response::Response;
@@ -33,7 +33,8 @@ impl Site {
         for (path, bytes) in files.iter().filter(|(path, _)| path.starts_with("models/")) {
             explorer.add_file(path, bytes.clone()).map_err(as_cli_error)?;
         }
-        let given = model.map_or_else(|| Ok(ModelFiles::default()), ModelFiles::read)?;
+        let read = |input| model_path(input).and_then(|path| ModelFiles::read(&path));
+        let given = model.map_or_else(|| Ok(ModelFiles::default()), read)?;
         for (name, bytes) in &given.files {
             explorer.add_file(name, bytes.clone()).map_err(as_cli_error)?;
         }
