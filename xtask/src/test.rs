@@ -96,18 +96,20 @@ fn all_steps() -> Result<Vec<Step>, String> {
         "debug and release builds render the same bytes, with every number of threads",
         || crate::determinism::run_determinism(&[]),
     ));
-    // As processes, so that their SKIPPED lines are repeated at the end.
-    steps.push(Step::cargo(
-        "browser",
-        "the explorer's lessons hold in a browser, by mouse and by keyboard",
-        &["xtask browser"],
-    ));
+    steps.push(browser_step());
+    // As a process, so that its SKIPPED lines are repeated at the end.
     steps.push(Step::cargo(
         "instructions",
         "fixed workloads take no more instructions than are recorded",
         &["xtask bench --instructions"],
     ));
     Ok(steps)
+}
+
+/// The explorer in a browser; as a process, so that its SKIPPED lines are repeated at the end.
+fn browser_step() -> Step {
+    let about = "the explorer's lessons hold in a browser, by mouse and by keyboard";
+    Step::cargo("browser", about, &["xtask browser"])
 }
 
 /// A step for each integration test of `alberti-tests`, described by the first sentence of its
