@@ -46,6 +46,7 @@ mod options;
 mod page_output;
 mod panel_subject;
 mod passes;
+mod percent_encoding;
 mod progress;
 mod reference;
 mod referenced_files;

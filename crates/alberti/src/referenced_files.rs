@@ -5,6 +5,7 @@
 //! the files and no parse of the meshes. A name too many does no harm: it is a file that does
 //! not exist, or one whose change renders a picture again.
 
+use super::percent_encoding::percent_decode;
 use pipeline::import::FileFormat;
 use serde_json::Value;
 use std::path::Path;
@@ -41,7 +42,10 @@ fn gltf_files(bytes: &[u8]) -> Vec<String> {
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
     let all = list("buffers").into_iter().chain(list("images"));
     let names = all.filter_map(|entry| Some(entry.get("uri")?.as_str()?.to_owned()));
-    names.filter(|uri| !uri.starts_with("data:")).map(|uri| percent_decode(&uri)).collect()
+    names
+        .filter(|uri| !uri.starts_with("data:"))
+        .map(|uri| percent_decode(&uri).unwrap_or(uri))
+        .collect()
 }
 
 /// The material libraries of an OBJ file: `mtllib` takes one name, which may contain spaces, or
@@ -118,29 +122,6 @@ fn json_chunk(bytes: &[u8]) -> &[u8] {
     let Some(length) = rest.first_chunk() else { return &[] };
     let length = u32::from_le_bytes(*length) as usize;
     rest.get(8..).map_or(&[], |json| &json[..length.min(json.len())])
-}
-
-/// Decodes the `%XX` escapes of a URI (RFC 3986 §2.1).
-///
-/// A `%` without two hexadecimal digits is left as it is. Bytes that are not UTF-8 become
-/// replacement characters; such a file is not found and counts as empty.
-fn percent_decode(uri: &str) -> String {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.as_bytes();
-    while let Some((&first, after)) = rest.split_first() {
-        let hex = |at: usize| after.get(at).and_then(|&digit| char::from(digit).to_digit(16));
-        match (first, hex(0), hex(1)) {
-            (b'%', Some(high), Some(low)) => {
-                bytes.push((high * 16 + low) as u8);
-                rest = &after[2..];
-            }
-            _ => {
-                bytes.push(first);
-                rest = after;
-            }
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]

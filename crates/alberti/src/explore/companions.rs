@@ -1,13 +1,12 @@
 //! The files that a model refers to, so that a browser can be given all of them.
 //!
-//! Only names are searched for here; whether they are used well is for the importer to say. A name
-//! that leads out of the model's folder, also by a symbolic link, is left out.
+//! Whether they are used well is for the importer to say. A name that leads out of the model's
+//! folder, also by a symbolic link, is left out.
 
-use super::request::percent_decode;
 use crate::CliError;
+use crate::referenced_files::referenced_files;
 use model::import::Limits;
 use pipeline::Origin;
-use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
@@ -34,14 +33,14 @@ impl ModelFiles {
         let bytes = read_file(path).map_err(cannot_read)?;
         let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
         let folder = parent.unwrap_or(Path::new(".")).canonicalize().map_err(cannot_read)?;
-        let mut wanted = referenced_names(&name, &bytes);
+        let mut wanted = referenced_files(&name, &bytes);
         let mut files = BTreeMap::from([(name.clone(), bytes)]);
         while let Some(wanted_name) = wanted.pop() {
             if files.contains_key(&wanted_name) {
                 continue;
             }
             if let Some(bytes) = read_below(&folder, &wanted_name) {
-                wanted.extend(referenced_names(&wanted_name, &bytes));
+                wanted.extend(referenced_files(&wanted_name, &bytes));
                 files.insert(wanted_name, bytes);
             }
             let total: usize = files.values().map(Vec::len).sum();
@@ -92,63 +91,9 @@ fn too_large(what: &str, bytes: u64) -> Error {
     Error::new(ErrorKind::InvalidData, format!("{what} {} MiB, too much to serve", bytes >> 20))
 }
 
-/// The names of files in a model or in a material library.
-fn referenced_names(name: &str, bytes: &[u8]) -> Vec<String> {
-    let (_, ending) = name.rsplit_once('.').unwrap_or(("", name));
-    let folder = name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-    let found = match ending.to_ascii_lowercase().as_str() {
-        "gltf" => names_of_gltf(bytes),
-        "glb" => binary_gltf_json(bytes).map_or_else(Vec::new, names_of_gltf),
-        "obj" => names_of_lines(bytes, &["mtllib"]),
-        "mtl" => names_of_lines(bytes, &["map_", "bump", "norm", "disp", "decal", "refl"]),
-        _ => Vec::new(),
-    };
-    found.into_iter().map(|found| format!("{folder}{found}")).collect()
-}
-
-/// The JSON of a binary glTF file: its first chunk.
-fn binary_gltf_json(bytes: &[u8]) -> Option<&[u8]> {
-    let length: [u8; 4] = bytes.get(12..16)?.try_into().ok()?;
-    bytes.get(20..)?.get(..usize::try_from(u32::from_le_bytes(length)).ok()?)
-}
-
-/// The URIs of buffers and images that are no data.
-fn names_of_gltf(json: &[u8]) -> Vec<String> {
-    let Ok(root) = serde_json::from_slice::<Value>(json) else { return Vec::new() };
-    let lists = ["buffers", "images"].into_iter().filter_map(|key| root.get(key)?.as_array());
-    let uris = lists.flatten().filter_map(|entry| entry.get("uri")?.as_str());
-    let files = uris.filter(|uri| !uri.starts_with("data:"));
-    files.map(|uri| percent_decode(uri).unwrap_or_else(|| uri.to_owned())).collect()
-}
-
-/// The last word of each line that begins with one of these.
-fn names_of_lines(text: &[u8], keys: &[&str]) -> Vec<String> {
-    let text = String::from_utf8_lossy(text);
-    let words = text.lines().map(str::trim).filter(|line| {
-        keys.iter().any(|key| line.get(..key.len()).is_some_and(|start| start == *key))
-    });
-    words
-        .filter_map(|line| {
-            Some(line.split_whitespace().nth(1).and(line.split_whitespace().last())?.to_owned())
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn models_name_their_files() {
-        let gltf = br#"{"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,"},{}],"images":[{"uri":"t/x.png"}]}"#;
-        assert_eq!(referenced_names("a.gltf", gltf), ["a b.bin", "t/x.png"]);
-        assert_eq!(referenced_names("a.obj", b"v 0 0 0\nmtllib m/a.mtl\r\n"), ["m/a.mtl"]);
-        let materials = b"newmtl x\nmap_Kd -s 1 1 1 wood.png\nKd 1 1 1\nbump\n";
-        assert_eq!(referenced_names("m/a.mtl", materials), ["m/wood.png"]);
-        for (name, bytes) in [("a.gltf", &b"{"[..]), ("a.glb", b"glTF"), ("a.stl", b"solid")] {
-            assert!(referenced_names(name, bytes).is_empty(), "{name}");
-        }
-    }
 
     #[test]
     fn nothing_outside_of_the_folder_is_read() {

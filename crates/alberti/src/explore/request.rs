@@ -1,6 +1,7 @@
 //! Requests: the first line and the headers of HTTP/1.1, read within limits and checked.
 
 use super::response::Response;
+use crate::percent_encoding::percent_decode;
 use std::io::Read;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
@@ -112,24 +113,6 @@ fn check_origin(headers: &[(String, &str)], port: u16) -> Result<(), Response<'s
     } else {
         Err(Response::text(403, "This server answers only its own page."))
     }
-}
-
-/// Decodes `%41` to A; `None` for anything but UTF-8.
-pub(super) fn percent_decode(text: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes();
-    while let Some((&byte, after)) = rest.split_first() {
-        rest = after;
-        if byte == b'%' {
-            let digit = |at: usize| char::from(*after.get(at)?).to_digit(16);
-            let value = digit(0)? * 16 + digit(1)?;
-            bytes.push(u8::try_from(value).ok()?);
-            rest = &after[2..];
-        } else {
-            bytes.push(byte);
-        }
-    }
-    String::from_utf8(bytes).ok()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::embedded::{content_type, embedded_files};
 use super::request::Request;
 use super::response::Response;
 use crate::CliError;
+use crate::percent_encoding::percent_encode;
 use explorer::{Explorer, ExplorerError};
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -92,15 +93,4 @@ fn with_server_info(page: &str, said: &str) -> String {
     let said = said.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;");
     let place = r#"name="explorer-server" content=""#;
     page.replacen(&format!("{place}\""), &format!("{place}{said}\""), 1)
-}
-
-/// A name as the value of a key in a query.
-fn percent_encode(name: &str) -> String {
-    let encode = |byte: u8| match byte {
-        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => {
-            char::from(byte).to_string()
-        }
-        byte => format!("%{byte:02X}"),
-    };
-    name.bytes().map(encode).collect()
 }
