@@ -38,7 +38,7 @@ fn house(projection: String) -> SceneDescription {
 /// OR-1: the orthographic view volume, in the chapter's own signs.
 pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
     id: "orthographic-volume",
-    items: &["C7", "C8"],
+    items: &["C7", "C8", "C34"],
     title: words("Orthographic view volume", "正交视见体"),
     statement: words(
         "The box [l, r] × [b, t] × [f, n] of camera space becomes the canonical view volume [−1, 1]³ by a scale and a translation. The camera looks along −z, so 0 > n > f. w stays 1: nothing shrinks with distance.",
@@ -72,7 +72,7 @@ pub(super) static ORTHOGRAPHIC_VOLUME: Lesson = Lesson {
 /// PE-2: the perspective view volume, M_per = M_orth P.
 pub(super) static PERSPECTIVE_VOLUME: Lesson = Lesson {
     id: "perspective-volume",
-    items: &["C25", "C26", "C34"],
+    items: &["C22", "C23", "C27", "C29"],
     title: words("Perspective view volume", "透视视见体"),
     statement: words(
         "P keeps the plane z = n as it is and squeezes the planes behind it, until the truncated pyramid is the box of the orthographic view; then M_orth does the rest: M_per = M_orth P. The window [l, r] × [b, t] lies on z = n.",
@@ -114,7 +114,7 @@ fn opening_angle(facts: &Facts) -> Option<Sentence> {
 /// The middle of the depths, and where P takes it.
 pub(super) static MIDPOINT_DEPTH: Lesson = Lesson {
     id: "midpoint-depth",
-    items: &["C29", "C34"],
+    items: &["C41", "C48"],
     title: words("Depth of the midpoint", "中点的深度"),
     statement: words(
         "P keeps the order of depths but not their ratios: the middle z = (n + f)/2 goes to (n² + f²)/(n + f), which is nearer to f. The farther apart n and f are, the more of the range is spent near the eye.",

@@ -15,7 +15,7 @@ const RIDGE_ENDS: [[f64; 3]; 2] = [[0.0, 4.38, 3.15], [0.0, 4.38, -3.15]];
 pub(super) static EXERCISES: Lesson = Lesson {
     id: "exercises",
     source: Source::Chapter,
-    items: &["C36", "C37", "C38"],
+    items: &["C39", "C44", "C46", "C47"],
     title: words("Exercises", "习题"),
     statement: words(
         "Figures to the chapter's exercises: 2, M_vp M_orth maps a window to pixels; 7, M_per takes the corner (r, t, n) to (1, 1, 1); 10, the camera at (0, 1, 0) that looks down; 11, where the point at fraction t of a segment has its image.",

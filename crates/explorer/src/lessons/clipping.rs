@@ -13,7 +13,7 @@ const FLOOR: &str = "models/floor.glb";
 pub(super) static TEAR: Lesson = Lesson {
     id: "tear",
     source: Source::Chapter,
-    items: &["C36"],
+    items: &["C36", "C54"],
     title: words("Clip before the divide", "先裁剪，后做透视除法"),
     statement: words(
         "Behind the eye w is negative. Divided by it, a point comes out upside down and in front, and a triangle with corners on both sides is torn through infinity. So clipping comes first, where w is still a coordinate.",

@@ -11,7 +11,7 @@ use crate::words::{Sentence, sentence, words};
 /// C62: the field of view enlarges, a wrong aspect distorts, near and far only clip.
 pub(super) static PERSPECTIVE: Lesson = Lesson {
     id: "perspective",
-    items: &["C61", "C62"],
+    items: &["C61", "C62", "C70", "C92", "C94"],
     title: words("Perspective", "透视投影"),
     statement: words(
         "A smaller field of view enlarges. An aspect ratio that is not the picture's distorts. The near and far planes only clip: they move nothing.",
@@ -143,7 +143,7 @@ fn frustum_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
 /// C94: the box of createOrthographic.
 pub(super) static ORTHO: Lesson = Lesson {
     id: "ortho",
-    items: &["C94", "C90"],
+    items: &["C90", "C94"],
     title: words("Orthographic projection", "正交投影"),
     statement: words(
         "A box of the world is shown without foreshortening: what is twice as far is as large. A smaller window enlarges; near and far only clip, and near may even be behind the camera.",

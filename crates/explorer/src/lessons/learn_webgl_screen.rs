@@ -81,10 +81,10 @@ fn stereo_consequences(values: &Values<'_>, facts: &Facts) -> Vec<Sentence> {
     ]
 }
 
-/// C59, C99: the viewport transform.
+/// C59, C99: a rectangle of the picture.
 pub(super) static VIEWPORT: Lesson = Lesson {
     id: "viewport",
-    items: &["C59", "C75", "C99"],
+    items: &["C59", "C99"],
     title: words("Viewport", "视口"),
     statement: words(
         "The viewport transform maps x and y from −1 … 1 to a rectangle of the picture, as glViewport(x, y, width, height) does; y counts from the bottom. A rectangle of another shape than the window distorts.",
@@ -164,7 +164,7 @@ pub(super) fn around_viewport() -> SceneDescription {
 /// The mouse: from a pixel back to the world.
 pub(super) static PICKING: Lesson = Lesson {
     id: "picking",
-    items: &["C97"],
+    items: &["C26", "C97"],
     title: words("Picking", "拾取"),
     statement: words(
         "A pixel goes back: to −1 … 1, then by the inverse matrix to a point on the near plane and one on the far plane, divided by w. The line through both is the line of sight; the first triangle on it is what is picked.",
@@ -220,7 +220,7 @@ pub(super) static PICKING: Lesson = Lesson {
 /// C67, C68: how distance becomes depth.
 pub(super) static DEPTH_TABLE: Lesson = Lesson {
     id: "depth-table",
-    items: &["C48", "C67", "C68"],
+    items: &["C67", "C68"],
     title: words("Depth after the divide", "透视除法之后的深度"),
     statement: words(
         "Depth is not linear in distance: z = c₁/D + c₂ with c₁ = 2FN/(N − F), c₂ = (F + N)/(F − N). Half of its range is spent on the distances from N to 2FN/(F + N). Moving the near plane out helps; moving the far plane in hardly does.",

@@ -14,7 +14,7 @@ const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
 /// VV-2: shear, scale, depth.
 pub(super) static NORMALIZATION: Lesson = Lesson {
     id: "normalization",
-    items: &["C85", "C87", "C88"],
+    items: &["C87", "C88", "C89"],
     title: words("Normalization", "投影规范化"),
     statement: words(
         "Any frustum becomes the canonical view volume in three steps: a shear puts the center line on −z, a scale makes the sides x = ±z and y = ±z, and the perspective matrix makes it a cube. One clipper then serves every projection.",

@@ -88,7 +88,7 @@ fn four_views() -> SceneDescription {
 /// AX-1: turned by α and tilted by β, then onto XOY.
 pub(super) static AXONOMETRIC: Lesson = Lesson {
     id: "axonometric",
-    items: &["C76", "C77"],
+    items: &["C76"],
     title: words("Axonometric projection", "轴测投影"),
     statement: words(
         "The object is turned by α about y and tilted by β about x, then projected orthographically: all three axes show. Equal foreshortening of three axes is isometric, of two dimetric, of none trimetric; the squares of the factors always sum to 2.",

@@ -31,7 +31,7 @@ fn point(values: &Values<'_>, keys: [&str; 2]) -> String {
 /// ONE-1: the front parallel to the picture.
 pub(super) static ONE_POINT: Lesson = Lesson {
     id: "one-point",
-    items: &["C79", "C82"],
+    items: &["C80", "C82"],
     title: words("One-point perspective", "一点透视"),
     statement: words(
         "The front is parallel to the picture plane: it keeps its shape, and all lines in depth meet in one vanishing point. A nearer eye makes depth steeper.",
@@ -71,7 +71,7 @@ pub(super) static ONE_POINT: Lesson = Lesson {
 /// TWO-1: uprights stay upright.
 pub(super) static TWO_POINT: Lesson = Lesson {
     id: "two-point",
-    items: &["C80", "C82"],
+    items: &["C80", "C83"],
     title: words("Two-point perspective", "两点透视"),
     statement: words(
         "Uprights are parallel to the picture and stay upright; lines along x and along z meet in two vanishing points on the horizon. Points close together look like a wide-angle lens.",
@@ -118,7 +118,7 @@ pub(super) static TWO_POINT: Lesson = Lesson {
 /// THREE-1: no axis parallel to the picture.
 pub(super) static THREE_POINT: Lesson = Lesson {
     id: "three-point",
-    items: &["C81", "C82"],
+    items: &["C80", "C83"],
     title: words("Three-point perspective", "三点透视"),
     statement: words(
         "No axis is parallel to the picture: verticals meet too, far below when one looks down. The eye stands over the orthocenter of the triangle of the three vanishing points.",

@@ -120,7 +120,7 @@ fn parallax_is_the_formula_of_the_off_axis_pair() {
     assert!(said[0].contains(&expected), "{expected}: {said:?}");
 }
 
-/// C34, C94: a parallel projection has no apex and w stays 1; z of the planes is 1 and −1.
+/// C94: a parallel projection has no apex and w stays 1; z of the planes is 1 and −1.
 #[test]
 fn w_stays_1_in_an_orthographic_view() {
     let mut explorer = explorer_with_models();
