@@ -40,8 +40,12 @@ pub(super) fn map_in_order<M: Default, T: Send>(
             done.push((start, results));
         }
     };
+    let threads = threads.min(count.div_ceil(CHUNK_SIZE));
+    // WebAssembly has no threads: their code would be dead weight.
+    if threads <= 1 || cfg!(target_family = "wasm") {
+        return take().into_iter().flat_map(|(_, results)| results).collect();
+    }
     let mut done: Vec<(usize, Vec<T>)> = std::thread::scope(|scope| {
-        let threads = threads.min(count.div_ceil(CHUNK_SIZE));
         let others: Vec<_> = (1..threads).map(|_| scope.spawn(take)).collect();
         let mut done = take();
         for other in others {

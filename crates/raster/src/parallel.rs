@@ -42,7 +42,8 @@ pub(crate) fn for_each_with_workers<W, T, I>(
             work(worker, item);
         }
     };
-    if others.is_empty() {
+    // WebAssembly has no threads: their code would be dead weight.
+    if others.is_empty() || cfg!(target_family = "wasm") {
         return run(first);
     }
     let run = &run;

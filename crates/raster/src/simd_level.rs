@@ -82,7 +82,7 @@ impl SimdLevel {
             )
         });
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        Some(kernel.run())
+        Some(self.run_kernel(kernel))
     }
 
     pub(crate) const fn level(self) -> Level {

@@ -17,11 +17,11 @@
 //! Shading is written once for any `N`: with one lane for the scalar path and with eight for the
 //! packets of the rasterizer. Each operator is a loop over the lanes of constant length and inlines
 //! into a kernel that is compiled for the processor's vector instructions, where it becomes one
-//! instruction.
+//! instruction. WebAssembly has them everywhere, and browsers are slow with large functions: there
+//! large parts of a kernel are functions of their own (`cfg_attr(target_family = "wasm", …)`).
 //!
 //! `[f32; N]` inside is what the rasterizer hands over as `F32x8`; conversions cost nothing. Loops
-//! are written over iterators of arrays and not over indices, which keeps them free of bounds
-//! checks.
+//! are over iterators of arrays and not over indices, which keeps them free of bounds checks.
 //!
 //! The bits of a lane depend neither on `N` nor on the instructions: every operator rounds as its
 //! scalar counterpart does, nothing is fused or reassociated, and [`Lanes::lerp`] is `a + (b −

@@ -93,7 +93,8 @@ impl Light {
 
     /// The light that arrives at positions in the world, shadows not counted; none of ambient
     /// light, which has no direction.
-    #[inline(always)]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub(super) fn incident_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
         match *self {
             Self::Sun { to_light, lux, .. } => {

@@ -90,7 +90,8 @@ impl<const N: usize> Anisotropy<N> {
     /// `alpha` across the frame.
     ///
     /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`.
-    #[inline(always)]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub(super) fn ggx_lobe(
         &self,
         angles: &ShadingAngles<N>,

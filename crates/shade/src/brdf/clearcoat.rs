@@ -57,7 +57,8 @@ impl<const N: usize> Clearcoat<N> {
     ///
     /// Without Fresnel: the layer's reflectance is that of the view, and is applied once in
     /// [`composite_over`](Self::composite_over).
-    #[inline(always)]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub(super) fn add_direct_light(&mut self, light: &IncidentLight<N>) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;
         let angles = ShadingAngles::new(normals, views, light.to_light);

@@ -45,7 +45,8 @@ impl<const N: usize> DirectionalAlbedo<N> {
     /// sixteenths of the roughness. Before the first row and behind the last the value is that of
     /// the row, as in the textures of other renderers. (Rows at the ends, which would be exact, put
     /// three of the reference pictures out of their limits.)
-    #[inline(always)]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub(super) fn lookup(roughness: Lanes<N>, n_dot_v: Lanes<N>) -> Self {
         let (rows, s) = locate_entries(roughness * 16.0 - 0.5);
         let (columns, t) = locate_entries(n_dot_v.sqrt() * 15.0);

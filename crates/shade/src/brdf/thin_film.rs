@@ -28,7 +28,8 @@ use std::f32::consts::{LOG2_E, PI};
 ///
 /// Each channel of F0 gives the index of refraction of the base, so a colored metal interferes by
 /// channel. The cost is two harmonics with four Gaussians and cosines each.
-#[inline(always)]
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
+#[cfg_attr(target_family = "wasm", inline(never))]
 pub(super) fn thin_film_f0<const N: usize>(
     f0: Rgb<N>,
     ior: f32,

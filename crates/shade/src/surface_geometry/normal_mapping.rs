@@ -35,7 +35,8 @@ impl<const N: usize> TangentLanes<N> {
 ///
 /// The frame is made of unit vectors, as MikkTSpace asks for, but not orthogonalized. The surface's
 /// own normals stay where it has no tangent, or where the sum has no direction.
-#[inline(always)]
+#[cfg_attr(not(target_family = "wasm"), inline(always))]
+#[cfg_attr(target_family = "wasm", inline(never))]
 pub(super) fn apply_normal_map<const N: usize>(
     normals: Vec3Lanes<N>,
     tangents: &TangentLanes<N>,

@@ -42,7 +42,8 @@ impl MipChain<'_> {
     }
 
     /// Adds what is read at one tap of a footprint, times its weight.
-    #[inline(always)]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub(crate) fn accumulate_tap<const N: usize>(
         &self,
         tap: &Tap<N>,
