@@ -10,7 +10,7 @@ use crate::metadata::Metadata;
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/model/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
-    ("serde", &["crates/pipeline/src/scene"]),
+    ("serde", &["crates/pipeline/src/scene", "crates/model/src/import/gltf/located_json.rs"]),
     ("tiny_skia", &["crates/drawing/src/canvas", "crates/raster/examples/pixmap.rs"]),
     ("clap", &["crates/alberti/src"]),
 ];

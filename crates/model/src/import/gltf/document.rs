@@ -252,23 +252,10 @@ fn syntax_error(error: &serde_json::Error) -> Diagnostic {
 
 /// The error for a member of the wrong type, with the JSON pointer to it.
 ///
-/// Keys are escaped as in RFC 6901. The phrase of the `gltf` crate for an index is replaced by a
-/// plainer one.
-pub(super) fn type_error(error: &serde_path_to_error::Error<serde_json::Error>) -> Diagnostic {
-    use serde_path_to_error::Segment;
-    let mut pointer = String::new();
-    for segment in error.path() {
-        match segment {
-            Segment::Seq { index } => pointer.push_str(&format!("/{index}")),
-            Segment::Map { key } | Segment::Enum { variant: key } => {
-                pointer.push('/');
-                pointer.push_str(&key.replace('~', "~0").replace('/', "~1"));
-            }
-            Segment::Unknown => {}
-        }
-    }
-    let message = error.inner().to_string().replace("index into child of root", "an index");
-    Diagnostic::invalid(&pointer, message)
+/// The phrase of the `gltf` crate for an index is replaced by a plainer one.
+pub(super) fn type_error(pointer: &str, error: &serde_json::Error) -> Diagnostic {
+    let message = error.to_string().replace("index into child of root", "an index");
+    Diagnostic::invalid(pointer, message)
 }
 
 #[cfg(test)]

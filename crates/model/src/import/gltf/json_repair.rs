@@ -6,6 +6,7 @@
 //! again.
 
 use super::document::type_error;
+use super::located_json::deserialize_located;
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
 use gltf::json::Root;
@@ -33,9 +34,9 @@ pub(super) fn deserialize_document(
 ) -> Result<Root, Diagnostic> {
     let mut repairs_left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
     loop {
-        let diagnostic = match serde_path_to_error::deserialize(&*value) {
+        let diagnostic = match deserialize_located(value) {
             Ok(root) => return Ok(root),
-            Err(error) => type_error(&error),
+            Err((pointer, error)) => type_error(&pointer, &error),
         };
         let repaired = if repairs_left > 0 { repair_at(value, &diagnostic.location) } else { None };
         let Some(consequence) = repaired else { return Err(diagnostic) };
