@@ -176,6 +176,7 @@ impl ImageChecker<'_> {
         };
         let problem = match kind {
             "image/ktx2" if cfg!(not(feature = "basisu")) => None,
+            "image/webp" if cfg!(not(feature = "webp")) => None,
             _ => image_decoder::image_size(bytes).err(),
         };
         if let Some(problem) = problem {

@@ -1,4 +1,5 @@
-//! Image decoding: PNG, JPEG, WebP and, with the feature `basisu`, KTX2 into 8-bit RGBA.
+//! Image decoding into 8-bit RGBA: PNG, JPEG and, with the features `webp` and `basisu`, WebP and
+//! KTX2.
 //!
 //! The format is recognized by the first bytes; the file's name and glTF's `mimeType` are ignored.
 //! Sizes are read from the header and checked before any decoder allocates, and a decoder that
@@ -7,16 +8,15 @@
 mod jpeg;
 #[cfg(feature = "basisu")]
 mod ktx2;
+#[cfg(feature = "webp")]
 mod webp;
 
 use crate::Image;
-use image_webp::WebPDecoder;
 use jpeg::check_chroma_sampling;
 use png::{BitDepth, ColorType, Transformations};
 use std::borrow::Cow;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use webp::check_frame_sizes;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -55,7 +55,8 @@ pub(crate) fn image_size(bytes: &[u8]) -> Result<(u32, u32), String> {
             let info = decoder.info().ok_or("the JPEG has no header")?;
             Ok((u32::from(info.width), u32::from(info.height)))
         }
-        ImageFormat::WebP => Ok(webp_decoder(bytes)?.dimensions()),
+        #[cfg(feature = "webp")]
+        ImageFormat::WebP => webp::size(bytes),
         #[cfg(feature = "basisu")]
         ImageFormat::Ktx2 => ktx2::size(bytes),
     })
@@ -77,6 +78,7 @@ pub(crate) fn format_name(bytes: &[u8]) -> &'static str {
     match ImageFormat::from_magic(bytes) {
         Ok(ImageFormat::Png) => "png",
         Ok(ImageFormat::Jpeg) => "jpeg",
+        #[cfg(feature = "webp")]
         Ok(ImageFormat::WebP) => "webp",
         #[cfg(feature = "basisu")]
         Ok(ImageFormat::Ktx2) => "ktx2",
@@ -106,7 +108,8 @@ pub(crate) fn decode_rgba(bytes: &[u8]) -> Result<Image, String> {
     catch_decoder_panic(|| match ImageFormat::from_magic(bytes)? {
         ImageFormat::Png => decode_png(bytes),
         ImageFormat::Jpeg => decode_jpeg(bytes),
-        ImageFormat::WebP => decode_webp(bytes),
+        #[cfg(feature = "webp")]
+        ImageFormat::WebP => webp::decode(bytes),
         #[cfg(feature = "basisu")]
         ImageFormat::Ktx2 => ktx2::decode(bytes),
     })
@@ -130,8 +133,12 @@ fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
 const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
 
 /// The supported image formats, for messages.
-const READ_FORMATS: &str =
-    if cfg!(feature = "basisu") { "PNG, JPEG, WebP and KTX2" } else { "PNG, JPEG and WebP" };
+const READ_FORMATS: &str = match (cfg!(feature = "webp"), cfg!(feature = "basisu")) {
+    (true, true) => "PNG, JPEG, WebP and KTX2",
+    (true, false) => "PNG, JPEG and WebP",
+    (false, true) => "PNG, JPEG and KTX2",
+    (false, false) => "PNG and JPEG",
+};
 
 /// A supported image format.
 enum ImageFormat {
@@ -140,6 +147,7 @@ enum ImageFormat {
     /// JPEG: baseline or progressive (ITU-T T.81).
     Jpeg,
     /// WebP: lossy or lossless (RFC 9649).
+    #[cfg(feature = "webp")]
     WebP,
     /// KTX2: Basis Universal's ETC1S and UASTC, or texels of 8 bits (KTX 2.0).
     #[cfg(feature = "basisu")]
@@ -158,6 +166,7 @@ impl ImageFormat {
         match self {
             Self::Png => bytes.saturating_mul(8 * 1032),
             Self::Jpeg => bytes.saturating_mul(8 * 64),
+            #[cfg(feature = "webp")]
             Self::WebP => bytes.saturating_mul(1024).saturating_add(BOMB_ALLOWANCE_TEXELS),
             #[cfg(feature = "basisu")]
             Self::Ktx2 => bytes.saturating_mul(1024).saturating_add(BOMB_ALLOWANCE_TEXELS),
@@ -170,12 +179,12 @@ impl ImageFormat {
         let other = match bytes {
             [0x89, b'P', b'N', b'G', ..] => return Ok(Self::Png),
             [0xFF, 0xD8, 0xFF, ..] => return Ok(Self::Jpeg),
-            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
-                return Ok(Self::WebP);
-            }
+            #[cfg(feature = "webp")]
+            [..] if is_webp(bytes) => return Ok(Self::WebP),
             #[cfg(feature = "basisu")]
             [..] if bytes.starts_with(&ktx2::MAGIC) => return Ok(Self::Ktx2),
             [] => return Err("the image is empty".to_owned()),
+            [..] if is_webp(bytes) => "a WebP image",
             [0xAB, b'K', b'T', b'X', ..] => "a KTX image",
             [b'D', b'D', b'S', b' ', ..] => "a DDS image",
             [b'G', b'I', b'F', b'8', ..] => "a GIF image",
@@ -185,6 +194,11 @@ impl ImageFormat {
         };
         Err(format!("this is {other}; only {READ_FORMATS} are read"))
     }
+}
+
+/// Whether a file begins as a WebP does: a RIFF file of this type.
+fn is_webp(bytes: &[u8]) -> bool {
+    matches!(bytes, [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..])
 }
 
 /// The message for a PNG that cannot be decoded.
@@ -253,39 +267,6 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Image, String> {
     let mut rgba = blank_texels(width, height);
     decoder.decode_into(rgba.as_flattened_mut()).map_err(|error| jpeg_problem(&error))?;
     Ok(Image { width, height, rgba })
-}
-
-/// The message for a WebP that cannot be decoded.
-fn webp_problem(error: &image_webp::DecodingError) -> String {
-    format!("the WebP is broken: {error}")
-}
-
-/// A WebP decoder whose memory is limited to 1 GiB.
-///
-/// # Errors
-/// The container is invalid.
-fn webp_decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
-    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| webp_problem(&error))?;
-    decoder.set_memory_limit(1 << 30);
-    Ok(decoder)
-}
-
-/// Decodes the first frame of a lossy or lossless WebP.
-///
-/// Without an alpha channel the decoder produces RGB, and alpha is added here.
-fn decode_webp(bytes: &[u8]) -> Result<Image, String> {
-    let mut decoder = webp_decoder(bytes)?;
-    let (width, height) = decoder.dimensions();
-    check_frame_sizes(bytes, (width, height))?;
-    if decoder.has_alpha() {
-        let mut rgba = blank_texels(width, height);
-        decoder.read_image(rgba.as_flattened_mut()).map_err(|error| webp_problem(&error))?;
-        return Ok(Image { width, height, rgba });
-    }
-    let mut rgb = vec![0; decoder.output_buffer_size().ok_or("the WebP is too large")?];
-    decoder.read_image(&mut rgb).map_err(|error| webp_problem(&error))?;
-    let rgba = rgb.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]);
-    checked_image(width, height, rgba.collect())
 }
 
 /// The image, if there are as many texels as its size says.

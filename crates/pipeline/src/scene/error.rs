@@ -1,5 +1,6 @@
 //! Errors of scene files: each points at the place in the text and says what to do.
 
+#[cfg(feature = "terminal")]
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use core::fmt;
 use core::ops::Range;
@@ -40,13 +41,27 @@ impl SceneError {
 
     /// The message with the line and the caret; with the colors of a terminal (ECMA-48) if
     /// `colors`.
+    ///
+    /// Without the feature `terminal` it has line and column as numbers, and no colors.
     #[must_use]
+    #[cfg_attr(not(feature = "terminal"), expect(unused_variables, reason = "for the snippet"))]
     pub fn to_message(&self, colors: bool) -> String {
-        if self.source.is_empty() {
-            let help =
-                self.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
-            return format!("{}: {}{help}", self.file, self.message);
+        #[cfg(feature = "terminal")]
+        if !self.source.is_empty() {
+            return self.to_snippet(colors);
         }
+        let mut place = self.file.clone();
+        if !self.source.is_empty() {
+            let (line, column) = self.line_and_column();
+            place = format!("{place}:{line}:{column}");
+        }
+        let help = self.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
+        format!("{place}: {}{help}", self.message)
+    }
+
+    /// The message with the line and the caret.
+    #[cfg(feature = "terminal")]
+    fn to_snippet(&self, colors: bool) -> String {
         let snippet = Snippet::source(self.source.as_str())
             .path(self.file.as_str())
             .annotation(AnnotationKind::Primary.span(self.first_line_of_span()));
@@ -60,6 +75,7 @@ impl SceneError {
     }
 
     /// The part of the span on its first line: carets under many lines hide more than they show.
+    #[cfg(feature = "terminal")]
     fn first_line_of_span(&self) -> Range<usize> {
         let marked = &self.source[self.span.clone()];
         let length = marked.find('\n').unwrap_or(marked.len());

@@ -21,8 +21,8 @@ mod values;
 pub(super) use checker::{Checked, Checker};
 use declare::join_doc_lines;
 pub(crate) use declare::{
-    default_value, field_entry, inner_type, named_enum, named_values, scene_enum, scene_struct,
-    scene_variant,
+    default_value, documentation, field_entry, inner_type, named_enum, named_values, scene_enum,
+    scene_struct, scene_variant,
 };
 pub(super) use search::{example_of, fields_where, variants_where};
 pub(crate) use values::checked_number;

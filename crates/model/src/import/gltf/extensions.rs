@@ -35,6 +35,10 @@ const DRACO_SUPPORT: ExtensionSupport =
 const BASISU_SUPPORT: ExtensionSupport =
     if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
 
+/// WebP is an optional feature of this crate, on by default.
+const WEBP_SUPPORT: ExtensionSupport =
+    if cfg!(feature = "webp") { Full } else { Never("WebP images are not read") };
+
 /// All known extensions, sorted by name.
 ///
 /// An extension that is not listed is ignored if a file merely uses it, without a warning, and
@@ -47,7 +51,7 @@ const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
     ("EXT_mesh_primitive_edge_visibility", Partly("the edges are drawn in line drawings alone")),
     ("EXT_meshopt_compression", Full),
     ("EXT_structural_metadata", Harmless),
-    ("EXT_texture_webp", Full),
+    ("EXT_texture_webp", WEBP_SUPPORT),
     ("KHR_animation_pointer", Full),
     ("KHR_draco_mesh_compression", DRACO_SUPPORT),
     ("KHR_lights_punctual", Full),

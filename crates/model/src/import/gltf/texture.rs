@@ -50,7 +50,8 @@ fn texture_image(root: &Root, at: usize, warnings: &mut ImportWarnings) -> Optio
     let extensions = json.extensions.as_ref().map(|extensions| &extensions.others);
     let of = |name: &str| extensions.and_then(|all| all.get(name)?.get("source")?.as_u64());
     let basis = of("KHR_texture_basisu").filter(|_| cfg!(feature = "basisu"));
-    let other = basis.or_else(|| of("EXT_texture_webp"));
+    let webp = || of("EXT_texture_webp").filter(|_| cfg!(feature = "webp"));
+    let other = basis.or_else(webp);
     let image = other.map_or(json.source.value(), |source| source as usize);
     if image < root.images.len() {
         return Some(image);

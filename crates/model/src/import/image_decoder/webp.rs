@@ -1,4 +1,4 @@
-//! WebP frame headers: rejects frames larger than the image before the decoder allocates for them.
+//! WebP: frames larger than the image are refused before the decoder allocates for them.
 //!
 //! ```text
 //!  RIFF length WEBP │ VP8X canvas │ VP8 frame       chunks: id, length, bytes, padded to even
@@ -6,11 +6,57 @@
 //! ```
 //! Source: RFC 9649 (the container) and RFC 6386 §9.1 (the frame header).
 
+use super::{blank_texels, checked_image};
+use crate::Image;
+use image_webp::WebPDecoder;
+use std::io::Cursor;
+
+/// Width and height from the header.
+///
+/// # Errors
+/// The container is invalid.
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
+    Ok(decoder(bytes)?.dimensions())
+}
+
+/// The message for a WebP that cannot be decoded.
+fn problem(error: &image_webp::DecodingError) -> String {
+    format!("the WebP is broken: {error}")
+}
+
+/// A WebP decoder whose memory is limited to 1 GiB.
+///
+/// # Errors
+/// The container is invalid.
+fn decoder(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>, String> {
+    let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(|error| problem(&error))?;
+    decoder.set_memory_limit(1 << 30);
+    Ok(decoder)
+}
+
+/// Decodes the first frame of a lossy or lossless WebP.
+///
+/// Without an alpha channel the decoder produces RGB, and alpha is added here.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
+    let mut decoder = decoder(bytes)?;
+    let (width, height) = decoder.dimensions();
+    check_frame_sizes(bytes, (width, height))?;
+    if decoder.has_alpha() {
+        let mut rgba = blank_texels(width, height);
+        decoder.read_image(rgba.as_flattened_mut()).map_err(|error| problem(&error))?;
+        return Ok(Image { width, height, rgba });
+    }
+    let mut rgb = vec![0; decoder.output_buffer_size().ok_or("the WebP is too large")?];
+    decoder.read_image(&mut rgb).map_err(|error| problem(&error))?;
+    let rgba = rgb.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, 255]);
+    checked_image(width, height, rgba.collect())
+}
+
 /// Checks that all lossy frames fit into an image of this size.
 ///
 /// A file of a few bytes may contain a frame that takes hundreds of megabytes; the decoder
 /// allocates before it compares the sizes.
-pub(super) fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
+fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
     let chunks = file.get(12..).unwrap_or_default();
     for (name, bytes) in RiffChunks(chunks) {
         match &name {

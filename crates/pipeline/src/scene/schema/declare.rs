@@ -37,6 +37,14 @@ fn remove_links(text: &str) -> String {
     plain + rest
 }
 
+/// Doc comments of a type, for the reference of the scene language. Without the feature `terminal`
+/// nobody can ask for it.
+macro_rules! documentation {
+    ($($line:literal),* $(,)?) => {
+        if cfg!(feature = "terminal") { concat!($($line),*) } else { "" }
+    };
+}
+
 /// Declares a struct of scene files. `as "Name"` is its name in scene files; a field with `= value`
 /// may be left out. If every field has a default, so has the struct.
 ///
@@ -94,7 +102,7 @@ macro_rules! scene_struct {
             const ENTRY: &'static $crate::scene::schema::TypeEntry =
                 &$crate::scene::schema::TypeEntry {
                     name: $shown,
-                    doc: concat!($($doc, "\n"),*),
+                    doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
                     shape: $crate::scene::schema::Shape::Fields(&[
                         $($crate::scene::schema::field_entry!(
                             [$($field_doc)*] $field: $type $(= $default)?
@@ -159,11 +167,11 @@ macro_rules! scene_enum {
             const ENTRY: &'static $crate::scene::schema::TypeEntry =
                 &$crate::scene::schema::TypeEntry {
                     name: $shown,
-                    doc: concat!($($doc, "\n"),*),
+                    doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
                     shape: $crate::scene::schema::Shape::Variants(&[$(
                         $crate::scene::schema::VariantEntry {
                             name: stringify!($variant),
-                            doc: concat!($($variant_doc, "\n"),*),
+                            doc: $crate::scene::schema::documentation!($($variant_doc, "\n"),*),
                             fields: &[$($($crate::scene::schema::field_entry!(
                                 [$($field_doc)*] $field: $type $(= $default)?
                             )),*)?],
@@ -206,7 +214,7 @@ macro_rules! field_entry {
     ([$($doc:literal)*] $field:ident: $type:ty = $default:expr) => {
         $crate::scene::schema::FieldEntry {
             name: stringify!($field),
-            doc: concat!($($doc, "\n"),*),
+            doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
             value_type: <$type as $crate::scene::schema::SceneValue>::value_type,
             is_optional: true,
         }
@@ -214,7 +222,7 @@ macro_rules! field_entry {
     ([$($doc:literal)*] $field:ident: $type:ty) => {
         $crate::scene::schema::FieldEntry {
             name: stringify!($field),
-            doc: concat!($($doc, "\n"),*),
+            doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
             value_type: <$type as $crate::scene::schema::SceneValue>::value_type,
             is_optional: <$type as $crate::scene::schema::SceneValue>::IS_OPTIONAL,
         }
@@ -268,7 +276,8 @@ macro_rules! scene_variant {
     };
 }
 
-pub(crate) use {default_value, field_entry, inner_type, scene_enum, scene_struct, scene_variant};
+pub(crate) use {default_value, documentation, field_entry, inner_type};
+pub(crate) use {scene_enum, scene_struct, scene_variant};
 
 /// Names the values of an enum without fields: implements `NamedOption`, and reads it from scene
 /// files. Each summary is the entry of the value in the reference.
@@ -298,7 +307,7 @@ macro_rules! named_values {
             const ENTRY: &'static $crate::scene::schema::TypeEntry =
                 &$crate::scene::schema::TypeEntry {
                     name: $shown,
-                    doc: concat!($($doc, "\n"),*),
+                    doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
                     shape: $crate::scene::schema::Shape::Variants(&[
                         $($crate::scene::schema::VariantEntry {
                             name: stringify!($variant),
