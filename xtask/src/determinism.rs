@@ -3,7 +3,10 @@
 //! Every scene is drawn by the debug build, by the release build twice, and with one, two and more
 //! threads where the program lets one choose. `--wide` adds a build whose compiler may use
 //! AVX2 and fused multiply-add, which is where sums computed in floating point first go apart; it
-//! needs a processor that has them.
+//! needs a processor that has them. Last come the pictures of the explorer, which WebAssembly draws
+//! as well (`determinism/web.rs`).
+
+mod web;
 
 use crate::Outcome;
 use crate::program::{Build, Program};
@@ -32,7 +35,8 @@ pub fn run_determinism(arguments: &[String]) -> Outcome {
             drawn.push((render_all(&program, &way, &folder)?, way.name));
         }
     }
-    compare_outputs(&drawn)
+    compare_outputs(&drawn)?;
+    web::compare_web(&Program::build(Build::Release)?)
 }
 
 struct Options {

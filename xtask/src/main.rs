@@ -18,6 +18,7 @@ mod program;
 mod soak;
 mod test;
 mod tidy;
+mod web;
 mod workspace;
 
 use std::process::ExitCode;
@@ -71,6 +72,12 @@ const COMMANDS: &[Command] = &[
         arguments: "",
         about: "Test the explorer's page in Chromium",
         run: browser::run_browser,
+    },
+    Command {
+        name: "web",
+        arguments: "[--out DIR] [--skip-without-tools]",
+        about: "Build the explorer for browsers: a folder of static files, and one HTML file",
+        run: web::run_web,
     },
     Command {
         name: "gallery",

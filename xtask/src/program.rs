@@ -1,8 +1,9 @@
 //! Processes: building and running the program `alberti`, and calls of Cargo.
 
 use crate::workspace::{project_root, target_folder};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// A build profile of the program. All of them must render the same pixels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -72,6 +73,21 @@ impl Program {
         run_command(
             Command::new(&self.path).arg("render").arg(scene).arg("-o").arg(picture).args(flags),
         )
+    }
+
+    /// Draws a scene by its text, whose paths begin at a folder.
+    pub fn render_text(&self, text: &str, folder: &Path, picture: &Path) -> Result<(), String> {
+        let mut render = Command::new(&self.path);
+        render.current_dir(folder).args(["render", "-", "-o"]).arg(picture);
+        let shown = command_line(&render);
+        render.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = render.spawn().map_err(|error| format!("{shown}: {error}"))?;
+        if let Some(mut input) = child.stdin.take() {
+            input.write_all(text.as_bytes()).map_err(|error| format!("{shown}: {error}"))?;
+        }
+        let output = child.wait_with_output().map_err(|error| format!("{shown}: {error}"))?;
+        let said = String::from_utf8_lossy(&output.stderr);
+        if output.status.success() { Ok(()) } else { Err(format!("`{shown}` failed\n{said}")) }
     }
 
     /// Whether `alberti render` has a flag, by its help.

@@ -86,30 +86,40 @@ fn all_steps() -> Result<Vec<Step>, String> {
         ),
     ];
     steps.extend(integration_tests(&metadata)?);
-    steps.push(Step {
-        name: "docs".into(),
-        about: "the documentation builds without warnings".into(),
-        action: Action::Documentation,
-    });
-    steps.push(Step::built_in(
-        "determinism",
-        "debug and release builds render the same bytes, with every number of threads",
-        || crate::determinism::run_determinism(&[]),
-    ));
-    steps.push(browser_step());
-    // As a process, so that its SKIPPED lines are repeated at the end.
-    steps.push(Step::cargo(
-        "instructions",
-        "fixed workloads take no more instructions than are recorded",
-        &["xtask bench --instructions"],
-    ));
+    steps.extend(last_steps());
     Ok(steps)
 }
 
-/// The explorer in a browser; as a process, so that its SKIPPED lines are repeated at the end.
-fn browser_step() -> Step {
-    let about = "the explorer's lessons hold in a browser, by mouse and by keyboard";
-    Step::cargo("browser", about, &["xtask browser"])
+/// The steps after the integration tests.
+fn last_steps() -> [Step; 5] {
+    [
+        Step {
+            name: "docs".into(),
+            about: "the documentation builds without warnings".into(),
+            action: Action::Documentation,
+        },
+        // As processes, so that their SKIPPED lines are repeated at the end.
+        Step::cargo(
+            "web",
+            "the explorer builds for browsers, and its files are no larger than they may be",
+            &["xtask web --skip-without-tools"],
+        ),
+        Step::cargo(
+            "determinism",
+            "debug, release and WebAssembly render the same bytes, with every number of threads",
+            &["xtask determinism"],
+        ),
+        Step::cargo(
+            "browser",
+            "the explorer's lessons hold in a browser, by mouse and by keyboard",
+            &["xtask browser"],
+        ),
+        Step::cargo(
+            "instructions",
+            "fixed workloads take no more instructions than are recorded",
+            &["xtask bench --instructions"],
+        ),
+    ]
 }
 
 /// A step for each integration test of `alberti-tests`, described by the first sentence of its

@@ -1,0 +1,17 @@
+//! `web-bindgen MODULE.wasm FOLDER`: writes `web.js` and `web_bg.wasm`, the module with its
+//! bindings to JavaScript, into a folder.
+
+use std::error::Error;
+use wasm_bindgen_cli_support::Bindgen;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [module, folder] = arguments.as_slice() else {
+        return Err("usage: web-bindgen MODULE.wasm FOLDER".into());
+    };
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(module).typescript(false).remove_producers_section(true);
+    // Names of functions are a quarter of the module, and are read in a debugger alone.
+    bindgen.remove_name_section(true).web(true)?.generate(folder)?;
+    Ok(())
+}

@@ -1,0 +1,66 @@
+//! The explorer in a browser: the engine of the page as a JavaScript class.
+//!
+//! Bindings and nothing else: what is computed and said comes from the crate `explorer`. `cargo
+//! xtask web` compiles it to WebAssembly and writes the JavaScript around it.
+
+use explorer::ExplorerError;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+/// An explorer, with the files that were added to it.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct Explorer(explorer::Explorer);
+
+#[wasm_bindgen]
+impl Explorer {
+    /// An explorer without files.
+    #[wasm_bindgen(constructor)]
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a file that models are loaded from, or replaces the one of this name.
+    ///
+    /// # Errors
+    /// An object `{code, message, help}`: the name leads out of the folder of the files.
+    pub fn add_file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), JsValue> {
+        self.0.add_file(name, bytes).map_err(|error| error_object(&error))
+    }
+
+    /// Answers a request, a query string, with an object `{content_type, bytes}`.
+    ///
+    /// # Errors
+    /// An object `{code, message, help}`.
+    pub fn answer(&mut self, query: &str) -> Result<JsValue, JsValue> {
+        let answer = self.0.answer(query).map_err(|error| error_object(&error))?;
+        let object = Object::new();
+        set_text(&object, "content_type", answer.content_type);
+        set_bytes(&object, "bytes", answer.bytes);
+        Ok(object.into())
+    }
+}
+
+fn error_object(error: &ExplorerError) -> JsValue {
+    let object = Object::new();
+    for (name, text) in [("code", error.code), ("message", &error.message), ("help", &error.help)] {
+        set_text(&object, name, text);
+    }
+    object.into()
+}
+
+/// Plain objects of JavaScript, which a worker can send to its page.
+#[wasm_bindgen]
+extern "C" {
+    type Object;
+
+    #[wasm_bindgen(constructor)]
+    fn new() -> Object;
+
+    #[wasm_bindgen(js_namespace = Reflect, js_name = set)]
+    fn set_text(object: &Object, name: &str, value: &str) -> bool;
+
+    /// The bytes are copied into an array of JavaScript.
+    #[wasm_bindgen(js_namespace = Reflect, js_name = set)]
+    fn set_bytes(object: &Object, name: &str, value: Vec<u8>) -> bool;
+}

@@ -1,0 +1,29 @@
+// Asks the explorer's engine in Node: `node answers.mjs SITE OUT [--file=NAME=PATH…] [NAME?QUERY…]`.
+//
+// SITE is a folder that `cargo xtask web` has written. The files are added first; each answer is written to OUT/NAME, and
+// an error of the engine ends the program.
+
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+const [site, out, ...words] = process.argv.slice(2);
+// Node takes a file of this name for a module only from a data URL.
+const source = readFileSync(join(site, 'web.js')).toString('base64');
+const { initSync, Explorer } = await import(`data:text/javascript;base64,${source}`);
+initSync({ module: readFileSync(join(site, 'web_bg.wasm')) });
+
+const explorer = new Explorer();
+for (const word of words) {
+  try {
+    if (word.startsWith('--file=')) {
+      const [, name, path] = /^--file=([^=]*)=(.*)$/.exec(word);
+      explorer.add_file(name, readFileSync(path));
+    } else {
+      const at = word.indexOf('?');
+      writeFileSync(join(out, word.slice(0, at)), explorer.answer(word.slice(at + 1)).bytes);
+    }
+  } catch (error) {
+    console.error(`${word}: ${error.message ?? error} ${error.help ?? ''}`);
+    process.exit(1);
+  }
+}

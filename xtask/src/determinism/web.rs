@@ -1,0 +1,102 @@
+//! The pictures of the explorer: its WebAssembly in Node against the program, another instruction
+//! set with the same bytes.
+
+use crate::Outcome;
+use crate::program::Program;
+use crate::web::{self, Answers, Request};
+use crate::workspace::{create_folder, list_files, project_root, target_folder};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// States besides the default of each lesson: models with textures, glass, lights and shadows, and
+/// every way to shade.
+const STATES: &[&str] = &[
+    "lesson=model&model=models/teapot.glb",
+    "lesson=model&model=models/finishes.glb",
+    "lesson=model&model=models/panes.glb",
+    "lesson=model&model=models/lamp.glb",
+    "lesson=model&model=models/crate.glb",
+    "lesson=model&model=models/spheres.glb",
+    "lesson=model&model=models/mexican_hat.glb",
+    "lesson=model&model=models/bearing.glb",
+    "lesson=model&model=models/tower.glb&style=Clay",
+    "lesson=model&model=models/teapot.glb&style=Toon",
+    "lesson=model&model=models/vase.glb&style=XRay",
+    "lesson=model&model=models/room.glb&style=Lines",
+];
+
+/// The fewest pictures that count as a proof.
+const MIN_PICTURES: usize = 20;
+
+/// Renders the explorer's pictures with WebAssembly and with the program, and compares the bytes.
+/// Where WebAssembly cannot be built this is skipped, by name.
+pub fn compare_web(program: &Program) -> Outcome {
+    if let Some(missing) = web::missing_tools() {
+        println!("SKIPPED the bytes of WebAssembly: {missing}");
+        return Ok(());
+    }
+    let site = web::site_folder();
+    web::build_site(&site)?;
+    let models = scene_models()?;
+    let states = all_states(&site)?;
+    let requests: Vec<Request> = states.iter().enumerate().flat_map(requests_of).collect();
+    let answers = Answers::ask(&site, &models, &requests)?;
+    let folder = target_folder().join("determinism/web");
+    create_folder(&folder)?;
+    let mut differences = Vec::new();
+    for (number, state) in states.iter().enumerate() {
+        let json: Value = serde_json::from_slice(answers.bytes(&format!("{number}.json"))?)
+            .map_err(|error| format!("{state}: {error}"))?;
+        let scene = json["scene"].as_str().ok_or_else(|| format!("{state}: no scene"))?;
+        let picture = folder.join(format!("{number}.png"));
+        program.render_text(scene, &project_root().join("scenes"), &picture)?;
+        let drawn =
+            fs::read(&picture).map_err(|error| format!("{}: {error}", picture.display()))?;
+        if drawn != answers.bytes(&format!("{number}.png"))? {
+            differences.push(format!("{state}: {}", picture.display()));
+        }
+    }
+    if !differences.is_empty() {
+        let list = differences.join("\n  ");
+        return Err(format!("WebAssembly draws other pictures than the program\n  {list}"));
+    }
+    println!("{} pictures of the explorer: the same bytes in WebAssembly", states.len());
+    Ok(())
+}
+
+/// The default of each lesson, and the states above.
+fn all_states(site: &Path) -> Result<Vec<String>, String> {
+    let request = Request { name: "lessons.json".into(), query: "what=lessons".into() };
+    let answers = Answers::ask(site, &[], &[request])?;
+    let json: Value = serde_json::from_slice(answers.bytes("lessons.json")?)
+        .map_err(|error| format!("the lessons of the engine: {error}"))?;
+    let lessons = json["lessons"].as_array().ok_or("the engine lists no lessons")?;
+    // The lesson `model` has no picture before a model is chosen.
+    let ids = lessons.iter().filter(|lesson| lesson["models"][0].is_string());
+    let ids = ids.filter_map(|lesson| lesson["id"].as_str());
+    let mut states: Vec<String> = ids.map(|id| format!("lesson={id}")).collect();
+    states.extend(STATES.iter().map(|&state| state.to_owned()));
+    if states.len() < MIN_PICTURES {
+        return Err(format!("{} states are no proof: {MIN_PICTURES} must be", states.len()));
+    }
+    Ok(states)
+}
+
+/// The scene of a state, and its picture.
+fn requests_of((number, state): (usize, &String)) -> [Request; 2] {
+    [("json", "state"), ("png", "picture&format=png")].map(|(ending, what)| Request {
+        name: format!("{number}.{ending}"),
+        query: format!("v=1&{state}&what={what}"),
+    })
+}
+
+/// The models of the scenes, by their names in scene files.
+fn scene_models() -> Result<Vec<(String, PathBuf)>, String> {
+    let paths = list_files(&project_root().join("scenes/models"), "glb")?;
+    let name = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        format!("models/{name}")
+    };
+    Ok(paths.into_iter().map(|path| (name(&path), path)).collect())
+}
