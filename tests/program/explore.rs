@@ -92,15 +92,32 @@ fn the_page_its_modules_and_the_model_are_served() {
 }
 
 #[test]
-fn the_first_model_of_a_scene_is_explored() {
+fn a_scene_is_explored_as_it_is() {
     let sandbox = Sandbox::new("explore_scene");
     sandbox.copy_model("house.glb");
-    sandbox.write_file("a.ron", r#"Scene(models: [Model(path: "house.glb")])"#);
+    let scene = r#"Scene(
+        models: [Model(path: "house.glb")],
+        camera: Camera(view: LookAt(eye: (0, 2, 12), target: (0, 2, 0))),
+    )"#;
+    sandbox.write_file("a.ron", scene);
     sandbox.write_file("empty.ron", "Scene()");
+    sandbox.write_file("wrong.ron", "Scene(models: [Model(path: \"house.glb\")], camer: 1)");
     let server = Server::start(&sandbox, &["a.ron"]);
-    assert_eq!(server.get("/files/house.glb").0, 200);
-    let run = sandbox.run(&["explore", "empty.ron"]);
-    assert!(run.code == 1 && run.stderr.starts_with("error: "), "{}", run.stderr);
+    assert_eq!((server.get("/files/house.glb").0, server.get("/files/a.ron").0), (200, 200));
+    let (_, state) = server.get("/compute?v=1&what=state&lesson=scene&model=a.ron&size=64x40");
+    let state: serde_json::Value = serde_json::from_str(&state).expect("JSON");
+    assert_eq!(state["scene"].as_str(), Some(scene), "{state}");
+    let command = state["command"].as_str().expect("a command").trim();
+    assert_eq!(command, "alberti render 'a.ron' --size 64x40 --samples 4");
+    // The eye of the scene, in the camera's step.
+    assert_eq!(
+        state["matrix"]["steps"][0]["items"][0]["value"],
+        serde_json::json!([0.0, 2.0, 12.0])
+    );
+    for (name, words) in [("empty.ron", "a scene needs"), ("wrong.ron", "camer")] {
+        let run = sandbox.run(&["explore", name]);
+        assert!(run.code == 1 && run.stderr.contains(words), "{}", run.stderr);
+    }
 }
 
 #[test]

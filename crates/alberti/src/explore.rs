@@ -25,10 +25,10 @@ use std::process::{Command, Stdio};
 /// Arguments of `alberti explore`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ExploreArgs {
-    /// Model to explore (.gltf, .glb, .stl, .obj, .ply, .3mf), or a scene (.ron): its first model
+    /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf) to explore
     ///
-    /// The files that a model refers to come along. Without a model the page begins with the first
-    /// lesson; models can also be dropped onto it.
+    /// The files that it refers to come along. Without one the page begins with the first lesson;
+    /// files can also be dropped onto it.
     input: Option<PathBuf>,
     /// Port to listen on [default: one that is free]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]

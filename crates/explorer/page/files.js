@@ -10,14 +10,17 @@ const MAX_BYTES = 512 * 2 ** 20;
 /** Whether a file is a model by itself. @param {string} name */
 export const isModel = (name) => MODEL.test(name);
 
-/** The model among files, and whether they are too large. @param {File[]} files */
+/** Whether a file is a scene. @param {string} name */
+export const isScene = (name) => /\.ron$/i.test(name);
+
+/** The scene or model among files, and whether they are too large. @param {File[]} files */
 export function findModel(files) {
   const bytes = files.reduce((sum, file) => sum + file.size, 0);
-  return { model: files.find(({ name }) => isModel(name)), isHuge: bytes > MAX_BYTES, megabytes: MAX_BYTES / 2 ** 20 };
+  return { model: files.find(({ name }) => isScene(name)) ?? files.find(({ name }) => isModel(name)), isHuge: bytes > MAX_BYTES, megabytes: MAX_BYTES / 2 ** 20 };
 }
 
-/** How models name other files: glTF, OBJ and MTL. */
-const REFERENCES = /"uri"\s*:\s*"([^"]+)"|^\s*(?:mtllib|map_\w+|bump|norm|disp)\s.*?(\S+)\s*$/gm;
+/** How models name other files: glTF, scenes, OBJ and MTL. */
+const REFERENCES = /(?:"uri"|\bpath)\s*:\s*"([^"]+)"|^\s*(?:mtllib|map_\w+|bump|norm|disp)\s.*?(\S+)\s*$/gm;
 
 /**
  * Files with the names that models give them: a browser drops the folders of `textures/wood.png`.
@@ -25,7 +28,7 @@ const REFERENCES = /"uri"\s*:\s*"([^"]+)"|^\s*(?:mtllib|map_\w+|bump|norm|disp)\
  */
 export async function namedFiles(files) {
   const named = files.map((file) => /** @type {[string, File]} */ ([file.name, file]));
-  for (const file of files.filter(({ name }) => /\.(gltf|obj|mtl)$/i.test(name))) {
+  for (const file of files.filter(({ name }) => /\.(gltf|ron|obj|mtl)$/i.test(name))) {
     for (const [, uri, word] of (await file.text()).matchAll(REFERENCES)) {
       const path = decode(uri ?? word);
       const found = path.includes('/') && files.find(({ name }) => path.endsWith(`/${name}`));

@@ -3,7 +3,7 @@
 import { EngineClient } from './client.js';
 import { buildControls } from './controls.js';
 import { byId, element } from './dom.js';
-import { acceptDrops, copyText, findModel, isModel, namedFiles, saveFile } from './files.js';
+import { acceptDrops, copyText, findModel, isModel, isScene, namedFiles, saveFile } from './files.js';
 import { Panes, SIZE, makeOrbit, makePick } from './panes.js';
 import { chooseNative, preferences } from './preferences.js';
 import { server } from './resources.js';
@@ -234,8 +234,9 @@ function applyLanguage() {
 }
 
 function openLesson(id) {
-  const own = [...(server.files ?? []), ...client.files.keys()].findLast(isModel);
-  const model = id === 'model' && own ? `&model=${encodeURIComponent(own)}` : '';
+  const isOwn = { model: isModel, scene: isScene }[id] ?? (() => false);
+  const own = [...(server.files ?? []), ...client.files.keys()].findLast(isOwn);
+  const model = own ? `&model=${encodeURIComponent(own)}` : '';
   history.pushState(null, '', `#v=1&lesson=${id}${model}`);
   openLink(`v=1&lesson=${id}${model}`);
 }
@@ -273,7 +274,7 @@ async function openFiles(files) {
   const { model, isHuge, megabytes } = findModel(files);
   if (!model) return showNotice(text('noModel'), text('noModelHelp'));
   if (isHuge) return showNotice(text('hugeModel', model.name, megabytes), text('hugeModelHelp'));
-  const link = `v=1&lesson=model&model=${encodeURIComponent(model.name)}`;
+  const link = `v=1&lesson=${isScene(model.name) ? 'scene' : 'model'}&model=${encodeURIComponent(model.name)}`;
   try {
     for (const [name, file] of await namedFiles(files)) await client.addFile(name, file);
     // A broken model changes nothing.

@@ -23,7 +23,7 @@ const TEXTS = {
   copyScene: ['Copy as scene file', '复制为场景文件'],
   savePicture: ['Save picture (PNG)', '保存图像 (PNG)'],
   saveDrawing: ['Save drawing (SVG)', '保存线图 (SVG)'],
-  openModel: ['Open a model', '打开模型'],
+  openModel: ['Open a model or a scene', '打开模型或场景'],
   dropHint: [
     'Or drop files on the page: glTF, STL, OBJ, PLY, 3MF. A .gltf needs its .bin and textures with it. Files stay in the browser.',
     '也可将文件拖到页面上：glTF、STL、OBJ、PLY、3MF。.gltf 需同时选中其 .bin 与纹理。文件不会离开浏览器。',
@@ -60,7 +60,7 @@ const TEXTS = {
   ],
   native: ['Computed by the server.', '由服务器计算。'],
   noModel: ['None of these files is a model.', '这些文件中没有模型。'],
-  noModelHelp: ['Choose a .glb, .gltf, .stl, .obj, .ply or .3mf file.', '请选择 .glb、.gltf、.stl、.obj、.ply 或 .3mf 文件。'],
+  noModelHelp: ['Choose a .glb, .gltf, .stl, .obj, .ply, .3mf or .ron file.', '请选择 .glb、.gltf、.stl、.obj、.ply、.3mf 或 .ron 文件。'],
   hugeModel: ['{0} is larger than {1} MB.', '{0} 大于 {1} MB。'],
   hugeModelHelp: ['Use the program: `alberti explore --native MODEL`.', '请使用程序:`alberti explore --native MODEL`。'],
   died: ['The computation stopped: {0}', '计算中止：{0}'],

@@ -6,7 +6,7 @@ use crate::depth_pane::depth_svg;
 use crate::facts::Facts;
 use crate::lesson_state::LessonState;
 use crate::line_of_sight::LineOfSight;
-use crate::model_store::{LoadedScene, ModelStore};
+use crate::model_store::{LoadedScene, ModelStore, PictureOptions};
 use crate::pane_picture::{PanePicture, thread_count};
 use crate::pane_scene::Observer;
 use crate::pick::pick_json;
@@ -100,6 +100,10 @@ impl Explorer {
             description.style = if style == "Lines" { "Lines()".into() } else { style.into() };
         }
         self.check_models(state)?;
+        if !description.file.is_empty() {
+            let picture = PictureOptions { size, samples, style: state.style };
+            return self.store.resolve_file(&description.file, &picture);
+        }
         let text = description.to_text(state.lesson.title.en, size, samples);
         let own = state.model.as_deref().unwrap_or_default();
         let loaded = self.store.resolve(&text, &description.models);
@@ -137,7 +141,10 @@ impl Explorer {
     fn picture(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
         let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
         let pane = (&*loaded.scene, &loaded.models.textures);
-        answer_with_pixels(&mut self.picture, request, &text, pane)
+        // The text of a scene file stays, whatever its size, samples and style.
+        let Request { state, size, samples, .. } = request;
+        let key = format!("{size:?} {samples} {:?} {text}", state.style);
+        answer_with_pixels(&mut self.picture, request, &key, pane)
     }
 
     fn depth(&mut self, request: &Request) -> Result<Answer, ExplorerError> {

@@ -7,6 +7,7 @@ mod effects;
 mod learn_webgl;
 mod learn_webgl_screen;
 mod own_model;
+mod own_scene;
 mod slides;
 mod slides_parallel;
 mod slides_perspective;
@@ -14,7 +15,7 @@ mod slides_perspective;
 use crate::lesson::Lesson;
 
 /// All lessons.
-pub(crate) static LESSONS: [&Lesson; 22] = [
+pub(crate) static LESSONS: [&Lesson; 23] = [
     &learn_webgl::PERSPECTIVE,
     &learn_webgl::FRUSTUM,
     &learn_webgl::ORTHO,
@@ -37,6 +38,7 @@ pub(crate) static LESSONS: [&Lesson; 22] = [
     &slides::MEXICAN_HAT,
     &clipping::TEAR,
     &own_model::MODEL,
+    &own_scene::SCENE,
 ];
 
 /// The model of most lessons: 4.75 m high, its front at z = 2.8.

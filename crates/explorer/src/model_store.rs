@@ -4,8 +4,9 @@ use crate::ExplorerError;
 use crate::triangle_survey::WorldTriangles;
 use model::ModelInstance;
 use model::import::MemoryFolder;
+use pipeline::scene::file::StyleFile;
 use pipeline::scene::parse_scene;
-use pipeline::{Origin, Scene, Textures};
+use pipeline::{Origin, Scene, SceneFile, Textures};
 use std::sync::Arc;
 
 /// How many sets of models are kept: the lesson at hand and the one before it.
@@ -87,11 +88,39 @@ impl ModelStore {
             return Ok(self.scenes[self.scenes.len() - 1].1.clone());
         }
         let loaded = self.resolve_anew(text, entries)?;
+        self.keep_scene(text.to_owned(), &loaded);
+        Ok(loaded)
+    }
+
+    /// Resolves a scene file that has been added, with another size, sampling and style of its
+    /// picture, and gives its text.
+    ///
+    /// # Errors
+    /// A mistake in the scene, or a model that cannot be loaded.
+    pub(crate) fn resolve_file(
+        &mut self,
+        name: &str,
+        picture: &PictureOptions,
+    ) -> Result<(String, LoadedScene), ExplorerError> {
+        let bytes = self.folder.file(name).unwrap_or_default();
+        let text = String::from_utf8_lossy(bytes).into_owned();
+        let key = format!("{name} {picture:?}");
+        if let Some((_, known)) = self.scenes.iter().find(|(known, _)| *known == key) {
+            return Ok((text, known.clone()));
+        }
+        let mistakes = |errors| ExplorerError::from(pipeline::ResolveError::Scene(errors));
+        let mut file = parse_scene(name, &text).map_err(mistakes)?;
+        picture.apply_to(&mut file);
+        let loaded = self.load_scene(name, &text, &file, &[key.clone()])?;
+        self.keep_scene(key, &loaded);
+        Ok((text, loaded))
+    }
+
+    fn keep_scene(&mut self, key: String, loaded: &LoadedScene) {
         if self.scenes.len() == KEPT_SCENES {
             self.scenes.remove(0);
         }
-        self.scenes.push((text.to_owned(), loaded.clone()));
-        Ok(loaded)
+        self.scenes.push((key, loaded.clone()));
     }
 
     fn resolve_anew(
@@ -107,8 +136,19 @@ impl ModelStore {
             let scene = Scene::from_models(&origin, &file, models.instances.clone())?;
             return Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 });
         }
-        let origin = Origin::from_text_in_memory("scene.ron", text, self.folder.clone());
-        let scene = Scene::resolve(&origin, &file, &Default::default())?;
+        self.load_scene("scene.ron", text, &file, entries)
+    }
+
+    /// Resolves a scene with its models, which are kept.
+    fn load_scene(
+        &mut self,
+        name: &str,
+        text: &str,
+        file: &SceneFile,
+        entries: &[String],
+    ) -> Result<LoadedScene, ExplorerError> {
+        let origin = Origin::from_text_in_memory(name, text, self.folder.clone());
+        let scene = Scene::resolve(&origin, file, &Default::default())?;
         let instances = scene.models.clone();
         let textures = Textures::for_models(&instances).into_owned();
         let triangles = WorldTriangles::new(&instances);
@@ -120,4 +160,30 @@ impl ModelStore {
         self.models.push(Arc::clone(&models));
         Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 })
     }
+}
+
+/// What requests change of a scene file's picture.
+#[derive(Clone, Debug)]
+pub(crate) struct PictureOptions {
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
+    /// The name of a style in scene files; `None` for the scene's own.
+    pub(crate) style: Option<&'static str>,
+}
+
+impl PictureOptions {
+    fn apply_to(&self, file: &mut SceneFile) {
+        file.image.size = self.size.into();
+        file.image.samples = self.samples;
+        if let Some(style) = self.style.and_then(named_style) {
+            file.style = style;
+        }
+    }
+}
+
+/// The style of a name, with the default of each of its fields.
+fn named_style(name: &str) -> Option<StyleFile> {
+    let value = if name == "Lines" { "Lines()" } else { name };
+    let text = format!("Scene(models: [], style: {value})");
+    parse_scene("style.ron", &text).ok().map(|file| file.style)
 }

@@ -22,6 +22,8 @@ pub(crate) struct SceneDescription {
     pub(crate) fields: Vec<String>,
     /// The color behind everything; empty for that of the lessons.
     pub(crate) background: &'static str,
+    /// The scene file that is drawn as it is, and nothing of the above counts; empty for none.
+    pub(crate) file: String,
     /// What a reader of the scene may wonder about; empty for nothing.
     pub(crate) comment: &'static str,
 }

@@ -44,7 +44,7 @@ pub(crate) fn state_json(
         "parameters": parameters,
         "link": state.to_link(),
         "scene": text,
-        "command": command(lesson.id, text),
+        "command": command(request, text),
         "consequences": consequences.iter().map(Sentence::to_json).collect::<Vec<_>>(),
         "facts": facts.to_json(),
         "colors": COLORS.map(|(name, [r, g, b])| (name, format!("#{r:02x}{g:02x}{b:02x}"))).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
@@ -71,8 +71,28 @@ fn value_json(value: ParameterValue) -> Json {
 }
 
 /// The command that renders the same picture, in the folder that holds the models.
-fn command(lesson: &str, text: &str) -> String {
-    format!("alberti render - -o {lesson}.png <<'SCENE'\n{text}SCENE\n")
+fn command(request: &Request, text: &str) -> String {
+    let Request { state, size: [width, height], samples, .. } = request;
+    match &state.model {
+        Some(file) if state.lesson.id == "scene" => {
+            let style = state.style.map(|style| format!(" --style {}", style_flag(style)));
+            let style = style.unwrap_or_default();
+            let name = file.replace('\'', "'\\''");
+            format!("alberti render '{name}' --size {width}x{height} --samples {samples}{style}\n")
+        }
+        _ => {
+            format!("alberti render - -o {}.png <<'SCENE'\n{text}SCENE\n", state.lesson.id)
+        }
+    }
+}
+
+/// The name of a style in flags: `XRay` is `x-ray`, and `UvChecker` `uv`.
+fn style_flag(style: &str) -> String {
+    match style {
+        "UvChecker" => "uv".to_owned(),
+        "XRay" => "x-ray".to_owned(),
+        other => other.to_ascii_lowercase(),
+    }
 }
 
 /// The explanation of a point, with its coordinates in each space.

@@ -1,4 +1,4 @@
-//! The files that a model refers to, so that a browser can be given all of them.
+//! The files that a model or a scene refers to, so that a browser can be given all of them.
 //!
 //! Whether they are used well is for the importer to say. A name that leads out of the model's
 //! folder, also by a symbolic link, is left out.
@@ -6,23 +6,23 @@
 use crate::CliError;
 use crate::referenced_files::referenced_files;
 use model::import::Limits;
-use pipeline::Origin;
+use pipeline::scene::parse_scene;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
-/// A model and the files it refers to, by their paths in the model's folder.
+/// A model or a scene and the files it refers to, by their paths in its folder.
 #[derive(Debug, Default)]
 pub(super) struct ModelFiles {
-    /// The name of the model.
+    /// The name of the model or scene.
     pub(super) name: String,
-    /// All files, the model among them.
+    /// All files, itself among them.
     pub(super) files: BTreeMap<String, Vec<u8>>,
 }
 
 impl ModelFiles {
-    /// Reads a model and the files it refers to, as far as they exist.
+    /// Reads a model or a scene and the files it refers to, as far as they exist.
     ///
     /// # Errors
     /// If the model cannot be read, or all together are larger than models may be.
@@ -33,14 +33,14 @@ impl ModelFiles {
         let bytes = read_file(path).map_err(cannot_read)?;
         let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
         let folder = parent.unwrap_or(Path::new(".")).canonicalize().map_err(cannot_read)?;
-        let mut wanted = referenced_files(&name, &bytes);
+        let mut wanted = files_of(&name, &bytes);
         let mut files = BTreeMap::from([(name.clone(), bytes)]);
         while let Some(wanted_name) = wanted.pop() {
             if files.contains_key(&wanted_name) {
                 continue;
             }
             if let Some(bytes) = read_below(&folder, &wanted_name) {
-                wanted.extend(referenced_files(&wanted_name, &bytes));
+                wanted.extend(files_of(&wanted_name, &bytes));
                 files.insert(wanted_name, bytes);
             }
             let total: usize = files.values().map(Vec::len).sum();
@@ -52,17 +52,20 @@ impl ModelFiles {
     }
 }
 
-/// The model that is explored: the file itself, or the first model of a scene file.
-///
-/// # Errors
-/// If the scene cannot be read, or has no model.
-pub(super) fn model_path(path: &Path) -> Result<PathBuf, CliError> {
-    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("ron")) {
-        return Ok(path.to_owned());
+/// Whether a file is a scene by its name.
+pub(super) fn is_scene(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"))
+}
+
+/// The files that a scene, a model or a material library refers to.
+fn files_of(name: &str, bytes: &[u8]) -> Vec<String> {
+    if !is_scene(name) {
+        return referenced_files(name, bytes);
     }
-    let (origin, scene) = Origin::read_scene(path)?;
-    let first = scene.models.first().map(|model| origin.folder.join(&model.path));
-    first.ok_or_else(|| CliError::Usage(format!("the scene {} has no model", path.display())))
+    // Mistakes in the scene are told when it is shown.
+    let scene = parse_scene(name, &String::from_utf8_lossy(bytes)).unwrap_or_default();
+    let images = scene.image_paths().map(str::to_owned).collect::<Vec<_>>();
+    scene.models.into_iter().map(|model| model.path).chain(images).collect()
 }
 
 /// The content of a file below a folder, if it is there.

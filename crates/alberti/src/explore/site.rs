@@ -1,6 +1,6 @@
 //! What is served: the page, the models, and the explorer's answers.
 
-use super::companions::{ModelFiles, model_path};
+use super::companions::{ModelFiles, is_scene};
 use super::embedded::{content_type, embedded_files};
 use super::request::Request;
 use super::response::Response;
@@ -34,14 +34,14 @@ impl Site {
         for (path, bytes) in files.iter().filter(|(path, _)| path.starts_with("models/")) {
             explorer.add_file(path, bytes.clone()).map_err(as_cli_error)?;
         }
-        let read = |input| model_path(input).and_then(|path| ModelFiles::read(&path));
-        let given = model.map_or_else(|| Ok(ModelFiles::default()), read)?;
+        let given = model.map_or_else(|| Ok(ModelFiles::default()), ModelFiles::read)?;
         for (name, bytes) in &given.files {
             explorer.add_file(name, bytes.clone()).map_err(as_cli_error)?;
         }
         let mut open = String::new();
         if model.is_some() {
-            open = format!("v=1&lesson=model&model={}", percent_encode(&given.name));
+            let lesson = if is_scene(&given.name) { "scene" } else { "model" };
+            open = format!("v=1&lesson={lesson}&model={}", percent_encode(&given.name));
             explorer.answer(&format!("{open}&what=state")).map_err(as_cli_error)?;
         }
         let names: Vec<&String> = given.files.keys().collect();

@@ -1,10 +1,11 @@
 //! The lesson of any model.
 
 use super::slides_parallel::direction;
+use crate::facts::Facts;
 use crate::lesson::{Choice, Lesson, Source, choice, number};
 use crate::number_text::{decimals, scene_number, scene_tuple};
 use crate::scene_description::SceneDescription;
-use crate::words::{sentence, words};
+use crate::words::{Sentence, sentence, words};
 
 /// The user's own model, by any projection.
 pub(super) static MODEL: Lesson = Lesson {
@@ -61,27 +62,30 @@ pub(super) static MODEL: Lesson = Lesson {
             ..SceneDescription::new(values.model.unwrap_or_default(), view, projection)
         }
     },
-    consequences: |_, facts| {
-        let count = facts.triangles[0];
-        let mut all = vec![sentence(
-            format!("The model has {count} triangles."),
-            format!("模型有 {count} 个三角形。"),
-        )];
-        if facts.loaded.models.triangles.is_reduced() {
-            let drawn = facts.loaded.models.triangles.drawn().len();
-            all.push(sentence(
-                format!("The world and the view volume show {drawn} triangles of the same shape."),
-                format!("世界窗格和视见体窗格用形状相同的 {drawn} 个三角形显示。"),
-            ));
-        }
-        if let Some([near, far]) = facts.model_range {
-            let [near, far] = [near, far].map(|distance| decimals(distance, 3));
-            all.push(sentence(
-                format!("It is {near} to {far} ahead of the camera."),
-                format!("它在相机前方 {near} 到 {far} 处。"),
-            ));
-        }
-        all
-    },
+    consequences: |_, facts| describe_model(facts),
     ..Lesson::USUAL
 };
+
+/// What there is of the model, and how far away.
+pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
+    let count = facts.triangles[0];
+    let mut all = vec![sentence(
+        format!("The model has {count} triangles."),
+        format!("模型有 {count} 个三角形。"),
+    )];
+    if facts.loaded.models.triangles.is_reduced() {
+        let drawn = facts.loaded.models.triangles.drawn().len();
+        all.push(sentence(
+            format!("The world and the view volume show {drawn} triangles of the same shape."),
+            format!("世界窗格和视见体窗格用形状相同的 {drawn} 个三角形显示。"),
+        ));
+    }
+    if let Some([near, far]) = facts.model_range {
+        let [near, far] = [near, far].map(|distance| decimals(distance, 3));
+        all.push(sentence(
+            format!("It is {near} to {far} ahead of the camera."),
+            format!("它在相机前方 {near} 到 {far} 处。"),
+        ));
+    }
+    all
+}

@@ -2,6 +2,7 @@
 //! another.
 
 use super::{explorer_with_models, json, lessons, scenes_folder};
+use explorer::Explorer;
 use pipeline::{Origin, Scene};
 
 #[test]
@@ -29,7 +30,7 @@ fn bands_are_parts_of_the_whole() {
 #[test]
 fn a_png_is_that_of_the_scene_file() {
     let mut explorer = explorer_with_models();
-    for lesson in lessons(&mut explorer).iter().filter(|lesson| lesson["id"] != "model") {
+    for lesson in lessons(&mut explorer).iter().filter(|lesson| lesson["models"][0].is_string()) {
         let id = lesson["id"].as_str().expect("an id");
         let query = format!("size=120x75&lesson={id}");
         let png = explorer.answer(&format!("what=picture&format=png&{query}")).expect(id).bytes;
@@ -45,6 +46,32 @@ fn a_png_is_that_of_the_scene_file() {
         let formatted = pipeline::scene::format_source("scene.ron", text).expect("a scene file");
         assert_eq!(formatted, text, "{id}");
         assert_eq!(pipeline::scene::lint_description(&origin, &file), [], "{id}");
+    }
+}
+
+/// A scene file of one's own is drawn as the program draws it with the flags that are shown.
+#[test]
+fn a_scene_file_is_drawn_as_it_is() {
+    let mut explorer = Explorer::new();
+    for name in ["house.glb", "teapot.glb", "table.glb", "crate.glb"] {
+        let path = format!("models/{name}");
+        let bytes = std::fs::read(scenes_folder().join(&path)).expect("a model of the scenes");
+        explorer.add_file(&path, bytes).expect("a name");
+    }
+    for name in ["two_point.ron", "teapot.ron", "three_point.ron", "viewports.ron"] {
+        let text = std::fs::read_to_string(scenes_folder().join(name)).expect("a scene");
+        explorer.add_file(name, text.clone().into_bytes()).expect("a name");
+        let query = format!("lesson=scene&model={name}&size=120x75");
+        let png = explorer.answer(&format!("what=picture&format=png&{query}")).expect(name).bytes;
+        let state = json(&mut explorer, &format!("what=state&{query}"));
+        assert_eq!(state["scene"].as_str(), Some(text.as_str()));
+        let origin = Origin::from_text(name, text, scenes_folder());
+        let (origin, mut file) = origin.parse_with_includes(&[]).expect("a scene file");
+        (file.image.size, file.image.samples) = ((120, 75), 4);
+        let scene = Scene::resolve(&origin, &file, &Default::default()).expect("a scene");
+        assert!(pipeline::render(&scene, 1).expect("a picture").to_png() == png, "{name}");
+        let toon = explorer.answer(&format!("what=picture&format=png&{query}&style=Toon"));
+        assert!(toon.expect("a picture").bytes != png, "{name}");
     }
 }
 

@@ -41,11 +41,15 @@ fn defaults_and_extremes_give_pictures() {
     let mut explorer = explorer_with_models();
     let own = std::fs::read(super::scenes_folder().join("models/teapot.glb")).expect("a teapot");
     explorer.add_file("teapot.glb", own).expect("a name");
+    let scene = b"Scene(models: [Model(path: \"teapot.glb\")])".to_vec();
+    explorer.add_file("own.ron", scene).expect("a name");
     for lesson in lessons(&mut explorer) {
         for mut state in extreme_states(&lesson) {
-            if lesson["id"] == "model" {
-                state += "&model=teapot.glb";
-            }
+            state += match lesson["id"].as_str() {
+                Some("model") => "&model=teapot.glb",
+                Some("scene") => "&model=own.ron",
+                _ => "",
+            };
             for pane in lesson["panes"].as_array().expect("panes") {
                 match pane.as_str().expect("a name") {
                     what @ ("picture" | "world" | "volume") => {
@@ -76,7 +80,7 @@ fn defaults_and_extremes_give_pictures() {
 #[test]
 fn every_lesson_is_a_line_drawing_too() {
     let mut explorer = explorer_with_models();
-    for lesson in lessons(&mut explorer).iter().filter(|lesson| lesson["id"] != "model") {
+    for lesson in lessons(&mut explorer).iter().filter(|lesson| lesson["models"][0].is_string()) {
         let id = lesson["id"].as_str().expect("an id");
         let answer = explorer.answer(&format!("what=drawing&lesson={id}")).expect(id);
         let svg = String::from_utf8(answer.bytes).expect("text");
@@ -105,7 +109,7 @@ fn texts_are_in_both_languages() {
         for parameter in lesson["parameters"].as_array().expect("parameters") {
             assert_both_languages(&parameter["label"], id);
         }
-        if id == "model" {
+        if !lesson["models"][0].is_string() {
             continue;
         }
         let state = json(&mut explorer, &format!("what=state&lesson={id}"));

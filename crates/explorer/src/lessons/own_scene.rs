@@ -1,0 +1,25 @@
+//! The lesson of any scene file.
+
+use crate::lesson::{Lesson, Source};
+use crate::lessons::own_model;
+use crate::scene_description::SceneDescription;
+use crate::words::words;
+
+/// The user's own scene file, as it is.
+pub(super) static SCENE: Lesson = Lesson {
+    id: "scene",
+    source: Source::Own,
+    title: words("Your own scene", "自己的场景"),
+    statement: words(
+        "Any scene file with its own camera, lights and style: what its view volume holds, and the way of its points.",
+        "任何场景文件，连同它自己的相机、光源和样式：它的视见体包含什么，其中的点走过怎样的路。",
+    ),
+    models: &[],
+    pin: [0.0, 0.0, 0.0],
+    describe: |values| SceneDescription {
+        file: values.model.unwrap_or_default().to_owned(),
+        ..SceneDescription::default()
+    },
+    consequences: |_, facts| own_model::describe_model(facts),
+    ..Lesson::USUAL
+};
