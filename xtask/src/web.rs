@@ -112,10 +112,10 @@ mod tests {
         for line in text.lines() {
             if line.starts_with("name = ") {
                 name = quoted(line);
-            } else if line.starts_with("version = ") {
-                if let Some((name, version)) = name.take().zip(quoted(line)) {
-                    versions.entry(name).or_default().insert(version);
-                }
+            } else if line.starts_with("version = ")
+                && let Some((name, version)) = name.take().zip(quoted(line))
+            {
+                versions.entry(name).or_default().insert(version);
             }
         }
         versions
