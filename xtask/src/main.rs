@@ -15,6 +15,7 @@ mod golden;
 mod metadata;
 mod models;
 mod program;
+mod python;
 mod soak;
 mod test;
 mod tidy;
@@ -96,6 +97,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[TARGET…] [--minutes N] [--jobs N]",
         about: "Fuzz the readers of files; `fuzz --help` lists the targets",
         run: fuzz::run_fuzz,
+    },
+    Command {
+        name: "python",
+        arguments: "[--release]",
+        about: "Build the wheel of the package for Python, and run its tests",
+        run: python::run_python,
     },
     Command {
         name: "bench",

@@ -51,7 +51,11 @@ fn all_steps() -> Result<Vec<Step>, String> {
     let metadata = Metadata::load()?;
     let unit_tests = tests_of_crates(&metadata);
     let mut steps = vec![
-        Step::cargo("fmt", "rustfmt would change nothing", &["fmt --all --check"]),
+        Step::cargo(
+            "fmt",
+            "rustfmt would change nothing",
+            &["fmt --all --check", "fmt --manifest-path crates/python/Cargo.toml --check"],
+        ),
         Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[])),
         Step::built_in(
             "models",
@@ -91,7 +95,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
 }
 
 /// The steps after the integration tests.
-fn last_steps() -> [Step; 5] {
+fn last_steps() -> [Step; 6] {
     [
         Step {
             name: "docs".into(),
@@ -113,6 +117,11 @@ fn last_steps() -> [Step; 5] {
             "browser",
             "the explorer's lessons hold in a browser, by mouse and by keyboard",
             &["xtask browser"],
+        ),
+        Step::cargo(
+            "python",
+            "the wheel makes pictures in an empty environment, and its tests pass",
+            &["xtask python"],
         ),
         Step::cargo(
             "instructions",

@@ -13,10 +13,10 @@ use std::ffi::OsString;
 /// The flags are built only if there is such a number: declaring all of them is most of what a
 /// short command costs.
 pub(crate) fn join_negative_numbers(
-    words: impl Iterator<Item = OsString>,
+    words: impl IntoIterator<Item = OsString>,
     program: impl FnOnce() -> Command,
 ) -> Vec<OsString> {
-    let words: Vec<OsString> = words.collect();
+    let words: Vec<OsString> = words.into_iter().collect();
     if !words.iter().skip(1).any(is_negative_number) {
         return words;
     }

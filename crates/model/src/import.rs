@@ -20,6 +20,7 @@
 //!
 //! The modules here serve every format; `gltf`, `stl`, `obj`, `ply` and `threemf` read one each.
 
+mod arrays;
 mod corner_vertices;
 mod error;
 mod file_format;
@@ -45,6 +46,7 @@ pub(crate) mod uri_resolver;
 mod warnings;
 
 pub use crate::check::{CheckReport, check_bytes, check_file};
+pub use arrays::{MeshArrays, MeshNode, load_arrays};
 pub use error::ImportError;
 pub use file_format::FileFormat;
 pub use gltf::{ExtensionUse, extension_use};

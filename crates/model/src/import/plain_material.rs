@@ -7,7 +7,8 @@ impl Material {
     ///
     /// The default of glTF is a metal, which mirrors whatever is around it. Both sides are drawn,
     /// as many files in these formats have triangles of either winding.
-    pub(super) fn plain() -> Self {
+    #[must_use]
+    pub fn plain() -> Self {
         Self {
             base_color: [0.6, 0.6, 0.6, 1.0],
             metallic: 0.0,

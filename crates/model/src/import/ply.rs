@@ -28,18 +28,19 @@ use super::warnings::ImportWarnings;
 use crate::diagnostic::Diagnostic;
 use crate::{AlphaMode, Material, Mesh, Model, Node, Sampler, Texture, TextureInfo};
 use body::Body;
-use faces::Faces;
+pub(super) use faces::Faces;
 use header::Header;
+pub(super) use primitives::{array_bytes, build_primitives};
 use std::path::Path;
-use vertices::Vertices;
+pub(super) use vertices::Vertices;
 
 /// The content of the body of a file.
 #[derive(Default, Debug)]
-struct Contents {
-    vertices: Vertices,
-    faces: Faces,
-    strips: Faces,
-    edges: Vec<u32>,
+pub(super) struct Contents {
+    pub(super) vertices: Vertices,
+    pub(super) faces: Faces,
+    pub(super) strips: Faces,
+    pub(super) edges: Vec<u32>,
 }
 
 impl Contents {
@@ -70,8 +71,8 @@ pub(super) fn import_ply(
     build_materials(&mut model, textures, &contents, options, &mut warnings);
     let budget = MemoryBudget::new(resolver.limits);
     let charge = |bytes: u64| budget.charge_bytes("", bytes, resolver.total_bytes());
-    charge(primitives::array_bytes(&contents))?;
-    let build = || primitives::build_primitives(contents, &model, options, &mut warnings);
+    charge(array_bytes(&contents))?;
+    let build = || build_primitives(contents, &model, options, &mut warnings);
     let primitives = options.timings.measure("geometry", build);
     let primitives = primitives.into_iter().filter(|primitive| primitive.item_count() > 0);
     let primitives: Vec<_> = primitives.collect();

@@ -25,7 +25,7 @@ use super::fragment_shading::fragment_shading;
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
 use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_with_opacity;
-use super::renderer::RenderBuffers;
+use super::renderer::{RenderBuffers, Renderer};
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{Scene, Style};
 use geometry::{Hit, SceneGeometry};
@@ -49,37 +49,61 @@ pub fn render_passes(
     threads: usize,
     timings: &Timings,
 ) -> Result<Vec<PassBuffer>, RenderError> {
-    validate_region(scene.image, region)?;
     let textures = timings.measure("mip chains", || Textures::for_models(&scene.models));
-    let context = RenderContext::new(scene, &textures, threads);
-    let mut buffers: Vec<_> =
-        wanted.iter().map(|&pass| PassBuffer::new_empty(pass, region)).collect();
-    for tile_region in tile_regions(scene.image, region) {
-        let passes = TilePasses { context, tile_region };
-        let rendered = timings.measure("passes", || passes.render_all(wanted))?;
-        for (buffer, tile) in buffers.iter_mut().zip(&rendered) {
-            buffer.copy_tile(tile, tile_region, region);
+    let context = RenderContext::new(scene, &textures, threads).with_timings(timings);
+    Renderer::default().render_passes(&context, region, wanted)
+}
+
+impl Renderer {
+    /// Renders passes of a region of a scene's picture, in the order of `wanted`: the function
+    /// [`render_passes`] with the memory of this renderer, and textures at hand.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    pub fn render_passes(
+        &mut self,
+        context: &RenderContext<'_>,
+        region: PixelRect,
+        wanted: &[Pass],
+    ) -> Result<Vec<PassBuffer>, RenderError> {
+        let scene = context.scene;
+        validate_region(scene.image, region)?;
+        let mut buffers: Vec<_> =
+            wanted.iter().map(|&pass| PassBuffer::new_empty(pass, region)).collect();
+        for tile_region in tile_regions(scene.image, region) {
+            let mut passes =
+                TilePasses { context: *context, tile_region, memory: &mut self.buffers };
+            let rendered = context.measure("passes", || passes.render_all(wanted))?;
+            if tile_region.rect == region {
+                return Ok(rendered);
+            }
+            for (buffer, tile) in buffers.iter_mut().zip(&rendered) {
+                buffer.copy_tile(tile, tile_region, region);
+            }
         }
+        Ok(buffers)
     }
-    Ok(buffers)
 }
 
 /// The passes of one image tile.
-struct TilePasses<'a> {
+struct TilePasses<'a, 'r> {
     /// The scene as it is; each frame draws a variant of it.
     context: RenderContext<'a>,
     /// The part of the tile that the region needs.
     tile_region: TileRegion,
+    /// The memory of frames.
+    memory: &'r mut RenderBuffers,
 }
 
-impl TilePasses<'_> {
+impl TilePasses<'_, '_> {
     /// Renders passes. All but overdraw and coverage share one buffer of triangle ids and weights.
-    fn render_all(&self, wanted: &[Pass]) -> Result<Vec<PassBuffer>, RenderError> {
+    fn render_all(&mut self, wanted: &[Pass]) -> Result<Vec<PassBuffer>, RenderError> {
         let threads = self.context.threads;
         let needs_hits = wanted.iter().any(|pass| !matches!(pass, Pass::Overdraw | Pass::Coverage));
         let hits = if needs_hits { self.nearest_hits()? } else { Vec::new() };
         let geometry = SceneGeometry::new(self.context.scene, self.tile_region.tile)?;
-        let render_pass = |&pass: &Pass| {
+        let mut buffers = Vec::with_capacity(wanted.len());
+        for &pass in wanted {
             let mut buffer = PassBuffer::new_empty(pass, self.tile_region.rect);
             match (pass, &mut buffer.values) {
                 (Pass::Overdraw, PassValues::Integers(counts)) => self.count_overdraw(counts)?,
@@ -88,31 +112,33 @@ impl TilePasses<'_> {
                 }
                 _ => buffer.fill_pixels(&geometry, &hits, self.tile_region, threads),
             }
-            Ok(buffer)
-        };
-        wanted.iter().map(render_pass).collect()
+            buffers.push(buffer);
+        }
+        Ok(buffers)
     }
 
     /// The nearest primitive at each pixel's center: a visibility buffer of ids and weights.
-    fn nearest_hits(&self) -> Result<Vec<Hit>, RenderError> {
+    fn nearest_hits(&mut self) -> Result<Vec<Hit>, RenderError> {
         let mut hits = vec![Hit::MISS; self.tile_region.pixel_count()];
+        let threads = self.context.threads;
         self.with_frame(Samples::One, None, |frame, surface| {
             let hit = |fragment: &Fragment<'_>| Hit { id: fragment.id, weights: fragment.weights };
-            frame.map_front_fragments(surface, self.context.threads, &mut hits, hit);
+            frame.map_front_fragments(surface, threads, &mut hits, hit);
         })?;
         Ok(hits)
     }
 
     /// Overdraw: the number of fragments at each pixel's center, hidden ones included. All
     /// primitives are drawn as translucent, since opaque ones would replace each other.
-    fn count_overdraw(&self, counts: &mut [u32]) -> Result<(), RenderError> {
+    fn count_overdraw(&mut self, counts: &mut [u32]) -> Result<(), RenderError> {
+        let threads = self.context.threads;
         self.with_frame(Samples::One, Some(Opacity::Translucent), |frame, surface| {
-            frame.count_overdraw(surface, self.context.threads, counts);
+            frame.count_overdraw(surface, threads, counts);
         })
     }
 
     /// Coverage: the fraction of each pixel's samples that a surface covers.
-    fn measure_coverage(&self, coverage: &mut [f32]) -> Result<(), RenderError> {
+    fn measure_coverage(&mut self, coverage: &mut [f32]) -> Result<(), RenderError> {
         let RenderContext { scene, threads, .. } = self.context;
         self.with_frame(scene.image.samples, None, |frame, surface| {
             let mut pixels = vec![[0; 4]; coverage.len()];
@@ -128,7 +154,7 @@ impl TilePasses<'_> {
     /// Assembles a frame of the models alone, with another number of samples, and with another
     /// opacity if one is given.
     fn with_frame(
-        &self,
+        &mut self,
         samples: Samples,
         opacity: Option<Opacity>,
         draw: impl FnOnce(&raster::Frame, &shade::Shading<'_>),
@@ -140,10 +166,14 @@ impl TilePasses<'_> {
         // Other styles may show back faces, or draw opaque materials as translucent.
         scene.style = if scene.style == Style::Flat { Style::Flat } else { Style::Shaded };
         let context = self.context.with_scene(&scene);
-        let memory = RenderBuffers::default().take_frame(&context, self.tile_region)?;
+        let memory = self.memory.take_frame(&context, self.tile_region)?;
         let memory = assemble_with_opacity(&context, memory, opacity)?;
         let no_shadows = ShadowMapRenderer::default();
         draw(&memory.frame, &fragment_shading(&scene, &memory, &no_shadows, None, None));
+        self.memory.recycle_frame(memory);
+        if context.cancel_token().is_cancelled() {
+            return Err(RenderError::Cancelled);
+        }
         Ok(())
     }
 }

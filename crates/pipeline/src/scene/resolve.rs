@@ -21,6 +21,7 @@ use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
+use camera::ViewProjection;
 use homog::Bounds;
 use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes, load_from_memory};
 use model::world_points;
@@ -71,7 +72,35 @@ impl Scene {
         file: &SceneFile,
         models: Vec<ModelInstance>,
     ) -> Result<Self, ResolveError> {
-        Self::resolve_with_models(origin, file, models, &[])
+        Self::from_models_allowing(origin, file, models, &[])
+    }
+
+    /// As [`from_models`](Self::from_models); images and environments may lie in the `allowed`
+    /// folders too.
+    ///
+    /// # Errors
+    /// As [`from_models`](Self::from_models).
+    pub fn from_models_allowing(
+        origin: &Origin,
+        file: &SceneFile,
+        models: Vec<ModelInstance>,
+        allowed: &[PathBuf],
+    ) -> Result<Self, ResolveError> {
+        Self::resolve_with_models(origin, file, models, allowed)
+    }
+
+    /// Decides everything that the file leaves open about the camera alone: where it stands around
+    /// models that are loaded, posed and placed, or without any.
+    ///
+    /// # Errors
+    /// If the size or the camera makes no sense; without models, if it is to frame them.
+    pub fn resolve_camera(
+        origin: &Origin,
+        file: &SceneFile,
+        models: &[ModelInstance],
+    ) -> Result<ViewProjection, ResolveError> {
+        let image = resolve_image(origin, file)?;
+        Ok(resolve_view_projection(origin, &file.camera, models, image)?)
     }
 
     /// The scene around its models; the environment's file may lie in one of the `allowed` folders

@@ -8,19 +8,19 @@ use crate::import::warnings::ImportWarnings;
 
 /// Polygons, one after the other.
 #[derive(Default, Debug)]
-pub(super) struct Faces {
+pub(in crate::import) struct Faces {
     /// The number of corners of each face.
-    pub(super) lengths: Vec<u32>,
+    pub(in crate::import) lengths: Vec<u32>,
     /// Vertices of all corners, less than the declared number of vertices.
-    pub(super) corners: Vec<u32>,
+    pub(in crate::import) corners: Vec<u32>,
     /// Texture coordinates of all corners, with (0, 0) at the upper left.
-    pub(super) uvs: Option<Vec<[f32; 2]>>,
+    pub(in crate::import) uvs: Option<Vec<[f32; 2]>>,
     /// The linear color of each face.
-    pub(super) colors: Option<Vec<[f32; 4]>>,
+    pub(in crate::import) colors: Option<Vec<[f32; 4]>>,
     /// The number of each face's texture among those of the file.
-    pub(super) textures: Option<Vec<u32>>,
+    pub(in crate::import) textures: Option<Vec<u32>>,
     /// Faces with less than three corners, which are left out.
-    pub(super) without_area: usize,
+    pub(in crate::import) without_area: usize,
 }
 
 /// The meaning of a property of a face.

@@ -11,7 +11,7 @@ use crate::import::warnings::ImportWarnings;
 use crate::{Model, Primitive, Topology};
 
 /// Bytes that the arrays of the primitives take at most.
-pub(super) fn array_bytes(contents: &Contents) -> u64 {
+pub(in crate::import) fn array_bytes(contents: &Contents) -> u64 {
     let Contents { vertices, faces, strips, edges } = contents;
     let vertex =
         24 + 8 * u64::from(vertices.uvs.is_some()) + 16 * u64::from(vertices.colors.is_some());
@@ -30,7 +30,7 @@ struct Triangles {
 }
 
 /// Builds the primitives; what has positions that are not finite is left out.
-pub(super) fn build_primitives(
+pub(in crate::import) fn build_primitives(
     contents: Contents,
     model: &Model,
     options: &ImportOptions,

@@ -17,15 +17,15 @@ const SH_DEGREE_0: f32 = 0.282_094_8;
 
 /// Attributes of the vertices; arrays that are present have an entry for each.
 #[derive(Default, Debug)]
-pub(super) struct Vertices {
+pub(in crate::import) struct Vertices {
     /// Positions, as they are in the file: they may be infinite or not a number.
-    pub(super) positions: Vec<[f32; 3]>,
+    pub(in crate::import) positions: Vec<[f32; 3]>,
     /// Normals of any length.
-    pub(super) normals: Option<Vec<[f32; 3]>>,
+    pub(in crate::import) normals: Option<Vec<[f32; 3]>>,
     /// Texture coordinates with (0, 0) at the upper left.
-    pub(super) uvs: Option<Vec<[f32; 2]>>,
+    pub(in crate::import) uvs: Option<Vec<[f32; 2]>>,
     /// Linear colors with alpha.
-    pub(super) colors: Option<Vec<[f32; 4]>>,
+    pub(in crate::import) colors: Option<Vec<[f32; 4]>>,
 }
 
 /// The place of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to f_dc_2.

@@ -1,0 +1,136 @@
+//! The program `alberti`: renders, draws, validates and explains 3D models.
+//!
+//! [`run`] is the program as a function, for `main.rs` and for the package for Python, whose
+//! command `alberti` is the same code.
+//!
+//! Each command is a module with an arguments struct and a `run` function. Only this crate prints:
+//! results go to the standard output, messages to the standard error stream.
+//!
+//! The crates below it, each useful alone:
+//!
+//! | crate | what it owns |
+//! | --- | --- |
+//! | [`homog`] | typed points, vectors, homogeneous points, affine and projective maps |
+//! | [`camera`] | the camera transform: look-at, named views, framing, stereo, rays |
+//! | [`projection`] | every planar projection by name, API conventions, inverses, decomposition |
+//! | [`clip`](../clip/index.html) | clipping in homogeneous space, before the perspective divide |
+//! | [`viewport`] | window to viewport, pixel conventions, paper, unprojection |
+//! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
+//! | [`model`] | files to a checked model, validation, skinning and morph targets |
+//! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
+//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG and PDF |
+//! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
+
+mod animate;
+mod args;
+mod batch;
+mod calibrated_camera;
+mod check;
+mod color;
+mod compare;
+mod compare_projections;
+mod curve;
+mod deferred;
+mod demo;
+mod error;
+mod explain;
+mod explore;
+mod format;
+mod info;
+mod light;
+mod load_options;
+mod manual;
+mod matrix;
+mod messages;
+mod model_state;
+mod negative_numbers;
+mod number_list;
+mod options;
+mod page_output;
+mod panel_subject;
+mod passes;
+mod percent_encoding;
+mod progress;
+mod reference;
+mod referenced_files;
+mod region;
+mod render;
+mod render_job;
+mod render_report;
+mod scene;
+mod scene_overrides;
+mod section;
+mod sheet;
+mod sweep;
+mod template;
+mod terminal_image;
+mod thumbnailer;
+
+use args::{Args, Command};
+use clap::{CommandFactory, Parser};
+use deferred::Deferred;
+use error::CliError;
+use messages::{print_message, print_stdout};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Runs the program with its arguments, of which the first is its name, and returns its exit code.
+///
+/// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap).
+///
+/// A failure is printed as one message, `error: MESSAGE`, on the standard error stream, and the
+/// code is 1. Usage errors are printed by clap with the usage of the command, and the code is 2;
+/// `--help` and `--version` are printed by it as well, with 0. `check`, `render --compare`, `batch`
+/// and `scene fmt --check` also return 1 for a verdict rather than for a failure; they have then
+/// printed it themselves, without `error:`.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let words = negative_numbers::join_negative_numbers(arguments, Args::command);
+    let args = match Args::try_parse_from(words) {
+        Ok(args) => args,
+        Err(usage) => {
+            // Nothing can be said about a stream that takes no text.
+            let _ = usage.print();
+            return u8::try_from(usage.exit_code()).unwrap_or(2);
+        }
+    };
+    match run_command(args) {
+        Ok(code) => u8::from(code != ExitCode::SUCCESS),
+        Err(failure) => {
+            print_message("error", &failure.to_message());
+            1
+        }
+    }
+}
+
+/// Runs the command of the arguments.
+///
+/// The color choice is set first, because every message that follows depends on it. Commands with a
+/// verdict of their own (`render`, `check`, `batch`, `scene`) return their exit code; any other
+/// command succeeds or fails.
+///
+/// # Errors
+/// If the input is invalid or the work fails; nothing has been printed about it then.
+pub(crate) fn run_command(args: Args) -> Result<ExitCode, CliError> {
+    color::set_color_choice(args.color);
+    match args.command {
+        Command::Render(Deferred(args)) => return render::run(&args),
+        Command::Sheet(Deferred(args)) => sheet::run(&args)?,
+        Command::Info(Deferred(args)) => info::run(&args)?,
+        Command::Check(Deferred(args)) => return check::run(&args),
+        Command::Matrix(Deferred(args)) => matrix::run(&args)?,
+        Command::Explain(Deferred(args)) => explain::run(&args)?,
+        Command::Explore(args) => explore::run(&args)?,
+        Command::CompareProjections(Deferred(args)) => compare_projections::run(&args)?,
+        Command::Sweep(Deferred(args)) => sweep::run(&args)?,
+        Command::Curve(args) => curve::run(&args)?,
+        Command::Demo(args) => demo::run(&args)?,
+        Command::Animate(Deferred(args)) => animate::run(&args)?,
+        Command::Batch(Deferred(args)) => return batch::run(&args),
+        Command::Thumbnailer(Deferred(args)) => thumbnailer::run(&args)?,
+        Command::Scene(args) => return scene::run(&args),
+        Command::Completions(Deferred(args)) => manual::print_completions(&args, Args::command())?,
+        Command::Man(Deferred(args)) => manual::print_man_pages(&args, Args::command())?,
+        Command::Reference(Deferred(args)) => reference::run(&args, Args::command())?,
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,36 @@
+"""Pictures, depth, normals and ids of 3D models as NumPy arrays.
+
+Rendered on the CPU: no display, no OpenGL, no window; the same bits on every machine.
+
+>>> import alberti
+>>> cube = alberti.Model.from_arrays(
+...     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+...     [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+... )
+>>> frame = alberti.render(cube, size=(320, 240), passes=("rgb", "depth", "ids"))
+>>> frame.rgb.shape, frame.depth.dtype, int(frame.ids.max()) <= 4
+((240, 320, 3), dtype('float32'), True)
+"""
+
+from ._camera import Camera
+from ._drawing import Drawing, draw
+from ._errors import AlbertiError, AlbertiWarning
+from ._frame import Frame
+from ._model import Model, Scene, load, load_scene
+from ._render import explain, render, render_many
+
+__all__ = [
+    "AlbertiError",
+    "AlbertiWarning",
+    "Camera",
+    "Drawing",
+    "Frame",
+    "Model",
+    "Scene",
+    "draw",
+    "explain",
+    "load",
+    "load_scene",
+    "render",
+    "render_many",
+]

@@ -1,0 +1,5 @@
+"""``python -m alberti``: the command."""
+
+from ._program import main
+
+main()

@@ -1,0 +1,136 @@
+"""Line drawings: exact hidden-line removal, as SVG, PDF and arrays."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._camera import Camera
+from ._errors import AlbertiError, warn_all
+from ._render import _job
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ._model import Model
+
+    Size = tuple[int, int]
+
+
+def draw(
+    model: Model,
+    *,
+    camera: Camera | str | None = None,
+    size: Size | None = None,
+    style: str | None = None,
+    background: str | None = None,
+    threads: int | None = None,
+) -> Drawing:
+    """Draws the edges of a model or a scene, with hidden lines removed.
+
+    Args:
+        model: As for :func:`alberti.render`.
+        camera: As for :func:`alberti.render`.
+        size: As for :func:`alberti.render`; 96 pixels are an inch on paper.
+        style: ``lines``, ``dashed`` (hidden lines dashed), ``silhouette``, ``technical`` (line
+            types of ISO 128), ``wireframe`` or ``depth-cued``; ``lines`` if not given.
+        background: As for :func:`alberti.render`; the color of the paper.
+        threads: As for :func:`alberti.render`.
+
+    >>> from alberti import Model
+    >>> model = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> drawing = draw(model, camera="front", size=(200, 150))
+    >>> drawing.svg[:4], drawing.lines.shape
+    ('<svg', (3, 2, 2))
+    """
+    options: dict[str, Any] = {
+        "camera": camera,
+        "size": size,
+        "style": style,
+        "background": background,
+        "threads": threads,
+    }
+    subject, options = _job(model, options)
+    drawing = Drawing(_native.draw(subject, options))
+    warn_all(drawing.warnings)
+    return drawing
+
+
+class Drawing:
+    """A line drawing: a page for SVG and PDF, and its segments as arrays."""
+
+    __slots__ = ("_native", "_segments")
+
+    def __init__(self, native: _native.Drawing) -> None:
+        self._native = native
+        self._segments: dict[str, Any] | None = None
+
+    @property
+    def svg(self) -> str:
+        """The page as an SVG document."""
+        return self._native.svg()
+
+    @property
+    def pdf(self) -> bytes:
+        """The page as a PDF file."""
+        return self._native.pdf()
+
+    @property
+    def camera(self) -> Camera:
+        """The camera in its place, with the size of the drawing."""
+        return Camera(self._native.camera())
+
+    @property
+    def lines(self) -> NDArray[np.float64]:
+        """Ends (N, 2, 2) of the segments of all edges: column and row in pixels, y down.
+
+        Visible ones; with hidden ones, too, if the style shows them: see :attr:`visible`.
+        """
+        return self._arrays()["ends"]  # type: ignore[no-any-return]
+
+    @property
+    def visible(self) -> NDArray[np.bool_]:
+        """Whether each segment (N,) is visible."""
+        return self._arrays()["visible"]  # type: ignore[no-any-return]
+
+    @property
+    def classes(self) -> list[str]:
+        """Why each segment is drawn: ``silhouette``, ``boundary``, ``crease`` …"""
+        return self._arrays()["class"]  # type: ignore[no-any-return]
+
+    @property
+    def edges(self) -> NDArray[np.uint32]:
+        """Edge (N,) that each segment is a part of."""
+        return self._arrays()["edge"]  # type: ignore[no-any-return]
+
+    @property
+    def objects(self) -> list[str]:
+        """Name of the object that each segment belongs to."""
+        names: list[str] = self._arrays()["names"]
+        return [names[index] for index in self._arrays()["object"]]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the drawing lacks; empty for most."""
+        return self._native.warnings()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the drawing as ``.svg`` or ``.pdf``, by the extension of the path."""
+        ending = os.path.splitext(os.fspath(path))[1].lower()
+        if ending not in (".svg", ".pdf"):
+            raise AlbertiError(f"ends in {ending!r}, expected .svg or .pdf", pointer="path")
+        content = self.pdf if ending == ".pdf" else self.svg.encode()
+        with open(path, "wb") as file:
+            file.write(content)
+
+    def _repr_svg_(self) -> str:
+        """The drawing for Jupyter."""
+        return self.svg
+
+    def _arrays(self) -> dict[str, Any]:
+        """The segments, drawn when they are first asked for."""
+        if self._segments is None:
+            self._segments = self._native.lines()
+        return self._segments

@@ -1,0 +1,60 @@
+"""The exception and the warning of the package."""
+
+from __future__ import annotations
+
+import warnings as _warnings
+from collections.abc import Iterable
+
+
+class AlbertiError(Exception):
+    """What every function raises for wrong input.
+
+    Attributes:
+        code: The kind of fault, for programs: ``INVALID_ARGUMENT`` for an argument,
+            ``SCENE_ERROR`` for a mistake in a scene or a camera, ``LIMIT_EXCEEDED``,
+            ``IO_ERROR``; for faults of files the codes of the importer, such as
+            ``INVALID_DATA``.
+        pointer: Where: the argument (``faces[3, 1]``), or the place in a file, a JSON pointer in
+            glTF, else ``line 4, column 2``. May be empty.
+        help: What to do, if there is something.
+    """
+
+    code: str
+    pointer: str
+    help: str | None
+
+    def __init__(
+        self,
+        message: str,
+        code: str = "INVALID_ARGUMENT",
+        pointer: str = "",
+        help: str | None = None,
+    ) -> None:
+        super().__init__(message, code, pointer, help)
+        self.message = message
+        self.code = code
+        self.pointer = pointer
+        self.help = help
+
+    def __str__(self) -> str:
+        text = f"{self.pointer}: {self.message}" if self.pointer else self.message
+        if self.help and self.help not in self.message:
+            text = f"{text}; {self.help}"
+        return text
+
+
+class AlbertiWarning(UserWarning):
+    """Something of a file was left out or corrected, or something of a picture is missing."""
+
+
+_MOST_WARNINGS = 8
+
+
+def warn_all(messages: Iterable[str], stacklevel: int = 3) -> None:
+    """Warns of the first few messages, and of how many more there are."""
+    messages = list(messages)
+    for message in messages[:_MOST_WARNINGS]:
+        _warnings.warn(message, AlbertiWarning, stacklevel=stacklevel + 1)
+    rest = len(messages) - _MOST_WARNINGS
+    if rest > 0:
+        _warnings.warn(f"{rest} more warnings", AlbertiWarning, stacklevel=stacklevel + 1)

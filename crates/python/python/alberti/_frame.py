@@ -1,0 +1,177 @@
+"""Frames: what a rendering makes, as arrays."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._camera import Camera
+from ._errors import AlbertiError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Frame:
+    """A rendered picture and its passes, as arrays whose first row is the upper one.
+
+    Every array is made once. A pass that was not asked for raises :class:`AlbertiError`.
+    """
+
+    __slots__ = ("_arrays", "camera", "warnings")
+
+    #: The camera in its place, with the size of the frame.
+    camera: Camera
+    #: What is missing in the picture; empty for most.
+    warnings: tuple[str, ...]
+
+    def __init__(
+        self, arrays: dict[str, Any], camera: _native.Camera, warnings: list[str]
+    ) -> None:
+        self._arrays: dict[str, NDArray[Any]] = arrays
+        self.camera = Camera(camera)
+        self.warnings = tuple(warnings)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        size = self.camera.size
+        assert size is not None
+        return size
+
+    @property
+    def rgba(self) -> NDArray[np.uint8]:
+        """Colors (height, width, 4), sRGB with straight alpha; equal to those of the program."""
+        return self._pass("rgba", "rgb")
+
+    @property
+    def rgb(self) -> NDArray[np.uint8]:
+        """Colors (height, width, 3), sRGB; over white where the background is transparent."""
+        if "rgb" not in self._arrays:
+            self._arrays["rgb"] = _native.over_white(self.rgba)
+        return self._arrays["rgb"]
+
+    @property
+    def depth(self) -> NDArray[np.float32]:
+        """Depth (height, width) along the axis of view, in scene units; inf where nothing is."""
+        return self._pass("depth")
+
+    @property
+    def distance(self) -> NDArray[np.float32]:
+        """Distance (height, width) from the eye along the ray; inf where nothing is.
+
+        Computed from the depth where only that was rendered.
+        """
+        if "distance" not in self._arrays and "depth" in self._arrays:
+            self._arrays["distance"] = self.camera._native.distances(self.depth)
+        return self._pass("distance")
+
+    @property
+    def normal(self) -> NDArray[np.float32]:
+        """Unit normals (height, width, 3) in the world, of the visible side; 0 where nothing is."""
+        return self._pass("normal")
+
+    @property
+    def view_normal(self) -> NDArray[np.float32]:
+        """Unit normals in view space: x to the right, y up, z towards the viewer."""
+        return self._pass("view-normal")
+
+    @property
+    def position(self) -> NDArray[np.float32]:
+        """Positions (height, width, 3) in the world; 0 where nothing is."""
+        return self._pass("position")
+
+    @property
+    def uv(self) -> NDArray[np.float32]:
+        """Texture coordinates (height, width, 2), v down in the texture; 0 where there are none."""
+        return self._pass("uv")
+
+    @property
+    def barycentric(self) -> NDArray[np.float32]:
+        """Barycentric weights (height, width, 3) of the triangle's vertices; their sum is 1."""
+        return self._pass("barycentric")
+
+    @property
+    def coverage(self) -> NDArray[np.float32]:
+        """Fraction (height, width) of each pixel's samples that a surface covers, 0 to 1."""
+        return self._pass("coverage")
+
+    @property
+    def overdraw(self) -> NDArray[np.uint32]:
+        """Number (height, width) of surfaces at each pixel's center, hidden ones included."""
+        return self._pass("overdraw")
+
+    @property
+    def ids(self) -> NDArray[np.uint32]:
+        """Triangle (point, line) of each pixel, counted from 1 in scene order; 0 where nothing is.
+
+        For a model of one mesh, ``ids - 1`` is the row of ``faces``.
+        """
+        return self._pass("id", "ids")
+
+    @property
+    def model_ids(self) -> NDArray[np.uint32]:
+        """Model of each pixel, counted from 1 in scene order; 0 where nothing is."""
+        return self._pass("model", "model_ids")
+
+    @property
+    def node_ids(self) -> NDArray[np.uint32]:
+        """Node of each pixel: its index in ``Model.nodes`` plus 1; 0 where nothing is."""
+        return self._pass("node", "node_ids")
+
+    @property
+    def mesh_ids(self) -> NDArray[np.uint32]:
+        """Mesh of each pixel: its index in the file plus 1; 0 where nothing is."""
+        return self._pass("mesh", "mesh_ids")
+
+    @property
+    def material_ids(self) -> NDArray[np.uint32]:
+        """Material of each pixel: its index in the file plus 1; 0 also for the default one."""
+        return self._pass("material", "material_ids")
+
+    @property
+    def mask(self) -> NDArray[np.bool_]:
+        """Whether there is something at the center of each pixel (height, width)."""
+        for name in ("depth", "distance"):
+            if name in self._arrays:
+                import numpy as np
+
+                return np.isfinite(self._arrays[name])
+        return self._pass("id", "ids") > 0
+
+    def points(self) -> NDArray[np.float64]:
+        """Points (N, 3) in the world of all pixels with a depth, row by row: a point cloud."""
+        import numpy as np
+
+        depth = self.depth
+        return self.camera.unproject(depth)[np.isfinite(depth)]
+
+    def png(self) -> bytes:
+        """The picture as the bytes of a PNG file, equal to those of the program."""
+        return _native.encode_png(self.rgba)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the picture as a PNG file."""
+        content = self.png()
+        with open(path, "wb") as file:
+            file.write(content)
+
+    def _repr_png_(self) -> bytes | None:
+        """The picture for Jupyter."""
+        return self.png() if "rgba" in self._arrays else None
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"Frame({width} x {height}: {', '.join(self._arrays)})"
+
+    def _pass(self, name: str, asked: str | None = None) -> NDArray[Any]:
+        """The array of a pass."""
+        try:
+            return self._arrays[name]
+        except KeyError:
+            asked = asked or name.replace("-", "_")
+            message = f"the frame has no {asked}"
+            help = f'render it: passes=(…, "{asked}")'
+            raise AlbertiError(message, "NO_SUCH_PASS", asked, help) from None

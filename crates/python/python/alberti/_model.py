@@ -1,0 +1,300 @@
+"""Models and scenes: what is rendered."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+from . import _native
+from ._errors import AlbertiError, warn_all
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    Source = Union[str, os.PathLike[str], bytes, bytearray, memoryview]
+
+
+class Model:
+    """A model: meshes with materials, in one pose. Made by :func:`load`, :meth:`from_arrays` or
+    :meth:`from_trimesh`; immutable, and rendered as often as you like.
+    """
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.Subject) -> None:
+        self._native = native
+
+    @classmethod
+    def from_arrays(
+        cls,
+        vertices: ArrayLike,
+        faces: ArrayLike | Sequence[Sequence[int]] | None = None,
+        *,
+        normals: ArrayLike | None = None,
+        colors: ArrayLike | None = None,
+        uv: ArrayLike | None = None,
+        texture: ArrayLike | bytes | None = None,
+        color: str | ArrayLike | None = None,
+        metallic: float | None = None,
+        roughness: float | None = None,
+        double_sided: bool = True,
+        crease: float | None = None,
+        up: str = "y",
+        unit: str | None = None,
+        name: str = "mesh",
+        limits: Mapping[str, int] | None = None,
+    ) -> Model:
+        """A model of one mesh, or of a cloud of points.
+
+        Args:
+            vertices: Positions (V, 3), any real dtype; computed with as float32.
+            faces: Indices (F, 3) of triangles or (F, n) of polygons, counter-clockwise seen from
+                outside; or a list of polygons of any lengths; None for points.
+            normals: Normals (V, 3) of any length; without them faces that meet at up to
+                ``crease`` degrees are smooth.
+            colors: sRGB colors of vertices (V, 3 or 4) or faces (F, 3 or 4): uint8, or floats
+                from 0 to 1.
+            uv: Texture coordinates (V, 2) with (0, 0) at the lower left, as in OBJ and trimesh.
+            texture: sRGB image uint8 (height, width, 3 or 4), or the bytes of a PNG, JPEG or WebP
+                file; needs ``uv``, and replaces ``colors``.
+            color: Color of the whole surface: "#rrggbb", the name of a color of CSS, or sRGB (3)
+                or (4) as for ``colors``.
+            metallic: Metalness from 0 to 1; 0 if not given.
+            roughness: Roughness from 0 to 1; 0.6 if not given.
+            double_sided: Whether the back of faces is drawn too.
+            crease: Angle in degrees, 0 to 180: 30 if not given, 0 for flat faces.
+            up: Axis that points up in the vertices, ``x``, ``y`` or ``z``; the model is turned so
+                that it is y.
+            unit: Unit of length for drawings to scale; meters if not given.
+            name: Name of the mesh.
+            limits: Limits on sizes, by name; see :func:`load`.
+
+        Raises:
+            AlbertiError: For wrong shapes, dtypes, indices out of range, NaN, or more than the
+                limits allow; ``pointer`` names the argument and the element.
+
+        >>> triangle = Model.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> triangle.triangle_count
+        1
+        """
+        mesh = {
+            "name": name,
+            "vertices": vertices,
+            "faces": faces,
+            "normals": normals,
+            "colors": colors,
+            "uv": uv,
+            "texture": texture,
+            "color": color,
+            "metallic": metallic,
+            "roughness": roughness,
+            "double_sided": double_sided,
+        }
+        options = {"crease": crease, "up": up, "unit": unit, "name": name, "limits": limits}
+        return _warned(cls(_native.build_model([mesh], None, options)))
+
+    @classmethod
+    def from_trimesh(
+        cls, scene: Any, *, up: str = "y", crease: float | None = None, unit: str | None = None
+    ) -> Model:
+        """A model of a ``trimesh.Trimesh``, ``Scene``, ``PointCloud`` or ``Path3D``.
+
+        Geometry is taken with the transforms of the graph, with normals where trimesh has those
+        of a file, vertex and face colors, texture coordinates and materials.
+
+        Args:
+            scene: The object; trimesh itself is not imported here.
+            up: Axis that points up: trimesh leaves files as they are, so ``z`` for STL and 3MF.
+            crease: As for :meth:`from_arrays`.
+            unit: As for :meth:`from_arrays`.
+        """
+        from . import _trimesh
+
+        meshes, nodes = _trimesh.collect_meshes(scene)
+        options = {"crease": crease, "up": up, "unit": unit, "name": "scene"}
+        return _warned(cls(_native.build_model(meshes, nodes, options)))
+
+    @property
+    def name(self) -> str:
+        """The name of the file or of the mesh."""
+        return self._native.name
+
+    @property
+    def bounds(self) -> NDArray[np.float64] | None:
+        """The least and the greatest corner (2, 3) of the box around it, None if it is empty."""
+        return self._native.bounds()
+
+    @property
+    def triangle_count(self) -> int:
+        """Number of triangles that are shown."""
+        return self._native.item_counts()[2]
+
+    @property
+    def nodes(self) -> list[str | None]:
+        """Names of the nodes; ``Frame.node_ids - 1`` is an index into them."""
+        return self._names("nodes")
+
+    @property
+    def meshes(self) -> list[str | None]:
+        """Names of the meshes; ``Frame.mesh_ids - 1`` is an index into them."""
+        return self._names("meshes")
+
+    @property
+    def materials(self) -> list[str | None]:
+        """Names of the materials; ``Frame.material_ids - 1`` is an index into them."""
+        return self._names("materials")
+
+    @property
+    def warnings(self) -> list[str]:
+        """Everything that was left out or corrected while it was loaded."""
+        return self._native.warnings()
+
+    def _names(self, what: str) -> list[str | None]:
+        return [name for model in self._native.part_names(what) for name in model]
+
+    def _repr_png_(self) -> bytes:
+        """A picture for Jupyter."""
+        from ._render import render
+
+        return render(self, size=(480, 360)).png()
+
+    def __repr__(self) -> str:
+        points, lines, triangles = self._native.item_counts()
+        counts = ((points, "points"), (lines, "lines"), (triangles, "triangles"))
+        parts = [f"{count} {what}" for count, what in counts if count]
+        kind = type(self).__name__
+        return f"{kind}({self.name!r}, {', '.join(parts) or 'empty'})"
+
+
+class Scene(Model):
+    """Models in their places, or a scene file with cameras, lights, styles and overlays."""
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        models: Sequence[Model] | _native.Subject,
+        poses: Sequence[ArrayLike] | ArrayLike | None = None,
+    ) -> None:
+        """A scene of models.
+
+        Args:
+            models: The models; the first has the id 1 in ``Frame.model_ids``.
+            poses: Matrix (4, 4) from each model to the world; the identity if not given.
+        """
+        if isinstance(models, _native.Subject):
+            super().__init__(models)
+            return
+        import numpy as np
+
+        models = list(models)
+        placed = [np.eye(4)] * len(models) if poses is None else list(poses)  # type: ignore[arg-type]
+        if len(placed) != len(models):
+            message = f"{len(placed)} for {len(models)} models"
+            raise AlbertiError(message, pointer="poses")
+        for index, model in enumerate(models):
+            if not isinstance(model, Model):
+                message = f"is a {type(model).__name__}, expected a Model"
+                raise AlbertiError(message, pointer=f"models[{index}]")
+        parts = [(model._native, pose) for model, pose in zip(models, placed)]
+        super().__init__(_native.compose(parts))
+
+
+def load(
+    source: Source,
+    *,
+    name: str = "model",
+    up: str | None = None,
+    unit: str | None = None,
+    crease: float | None = None,
+    scene: str | int | None = None,
+    variant: str | int | None = None,
+    animation: str | int | None = None,
+    time: float | None = None,
+    lenient: bool = False,
+    limits: Mapping[str, int] | None = None,
+) -> Model:
+    """Loads a model: glTF, GLB, STL, OBJ, PLY or 3MF.
+
+    Args:
+        source: Path of the file, or its content as bytes; bytes must be complete in themselves.
+        name: Name of the content in messages; ``part.obj`` says which format it is in.
+        up: Axis that points up in the file: z for STL and 3MF, y for all others if not given.
+        unit: Unit of length: ``millimeter``, ``meter`` …; what the file says if not given.
+        crease: Largest angle in degrees between faces that are shaded as one smooth surface where
+            the file has no normals; 30 if not given.
+        scene: Scene of a glTF file, by name or index.
+        variant: Variant of its materials, by name or index.
+        animation: Animation that poses it, by name or index; the first if only ``time`` is given.
+        time: Time of the animation in seconds.
+        lenient: Whether what is broken is left out with a warning instead of an error.
+        limits: Largest sizes that are accepted, by name, such as ``{"array_bytes": 1 << 30}``:
+            file_bytes, total_bytes, json_depth, json_values, array_bytes, array_growth,
+            image_side, image_texels, nodes, node_depth, scene_items.
+
+    Raises:
+        AlbertiError: If the file cannot be read, breaks the rules of its format, or exceeds a
+            limit.
+
+    Warns:
+        AlbertiWarning: What was left out or corrected.
+    """
+    options = {
+        "up": up,
+        "unit": unit,
+        "crease": crease,
+        "scene": scene,
+        "variant": variant,
+        "animation": animation,
+        "time": time,
+        "lenient": lenient,
+        "limits": limits,
+    }
+    content = _content(source)
+    if isinstance(content, str) and content.lower().endswith(".ron"):
+        help = "call load_scene(path)"
+        raise AlbertiError("this is a scene file, not a model", pointer="source", help=help)
+    return _warned(Model(_native.load_model(content, name, options)))
+
+
+def load_scene(
+    path: str | os.PathLike[str] | None = None,
+    *,
+    text: str | None = None,
+    folder: str | os.PathLike[str] = "",
+    limits: Mapping[str, int] | None = None,
+) -> Scene:
+    """Loads a scene file (``.ron``) with its models, or a scene from its text.
+
+    Args:
+        path: Path of the scene file.
+        text: Text of a scene, instead.
+        folder: Folder that the paths in the text begin at.
+        limits: As for :func:`load`.
+
+    Raises:
+        AlbertiError: With the place of every mistake in the file.
+    """
+    if (path is None) == (text is None):
+        raise AlbertiError("expected a path or a text, and not both", pointer="path")
+    place = os.fspath(folder if path is None else path)
+    return _warned(Scene(_native.load_scene(place, text, {"limits": limits})))
+
+
+def _content(source: Source) -> str | bytes:
+    """The path of a file, or its content."""
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return bytes(source)
+    try:
+        return os.fspath(source)
+    except TypeError:
+        message = f"is a {type(source).__name__}, expected a path or bytes"
+        raise AlbertiError(message, pointer="source") from None
+
+
+def _warned(model: Any) -> Any:
+    """Warns of what the importer reports."""
+    warn_all(model.warnings)
+    return model

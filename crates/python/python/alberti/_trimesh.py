@@ -1,0 +1,102 @@
+"""Objects of trimesh as arrays. trimesh is never imported: its attributes are read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ._errors import AlbertiError
+
+
+
+def collect_meshes(scene: Any) -> tuple[list[dict[str, Any]], list[tuple[str | None, int, Any]]]:
+    """The meshes of a scene or a geometry, and the nodes that show them."""
+    import numpy as np
+
+    if not hasattr(scene, "geometry") or not hasattr(scene, "graph"):
+        name = getattr(scene, "metadata", {}).get("name") or "mesh"
+        mesh = _mesh(scene, str(name))
+        return [mesh], [(str(name), 0, np.eye(4))]
+    indices: dict[str, int] = {}
+    meshes = []
+    for name, geometry in scene.geometry.items():
+        indices[name] = len(meshes)
+        meshes.append(_mesh(geometry, str(name)))
+    nodes = []
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        nodes.append((str(node), indices[name], transform))
+    return meshes, nodes
+
+
+def _mesh(geometry: Any, name: str) -> dict[str, Any]:
+    """The arrays of a Trimesh, a PointCloud or a Path3D."""
+    import numpy as np
+
+    if not hasattr(geometry, "vertices"):
+        message = f"is a {type(geometry).__name__}, expected an object of trimesh with vertices"
+        raise AlbertiError(message, pointer="scene")
+    mesh: dict[str, Any] = {"name": name, "vertices": np.asarray(geometry.vertices)}
+    if hasattr(geometry, "faces"):
+        mesh["faces"] = np.asarray(geometry.faces).reshape(-1, 3)
+        _add_normals(mesh, geometry)
+        _add_visual(mesh, geometry.visual)
+    elif hasattr(geometry, "entities"):
+        ends = [
+            pair
+            for entity in geometry.entities
+            for pair in zip(entity.points[:-1], entity.points[1:])
+        ]
+        mesh["lines"] = np.asarray(ends, dtype=np.int64).reshape(-1, 2)
+    else:
+        colors = getattr(geometry, "colors", None)
+        if colors is not None and len(colors) == len(mesh["vertices"]):
+            mesh["colors"] = np.asarray(colors)
+    return mesh
+
+
+def _add_normals(mesh: dict[str, Any], geometry: Any) -> None:
+    """Normals that the file had: those that trimesh computed are not kept apart otherwise."""
+    cache = getattr(getattr(geometry, "_cache", None), "cache", {})
+    if "vertex_normals" in cache:
+        mesh["normals"] = cache["vertex_normals"]
+
+
+def _add_visual(mesh: dict[str, Any], visual: Any) -> None:
+    """Colors, or a texture and a material."""
+    import numpy as np
+
+    kind = getattr(visual, "kind", None)
+    if kind == "vertex":
+        mesh["colors"] = np.asarray(visual.vertex_colors)
+    elif kind == "face":
+        mesh["colors"] = np.asarray(visual.face_colors)
+    elif kind == "texture":
+        uv = getattr(visual, "uv", None)
+        if uv is not None and len(uv) == len(mesh["vertices"]):
+            mesh["uv"] = np.asarray(uv)
+        _add_material(mesh, visual.material)
+
+
+def _add_material(mesh: dict[str, Any], material: Any) -> None:
+    """Image and factors of a material, those of Phong shading too."""
+    import numpy as np
+
+    image = getattr(material, "baseColorTexture", None)
+    image = getattr(material, "image", None) if image is None else image
+    if image is not None and "uv" in mesh:
+        mesh["texture"] = np.asarray(image.convert("RGBA"))
+    factor = getattr(material, "baseColorFactor", None)
+    color = getattr(material, "diffuse", None) if factor is None else factor
+    if color is not None:
+        mesh["color"] = np.asarray(color)
+    metallic = getattr(material, "metallicFactor", None)
+    roughness = getattr(material, "roughnessFactor", None)
+    if hasattr(material, "metallicFactor"):
+        # The defaults of glTF.
+        mesh["metallic"] = 1.0 if metallic is None else float(metallic)
+        mesh["roughness"] = 1.0 if roughness is None else float(roughness)
+        mesh["double_sided"] = bool(getattr(material, "doubleSided", False))
+    elif hasattr(material, "glossiness"):
+        # As an MTL file with the same exponent is read.
+        exponent = max(float(material.glossiness or 0.0), 0.0)
+        mesh["roughness"] = float((2.0 / (exponent + 2.0)) ** 0.25)

@@ -1,0 +1,185 @@
+//! Arrays of Python, checked: numbers of any dtype and any strides, in C order as this crate reads
+//! them.
+//!
+//! NumPy itself makes the array contiguous and casts it; what it cannot read, and what is no real
+//! number, is an error that names the argument.
+
+use crate::failure::{Failure, Fallible};
+use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyException;
+use pyo3::prelude::*;
+
+/// An array in C order.
+pub(crate) struct Numbers<T> {
+    /// The length along each axis.
+    pub(crate) shape: Vec<usize>,
+    /// The elements, the last axis fastest.
+    pub(crate) values: Vec<T>,
+}
+
+/// Real numbers of an argument, as f32 or f64.
+///
+/// # Errors
+/// If it is no array of numbers.
+pub(crate) fn real_array<T: Element + Copy>(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+    dtype: &str,
+) -> PyResult<Numbers<T>> {
+    read_array(name, value, "fiu", dtype)
+}
+
+/// Integers of an argument.
+///
+/// # Errors
+/// If it is no array of integers.
+pub(crate) fn integer_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbers<i64>> {
+    read_array(name, value, "iu", "int64")
+}
+
+/// Elements of an argument whose kind of dtype is one of `kinds`, cast to `dtype`.
+fn read_array<T: Element + Copy>(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+    kinds: &str,
+    dtype: &str,
+) -> PyResult<Numbers<T>> {
+    let py = value.py();
+    let numpy = py.import("numpy")?;
+    let given = as_array(name, value)?;
+    let kind: String = given.getattr("dtype")?.getattr("kind")?.extract()?;
+    let is_empty = given.getattr("size")?.extract::<usize>()? == 0;
+    if !kinds.contains(kind.as_str()) && !(is_empty && kind == "f") {
+        let wanted = if kinds == "iu" { "integers" } else { "real numbers" };
+        let found = given.getattr("dtype")?.str()?.to_string();
+        return Err(Failure::argument(name, format!("dtype {found}, expected {wanted}")).into());
+    }
+    let options = pyo3::types::PyDict::new(py);
+    options.set_item("dtype", dtype)?;
+    options.set_item("order", "C")?;
+    // Casts that overflow are found by what they become; NumPy need not warn of them.
+    let quiet = pyo3::types::PyDict::new(py);
+    quiet.set_item("all", "ignore")?;
+    let quiet = numpy.call_method("errstate", (), Some(&quiet))?;
+    quiet.call_method0("__enter__")?;
+    let array = numpy.call_method("asarray", (given,), Some(&options));
+    quiet.call_method1("__exit__", (py.None(), py.None(), py.None()))?;
+    let array = array.map_err(|error| unreadable(name, error, py))?;
+    let array = array.cast_into::<PyArrayDyn<T>>()?;
+    let shape = array.shape().to_vec();
+    Ok(Numbers { shape, values: array.to_vec()? })
+}
+
+/// Any object as an array, as `numpy.asarray` makes it.
+pub(crate) fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let numpy = value.py().import("numpy")?;
+    numpy.call_method1("asarray", (value,)).map_err(|error| unreadable(name, error, value.py()))
+}
+
+/// The error of an object that is no array; what is no fault of the object passes.
+fn unreadable(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
+    if !error.is_instance_of::<PyException>(py) {
+        return error;
+    }
+    Failure::argument(name, format!("cannot be read as an array: {}", error.value(py))).into()
+}
+
+/// A shape as NumPy prints it.
+pub(crate) fn shape_text(shape: &[usize]) -> String {
+    match shape {
+        [one] => format!("({one},)"),
+        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// The error of an array of another shape.
+pub(crate) fn wrong_shape(name: &str, shape: &[usize], wanted: &str) -> Failure {
+    Failure::argument(name, format!("shape {}, expected {wanted}", shape_text(shape)))
+}
+
+/// Rows of `N` numbers.
+///
+/// # Errors
+/// If the shape is another.
+pub(crate) fn rows_of<T: Copy + Default, const N: usize>(
+    name: &str,
+    numbers: Numbers<T>,
+    letter: &str,
+) -> Fallible<Vec<[T; N]>> {
+    match numbers.shape[..] {
+        [_, columns] if columns == N => Ok(numbers.values.as_chunks::<N>().0.to_vec()),
+        _ => Err(wrong_shape(name, &numbers.shape, &format!("({letter}, {N})"))),
+    }
+}
+
+/// Rows of `N` finite numbers.
+///
+/// # Errors
+/// If the shape is another, or a number is not finite.
+pub(crate) fn finite_rows<const N: usize>(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+    letter: &str,
+) -> PyResult<Vec<[f32; N]>> {
+    let rows = rows_of::<f32, N>(name, real_array(name, value, "float32")?, letter)?;
+    for (row, values) in rows.iter().enumerate() {
+        if let Some(column) = values.iter().position(|value| !value.is_finite()) {
+            let message = format!("is {}, expected a finite 32-bit number", values[column]);
+            return Err(Failure::argument(format!("{name}[{row}, {column}]"), message).into());
+        }
+    }
+    Ok(rows)
+}
+
+/// A matrix of finite numbers, row by row.
+///
+/// # Errors
+/// If the shape is another, or a number is not finite.
+pub(crate) fn matrix<const R: usize, const C: usize>(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+) -> PyResult<[[f64; C]; R]> {
+    let numbers = real_array::<f64>(name, value, "float64")?;
+    if numbers.shape != [R, C] {
+        return Err(wrong_shape(name, &numbers.shape, &format!("({R}, {C})")).into());
+    }
+    if let Some(at) = numbers.values.iter().position(|value| !value.is_finite()) {
+        let element = format!("{name}[{}, {}]", at / C, at % C);
+        let message = format!("is {}, expected a finite number", numbers.values[at]);
+        return Err(Failure::argument(element, message).into());
+    }
+    let mut rows = [[0.0; C]; R];
+    for (row, values) in rows.iter_mut().zip(numbers.values.as_chunks::<C>().0) {
+        *row = *values;
+    }
+    Ok(rows)
+}
+
+/// A list of `N` finite numbers.
+///
+/// # Errors
+/// If there are more or fewer, or one is not finite.
+pub(crate) fn vector<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
+    let numbers = real_array::<f64>(name, value, "float64")?;
+    let is_row = numbers.shape == [N] || numbers.shape == [N, 1] || numbers.shape == [1, N];
+    let Some(values) = numbers.values.first_chunk::<N>().filter(|_| is_row) else {
+        return Err(wrong_shape(name, &numbers.shape, &format!("({N},)")).into());
+    };
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        let message = format!("is {}, expected a finite number", values[at]);
+        return Err(Failure::argument(format!("{name}[{at}]"), message).into());
+    }
+    Ok(*values)
+}
+
+/// A new array of this shape with these elements, which are not copied.
+///
+/// # Errors
+/// If the numbers of elements differ.
+pub(crate) fn new_array<'py, T: Element>(
+    py: Python<'py>,
+    values: Vec<T>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyAny>> {
+    PyArray1::from_vec(py, values).call_method1("reshape", (shape.to_vec(),))
+}

@@ -1,0 +1,211 @@
+//! The options of cameras: where it stands and which lens it has, as a scene file says it.
+
+use crate::arrays;
+use crate::failure::{Failure, Fallible};
+use crate::keywords::Keywords;
+use camera::{CameraAxes, Extrinsics, NamedView};
+use pipeline::scene::file::{
+    CameraChoice, CameraFile, DEFAULT_PADDING, FieldOfView, Finite, FromFile, Positive,
+    ProjectionFile, RotationFile, Triple, ViewFile,
+};
+use projection::{Intrinsics, PixelCenters};
+use pyo3::prelude::*;
+
+/// Reads position, direction and lens of a camera.
+///
+/// # Errors
+/// If an option has another type, is not finite, or makes no camera.
+pub(crate) fn read_camera(options: &Keywords<'_, '_>) -> PyResult<CameraFile> {
+    Ok(CameraFile { view: read_view(options)?, projection: read_lens(options)? })
+}
+
+/// Where the camera stands: by eye and target, by R and t, by a pose, by the name of a camera in
+/// the model, or from a direction.
+fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
+    if let Some(eye) = options.vector("eye")? {
+        let target = options.vector("target")?.unwrap_or_default();
+        let up = options.vector("up")?.unwrap_or([0.0, 1.0, 0.0]);
+        return Ok(ViewFile::LookAt { eye: Triple(eye), target: Triple(target), up: Triple(up) });
+    }
+    if let Some(rotation) = options.value("R")? {
+        return read_extrinsics(options, &rotation);
+    }
+    if let Some(pose) = options.value("pose")? {
+        return read_pose(options, &pose);
+    }
+    if let Some(of_model) = options.value("of_model")? {
+        let index = of_model.extract().map(CameraChoice::Index);
+        let choice = index.or_else(|_| of_model.extract().map(CameraChoice::Name))?;
+        return Ok(ViewFile::FromModel(choice));
+    }
+    let from = options.value("direction")?.map(|value| read_direction(&value)).transpose()?;
+    let padding_percent = match options.number("padding")? {
+        None => DEFAULT_PADDING,
+        Some(percent) => pipeline::scene::file::NonNegative::new(percent).ok_or_else(|| {
+            let message = format!("is {percent}, expected 0 or a greater number");
+            PyErr::from(Failure::argument("padding", message))
+        })?,
+    };
+    Ok(ViewFile::Frame { from, padding_percent })
+}
+
+/// The direction from which a model is framed: a name, or a vector.
+fn read_direction(value: &Bound<'_, PyAny>) -> PyResult<FromFile> {
+    let Ok(name) = value.extract::<String>() else {
+        return Ok(FromFile::Direction(Triple(arrays::vector("direction", value)?)));
+    };
+    let wanted = name.replace('_', "-").to_lowercase();
+    let known = NamedView::ALL.into_iter().find(|view| view.name() == wanted);
+    known.map(FromFile::from).ok_or_else(|| {
+        let names = NamedView::ALL.map(NamedView::name).join(", ");
+        Failure::argument("direction", format!("is {name:?}, expected a vector or one of {names}"))
+            .into()
+    })
+}
+
+/// Rotation and translation from the world to the camera.
+fn read_extrinsics(options: &Keywords<'_, '_>, rotation: &Bound<'_, PyAny>) -> PyResult<ViewFile> {
+    let axes = options.named("axes")?.unwrap_or(CameraAxes::OpenCv);
+    let translation = options.vector("t")?.unwrap_or_default();
+    let mut rows = read_rotation(rotation)?;
+    if options.flag("transposed")? {
+        rows = [0, 1, 2].map(|column| [0, 1, 2].map(|row: usize| rows[row][column]));
+    }
+    let checked = Extrinsics::new(rows, translation, axes);
+    checked.map_err(|error| Failure::argument("R", error.to_string()))?;
+    let rotation = rotation_file(rows);
+    Ok(ViewFile::Extrinsics { rotation, translation: Triple(translation), axes })
+}
+
+/// A rotation as a matrix, a rotation vector (axis times angle in radians), or a quaternion (w, x,
+/// y, z).
+fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
+    let numbers = arrays::real_array::<f64>("R", value, "float64")?;
+    let from_quaternion = |quaternion: [f64; 4]| -> Fallible<[[f64; 3]; 3]> {
+        let camera = Extrinsics::from_quaternion(quaternion, [0.0; 3], CameraAxes::OpenCv);
+        Ok(camera.map_err(|error| Failure::argument("R", error.to_string()))?.rotation())
+    };
+    match numbers.shape[..] {
+        [3, 3] => arrays::matrix("R", value),
+        [4] => Ok(from_quaternion(arrays::vector("R", value)?)?),
+        [3] | [3, 1] | [1, 3] => {
+            let [x, y, z]: [f64; 3] = arrays::vector("R", value)?;
+            let angle = glam::DVec3::new(x, y, z).length();
+            let (sine, cosine) = libm::sincos(0.5 * angle);
+            // The limit of sin(angle / 2) / angle.
+            let scale = if angle > 0.0 { sine / angle } else { 0.5 };
+            Ok(from_quaternion([cosine, x * scale, y * scale, z * scale])?)
+        }
+        _ => {
+            let wanted = "a matrix (3, 3), a rotation vector (3,) or a quaternion (4,) w, x, y, z";
+            Err(arrays::wrong_shape("R", &numbers.shape, wanted).into())
+        }
+    }
+}
+
+/// A pose from the camera to the world.
+fn read_pose(options: &Keywords<'_, '_>, pose: &Bound<'_, PyAny>) -> PyResult<ViewFile> {
+    let axes = options.named("axes")?.unwrap_or(CameraAxes::OpenGl);
+    let shape = arrays::real_array::<f64>("pose", pose, "float64")?.shape;
+    let rows: [[f64; 4]; 3] = if shape == [3, 4] {
+        arrays::matrix("pose", pose)?
+    } else {
+        let rows: [[f64; 4]; 4] = arrays::matrix("pose", pose)?;
+        if rows[3] != [0.0, 0.0, 0.0, 1.0] {
+            let message = format!("its last row is {:?}, expected [0, 0, 0, 1]", rows[3]);
+            return Err(Failure::argument("pose", message).into());
+        }
+        [rows[0], rows[1], rows[2]]
+    };
+    let (rotation, eye) = (rows.map(|[x, y, z, _]| [x, y, z]), rows.map(|row| row[3]));
+    let checked = Extrinsics::from_pose(rotation, eye, axes);
+    checked.map_err(|error| Failure::argument("pose", error.to_string()))?;
+    Ok(ViewFile::Pose { rotation: rotation_file(rotation), eye: Triple(eye), axes })
+}
+
+/// A rotation as a scene file has it.
+pub(crate) fn rotation_file([x, y, z]: [[f64; 3]; 3]) -> RotationFile {
+    RotationFile::Rows((Triple(x), Triple(y), Triple(z)))
+}
+
+/// The lens; `None` if the options say nothing of it.
+fn read_lens(options: &Keywords<'_, '_>) -> PyResult<Option<ProjectionFile>> {
+    let (near, far) = (options.positive("near")?, options.positive("far")?);
+    if let Some(k) = options.value("K")? {
+        return read_intrinsics(options, &k, [near, far]).map(Some);
+    }
+    let height = options.positive("height")?;
+    if height.is_some() || options.flag("orthographic")? {
+        let ahead = |plane: Option<Positive>| plane.and_then(|plane| Finite::new(plane.value()));
+        return Ok(Some(ProjectionFile::Orthographic {
+            height,
+            left: None,
+            right: None,
+            bottom: None,
+            top: None,
+            near: ahead(near),
+            far: ahead(far),
+        }));
+    }
+    let angles = [options.number("fov_y")?, options.number("fov_x")?];
+    if angles == [None; 2] && near.is_none() && far.is_none() {
+        return Ok(None);
+    }
+    let angle = |name: &str, angle: Option<f64>| -> PyResult<Option<FieldOfView>> {
+        let Some(angle) = angle else { return Ok(None) };
+        let wrong = format!("is {angle}, expected an angle between 0 and 180 degrees");
+        FieldOfView::new(angle).map(Some).ok_or_else(|| Failure::argument(name, wrong).into())
+    };
+    if angles.iter().all(Option::is_some) {
+        let message = "only one of fov_y and fov_x can be given: the size has the other";
+        return Err(Failure::argument("fov_x", message).into());
+    }
+    Ok(Some(ProjectionFile::Perspective {
+        fov_y_degrees: angle("fov_y", angles[0])?,
+        fov_x_degrees: angle("fov_x", angles[1])?,
+        fov_diagonal_degrees: None,
+        shift: (Finite::ZERO, Finite::ZERO),
+        near,
+        far,
+    }))
+}
+
+/// The lens of a matrix K, or of (fx, fy, cx, cy).
+fn read_intrinsics(
+    options: &Keywords<'_, '_>,
+    k: &Bound<'_, PyAny>,
+    [near, far]: [Option<Positive>; 2],
+) -> PyResult<ProjectionFile> {
+    let size = options.size("size")?;
+    let pixel_centers = options.named("pixel_centers")?.unwrap_or(PixelCenters::Integer);
+    let numbers = arrays::real_array::<f64>("K", k, "float64")?;
+    let rows = match numbers.shape[..] {
+        [3, 3] => arrays::matrix::<3, 3>("K", k)?,
+        [4] => {
+            let [fx, fy, cx, cy] = arrays::vector::<4>("K", k)?;
+            [[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
+        }
+        _ => {
+            let wanted = "(3, 3), or (4,) for fx, fy, cx, cy";
+            return Err(arrays::wrong_shape("K", &numbers.shape, wanted).into());
+        }
+    };
+    let (width, height) = size.unwrap_or((1, 1));
+    let lens = Intrinsics::from_rows(rows, [width, height]);
+    let lens = lens.map_err(|error| Failure::argument("K", error.to_string()))?;
+    let wrong = || PyErr::from(Failure::argument("K", "its numbers are out of range"));
+    let positive = |number: f64| Positive::new(number).ok_or_else(wrong);
+    let finite = |number: f64| Finite::new(number).ok_or_else(wrong);
+    let ([fx, fy], [cx, cy]) = (lens.focal_length(), lens.principal_point());
+    Ok(ProjectionFile::Intrinsics {
+        fx: positive(fx)?,
+        fy: Some(positive(fy)?),
+        cx: Some(finite(cx)?),
+        cy: Some(finite(cy)?),
+        skew: finite(lens.skew())?,
+        size,
+        pixel_centers,
+        near,
+        far,
+    })
+}

@@ -1,0 +1,70 @@
+//! Work without Python's lock: other threads of Python go on, Ctrl-C stops a picture, and a panic
+//! becomes an exception.
+//!
+//! ```text
+//!  calling thread   waits, and looks for signals 20 times a second ─► CancelToken
+//!  worker           renders ────────────────────────────────────────────┘
+//! ```
+//! Python delivers signals to its main thread only, and only while that thread holds the lock; so
+//! it is the worker that renders.
+
+use crate::failure::Failure;
+use pipeline::CancelToken;
+use pyo3::prelude::*;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread::{self, Builder};
+use std::time::Duration;
+
+/// How long Ctrl-C may wait.
+const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
+/// The stack of a worker in bytes: that of a program's main thread.
+const STACK_BYTES: usize = 8 << 20;
+
+/// Runs `work` in another thread without the lock, and waits for it.
+///
+/// # Errors
+/// What a signal's handler raised (`KeyboardInterrupt`), after `work` has come to its end; what
+/// `work` returns; a panic.
+pub(crate) fn run_detached<T, E>(
+    py: Python<'_>,
+    work: impl FnOnce(&CancelToken) -> Result<T, E> + Send,
+) -> PyResult<T>
+where
+    T: Send,
+    E: Into<PyErr> + Send,
+{
+    let cancel = CancelToken::default();
+    let (result, interruption) = py.detach(|| {
+        thread::scope(|scope| {
+            let (done, finished) = mpsc::channel::<()>();
+            let token = &cancel;
+            let worker = Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, move || {
+                // Dropped at the end, also by a panic: the receiver wakes up.
+                let _done = done;
+                work(token)
+            });
+            let worker = match worker {
+                Ok(worker) => worker,
+                Err(cause) => {
+                    let message = format!("cannot start a thread: {cause}");
+                    return (Ok(Err(Failure::argument("threads", message).into())), None);
+                }
+            };
+            let mut interruption = None;
+            while finished.recv_timeout(SIGNAL_INTERVAL) == Err(RecvTimeoutError::Timeout) {
+                if interruption.is_none()
+                    && let Err(raised) = Python::attach(|py| py.check_signals())
+                {
+                    cancel.cancel();
+                    interruption = Some(raised);
+                }
+            }
+            (worker.join().map(|result| result.map_err(Into::into)), interruption)
+        })
+    });
+    match (interruption, result) {
+        (Some(raised), _) => Err(raised),
+        (None, Ok(result)) => result,
+        (None, Err(panic)) => Err(Failure::internal(&*panic).into()),
+    }
+}

@@ -1,0 +1,110 @@
+//! Keyword arguments: a dictionary of options, each read by its name and type.
+//!
+//! The signatures are those of the Python functions; an option that is absent or `None` was not
+//! given.
+
+use crate::arrays;
+use crate::failure::Failure;
+use pipeline::options::NamedOption;
+use pipeline::scene::file::Positive;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Options of a call.
+pub(crate) struct Keywords<'a, 'py>(pub(crate) &'a Bound<'py, PyDict>);
+
+impl<'py> Keywords<'_, 'py> {
+    /// An option; `None` if it was not given.
+    pub(crate) fn value(&self, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Ok(self.0.get_item(name)?.filter(|value| !value.is_none()))
+    }
+
+    /// An option of a type that Python's conversions know; `wanted` is that type in words.
+    fn extract<T>(&self, name: &str, wanted: &str) -> PyResult<Option<T>>
+    where
+        T: for<'a> FromPyObject<'a, 'py>,
+    {
+        let Some(value) = self.value(name)? else { return Ok(None) };
+        let found = value.extract::<T>();
+        found.map(Some).map_err(|_| not_a(name, &value, wanted).into())
+    }
+
+    /// A text.
+    pub(crate) fn text(&self, name: &str) -> PyResult<Option<String>> {
+        self.extract(name, "a string")
+    }
+
+    /// Yes or no.
+    pub(crate) fn flag(&self, name: &str) -> PyResult<bool> {
+        Ok(self.extract(name, "True or False")?.unwrap_or(false))
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&self, name: &str) -> PyResult<Option<f64>> {
+        let Some(number) = self.extract::<f64>(name, "a number")? else { return Ok(None) };
+        if number.is_finite() {
+            return Ok(Some(number));
+        }
+        Err(Failure::argument(name, format!("is {number}, expected a finite number")).into())
+    }
+
+    /// A number above 0.
+    pub(crate) fn positive(&self, name: &str) -> PyResult<Option<Positive>> {
+        let Some(number) = self.number(name)? else { return Ok(None) };
+        let wrong = || {
+            let message = format!("is {number}, expected a number greater than 0");
+            PyErr::from(Failure::argument(name, message))
+        };
+        Positive::new(number).map(Some).ok_or_else(wrong)
+    }
+
+    /// A whole number from 0.
+    pub(crate) fn count(&self, name: &str) -> PyResult<Option<usize>> {
+        self.extract(name, "a whole number from 0")
+    }
+
+    /// Width and height in pixels.
+    pub(crate) fn size(&self, name: &str) -> PyResult<Option<(u32, u32)>> {
+        let Some(value) = self.value(name)? else { return Ok(None) };
+        let sides = value.extract::<(i64, i64)>();
+        let wanted = "(width, height) in pixels";
+        let (width, height) = sides.map_err(|_| PyErr::from(not_a(name, &value, wanted)))?;
+        let most = i64::from(pipeline::MAX_IMAGE_SIDE);
+        let fits = |side: i64| (1..=most).contains(&side);
+        if fits(width) && fits(height) {
+            return Ok(Some((width as u32, height as u32)));
+        }
+        let message = format!("is ({width}, {height}), expected sides from 1 to {most}");
+        Err(Failure::argument(name, message).into())
+    }
+
+    /// A list of finite numbers.
+    pub(crate) fn vector<const N: usize>(&self, name: &str) -> PyResult<Option<[f64; N]>> {
+        self.value(name)?.map(|value| arrays::vector(name, &value)).transpose()
+    }
+
+    /// A value that the library has a name for.
+    pub(crate) fn named<T: NamedOption>(&self, name: &str) -> PyResult<Option<T>> {
+        let Some(text) = self.text(name)? else { return Ok(None) };
+        let wanted = plain_name(&text);
+        let found = T::ALL.iter().copied().find(|known| plain_name(known.name()) == wanted);
+        found.map(Some).ok_or_else(|| {
+            let names: Vec<String> = T::ALL.iter().map(|known| known.flag_name()).collect();
+            Failure::argument(name, format!("is {text:?}, expected one of {}", names.join(", ")))
+                .into()
+        })
+    }
+}
+
+/// A name without what differs between Python, flags and scene files: case, hyphens, underscores.
+pub(crate) fn plain_name(name: &str) -> String {
+    let letters = name.chars().filter(|c| !matches!(c, '-' | '_' | ' '));
+    letters.flat_map(char::to_lowercase).collect()
+}
+
+/// The error of a value of another type.
+pub(crate) fn not_a(name: &str, value: &Bound<'_, PyAny>, wanted: &str) -> Failure {
+    let found = value.repr().map_or_else(|_| "?".to_owned(), |text| text.to_string());
+    let found: String = found.chars().take(80).collect();
+    Failure::argument(name, format!("is {found}, expected {wanted}"))
+}

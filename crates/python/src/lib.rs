@@ -1,0 +1,59 @@
+//! The extension module of the Python package `alberti`: what needs the crates.
+//!
+//! Signatures, documentation and types are those of the Python sources beside it, which pass their
+//! keyword arguments as dictionaries; every function here checks them and names what is wrong.
+//!
+//! | for | file |
+//! | --- | --- |
+//! | models and scenes, from files and from memory | `loading.rs`, `subject.rs` |
+//! | cameras, points to pixels and back | `camera_options.rs`, `native_camera.rs`, `pixel_rays.rs` |
+//! | meshes as arrays | `mesh_arrays.rs` |
+//! | pictures and passes | `scene_options.rs`, `rendering.rs` |
+//! | line drawings; explanations | `drawing_result.rs`; `explanation.rs` |
+//! | arguments: dictionaries, arrays | `keywords.rs`, `arrays.rs` |
+//! | threads, Ctrl-C, panics; exceptions | `detached.rs`, `failure.rs` |
+
+mod arrays;
+mod camera_options;
+mod detached;
+mod drawing_result;
+mod explanation;
+mod failure;
+mod keywords;
+mod loading;
+mod mesh_arrays;
+mod native_camera;
+mod pixel_rays;
+mod rendering;
+mod scene_options;
+mod subject;
+
+use pyo3::prelude::*;
+
+/// Runs the program `alberti` with its arguments, of which the first is its name; returns its exit
+/// code.
+#[pyfunction]
+fn run_program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| alberti::run(arguments))
+}
+
+/// What the Python sources use.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::drawing_result::{NativeDrawing, draw};
+    #[pymodule_export]
+    use super::explanation::explain;
+    #[pymodule_export]
+    use super::loading::{compose, load_model, load_scene};
+    #[pymodule_export]
+    use super::mesh_arrays::build_model;
+    #[pymodule_export]
+    use super::native_camera::{NativeCamera, make_camera};
+    #[pymodule_export]
+    use super::rendering::{encode_png, over_white, render, render_many};
+    #[pymodule_export]
+    use super::run_program;
+    #[pymodule_export]
+    use super::subject::Subject;
+}

@@ -1,0 +1,199 @@
+//! Loading: models and scenes from files and from memory, and subjects put together.
+
+use crate::arrays;
+use crate::detached::run_detached;
+use crate::failure::{Failure, Fallible};
+use crate::keywords::Keywords;
+use crate::subject::Subject;
+use glam::DMat4;
+use homog::Affine;
+use model::import::{ImportOptions, Limits, NameOrIndex, load, load_bytes};
+use model::{Model, ModelInstance};
+use pipeline::Origin;
+use pipeline::scene::file::Choice;
+use pipeline::scene::{ResolveOptions, select_animation};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What is loaded: a file, or the content of one.
+#[derive(FromPyObject)]
+enum Source {
+    #[pyo3(transparent)]
+    Bytes(Vec<u8>),
+    #[pyo3(transparent)]
+    Path(PathBuf),
+}
+
+/// How a model is loaded and posed.
+struct LoadRequest {
+    import: ImportOptions,
+    animation: Option<Choice>,
+    time: Option<f64>,
+}
+
+/// Loads a model from a file, or from the bytes of one, whose name is `name`.
+#[pyfunction]
+pub(crate) fn load_model(
+    py: Python<'_>,
+    source: &Bound<'_, PyAny>,
+    name: &str,
+    options: &Bound<'_, PyDict>,
+) -> PyResult<Subject> {
+    let source: Source = source.extract()?;
+    let request = load_request(&Keywords(options))?;
+    run_detached(py, |_| -> Fallible<Subject> {
+        let (loaded, (origin, file)) = match &source {
+            Source::Bytes(bytes) => {
+                let (origin, file) = Origin::from_model_bytes(name, Vec::new());
+                (load_bytes(name, bytes, &request.import), (origin, file))
+            }
+            Source::Path(path) => (load(path, &request.import), Origin::from_model_path(path)),
+        };
+        let mut model = loaded?;
+        if request.animation.is_some() || request.time.is_some() {
+            pose_model(&mut model, &request)?;
+        }
+        Ok(Subject::new(origin, file, vec![place_model(model)]))
+    })
+}
+
+/// Loads a scene from its file, or from a text whose paths begin at `folder`.
+#[pyfunction]
+pub(crate) fn load_scene(
+    py: Python<'_>,
+    path: PathBuf,
+    text: Option<String>,
+    options: &Bound<'_, PyDict>,
+) -> PyResult<Subject> {
+    let import = load_request(&Keywords(options))?.import;
+    run_detached(py, move |_| -> Fallible<Subject> {
+        let allowed = &import.allow_outside;
+        let (origin, file) = match text {
+            None => Origin::read_scene_allowing(&path, allowed)?,
+            Some(text) => Origin::from_text("scene", text, path).parse_with_includes(allowed)?,
+        };
+        Subject::from_scene(origin, file, ResolveOptions { import })
+    })
+}
+
+/// Several subjects as one, each with a pose: a 4 × 4 matrix from its world to the common one.
+#[pyfunction]
+pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyResult<Subject> {
+    let mut models = Vec::new();
+    for (index, (part, pose)) in parts.iter().enumerate() {
+        let name = format!("poses[{index}]");
+        let pose = affine_map(&name, pose)?;
+        models.extend(part.get().models.iter().map(|placed| ModelInstance {
+            model: Arc::clone(&placed.model),
+            model_to_world: placed.model_to_world.then(pose),
+        }));
+    }
+    let (origin, file) = Origin::from_model_bytes("scene", Vec::new());
+    Ok(Subject::new(origin, file, models))
+}
+
+/// A matrix whose last row is 0, 0, 0, 1, and which can be inverted.
+///
+/// # Errors
+/// If it is another.
+pub(crate) fn affine_map<A: homog::Space, B: homog::Space>(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+) -> PyResult<Affine<A, B>> {
+    let rows = arrays::matrix::<4, 4>(name, value)?;
+    if rows[3] != [0.0, 0.0, 0.0, 1.0] {
+        let message = format!("its last row is {:?}, expected [0, 0, 0, 1]", rows[3]);
+        return Err(Failure::argument(name, message).into());
+    }
+    let raw = DMat4::from_cols_array_2d(&rows).transpose();
+    let map = Affine::from_raw(raw).filter(|map| map.inverse().is_some());
+    map.ok_or_else(|| Failure::argument(name, "it has no inverse: it flattens space").into())
+}
+
+/// A model at the origin of the world.
+pub(crate) fn place_model(model: Model) -> ModelInstance {
+    let model_to_world = Affine::scale(1.0, 1.0, 1.0);
+    ModelInstance { model: Arc::new(model), model_to_world }
+}
+
+/// Poses a model by an animation.
+fn pose_model(model: &mut Model, request: &LoadRequest) -> Fallible<()> {
+    let chosen = select_animation(model, request.animation.as_ref());
+    let animation = chosen
+        .map_err(|(message, help)| Failure { help, ..Failure::argument("animation", message) })?;
+    model.apply_animation(animation, request.time.unwrap_or(0.0));
+    Ok(())
+}
+
+/// The options of loading.
+fn load_request(options: &Keywords<'_, '_>) -> PyResult<LoadRequest> {
+    let name_or_index = |name: &str| -> PyResult<Option<NameOrIndex>> {
+        Ok(choice(options, name)?.map(NameOrIndex::from))
+    };
+    let crease_angle = options.number("crease")?;
+    if let Some(angle) = crease_angle.filter(|angle| !(0.0..=180.0).contains(angle)) {
+        let message = format!("is {angle}, expected an angle from 0 to 180 degrees");
+        return Err(Failure::argument("crease", message).into());
+    }
+    let import = ImportOptions {
+        limits: limits(options)?,
+        lenient: options.flag("lenient")?,
+        up: options.named("up")?,
+        length_unit: options.named("unit")?,
+        crease_angle,
+        scene: name_or_index("scene")?,
+        variant: name_or_index("variant")?,
+        ..ImportOptions::default()
+    };
+    Ok(LoadRequest {
+        import,
+        animation: choice(options, "animation")?,
+        time: options.number("time")?,
+    })
+}
+
+/// A part of a file, by its name or index.
+fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
+    let Some(value) = options.value(name)? else { return Ok(None) };
+    if let Ok(index) = value.extract::<usize>() {
+        return Ok(Some(Choice::Index(index)));
+    }
+    match value.extract::<String>() {
+        Ok(text) => Ok(Some(Choice::Name(text))),
+        Err(_) => Err(crate::keywords::not_a(name, &value, "a name or an index").into()),
+    }
+}
+
+/// The limits of the importer: the defaults, and those that `limits` has.
+pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
+    let mut limits = Limits::default();
+    let Some(value) = options.value("limits")? else { return Ok(limits) };
+    let Ok(given) = value.cast::<PyDict>() else {
+        return Err(crate::keywords::not_a("limits", &value, "a dictionary").into());
+    };
+    for (key, value) in given {
+        let name: String = key.extract()?;
+        let argument = format!("limits[{name:?}]");
+        let Ok(number) = value.extract::<u64>() else {
+            return Err(crate::keywords::not_a(&argument, &value, "a whole number from 0").into());
+        };
+        let size = usize::try_from(number).unwrap_or(usize::MAX);
+        match name.as_str() {
+            "file_bytes" => limits.file_bytes = number,
+            "total_bytes" => limits.total_bytes = number,
+            "json_depth" => limits.json_depth = size.min(127),
+            "json_values" => limits.json_values = size,
+            "array_bytes" => limits.array_bytes = number,
+            "array_growth" => limits.array_growth = number,
+            "image_side" => limits.image_side = u32::try_from(number).unwrap_or(u32::MAX),
+            "image_texels" => limits.image_texels = number,
+            "nodes" => limits.nodes = size,
+            "node_depth" => limits.node_depth = size,
+            "scene_items" => limits.scene_items = number,
+            _ => return Err(Failure::argument(argument, "there is no such limit").into()),
+        }
+    }
+    Ok(limits)
+}

@@ -1,0 +1,329 @@
+//! Rendering: pictures and passes as arrays, one or many, with renderers that are reused.
+//!
+//! ```text
+//!  options ─► SceneFile ─► Scene ─► Renderer ─► Picture, PassBuffers ─► arrays
+//! ```
+
+use crate::arrays::new_array;
+use crate::detached::run_detached;
+use crate::failure::{Failure, Fallible};
+use crate::keywords::{Keywords, plain_name};
+use crate::native_camera::NativeCamera;
+use crate::scene_options::apply_options;
+use crate::subject::Subject;
+use homog::PixelRect;
+use pipeline::render::passes::{Pass, PassBuffer, PassValues};
+use pipeline::{CancelToken, Picture, RenderContext, Renderer, Scene, SceneFile};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+/// The most pixels of a picture in memory: with four samples and all passes some four gigabytes.
+const MAX_PIXELS: u64 = 1 << 26;
+/// The most renderers that wait for their next picture.
+const MAX_IDLE_RENDERERS: usize = 8;
+
+/// Renderers between two pictures: the next one takes their memory.
+static IDLE_RENDERERS: Mutex<Vec<Renderer>> = Mutex::new(Vec::new());
+
+/// What is rendered, and how.
+pub(crate) struct RenderJob<'a> {
+    subject: &'a Subject,
+    /// The description of the scene, with the options of the call.
+    file: SceneFile,
+    /// Whether the colors are wanted.
+    has_color: bool,
+    passes: Vec<Pass>,
+    threads: usize,
+}
+
+/// What a job makes.
+struct RenderedJob {
+    picture: Option<Picture>,
+    passes: Vec<PassBuffer>,
+    camera: NativeCamera,
+    warnings: Vec<String>,
+}
+
+/// The arrays by the names of their passes, the camera, and the warnings.
+type FrameParts<'py> = (Bound<'py, PyDict>, NativeCamera, Vec<String>);
+
+/// Renders a picture and passes of a subject.
+#[pyfunction]
+pub(crate) fn render<'py>(
+    py: Python<'py>,
+    subject: &Bound<'py, Subject>,
+    options: &Bound<'py, PyDict>,
+) -> PyResult<FrameParts<'py>> {
+    let job = RenderJob::new(subject.get(), &Keywords(options))?;
+    run_detached(py, |cancel| job.render(cancel))?.into_parts(py)
+}
+
+/// Renders many pictures, each in one thread, in the order of the jobs.
+///
+/// The first job that fails stops the others.
+#[pyfunction]
+pub(crate) fn render_many<'py>(
+    py: Python<'py>,
+    jobs: Vec<(Bound<'py, Subject>, Bound<'py, PyDict>)>,
+    threads: Option<usize>,
+) -> PyResult<Vec<FrameParts<'py>>> {
+    let mut read = Vec::with_capacity(jobs.len());
+    for (subject, options) in &jobs {
+        let job = RenderJob::new(subject.get(), &Keywords(options))?;
+        read.push(RenderJob { threads: 1, ..job });
+    }
+    let workers = thread_count(threads).min(read.len());
+    let rendered = run_detached(py, |cancel| render_jobs(&read, workers, cancel))?;
+    rendered.into_iter().map(|job| job.into_parts(py)).collect()
+}
+
+/// Colors over white without their alpha: (…, 4) becomes (…, 3).
+#[pyfunction]
+pub(crate) fn over_white<'py>(
+    py: Python<'py>,
+    rgba: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let picture = read_picture(rgba)?;
+    let over = |channel: u8, alpha: u8| {
+        let sum = u32::from(channel) * u32::from(alpha) + 255 * u32::from(255 - alpha);
+        ((sum + 127) / 255) as u8
+    };
+    let mut colors = Vec::with_capacity(3 * picture.pixels.len());
+    for [r, g, b, alpha] in &picture.pixels {
+        colors.extend([over(*r, *alpha), over(*g, *alpha), over(*b, *alpha)]);
+    }
+    new_array(py, colors, &[picture.height as usize, picture.width as usize, 3])
+}
+
+/// Colors (height, width, 4) as the bytes of a PNG file.
+#[pyfunction]
+pub(crate) fn encode_png<'py>(
+    py: Python<'py>,
+    rgba: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, pyo3::types::PyBytes>> {
+    let picture = read_picture(rgba)?;
+    let bytes = py.detach(|| picture.to_png());
+    Ok(pyo3::types::PyBytes::new(py, &bytes))
+}
+
+/// A picture of colors with alpha.
+fn read_picture(rgba: &Bound<'_, PyAny>) -> PyResult<Picture> {
+    use numpy::{PyArray3, PyArrayMethods as _, PyUntypedArrayMethods as _};
+    let wrong = |_| PyErr::from(Failure::argument("rgba", "expected uint8 (height, width, 4)"));
+    let array = rgba.cast::<PyArray3<u8>>().map_err(wrong)?;
+    let [height, width, 4] = *array.shape() else { return Err(wrong_picture()) };
+    let (Ok(width), Ok(height)) = (u32::try_from(width), u32::try_from(height)) else {
+        return Err(wrong_picture());
+    };
+    let values = array.to_vec()?;
+    let mut picture = Picture::default();
+    picture.resize(width, height);
+    picture.pixels.copy_from_slice(values.as_chunks::<4>().0);
+    Ok(picture)
+}
+
+/// The error of an array that is no picture.
+fn wrong_picture() -> PyErr {
+    Failure::argument("rgba", "expected uint8 (height, width, 4)").into()
+}
+
+/// The number of threads: as many as there are processors, unless it is given.
+pub(crate) fn thread_count(given: Option<usize>) -> usize {
+    let processors = || thread::available_parallelism().map_or(1, usize::from);
+    given.unwrap_or_else(processors).clamp(1, 1024)
+}
+
+/// Reads the passes that are wanted: their names, and whether colors are among them.
+fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
+    let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
+    let names = value.extract::<String>().map(|name| vec![name]);
+    let Ok(names) = names.or_else(|_| value.extract::<Vec<String>>()) else {
+        return Err(crate::keywords::not_a("passes", &value, "names of passes").into());
+    };
+    let (mut has_color, mut passes) = (false, Vec::new());
+    for name in names {
+        let wanted = plain_name(&name);
+        let wanted = wanted.strip_suffix("ids").map_or(wanted.clone(), |part| match part {
+            "" => "id".to_owned(),
+            part => part.to_owned(),
+        });
+        if wanted == "rgb" || wanted == "rgba" {
+            has_color = true;
+            continue;
+        }
+        let known = Pass::ALL.into_iter().find(|pass| plain_name(pass.name()) == wanted);
+        let Some(pass) = known else {
+            let names = Pass::ALL.map(Pass::name).join(", ");
+            let message = format!("has {name:?}, expected rgb, rgba, {names}");
+            return Err(Failure::argument("passes", message).into());
+        };
+        if !passes.contains(&pass) {
+            passes.push(pass);
+        }
+    }
+    Ok((has_color, passes))
+}
+
+impl<'a> RenderJob<'a> {
+    /// Reads the options of a call.
+    fn new(subject: &'a Subject, options: &Keywords<'_, '_>) -> PyResult<Self> {
+        let file = apply_options(subject, options)?;
+        let (width, height) = file.image.size;
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels > MAX_PIXELS {
+            let message =
+                format!("{width} x {height} pixels are more than the limit of {MAX_PIXELS}");
+            let help = "render parts of it, or use the command `alberti render`, which writes pictures of any size";
+            return Err(Failure::limit("size", message, help).into());
+        }
+        let (has_color, passes) = read_passes(options)?;
+        let threads = thread_count(options.count("threads")?);
+        Ok(Self { subject, file, has_color, passes, threads })
+    }
+
+    /// Renders the picture and the passes.
+    fn render(&self, cancel: &CancelToken) -> Fallible<RenderedJob> {
+        let scene = self.subject.resolve(&self.file)?;
+        let mut renderer = IdleRenderer::take();
+        let (picture, passes, warnings) = self.render_scene(&scene, &mut renderer.0, cancel)?;
+        let camera = NativeCamera::of_scene(&self.file.camera, &scene);
+        Ok(RenderedJob { picture, passes, camera, warnings })
+    }
+
+    /// Renders with a renderer.
+    fn render_scene(
+        &self,
+        scene: &Scene,
+        renderer: &mut Renderer,
+        cancel: &CancelToken,
+    ) -> Fallible<(Option<Picture>, Vec<PassBuffer>, Vec<String>)> {
+        let textures = self.subject.textures();
+        let context = RenderContext::new(scene, textures, self.threads).with_cancel(cancel);
+        let (mut picture, mut warnings) = (None, Vec::new());
+        if self.has_color {
+            let mut colors = Picture::default();
+            let found = renderer.render(&context, &mut colors)?;
+            warnings = found.iter().map(ToString::to_string).collect();
+            picture = Some(colors);
+        }
+        let passes = if self.passes.is_empty() {
+            Vec::new()
+        } else {
+            let all = PixelRect::from_size(scene.image.width, scene.image.height);
+            renderer.render_passes(&context, all, &self.passes)?
+        };
+        Ok((picture, passes, warnings))
+    }
+}
+
+impl RenderedJob {
+    /// The arrays of the job.
+    fn into_parts(self, py: Python<'_>) -> PyResult<FrameParts<'_>> {
+        let arrays = PyDict::new(py);
+        if let Some(picture) = self.picture {
+            let shape = [picture.height as usize, picture.width as usize, 4];
+            arrays.set_item("rgba", new_array(py, picture.pixels.into_flattened(), &shape)?)?;
+        }
+        for PassBuffer { pass, width, height, values } in self.passes {
+            let (height, width) = (height as usize, width as usize);
+            let shape = [height, width, pass.channels()];
+            let shape = if pass.channels() == 1 { &shape[..2] } else { &shape[..] };
+            let array = match values {
+                PassValues::Floats(values) => new_array(py, values, shape)?,
+                PassValues::Integers(values) => new_array(py, values, shape)?,
+            };
+            arrays.set_item(pass.name(), array)?;
+        }
+        Ok((arrays, self.camera, self.warnings))
+    }
+}
+
+/// A renderer that goes back to the others when it is dropped, unless a panic drops it.
+struct IdleRenderer(Renderer);
+
+impl IdleRenderer {
+    /// One that has memory, or a new one.
+    fn take() -> Self {
+        let mut idle = IDLE_RENDERERS.lock().unwrap_or_else(PoisonError::into_inner);
+        Self(idle.pop().unwrap_or_default())
+    }
+}
+
+impl Drop for IdleRenderer {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            return;
+        }
+        let mut idle = IDLE_RENDERERS.lock().unwrap_or_else(PoisonError::into_inner);
+        if idle.len() < MAX_IDLE_RENDERERS {
+            idle.push(std::mem::take(&mut self.0));
+        }
+    }
+}
+
+/// Renders jobs with as many workers; they take the next job by turns.
+fn render_jobs(
+    jobs: &[RenderJob<'_>],
+    workers: usize,
+    cancel: &CancelToken,
+) -> Fallible<Vec<RenderedJob>> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = jobs.get(number).filter(|_| !cancel.is_cancelled()) else {
+                return Ok(done);
+            };
+            match job.render(cancel) {
+                Ok(rendered) => done.push((number, rendered)),
+                Err(failure) => {
+                    cancel.cancel();
+                    return Err((number, failure.at(&format!("jobs[{number}]"))));
+                }
+            }
+        }
+    };
+    let results: Vec<Result<Vec<_>, (usize, Failure)>> = thread::scope(|scope| {
+        let spawn = |_| {
+            let builder = thread::Builder::new().stack_size(8 << 20);
+            builder.spawn_scoped(scope, work)
+        };
+        let threads: Vec<_> = (0..workers).filter_map(|number| spawn(number).ok()).collect();
+        if threads.is_empty() {
+            return vec![work()];
+        }
+        let join = |thread: thread::ScopedJoinHandle<'_, _>| {
+            thread.join().unwrap_or_else(|panic| Err((usize::MAX, Failure::internal(&*panic))))
+        };
+        threads.into_iter().map(join).collect()
+    });
+    let mut rendered = Vec::with_capacity(jobs.len());
+    let mut first_failure: Option<(usize, Failure)> = None;
+    for result in results {
+        match result {
+            Ok(done) => rendered.extend(done),
+            // Those that were cancelled because of another come after it.
+            Err(failure)
+                if first_failure.as_ref().is_none_or(|first| is_cause(&failure, first)) =>
+            {
+                first_failure = Some(failure);
+            }
+            Err(_) => {}
+        }
+    }
+    if let Some((_, failure)) = first_failure {
+        return Err(failure);
+    }
+    rendered.sort_by_key(|(number, _)| *number);
+    Ok(rendered.into_iter().map(|(_, job)| job).collect())
+}
+
+/// Whether a failure says more than another: it is not that of a job that was stopped.
+fn is_cause(one: &(usize, Failure), other: &(usize, Failure)) -> bool {
+    let is_stopped = |failure: &Failure| failure.message.contains("cancelled");
+    (is_stopped(&one.1), one.0) < (is_stopped(&other.1), other.0)
+}

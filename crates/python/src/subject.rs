@@ -1,0 +1,136 @@
+//! Subjects: what is rendered. Models in their places with a scene description, and the mip chains
+//! of their textures, which are made once and kept.
+
+use crate::arrays;
+use crate::failure::{Failure, Fallible};
+use homog::Bounds;
+use model::{ModelInstance, Severity, world_points};
+use pipeline::scene::ResolveOptions;
+use pipeline::{Origin, Scene, SceneFile, Textures};
+use pyo3::prelude::*;
+use self_cell::self_cell;
+use std::sync::{Arc, OnceLock};
+
+self_cell! {
+    /// Models and the mip chains of their textures, which borrow them.
+    struct TexturedModels {
+        owner: Vec<ModelInstance>,
+        #[covariant]
+        dependent: Textures,
+    }
+}
+
+/// Models in their places, and how they are shown where a call leaves it open.
+#[pyclass(frozen, module = "alberti._native")]
+pub(crate) struct Subject {
+    /// Where the scene comes from.
+    pub(crate) origin: Origin,
+    /// The description of the scene.
+    pub(crate) file: SceneFile,
+    /// The models, loaded and placed.
+    pub(crate) models: Vec<ModelInstance>,
+    /// Folders that files of the scene may lie in, and how models are loaded.
+    options: ResolveOptions,
+    /// The models with their textures; empty before the first picture.
+    textured: OnceLock<TexturedModels>,
+}
+
+impl Subject {
+    /// A subject of models that are loaded.
+    pub(crate) fn new(origin: Origin, file: SceneFile, models: Vec<ModelInstance>) -> Self {
+        let options = ResolveOptions::default();
+        Self { origin, file, models, options, textured: OnceLock::new() }
+    }
+
+    /// A scene, whose models are loaded.
+    ///
+    /// # Errors
+    /// Every mistake of the scene; a model that cannot be loaded.
+    pub(crate) fn from_scene(
+        origin: Origin,
+        file: SceneFile,
+        options: ResolveOptions,
+    ) -> Fallible<Self> {
+        let models = Scene::resolve(&origin, &file, &options)?.models;
+        Ok(Self { options, ..Self::new(origin, file, models) })
+    }
+
+    /// The scene that a description makes of the models.
+    ///
+    /// # Errors
+    /// If something in it makes no sense.
+    pub(crate) fn resolve(&self, file: &SceneFile) -> Fallible<Scene> {
+        let allowed = &self.options.import.allow_outside;
+        let models = self.models.clone();
+        Ok(Scene::from_models_allowing(&self.origin, file, models, allowed)?)
+    }
+
+    /// The mip chains of the models' textures.
+    pub(crate) fn textures(&self) -> &Textures<'_> {
+        let make =
+            || TexturedModels::new(self.models.clone(), |models| Textures::for_models(models));
+        self.textured.get_or_init(make).borrow_dependent()
+    }
+
+    /// The models without repetition, in the order of the scene.
+    fn distinct_models(&self) -> Vec<&Arc<model::Model>> {
+        let mut distinct: Vec<&Arc<model::Model>> = Vec::new();
+        for placed in &self.models {
+            if !distinct.iter().any(|known| Arc::ptr_eq(known, &placed.model)) {
+                distinct.push(&placed.model);
+            }
+        }
+        distinct
+    }
+}
+
+#[pymethods]
+impl Subject {
+    /// The names of the models.
+    #[getter]
+    fn name(&self) -> String {
+        model::model_names(&self.models)
+    }
+
+    /// The corners of the box around all vertices in the world, or None if there are none.
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let Some(bounds) = Bounds::from_points(world_points(&self.models)) else {
+            return Ok(None);
+        };
+        let corners = [bounds.min(), bounds.max()].map(|corner| corner.raw().to_array());
+        arrays::new_array(py, corners.as_flattened().to_vec(), &[2, 3]).map(Some)
+    }
+
+    /// The numbers of points, lines and triangles.
+    fn item_counts(&self) -> [usize; 3] {
+        let mut counts = [0; 3];
+        for placed in &self.models {
+            for (_, primitive) in placed.model.scene_primitives() {
+                counts[primitive.topology.vertices_per_item() - 1] += primitive.item_count();
+            }
+        }
+        counts
+    }
+
+    /// The warnings of the importer, without notes and hints.
+    fn warnings(&self) -> Vec<String> {
+        let models = self.distinct_models().into_iter();
+        let warnings = models.flat_map(|model| {
+            let own = model.warnings.iter();
+            let shown = own.filter(|warning| warning.severity <= Severity::Warning);
+            shown.map(|warning| format!("{}: {}", model.name, warning.sentence()))
+        });
+        warnings.collect()
+    }
+
+    /// The names of nodes, meshes or materials of each distinct model; None where there is no name.
+    fn part_names(&self, what: &str) -> PyResult<Vec<Vec<Option<String>>>> {
+        let names = |model: &Arc<model::Model>| match what {
+            "nodes" => Ok(model.nodes.iter().map(|part| part.name.clone()).collect()),
+            "meshes" => Ok(model.meshes.iter().map(|part| part.name.clone()).collect()),
+            "materials" => Ok(model.materials.iter().map(|part| part.name.clone()).collect()),
+            _ => Err(PyErr::from(Failure::argument("what", "nodes, meshes or materials"))),
+        };
+        self.distinct_models().into_iter().map(names).collect()
+    }
+}

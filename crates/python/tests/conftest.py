@@ -1,0 +1,66 @@
+"""Folders and models that the tests share."""
+
+import os
+import shutil
+from pathlib import Path
+
+import alberti
+import numpy as np
+import pytest
+
+PROJECT = Path(__file__).resolve().parents[3]
+
+
+def assets_folder():
+    """The folder of test models that is not part of the repository: `ASSETS`, or beside it."""
+    given = os.environ.get("ASSETS")
+    folder = Path(given) if given else PROJECT.parent / "shared" / "assets"
+    return folder if folder.is_dir() else None
+
+
+@pytest.fixture(scope="session")
+def models():
+    """The models of the scenes."""
+    return PROJECT / "scenes" / "models"
+
+
+@pytest.fixture(scope="session")
+def assets():
+    """Test models from elsewhere."""
+    folder = assets_folder()
+    if folder is None:
+        pytest.skip("SKIPPED: no folder of test models; set ASSETS")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def program():
+    """The program `alberti`: `ALBERTI`, or the command that the wheel installs."""
+    command = os.environ.get("ALBERTI") or shutil.which("alberti")
+    if command is None:
+        pytest.skip("SKIPPED: the program alberti is not installed; set ALBERTI")
+    return command
+
+
+@pytest.fixture(scope="session")
+def teapot(models):
+    return alberti.load(models / "teapot.glb")
+
+
+@pytest.fixture
+def plane():
+    """A square of side 20 in the plane z = 0."""
+    corners = np.array([[-10, -10, 0], [10, -10, 0], [10, 10, 0], [-10, 10, 0]], float)
+    return alberti.Model.from_arrays(corners, [[0, 1, 2, 3]])
+
+
+def random_rotation(rng):
+    """A uniformly distributed rotation matrix: a normalized quaternion of four normals."""
+    w, x, y, z = (q := rng.normal(size=4)) / np.linalg.norm(q)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )

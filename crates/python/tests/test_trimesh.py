@@ -1,0 +1,123 @@
+"""Objects of trimesh: the picture of a file is that which our own reader gives."""
+
+import alberti
+import numpy as np
+import pytest
+
+trimesh = pytest.importorskip("trimesh", reason="SKIPPED: trimesh is not installed")
+
+SIZE = (160, 120)
+PASSES = ("rgb", "depth", "normal", "mesh_ids")
+
+
+def test_boxes_of_a_scene_keep_their_places():
+    scene = trimesh.Scene()
+    box = trimesh.creation.box((1, 2, 3))
+    pose = trimesh.transformations.rotation_matrix(0.5, (1, 2, 3))
+    pose[:3, 3] = (3, 2, 1)
+    scene.add_geometry(box, node_name="first")
+    scene.add_geometry(box, node_name="second", transform=pose)
+    model = alberti.Model.from_trimesh(scene)
+    assert np.abs(model.bounds - scene.bounds).max() < 1e-6
+    assert model.triangle_count == 24
+    assert {"first", "second"} <= set(model.nodes)
+
+
+def test_colors_and_textures():
+    rng = np.random.default_rng(1)
+    square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    uv = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    by_vertex = rng.integers(0, 256, (4, 4), np.uint8)
+    by_face = rng.integers(0, 256, (2, 4), np.uint8)
+    by_vertex[:, 3] = by_face[:, 3] = 255
+    image = rng.integers(0, 256, (8, 8, 3), np.uint8)
+    from PIL import Image
+
+    material = trimesh.visual.material.PBRMaterial(
+        baseColorTexture=Image.fromarray(image), metallicFactor=0, roughnessFactor=0.5
+    )
+    cases = (
+        ({"vertex_colors": by_vertex}, {"colors": by_vertex}),
+        ({"face_colors": by_face}, {"colors": by_face}),
+        (
+            {"visual": trimesh.visual.TextureVisuals(uv=uv, material=material)},
+            {
+                "uv": uv,
+                "texture": image,
+                "metallic": 0,
+                "roughness": 0.5,
+                "color": (255, 255, 255),
+                "double_sided": False,
+            },
+        ),
+    )
+    for theirs, ours in cases:
+        mesh = trimesh.Trimesh(*square, process=False, **theirs)
+        first = alberti.render(mesh, camera="front", size=SIZE)
+        second = alberti.render(
+            alberti.Model.from_arrays(*square, **ours), camera="front", size=SIZE
+        )
+        assert first.rgba.tobytes() == second.rgba.tobytes(), list(theirs)
+
+
+def test_clouds_and_paths():
+    points = np.random.default_rng(2).normal(size=(100, 3))
+    cloud = alberti.Model.from_trimesh(trimesh.PointCloud(points))
+    assert alberti.render(cloud, size=SIZE, passes="ids").ids.max() > 50
+    path = trimesh.load_path(np.array([[[0, 0, 0], [1, 0, 0]], [[1, 0, 0], [1, 1, 1]]]))
+    assert alberti.render(path, size=SIZE, passes="ids").ids.max() == 2
+
+
+def files():
+    from conftest import assets_folder
+
+    folder = assets_folder()
+    found = sorted((folder / "meshes").rglob("*.*")) if folder else []
+    kinds = {".obj", ".ply", ".stl", ".3mf"}
+    return [path for path in found if path.suffix.lower() in kinds]
+
+
+@pytest.mark.parametrize("path", files(), ids=lambda path: path.name)
+@pytest.mark.filterwarnings("ignore")
+def test_a_file_has_one_picture(path):
+    """Depths agree on all files; where trimesh changes what the file says, colors may not."""
+    try:
+        ours = alberti.load(path, lenient=True)
+    except alberti.AlbertiError as error:
+        pytest.skip(f"our reader refuses it: {error}")
+    try:
+        scene = trimesh.load_scene(path, process=False)
+    except BaseException as error:
+        pytest.skip(f"trimesh refuses it: {error}")
+    up = "z" if path.suffix.lower() in (".stl", ".3mf") else "y"
+    theirs = alberti.Model.from_trimesh(scene, up=up)
+    if ours.bounds is None or theirs.bounds is None:
+        assert ours.bounds is None or not len(scene.geometry)
+        return
+    framed = alberti.render(ours, size=SIZE, passes=PASSES)
+    same = alberti.render(theirs, camera=framed.camera, passes=PASSES)
+    compare_pictures(path.name, framed, same)
+
+
+def compare_pictures(name, first, second):
+    """The geometry is equal, but for what the table names; so are colors."""
+    inside = first.mask & second.mask
+    assert (first.mask != second.mask).mean() < DIFFERENT_SHAPES.get(name, 1e-4), "mask"
+    if not inside.any():
+        return
+    depth = np.abs(first.depth[inside] / second.depth[inside] - 1)
+    assert (depth > 1e-5).mean() <= DIFFERENT_SHAPES.get(name, 0), "depth"
+    if name in DIFFERENT_SHAPES:
+        return
+    normal = np.abs(first.normal - second.normal)[inside].max(axis=1)
+    assert (normal > 1e-3).mean() <= DIFFERENT_NORMALS.get(name, 0.001), "normal"
+    color = np.abs(first.rgb.astype(int) - second.rgb)[inside].max(axis=1)
+    assert (color > 2).mean() <= DIFFERENT_COLORS.get(name, 0.005), "color"
+
+
+# Where trimesh reads another shape than the file has: the part of the pixels that differ, and why.
+DIFFERENT_SHAPES: dict = {}
+# Where trimesh drops or computes normals.
+DIFFERENT_NORMALS: dict = {}
+# Where trimesh drops colors or materials.
+DIFFERENT_COLORS: dict = {}

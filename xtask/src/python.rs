@@ -1,0 +1,136 @@
+//! `cargo xtask python`: the wheel of the package for Python, and its tests.
+//!
+//! ```text
+//!  maturin ─► wheel ─► new virtual environment: NumPy alone ─► a picture
+//!                      and then pytest, mypy, trimesh, OpenCV … ─► the tests
+//! ```
+//! Without Python, its module `venv` or a registry of packages, the step is skipped with a line that
+//! says so; tests whose packages cannot be had are skipped by name.
+
+use crate::Outcome;
+use crate::program::{Build, Program, command_line, run_command, run_visibly};
+use crate::workspace::{create_folder, list_files, project_root, target_folder};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The package for Python.
+const PACKAGE: &str = "crates/python";
+/// What builds wheels.
+const BUILDER: &[&str] = &["maturin>=1.9,<2"];
+/// What most tests need.
+const TEST_PACKAGES: &[&str] = &["pytest", "mypy"];
+/// What single tests need; without one of them those are skipped.
+const PEERS: &[&str] = &["trimesh", "pillow", "opencv-python-headless", "nbclient", "ipykernel"];
+/// The most bytes of a released wheel.
+const MAX_WHEEL_BYTES: u64 = 8_000_000;
+
+/// A picture with nothing installed but NumPy.
+const FIRST_PICTURE: &str = "
+import sys, alberti
+frame = alberti.render(alberti.load(sys.argv[1]), size=(320, 240), passes=('rgb', 'depth', 'ids'))
+assert frame.rgb.shape == (240, 320, 3) and frame.ids.any() and frame.depth.min() > 0
+print('a picture, its depth and its ids:', frame)
+";
+
+/// Builds the wheel, with `--release` as it is published, and tests it.
+pub fn run_python(arguments: &[String]) -> Outcome {
+    let is_release = match arguments {
+        [] => false,
+        [flag] if flag == "--release" => true,
+        _ => return Err("the only argument is `--release`".to_owned()),
+    };
+    let Some(environment) = VirtualEnvironment::create(&target_folder().join("python/build"))
+        .filter(|environment| environment.install(BUILDER).is_ok())
+    else {
+        println!("SKIPPED python: there is no python3 with venv, or no registry of packages");
+        return Ok(());
+    };
+    let wheel = build_wheel(&environment, is_release)?;
+    let bytes = std::fs::metadata(&wheel).map_err(|error| error.to_string())?.len();
+    println!("{} has {bytes} bytes", wheel.display());
+    if is_release && bytes > MAX_WHEEL_BYTES {
+        return Err(format!("the wheel has {bytes} bytes, more than {MAX_WHEEL_BYTES}"));
+    }
+    test_wheel(&wheel)
+}
+
+/// Builds the wheel into an empty folder.
+fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<PathBuf, String> {
+    let folder = target_folder().join("python/wheels");
+    // What is left there from other versions would be taken for the new one.
+    let _ = std::fs::remove_dir_all(&folder);
+    create_folder(&folder)?;
+    let mut maturin = Command::new(environment.program("maturin"));
+    maturin.current_dir(project_root().join(PACKAGE));
+    maturin.args(["build", "--quiet", "--locked", "--out"]).arg(&folder);
+    maturin.env("CARGO_TARGET_DIR", target_folder());
+    maturin.args(["--interpreter".as_ref(), environment.program("python").as_os_str()]);
+    if is_release {
+        maturin.arg("--release");
+    }
+    run_command(&mut maturin)?;
+    list_files(&folder, "whl")?.pop().ok_or_else(|| "there is no wheel".to_owned())
+}
+
+/// Installs the wheel beside NumPy alone, then with what its tests need, and runs these.
+fn test_wheel(wheel: &Path) -> Outcome {
+    let environment = VirtualEnvironment::create(&target_folder().join("python/test"))
+        .ok_or("there is no second virtual environment")?;
+    environment.install(&[wheel.to_string_lossy().as_ref()])?;
+    let model = project_root().join("scenes/models/table.glb");
+    let python = || environment.isolated_python();
+    run_visibly(python().args(["-c", FIRST_PICTURE]).arg(model))?;
+    if environment.install(TEST_PACKAGES).is_err() {
+        println!("SKIPPED python: {} cannot be installed", TEST_PACKAGES.join(" and "));
+        return Ok(());
+    }
+    for peer in PEERS {
+        if environment.install(&[*peer]).is_err() {
+            println!("SKIPPED python: {peer} cannot be installed");
+        }
+    }
+    let program = Program::build(Build::Debug)?;
+    let package = project_root().join(PACKAGE);
+    let mut tests = python();
+    tests.args(["-m", "pytest", "-rs", "-p", "no:cacheprovider", "tests"]);
+    run_visibly(tests.env("ALBERTI", program.path()).current_dir(&package))?;
+    let mut types = python();
+    types.args(["-m", "mypy", "--strict", "--cache-dir", "/dev/null"]);
+    types.args(["--package", "alberti"]);
+    run_visibly(types.current_dir(&package))
+}
+
+/// A virtual environment of Python.
+struct VirtualEnvironment {
+    folder: PathBuf,
+}
+
+impl VirtualEnvironment {
+    /// A new one in place of an old one; `None` if Python cannot make any.
+    fn create(folder: &Path) -> Option<Self> {
+        let mut python = Command::new("python3");
+        python.args(["-m", "venv", "--clear"]).arg(folder);
+        run_command(&mut python).ok()?;
+        Some(Self { folder: folder.to_owned() })
+    }
+
+    /// One of its programs.
+    fn program(&self, name: &str) -> PathBuf {
+        self.folder.join("bin").join(name)
+    }
+
+    /// Its Python, which sees neither other packages nor the folder it runs in.
+    fn isolated_python(&self) -> Command {
+        let mut python = Command::new(self.program("python"));
+        python.arg("-I");
+        python
+    }
+
+    /// Installs packages.
+    fn install(&self, packages: &[&str]) -> Outcome {
+        let mut pip = Command::new(self.program("python"));
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(packages);
+        println!("{}", command_line(&pip));
+        run_command(&mut pip)
+    }
+}
