@@ -118,7 +118,7 @@ def test_rotation_vectors_and_quaternions():
         axis /= np.linalg.norm(axis)
         cross = np.cross(np.eye(3), axis)
         # Rodrigues' formula.
-        R = np.eye(3) - np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+        R = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
         by_vector = Camera.from_opencv(K, axis * angle, (1, 2, 3), size)
         assert np.abs(by_vector.R - R).max() < 1e-12, angle
         quaternion = np.append(np.cos(angle / 2), np.sin(angle / 2) * axis) * 7

@@ -25,7 +25,7 @@ NAN = [[0, 0, 0], [1, np.nan, 0], [1, 1, 0]]
         ("vertices", "complex", {"vertices": np.zeros((4, 3), complex)}),
         ("vertices", "expected", {"vertices": "house"}),
         ("vertices", "None", {"vertices": None}),
-        ("vertices[1, 1]", "nan", {"vertices": NAN}),
+        ("vertices[1, 1]", "NaN", {"vertices": NAN}),
         ("vertices[2, 0]", "inf", {"vertices": [[0, 0, 0], [1, 0, 0], [1e300, 1, 0]]}),
         ("faces[0, 2]", "9", {"faces": [[0, 1, 9]]}),
         ("faces[1, 0]", "-1", {"faces": np.array([[0, 1, 2], [-1, 0, 1]])}),

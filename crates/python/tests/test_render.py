@@ -123,13 +123,17 @@ def test_distance_from_depth_is_the_pass(teapot):
     both = alberti.render(teapot, size=(200, 150), passes=("depth", "distance"))
     depth = alberti.render(teapot, size=(200, 150), passes="depth")
     hit = both.mask
-    assert np.abs(depth.distance[hit] / both.distance[hit] - 1).max() < 3e-7
+    error = np.abs(depth.distance[hit] / both.distance[hit] - 1)
+    # Where snapping to 1/256 pixel puts a center outside of its triangle, the passes are of a point
+    # on its border, and not quite on the ray.
+    assert np.quantile(error, 0.99) < 3e-7 and error.max() < 1e-4
     assert np.isinf(depth.distance[~hit]).all()
 
 
 def test_points_lie_on_the_surface(teapot):
     frame = alberti.render(teapot, size=(200, 150), passes=("depth", "position"))
-    assert np.abs(frame.points() - frame.position[frame.mask]).max() < 1e-5
+    error = np.abs(frame.points() - frame.position[frame.mask]).max(axis=1)
+    assert np.quantile(error, 0.99) < 2e-6 and error.max() < 1e-3
 
 
 def test_ids_are_rows_of_faces():

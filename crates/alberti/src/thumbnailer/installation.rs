@@ -79,6 +79,11 @@ pub(super) fn install_files(prefix: Option<&Path>) -> Result<(), CliError> {
     let program = std::env::current_exe().map_err(|cause| {
         CliError::Usage(format!("the path of the program is not known: {cause}"))
     })?;
+    if program.file_stem().is_some_and(|name| name.to_string_lossy().starts_with("python")) {
+        let message = "the program runs inside of Python, which file managers cannot call\n  = help: \
+                       install it with cargo install --path crates/alberti";
+        return Err(CliError::Usage(message.to_owned()));
+    }
     let mut done = String::new();
     for (path, content) in file_paths(&folder).iter().zip([entry_of(&program)?, MIME_TYPES.into()])
     {

@@ -91,16 +91,14 @@ pub fn load_arrays(
     for (index, mut mesh) in meshes.into_iter().enumerate() {
         let location = format!("/meshes/{index}");
         mesh.check_arrays(&location)?;
-        if let Some(image) = mesh.image.take_if(|_| mesh.uvs.is_some()) {
-            images.push(Some(image));
-        }
-        let has_image = images.len() > model.textures.len();
-        let materials = vec![mesh.to_material(has_image.then_some(images.len() - 1))];
-        if has_image {
-            let image = Some(images.len() - 1);
-            model.textures.push(Texture { image, sampler: Sampler::default() });
+        let image = mesh.image.take().filter(|_| mesh.uvs.is_some());
+        let texture = image.is_some().then_some(images.len());
+        if image.is_some() {
+            images.push(image);
+            model.textures.push(Texture { image: texture, sampler: Sampler::default() });
             model.image_infos.push(ImageInfo::default());
         }
+        let materials = vec![mesh.to_material(texture)];
         let (name, contents) = mesh.into_contents();
         let bytes = ply::array_bytes(&contents);
         budget.charge_bytes(&location, bytes, bytes)?;

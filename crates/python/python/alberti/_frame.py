@@ -134,12 +134,13 @@ class Frame:
     @property
     def mask(self) -> NDArray[np.bool_]:
         """Whether there is something at the center of each pixel (height, width)."""
+        import numpy as np
+
         for name in ("depth", "distance"):
             if name in self._arrays:
-                import numpy as np
-
-                return np.isfinite(self._arrays[name])
-        return self._pass("id", "ids") > 0
+                hit: NDArray[np.bool_] = np.isfinite(self._arrays[name])
+                return hit
+        return np.greater(self.ids, 0)
 
     def points(self) -> NDArray[np.float64]:
         """Points (N, 3) in the world of all pixels with a depth, row by row: a point cloud."""

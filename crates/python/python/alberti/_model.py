@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, TypeVar, Union
 
 from . import _native
 from ._errors import AlbertiError, warn_all
@@ -294,7 +294,10 @@ def _content(source: Source) -> str | bytes:
         raise AlbertiError(message, pointer="source") from None
 
 
-def _warned(model: Any) -> Any:
+_AnyModel = TypeVar("_AnyModel", bound=Model)
+
+
+def _warned(model: _AnyModel) -> _AnyModel:
     """Warns of what the importer reports."""
     warn_all(model.warnings)
     return model

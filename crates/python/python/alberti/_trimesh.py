@@ -17,11 +17,11 @@ def collect_meshes(scene: Any) -> tuple[list[dict[str, Any]], list[tuple[str | N
         mesh = _mesh(scene, str(name))
         return [mesh], [(str(name), 0, np.eye(4))]
     indices: dict[str, int] = {}
-    meshes = []
+    meshes: list[dict[str, Any]] = []
     for name, geometry in scene.geometry.items():
         indices[name] = len(meshes)
         meshes.append(_mesh(geometry, str(name)))
-    nodes = []
+    nodes: list[tuple[str | None, int, Any]] = []
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
         nodes.append((str(node), indices[name], transform))

@@ -126,21 +126,33 @@ impl<'a> SceneGeometry<'a> {
 
     /// Writes the values of a floating-point pass for the pixel at `pixel` of the tile; leaves them
     /// as they are where nothing is visible.
-    pub(super) fn write_value(&self, pass: Pass, hit: &Hit, pixel: [u32; 2], values: &mut [f32]) {
-        let Some(draw) = self.draw_of_hit(hit) else { return };
-        let Some(point) = self.surface_point(draw, hit, pixel) else { return };
+    ///
+    /// `last` is the item of the pixel before: neighbors mostly show the same triangle.
+    pub(super) fn write_value<'s>(
+        &'s self,
+        pass: Pass,
+        hit: &Hit,
+        pixel: [u32; 2],
+        last: &mut Option<HitItem<'s, 'a>>,
+        values: &mut [f32],
+    ) {
+        if last.as_ref().is_none_or(|item| item.id != hit.id) {
+            *last = self.item_of_hit(hit);
+        }
+        let Some(item) = last else { return };
+        let point = self.surface_point(item, hit, pixel);
         let to_view = |point: Point<World>| self.world_to_view.transform_point(point);
         let measured = match pass {
             Pass::Depth => [-to_view(point.position).z(), 0.0, 0.0],
             Pass::Distance => [to_view(point.position).raw().length(), 0.0, 0.0],
             Pass::Position => point.position.into(),
-            Pass::Normal => self.visible_normal(draw, &point).to_array(),
+            Pass::Normal => self.visible_normal(item, &point).to_array(),
             Pass::ViewNormal => {
-                let normal = Normal::from_raw(self.visible_normal(draw, &point));
+                let normal = Normal::from_raw(self.visible_normal(item, &point));
                 let in_view = self.world_to_view.transform_normal(normal).raw();
                 in_view.normalize_or_zero().to_array()
             }
-            Pass::Uv => draw.uv(&point),
+            Pass::Uv => item.uv(&point),
             _ => point.weights,
         };
         for (value, measured) in values.iter_mut().zip(measured) {
@@ -148,44 +160,46 @@ impl<'a> SceneGeometry<'a> {
         }
     }
 
-    /// The surface point at a pixel's center. Points and lines keep the rasterizer's weights: their
-    /// fragments lie beside them.
-    fn surface_point(
-        &self,
-        draw: &DrawGeometry<'_>,
-        hit: &Hit,
-        [x, y]: [u32; 2],
-    ) -> Option<SurfacePoint> {
+    /// The point, line or triangle of a hit with its corners in clip space and in the world.
+    fn item_of_hit(&self, hit: &Hit) -> Option<HitItem<'_, 'a>> {
+        let draw = self.draw_of_hit(hit)?;
         let vertices = draw.vertex_indices((hit.id - draw.first_id) as usize)?;
         let model_positions = &draw.skinned.positions;
         let mut positions = [Point::<Model>::ORIGIN; 3];
         for (position, vertex) in positions.iter_mut().zip(vertices) {
             *position = model_point(*model_positions.get(vertex)?);
         }
-        let weights = if draw.primitive.topology == Topology::Triangles {
+        let in_clip_space = positions.map(|point| draw.model_to_clip.transform_point(point));
+        let corners = positions.map(|point| draw.model_to_world.transform_point(point));
+        Some(HitItem { id: hit.id, draw, vertices, in_clip_space, corners })
+    }
+
+    /// The surface point at a pixel's center. Points and lines keep the rasterizer's weights: their
+    /// fragments lie beside them.
+    fn surface_point(&self, item: &HitItem<'_, '_>, hit: &Hit, [x, y]: [u32; 2]) -> SurfacePoint {
+        let weights = if item.draw.primitive.topology == Topology::Triangles {
             let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
             let center = self.screen_to_ndc.transform_point(center).raw().with_z(1.0);
-            let to_clip = |point| draw.model_to_clip.transform_point(point);
-            perspective_weights(positions.map(to_clip), center)
+            perspective_weights(item.in_clip_space, center)
         } else {
             None
         };
         let weights = weights.unwrap_or(hit.weights.map(f64::from));
-        let corners = positions.map(|point| draw.model_to_world.transform_point(point));
-        let position = Point::from_raw(interpolate(corners.map(Point::raw), weights));
-        Some(SurfacePoint { vertices, corners, weights, position })
+        let position = Point::from_raw(interpolate(item.corners.map(Point::raw), weights));
+        SurfacePoint { weights, position }
     }
 
     /// The unit normal of the visible side: the interpolated one, or that of the triangle for flat
     /// surfaces; zero for points and lines.
-    fn visible_normal(&self, draw: &DrawGeometry<'_>, point: &SurfacePoint) -> DVec3 {
+    fn visible_normal(&self, item: &HitItem<'_, '_>, point: &SurfacePoint) -> DVec3 {
+        let draw = item.draw;
         if draw.primitive.topology != Topology::Triangles {
             return DVec3::ZERO;
         }
-        let [a, b, c] = point.corners.map(Point::raw);
+        let [a, b, c] = item.corners.map(Point::raw);
         let is_mirrored = draw.model_to_world.determinant() < 0.0;
         let face = (b - a).cross(c - a).normalize_or_zero() * if is_mirrored { -1.0 } else { 1.0 };
-        let smooth_normal = draw.smooth_normal(point).filter(|_| !self.is_flat);
+        let smooth_normal = item.smooth_normal(point).filter(|_| !self.is_flat);
         let viewer = self.viewer.raw();
         let to_viewer = viewer.truncate() - point.position.raw() * viewer.w;
         let sign = if face.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
@@ -200,13 +214,29 @@ impl DrawGeometry<'_> {
         let indices = self.primitive.indices.get(item * count..(item + 1) * count)?;
         Some([0, 1, 2].map(|k: usize| indices[k.min(count - 1)] as usize))
     }
+}
 
+/// A point, line or triangle that pixels show.
+pub(super) struct HitItem<'s, 'a> {
+    /// Its primitive id.
+    id: u32,
+    /// Its draw call.
+    draw: &'s DrawGeometry<'a>,
+    /// Vertex indices.
+    vertices: [usize; 3],
+    /// Vertex positions in the clip space of the tile.
+    in_clip_space: [HPoint<Clip>; 3],
+    /// Vertex positions in the world.
+    corners: [Point<World>; 3],
+}
+
+impl HitItem<'_, '_> {
     /// The interpolated vertex normal in the world; `None` without vertex normals.
     fn smooth_normal(&self, point: &SurfacePoint) -> Option<DVec3> {
-        let normals = self.skinned.normals.as_deref()?;
+        let normals = self.draw.skinned.normals.as_deref()?;
         let mut vertex_normals = [DVec3::ZERO; 3];
-        for (vertex_normal, vertex) in vertex_normals.iter_mut().zip(point.vertices) {
-            let normal = transform_normal(self.normal_to_world, *normals.get(vertex)?);
+        for (vertex_normal, vertex) in vertex_normals.iter_mut().zip(self.vertices) {
+            let normal = transform_normal(self.draw.normal_to_world, *normals.get(vertex)?);
             *vertex_normal = DVec3::from_array(normal.map(f64::from));
         }
         interpolate(vertex_normals, point.weights).try_normalize()
@@ -214,8 +244,8 @@ impl DrawGeometry<'_> {
 
     /// The interpolated texture coordinates, with a third 0.
     fn uv(&self, point: &SurfacePoint) -> [f64; 3] {
-        let Some(uvs) = self.uvs.as_deref() else { return [0.0; 3] };
-        let uv = point.vertices.map(|vertex| {
+        let Some(uvs) = self.draw.uvs.as_deref() else { return [0.0; 3] };
+        let uv = self.vertices.map(|vertex| {
             let [u, v] = uvs.get(vertex).copied().unwrap_or_default();
             DVec3::new(u.into(), v.into(), 0.0)
         });
@@ -225,10 +255,6 @@ impl DrawGeometry<'_> {
 
 /// A point on a primitive.
 struct SurfacePoint {
-    /// Vertex indices.
-    vertices: [usize; 3],
-    /// Vertex positions in the world.
-    corners: [Point<World>; 3],
     /// Barycentric weights.
     weights: [f64; 3],
     /// The point in the world.
