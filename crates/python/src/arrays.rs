@@ -37,6 +37,18 @@ pub(crate) fn integer_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Nu
     read_array(name, value, "iu", "int64")
 }
 
+/// Bytes of an argument of the dtype uint8.
+///
+/// # Errors
+/// If it is of another dtype.
+pub(crate) fn byte_array(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Numbers<u8>> {
+    let dtype = as_array(name, value)?.getattr("dtype")?.str()?.to_string();
+    if dtype != "uint8" {
+        return Err(Failure::argument(name, format!("dtype {dtype}, expected uint8")).into());
+    }
+    read_array(name, value, "u", "uint8")
+}
+
 /// Elements of an argument whose kind of dtype is one of `kinds`, cast to `dtype`.
 fn read_array<T: Element + Copy>(
     name: &str,

@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | models and scenes, from files and from memory | `loading.rs`, `subject.rs` |
 //! | cameras, points to pixels and back | `camera_options.rs`, `native_camera.rs`, `pixel_rays.rs` |
-//! | meshes as arrays | `mesh_arrays.rs` |
+//! | meshes as arrays | `mesh_arrays.rs`, `mesh_colors.rs`, `mesh_material.rs` |
 //! | pictures and passes | `scene_options.rs`, `rendering.rs` |
 //! | line drawings; explanations | `drawing_result.rs`; `explanation.rs` |
 //! | arguments: dictionaries, arrays | `keywords.rs`, `arrays.rs` |
@@ -22,6 +22,8 @@ mod failure;
 mod keywords;
 mod loading;
 mod mesh_arrays;
+mod mesh_colors;
+mod mesh_material;
 mod native_camera;
 mod pixel_rays;
 mod rendering;

@@ -3,16 +3,16 @@
 use crate::arrays::{self, Numbers};
 use crate::detached::run_detached;
 use crate::failure::{Failure, Fallible};
-use crate::keywords::{Keywords, not_a};
+use crate::keywords::Keywords;
 use crate::loading::{affine_map, limits, place_model};
+use crate::mesh_colors::{read_colors, read_texture};
+use crate::mesh_material::read_material;
 use crate::subject::Subject;
 use homog::Affine;
-use model::import::{ImportOptions, Limits, MeshArrays, MeshNode, decode_image, load_arrays};
-use model::{AlphaMode, Image, Material};
+use model::import::{ImportOptions, Limits, MeshArrays, MeshNode, load_arrays};
 use pipeline::Origin;
-use pipeline::scene::file::Color;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
+use pyo3::types::{PyDict, PyList, PyTuple};
 
 /// A node of Python: its name, the index of its mesh, and the matrix to the model.
 type NodeOfPython<'py> = (Option<String>, usize, Bound<'py, PyAny>);
@@ -116,8 +116,8 @@ fn read_mesh(mesh: &Keywords<'_, '_>, limits: &Limits) -> PyResult<MeshArrays> {
         return Err(Failure::argument("texture", message).into());
     }
     let [vertex_colors, face_colors] = read_colors(mesh, [positions.len(), lengths.len()])?;
-    let has_colors = image.is_some() || vertex_colors.is_some() || face_colors.is_some();
-    let material = read_material(mesh, has_colors)?;
+    let has_colors = vertex_colors.is_some() || face_colors.is_some();
+    let material = read_material(mesh, [image.is_some(), has_colors])?;
     Ok(MeshArrays {
         name: mesh.text("name")?,
         positions,
@@ -187,135 +187,4 @@ fn read_indices(name: &str, numbers: Numbers<i64>, vertices: usize) -> PyResult<
 fn no_vertex(name: &str, [row, column]: [usize; 2], vertex: i64, vertices: usize) -> Failure {
     let message = format!("is {vertex}, and there are {vertices} vertices");
     Failure::argument(format!("{name}[{row}, {column}]"), message)
-}
-
-/// Colors of the vertices and of the faces, linear; `counts` has their numbers.
-fn read_colors(
-    mesh: &Keywords<'_, '_>,
-    counts: [usize; 2],
-) -> PyResult<[Option<Vec<[f32; 4]>>; 2]> {
-    let Some(value) = mesh.value("colors")? else { return Ok([None, None]) };
-    let (shape, colors) = linear_colors("colors", &value)?;
-    let [vertices, faces] = counts;
-    match shape[..] {
-        [rows, 3 | 4] if rows == vertices => Ok([Some(colors), None]),
-        [rows, 3 | 4] if rows == faces => Ok([None, Some(colors)]),
-        _ => {
-            let wanted =
-                format!("({vertices}, 3 or 4) for vertices or ({faces}, 3 or 4) for faces");
-            Err(arrays::wrong_shape("colors", &shape, &wanted).into())
-        }
-    }
-}
-
-/// sRGB colors of bytes or of fractions, as linear ones with alpha; and the shape they had.
-fn linear_colors(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<[f32; 4]>)> {
-    let kind: String =
-        arrays::as_array(name, value)?.getattr("dtype")?.getattr("kind")?.extract()?;
-    let most = if kind == "f" { 1.0 } else { 255.0 };
-    let Numbers { shape, values } = arrays::real_array::<f64>(name, value, "float64")?;
-    if let Some(at) = values.iter().position(|channel| !(0.0..=most).contains(channel)) {
-        let element = format!("{name}.flat[{at}]");
-        let message = format!("is {}, expected a number from 0 to {most}", values[at]);
-        return Err(Failure::argument(element, message).into());
-    }
-    let channels = shape.last().copied().unwrap_or(0);
-    if !(3..=4).contains(&channels) {
-        return Err(arrays::wrong_shape(name, &shape, "(…, 3) or (…, 4)").into());
-    }
-    let to_linear = |color: &[f64]| {
-        let [r, g, b] = [0, 1, 2].map(|at: usize| linear_channel(color[at], most));
-        [r, g, b, color.get(3).map_or(1.0, |alpha| (alpha / most) as f32)]
-    };
-    Ok((shape, values.chunks_exact(channels).map(to_linear).collect()))
-}
-
-/// The linear value of an sRGB channel: of bytes by the table, of fractions by the formula.
-fn linear_channel(channel: f64, most: f64) -> f32 {
-    if most == 1.0 {
-        let decoded = if channel <= 0.04045 {
-            channel / 12.92
-        } else {
-            libm::pow((channel + 0.055) / 1.055, 2.4)
-        };
-        return decoded as f32;
-    }
-    shade::color::srgb_to_linear_table()[channel as usize]
-}
-
-/// A texture: an array of bytes, or the content of an image file.
-fn read_texture(value: &Bound<'_, PyAny>, limits: &Limits) -> PyResult<Image> {
-    if let Ok(bytes) = value.cast::<PyBytes>() {
-        let image = decode_image(bytes.as_bytes(), limits.image_texels);
-        return Ok(image.map_err(|message| Failure::argument("texture", message))?);
-    }
-    let array = arrays::as_array("texture", value)?;
-    let dtype = array.getattr("dtype")?.str()?.to_string();
-    let Numbers { shape, values } = arrays::integer_array("texture", &array)?;
-    let (height, width, channels) = match shape[..] {
-        [height, width] => (height, width, 1),
-        [height, width, channels @ (1 | 3 | 4)] => (height, width, channels),
-        _ => return Err(arrays::wrong_shape("texture", &shape, "(height, width, 3 or 4)").into()),
-    };
-    if dtype != "uint8" {
-        return Err(Failure::argument("texture", format!("dtype {dtype}, expected uint8")).into());
-    }
-    let side = limits.image_side as usize;
-    if height == 0 || width == 0 || height.max(width) > side {
-        let message = format!("has {width} x {height} texels, expected sides from 1 to {side}");
-        return Err(Failure::argument("texture", message).into());
-    }
-    let texel = |channels: &[i64]| match *channels {
-        [gray] => [gray, gray, gray, 255],
-        [r, g, b] => [r, g, b, 255],
-        [r, g, b, a, ..] => [r, g, b, a],
-        _ => [0; 4],
-    };
-    let rgba = values.chunks_exact(channels).map(|c| texel(c).map(|value| value as u8)).collect();
-    Ok(Image { width: width as u32, height: height as u32, rgba })
-}
-
-/// The material; `None` if nothing is said of it.
-fn read_material(mesh: &Keywords<'_, '_>, has_colors: bool) -> PyResult<Option<Material>> {
-    let fraction = |name: &str| -> PyResult<Option<f32>> {
-        let Some(number) = mesh.number(name)? else { return Ok(None) };
-        if (0.0..=1.0).contains(&number) {
-            return Ok(Some(number as f32));
-        }
-        let message = format!("is {number}, expected a number from 0 to 1");
-        Err(Failure::argument(name, message).into())
-    };
-    let color = mesh.value("color")?.map(|value| read_color(&value)).transpose()?;
-    let (metallic, roughness) = (fraction("metallic")?, fraction("roughness")?);
-    let double_sided = mesh.value("double_sided")?.is_none() || mesh.flag("double_sided")?;
-    if color.is_none() && metallic.is_none() && roughness.is_none() && double_sided {
-        return Ok(None);
-    }
-    let plain = Material::plain();
-    let usual = if has_colors { [1.0; 4] } else { plain.base_color };
-    let base_color = color.unwrap_or(usual);
-    let is_translucent = base_color[3] < 1.0;
-    Ok(Some(Material {
-        base_color,
-        metallic: metallic.unwrap_or(plain.metallic),
-        roughness: roughness.unwrap_or(plain.roughness),
-        double_sided,
-        alpha_mode: if is_translucent { AlphaMode::Blend } else { AlphaMode::Opaque },
-        ..plain
-    }))
-}
-
-/// A color by its name or by its channels.
-fn read_color(value: &Bound<'_, PyAny>) -> PyResult<[f32; 4]> {
-    if let Ok(name) = value.extract::<String>() {
-        let Some(color) = Color::parse(&name) else {
-            return Err(not_a("color", value, "#rrggbb, the name of a color, or numbers").into());
-        };
-        let [r, g, b] = color.to_linear();
-        return Ok([r, g, b, 1.0]);
-    }
-    match &linear_colors("color", value)?.1[..] {
-        [color] => Ok(*color),
-        _ => Err(not_a("color", value, "one color of 3 or 4 channels").into()),
-    }
 }

@@ -5,6 +5,7 @@ use crate::camera_options::{read_camera, rotation_file};
 use crate::failure::{Failure, Fallible};
 use crate::keywords::{Keywords, plain_name};
 use crate::pixel_rays::PixelRays;
+use crate::rendering::check_pixel_count;
 use camera::{CameraAxes, Extrinsics, ViewProjection};
 use model::ModelInstance;
 use numpy::PyArrayMethods;
@@ -129,7 +130,9 @@ impl NativeCamera {
         let lens = Intrinsics::from_view_to_clip(placed.view_to_clip, Convention::CHAPTER, size);
         let lens = lens.map_err(|error| Failure::argument("camera", error.to_string()))?;
         let rows = lens.in_pixel_centers(PixelCenters::Integer).to_rows();
-        arrays::new_array(py, rows.as_flattened().to_vec(), &[3, 3])
+        // Without skew the entry is −0 as often as 0.
+        let entries = rows.as_flattened().iter().map(|entry| entry + 0.0).collect();
+        arrays::new_array(py, entries, &[3, 3])
     }
 
     /// R and t from the world to the camera.
@@ -235,6 +238,7 @@ impl NativeCamera {
     fn rays<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let rays = self.rays_of_pixels()?;
         let [width, height] = rays.size;
+        check_pixel_count(width as u64, height as u64)?;
         let (origins, directions): (Vec<[f64; 3]>, Vec<[f64; 3]>) =
             py.detach(|| rays.pixels().map(|pixel| rays.ray(pixel)).unzip());
         let shape = [height, width, 3];

@@ -136,6 +136,16 @@ pub(crate) fn thread_count(given: Option<usize>) -> usize {
     given.unwrap_or_else(processors).clamp(1, 1024)
 }
 
+/// The error of pictures that are too large for memory.
+pub(crate) fn check_pixel_count(width: u64, height: u64) -> Fallible<()> {
+    if width * height <= MAX_PIXELS {
+        return Ok(());
+    }
+    let message = format!("{width} x {height} pixels are more than the limit of {MAX_PIXELS}");
+    let help = "render parts of it, or write it with the command `alberti render`, which has no such limit";
+    Err(Failure::limit("size", message, help))
+}
+
 /// Reads the passes that are wanted: their names, and whether colors are among them.
 fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
@@ -172,13 +182,7 @@ impl<'a> RenderJob<'a> {
     fn new(subject: &'a Subject, options: &Keywords<'_, '_>) -> PyResult<Self> {
         let file = apply_options(subject, options)?;
         let (width, height) = file.image.size;
-        let pixels = u64::from(width) * u64::from(height);
-        if pixels > MAX_PIXELS {
-            let message =
-                format!("{width} x {height} pixels are more than the limit of {MAX_PIXELS}");
-            let help = "render parts of it, or use the command `alberti render`, which writes pictures of any size";
-            return Err(Failure::limit("size", message, help).into());
-        }
+        check_pixel_count(width.into(), height.into())?;
         let (has_color, passes) = read_passes(options)?;
         let threads = thread_count(options.count("threads")?);
         Ok(Self { subject, file, has_color, passes, threads })

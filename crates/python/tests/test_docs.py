@@ -41,8 +41,8 @@ def table_rows():
     """The right column of every table with what another package has on the left."""
     rows = []
     for line in PAGE.read_text().splitlines():
-        cells = re.split(r"(?<!\\) \| ", line.strip("| \n"))
-        if len(cells) == 2 and cells[1] not in ("alberti", "---"):
+        cells = re.split(r" \| ", line.strip("| \n"))
+        if line.startswith("|") and len(cells) == 2 and cells[1] not in ("alberti", "---"):
             rows.append((cells[0], cells[1]))
     return rows
 

@@ -97,8 +97,11 @@ def test_rgb_is_over_white(teapot):
     assert (frame.rgb[0, 0] == 255).all()
 
 
-def test_the_depth_of_a_plane_is_its_formula(plane):
-    # The plane z = 0 under a ray: eye + s · direction, with s = −eye.z / direction.z.
+def test_the_depth_of_a_plane_is_its_formula():
+    # The plane z = 0 under a ray: eye + s · direction, with s = −eye.z / direction.z. One triangle
+    # that is larger than the picture, so that no pixel is at its border.
+    corners = [[-1000, -1000, 0], [3000, -1000, 0], [-1000, 3000, 0]]
+    plane = alberti.Model.from_arrays(corners, [[0, 1, 2]])
     rng = np.random.default_rng(1)
     for _ in range(20):
         eye = rng.uniform((-3, -3, 2), (3, 3, 9))
@@ -114,9 +117,10 @@ def test_the_depth_of_a_plane_is_its_formula(plane):
         assert np.abs(frame.depth[hit] / expected - 1).max() < 1e-6
         assert np.abs(frame.distance[hit] / along[hit] - 1).max() < 1e-6
         assert np.isinf(frame.depth[~hit]).all()
-        assert np.abs(camera.unproject(frame.depth)[hit][:, 2]).max() < 1e-5
         points = origins + along[..., None] * directions
-        assert np.abs(frame.position[hit] - points[hit]).max() < 1e-5
+        far = np.linalg.norm(points[hit] - eye, axis=1)
+        assert (np.linalg.norm(camera.unproject(frame.depth)[hit] - points[hit], axis=1) / far).max() < 1e-6
+        assert (np.linalg.norm(frame.position[hit] - points[hit], axis=1) / far).max() < 1e-6
 
 
 def test_distance_from_depth_is_the_pass(teapot):

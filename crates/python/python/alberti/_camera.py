@@ -60,8 +60,8 @@ class Camera:
             far: Distance of the far plane.
 
         >>> camera = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y=90, size=(640, 480))
-        >>> camera.K[0, 0], camera.K[0, 2]
-        (240.0, 319.5)
+        >>> camera.K.round(9).tolist()
+        [[240.0, 0.0, 319.5], [0.0, 240.0, 239.5], [0.0, 0.0, 1.0]]
         """
         return cls(_native.make_camera(_given(locals())))
 

@@ -83,20 +83,45 @@ def _add_material(mesh: dict[str, Any], material: Any) -> None:
 
     image = getattr(material, "baseColorTexture", None)
     image = getattr(material, "image", None) if image is None else image
-    if image is not None and "uv" in mesh:
+    if image is not None and "uv" in mesh and not _is_placeholder(image):
         mesh["texture"] = np.asarray(image.convert("RGBA"))
+    keys = {str(key).lower(): value for key, value in getattr(material, "kwargs", {}).items()}
+    if "kd" in keys or "ks" in keys:
+        numbers = {key: _numbers(keys[key]) for key in _MTL_KEYS if key in keys}
+        mesh["mtl"] = {key: number for key, number in numbers.items() if number is not None}
+        return
     factor = getattr(material, "baseColorFactor", None)
-    color = getattr(material, "diffuse", None) if factor is None else factor
+    color = _diffuse(material) if factor is None else factor
     if color is not None:
         mesh["color"] = np.asarray(color)
-    metallic = getattr(material, "metallicFactor", None)
-    roughness = getattr(material, "roughnessFactor", None)
     if hasattr(material, "metallicFactor"):
-        # The defaults of glTF.
+        # What is not given is 1 in glTF.
+        metallic, roughness = material.metallicFactor, material.roughnessFactor
         mesh["metallic"] = 1.0 if metallic is None else float(metallic)
         mesh["roughness"] = 1.0 if roughness is None else float(roughness)
-        mesh["double_sided"] = bool(getattr(material, "doubleSided", False))
-    elif hasattr(material, "glossiness"):
-        # As an MTL file with the same exponent is read.
-        exponent = max(float(material.glossiness or 0.0), 0.0)
-        mesh["roughness"] = float((2.0 / (exponent + 2.0)) ** 0.25)
+        mesh["double_sided"] = bool(material.doubleSided)
+
+
+def _is_placeholder(image: Any) -> bool:
+    """Whether trimesh filled an image in: four texels of one color."""
+    return image.size == (2, 2) and image.getcolors(1) is not None
+
+
+def _diffuse(material: Any) -> Any:
+    """The diffuse color of a simple material; None for that which trimesh fills in."""
+    color = getattr(material, "diffuse", None)
+    if color is None or list(color) == [102, 102, 102, 255]:
+        return None
+    return color
+
+
+def _numbers(value: Any) -> Any:
+    """The number or the three numbers of a key of an MTL library; None if they are none."""
+    try:
+        numbers = [float(part) for part in (value if isinstance(value, (list, tuple)) else [value])]
+    except ValueError:
+        return None
+    return numbers[0] if len(numbers) == 1 else numbers
+
+
+_MTL_KEYS = ("kd", "ks", "ns", "illum", "d", "tr")
