@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::failure::{Failure, Fallible};
-use crate::keywords::Keywords;
+use crate::keywords::{Keywords, not_a};
 use camera::{CameraAxes, Extrinsics, NamedView};
 use pipeline::scene::file::{
     CameraChoice, CameraFile, DEFAULT_PADDING, FieldOfView, Finite, FromFile, Positive,
@@ -35,7 +35,8 @@ fn read_view(options: &Keywords<'_, '_>) -> PyResult<ViewFile> {
     }
     if let Some(of_model) = options.value("of_model")? {
         let index = of_model.extract().map(CameraChoice::Index);
-        let choice = index.or_else(|_| of_model.extract().map(CameraChoice::Name))?;
+        let choice = index.or_else(|_| of_model.extract().map(CameraChoice::Name));
+        let choice = choice.map_err(|_| not_a("camera", &of_model, "a name or an index"))?;
         return Ok(ViewFile::FromModel(choice));
     }
     let from = options.value("direction")?.map(|value| read_direction(&value)).transpose()?;

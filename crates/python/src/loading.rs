@@ -3,7 +3,7 @@
 use crate::arrays;
 use crate::detached::run_detached;
 use crate::failure::{Failure, Fallible};
-use crate::keywords::Keywords;
+use crate::keywords::{Keywords, not_a};
 use crate::subject::Subject;
 use glam::DMat4;
 use homog::Affine;
@@ -162,7 +162,7 @@ fn choice(options: &Keywords<'_, '_>, name: &str) -> PyResult<Option<Choice>> {
     }
     match value.extract::<String>() {
         Ok(text) => Ok(Some(Choice::Name(text))),
-        Err(_) => Err(crate::keywords::not_a(name, &value, "a name or an index").into()),
+        Err(_) => Err(not_a(name, &value, "a name or an index").into()),
     }
 }
 
@@ -171,13 +171,14 @@ pub(crate) fn limits(options: &Keywords<'_, '_>) -> PyResult<Limits> {
     let mut limits = Limits::default();
     let Some(value) = options.value("limits")? else { return Ok(limits) };
     let Ok(given) = value.cast::<PyDict>() else {
-        return Err(crate::keywords::not_a("limits", &value, "a dictionary").into());
+        return Err(not_a("limits", &value, "a dictionary").into());
     };
     for (key, value) in given {
-        let name: String = key.extract()?;
+        let name = key.extract::<String>();
+        let name = name.map_err(|_| not_a("limits", &key, "names of limits"))?;
         let argument = format!("limits[{name:?}]");
         let Ok(number) = value.extract::<u64>() else {
-            return Err(crate::keywords::not_a(&argument, &value, "a whole number from 0").into());
+            return Err(not_a(&argument, &value, "a whole number from 0").into());
         };
         let size = usize::try_from(number).unwrap_or(usize::MAX);
         match name.as_str() {

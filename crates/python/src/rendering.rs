@@ -7,7 +7,7 @@
 use crate::arrays::new_array;
 use crate::detached::run_detached;
 use crate::failure::{Failure, Fallible};
-use crate::keywords::{Keywords, plain_name};
+use crate::keywords::{Keywords, not_a, plain_name};
 use crate::native_camera::NativeCamera;
 use crate::scene_options::apply_options;
 use crate::subject::Subject;
@@ -151,7 +151,7 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let Some(value) = options.value("passes")? else { return Ok((true, Vec::new())) };
     let names = value.extract::<String>().map(|name| vec![name]);
     let Ok(names) = names.or_else(|_| value.extract::<Vec<String>>()) else {
-        return Err(crate::keywords::not_a("passes", &value, "names of passes").into());
+        return Err(not_a("passes", &value, "names of passes").into());
     };
     let (mut has_color, mut passes) = (false, Vec::new());
     for name in names {

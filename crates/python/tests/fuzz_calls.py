@@ -64,7 +64,7 @@ class Caller:
         """Some of the options; now and then of a wrong kind."""
         chosen = {name: value() for name, value in known.items() if self.rare(0.4)}
         for name in chosen:
-            if self.rare(0.08):
+            if name != "passes" and self.rare(0.08):
                 chosen[name] = self.pick(OBJECTS + SPECIAL)
         return chosen
 
@@ -153,7 +153,10 @@ class Caller:
         options = {"size": (24, 18), **self.render_options()}
         frame = alberti.render(self.pick(self.models), **options)
         self.cameras = [*self.cameras[-5:], frame.camera]
-        frame.points() if "depth" in options.get("passes", ()) else frame.png()
+        if "depth" in options.get("passes", "rgb"):
+            frame.points()
+        elif "rgb" in options.get("passes", "rgb"):
+            frame.png()
 
     def call_many(self):
         jobs = [{"model": self.pick(self.models), **self.render_options()} for _ in range(3)]

@@ -190,7 +190,11 @@ class Scene(Model):
         import numpy as np
 
         models = list(models)
-        placed = [np.eye(4)] * len(models) if poses is None else list(poses)  # type: ignore[arg-type]
+        try:
+            placed = [np.eye(4)] * len(models) if poses is None else list(poses)  # type: ignore[arg-type]
+        except TypeError:
+            message = f"is {poses!r}, expected a matrix (4, 4) for each model"
+            raise AlbertiError(message, pointer="poses") from None
         if len(placed) != len(models):
             message = f"{len(placed)} for {len(models)} models"
             raise AlbertiError(message, pointer="poses")
