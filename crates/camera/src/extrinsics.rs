@@ -240,8 +240,8 @@ fn check_rotation(rotation: [[f64; 3]; 3]) -> Result<(), CameraError> {
     let lengths = [x, y, z].map(|row| row.dot(row) - 1.0);
     let angles = [x.dot(y), y.dot(z), z.dot(x)];
     let deviation = lengths.into_iter().chain(angles).fold(0.0, |most: f64, d| most.max(d.abs()));
-    // An overflow makes the comparison false, and so it must be.
-    if !(deviation <= ROTATION_TOLERANCE) {
+    // Numbers that overflow deviate by infinity.
+    if deviation > ROTATION_TOLERANCE {
         return Err(CameraError::NotRotation { deviation });
     }
     if x.cross(y).dot(z) < 0.0 {
