@@ -189,7 +189,7 @@ impl MeshArrays {
             let message = format!("they are not those of {} corners", self.corners.len());
             return Err(wrong_arrays(&format!("{location}/lengths"), message));
         }
-        if self.line_ends.len() % 2 != 0 {
+        if !self.line_ends.len().is_multiple_of(2) {
             let message = "a line has two ends".to_owned();
             return Err(wrong_arrays(&format!("{location}/line_ends"), message));
         }
