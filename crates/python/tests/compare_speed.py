@@ -67,7 +67,9 @@ def time_alberti():
     cameras = [alberti.Camera.frame((1, 0.3, number / 20 - 2.5)) for number in range(100)]
     passes = ("rgb", "depth", "ids")
     jobs = [{"model": model, "camera": c, "size": (256, 256), "passes": passes} for c in cameras]
-    report("alberti 100 views 256 x 256, two threads", lambda: alberti.render_many(jobs, threads=2), 5)
+    report(
+        "alberti 100 views 256 x 256, two threads", lambda: alberti.render_many(jobs, threads=2), 5
+    )
 
 
 def time_pyrender():

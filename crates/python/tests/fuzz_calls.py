@@ -13,7 +13,20 @@ import alberti
 import numpy as np
 
 SPECIAL = [0, 1, -1, 0.5, 1e-300, 1e300, float("nan"), float("inf"), 2**31, 2**64, None, "", "x"]
-OBJECTS = [None, True, "front", b"glTF", [], {}, (), object(), [[]], [[1], [2, 3]], 3 + 4j, range(3)]
+OBJECTS = [
+    None,
+    True,
+    "front",
+    b"glTF",
+    [],
+    {},
+    (),
+    object(),
+    [[]],
+    [[1], [2, 3]],
+    3 + 4j,
+    range(3),
+]
 KINDS = ["f2", "f4", "f8", ">f8", "i1", "u1", "i4", ">i8", "u8", "c8", "?", "O", "U3", "M8[s]"]
 
 
@@ -77,7 +90,9 @@ class Caller:
         count, rows = self.rng.randrange(0, 20), self.rng.randrange(0, 20)
         faces = self.numbers.integers(-1 if self.rare(0.1) else 0, max(count, 1), (rows, 3))
         if self.rare(0.2):
-            faces = [[self.rng.randrange(-1, 9) for _ in range(self.rng.randrange(7))] for _ in "abc"]
+            faces = [
+                [self.rng.randrange(-1, 9) for _ in range(self.rng.randrange(7))] for _ in "abc"
+            ]
         if self.rare(0.1):
             faces = self.array(rows, 3)
         options = self.options(
@@ -143,7 +158,9 @@ class Caller:
             camera=lambda: self.pick(self.cameras + ["front", "nowhere"]),
             size=self.size,
             passes=lambda: [self.pick(names) for _ in range(self.rng.randrange(4))],
-            style=lambda: self.pick(["clay", "flat", "lines", "toon", "x-ray", "ids", "depth", "y"]),
+            style=lambda: self.pick(
+                ["clay", "flat", "lines", "toon", "x-ray", "ids", "depth", "y"]
+            ),
             background=lambda: self.pick(["white", "#123456", "transparent", "#12", "plaid"]),
             samples=lambda: self.pick([1, 4, 8, 16, 2]),
             threads=lambda: self.pick([1, 2, 3]),

@@ -48,6 +48,16 @@ def test_the_code_is_typed(tmp_path):
         file = tmp_path / f"{path.stem}.py"
         file.write_text(code_of(path))
         files.append(file)
-    command = [sys.executable, "-I", "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache")]
-    done = subprocess.run([*command, *map(str, files)], capture_output=True, text=True, cwd=tmp_path)
+    command = [
+        sys.executable,
+        "-I",
+        "-m",
+        "mypy",
+        "--strict",
+        "--cache-dir",
+        str(tmp_path / "cache"),
+    ]
+    done = subprocess.run(
+        [*command, *map(str, files)], capture_output=True, text=True, cwd=tmp_path
+    )
     assert done.returncode == 0, done.stdout

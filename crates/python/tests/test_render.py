@@ -68,7 +68,8 @@ def test_styles_cameras_and_backgrounds_are_those_of_the_program(teapot, models,
 
 def test_threads_change_nothing(teapot):
     one, many = (
-        alberti.render(teapot, size=(333, 222), passes=PASSES, threads=threads) for threads in (1, 7)
+        alberti.render(teapot, size=(333, 222), passes=PASSES, threads=threads)
+        for threads in (1, 7)
     )
     for name in PASSES:
         assert getattr(one, name).tobytes() == getattr(many, name).tobytes(), name
@@ -119,7 +120,9 @@ def test_the_depth_of_a_plane_is_its_formula():
         assert np.isinf(frame.depth[~hit]).all()
         points = origins + along[..., None] * directions
         far = np.linalg.norm(points[hit] - eye, axis=1)
-        assert (np.linalg.norm(camera.unproject(frame.depth)[hit] - points[hit], axis=1) / far).max() < 1e-6
+        assert (
+            np.linalg.norm(camera.unproject(frame.depth)[hit] - points[hit], axis=1) / far
+        ).max() < 1e-6
         assert (np.linalg.norm(frame.position[hit] - points[hit], axis=1) / far).max() < 1e-6
 
 
@@ -201,9 +204,7 @@ def test_drawings(teapot, models, program, tmp_path):
 
 
 def test_lines_are_projected_edges():
-    square = alberti.Model.from_arrays(
-        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]
-    )
+    square = alberti.Model.from_arrays([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     camera = alberti.Camera.look_at((2, 3, 4), (0.5, 0.5, 0), size=(320, 240))
     drawing = alberti.draw(square, camera=camera)
     corners = camera.project([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])[0]

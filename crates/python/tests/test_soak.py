@@ -31,9 +31,7 @@ print(resident() - begin)
 
 
 def test_ten_thousand_random_calls():
-    done = subprocess.run(
-        [sys.executable, str(FUZZ), "10000", "1"], capture_output=True, text=True
-    )
+    done = subprocess.run([sys.executable, str(FUZZ), "10000", "1"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr[-3000:]
     assert done.stdout.startswith("10000 calls: ")
 

@@ -274,9 +274,7 @@ class Camera:
         """
         return self._native.project(points)
 
-    def unproject(
-        self, depth: ArrayLike, pixels: ArrayLike | None = None
-    ) -> NDArray[np.float64]:
+    def unproject(self, depth: ArrayLike, pixels: ArrayLike | None = None) -> NDArray[np.float64]:
         """Points in the world of depths along the axis.
 
         Args:

@@ -27,9 +27,7 @@ class Frame:
     #: What is missing in the picture; empty for most.
     warnings: tuple[str, ...]
 
-    def __init__(
-        self, arrays: dict[str, Any], camera: _native.Camera, warnings: list[str]
-    ) -> None:
+    def __init__(self, arrays: dict[str, Any], camera: _native.Camera, warnings: list[str]) -> None:
         self._arrays: dict[str, NDArray[Any]] = arrays
         self.camera = Camera(camera)
         self.warnings = tuple(warnings)

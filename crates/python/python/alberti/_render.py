@@ -78,9 +78,7 @@ def render(
     return frame
 
 
-def render_many(
-    jobs: Iterable[Mapping[str, Any]], *, threads: int | None = None
-) -> list[Frame]:
+def render_many(jobs: Iterable[Mapping[str, Any]], *, threads: int | None = None) -> list[Frame]:
     """Renders many pictures at once, one in each thread.
 
     Args:

@@ -7,7 +7,6 @@ from typing import Any
 from ._errors import AlbertiError
 
 
-
 def collect_meshes(scene: Any) -> tuple[list[dict[str, Any]], list[tuple[str | None, int, Any]]]:
     """The meshes of a scene or a geometry, and the nodes that show them."""
     import numpy as np
