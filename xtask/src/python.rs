@@ -20,7 +20,17 @@ const BUILDER: &[&str] = &["maturin>=1.9,<2"];
 /// What most tests need.
 const TEST_PACKAGES: &[&str] = &["pytest", "mypy"];
 /// What single tests need; without one of them those are skipped.
-const PEERS: &[&str] = &["trimesh", "pillow", "opencv-python-headless", "nbclient", "ipykernel"];
+const PEERS: &[&str] = &[
+    "trimesh",
+    "networkx",
+    "scipy",
+    "lxml",
+    "charset-normalizer",
+    "pillow",
+    "opencv-python-headless",
+    "nbclient",
+    "ipykernel",
+];
 /// The most bytes of a released wheel.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;
 

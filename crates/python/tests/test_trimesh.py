@@ -124,6 +124,8 @@ DIFFERENT_SHAPES = {
     "wallhole.obj": 0.03,
     # Lines are dropped, and their ends kept as points.
     "testline.obj": 1,
+    # Parts of components of other files are shown twice.
+    "production_components.3mf": 1,
 }
 # Where trimesh splits a surface by its materials, so that borders between them are creases.
 DIFFERENT_NORMALS = {"chair_model.obj": 0.03}
@@ -138,5 +140,8 @@ DIFFERENT_COLORS = {
     "multi.ply": 1,
     "pond.0.ply": 1,
     "20mm-xyz-cube.stl": 1,
+    # Materials and colors of 3MF.
+    "P_XPM_0331_01.3mf": 1,
+    "featuretype.3MF": 1,
     "chair_model.obj": 0.03,
 }
