@@ -124,7 +124,7 @@ DIFFERENT_SHAPES = {
     "wallhole.obj": 0.03,
     # Lines are dropped, and their ends kept as points.
     "testline.obj": 1,
-    # Parts of components of other files are shown twice.
+    # Objects of one id in two files of the archive are taken for one.
     "production_components.3mf": 1,
 }
 # Where trimesh splits a surface by its materials, so that borders between them are creases.
