@@ -70,7 +70,7 @@ use args::{Args, Command};
 use clap::{CommandFactory, Parser};
 use deferred::Deferred;
 use error::CliError;
-use messages::{print_message, print_stdout};
+use messages::{print_message, print_note, print_stdout};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
