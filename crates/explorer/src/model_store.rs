@@ -111,7 +111,7 @@ impl ModelStore {
         let mistakes = |errors| ExplorerError::from(pipeline::ResolveError::Scene(errors));
         let mut file = parse_scene(name, &text).map_err(mistakes)?;
         picture.apply_to(&mut file);
-        let loaded = self.load_scene(name, &text, &file, &[key.clone()])?;
+        let loaded = self.load_scene((name, &text), &file, &[name.to_owned()])?;
         self.keep_scene(key, &loaded);
         Ok((text, loaded))
     }
@@ -130,24 +130,22 @@ impl ModelStore {
     ) -> Result<LoadedScene, ExplorerError> {
         let file = parse_scene("scene.ron", text)
             .map_err(|errors| ExplorerError::from(pipeline::ResolveError::Scene(errors)))?;
-        if let Some(models) = self.models.iter().find(|models| models.entries == entries) {
-            let models = Arc::clone(models);
-            let origin = Origin::from_text_in_memory("scene.ron", text, MemoryFolder::default());
-            let scene = Scene::from_models(&origin, &file, models.instances.clone())?;
-            return Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 });
-        }
-        self.load_scene("scene.ron", text, &file, entries)
+        self.load_scene(("scene.ron", text), &file, entries)
     }
 
-    /// Resolves a scene with its models, which are kept.
+    /// Resolves a scene; its models are loaded unless they are at hand. `entries` stand for them.
     fn load_scene(
         &mut self,
-        name: &str,
-        text: &str,
+        (name, text): (&str, &str),
         file: &SceneFile,
         entries: &[String],
     ) -> Result<LoadedScene, ExplorerError> {
         let origin = Origin::from_text_in_memory(name, text, self.folder.clone());
+        if let Some(models) = self.models.iter().find(|models| models.entries == entries) {
+            let models = Arc::clone(models);
+            let scene = Scene::from_models(&origin, file, models.instances.clone())?;
+            return Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 });
+        }
         let scene = Scene::resolve(&origin, file, &Default::default())?;
         let instances = scene.models.clone();
         let textures = Textures::for_models(&instances).into_owned();
