@@ -38,7 +38,7 @@ pub fn run_browser(_arguments: &[String]) -> Outcome {
     run_visibly(&mut node)
 }
 
-/// What the tests need and cannot get.
+/// Requirements of the tests that cannot be had.
 fn missing_tool(folder: &Path) -> Option<String> {
     if !Path::new(CHROMIUM).exists() {
         return Some("chromium is not installed (Debian: chromium)".into());

@@ -15,11 +15,11 @@ use std::process::Command;
 
 /// The package for Python.
 const PACKAGE: &str = "crates/python";
-/// What builds wheels.
+/// Packages that build wheels.
 const BUILDER: &[&str] = &["maturin>=1.9,<2"];
-/// What most tests need.
+/// Packages that most tests need.
 const TEST_PACKAGES: &[&str] = &["pytest", "mypy"];
-/// What single tests need; without one of them those are skipped.
+/// Packages that single tests need; without one of them those are skipped.
 const PEERS: &[&str] = &[
     "trimesh",
     "networkx",

@@ -23,7 +23,7 @@ pub(crate) struct CalibratedCameraArgs {
         conflicts_with = "projection"
     )]
     intrinsics: Option<ProjectionFile>,
-    /// What the principal point of --intrinsics counts from [default: integer]
+    /// Origin of the principal point of --intrinsics [default: integer]
     #[arg(long, value_parser = option_parser::<PixelCenters>(), requires = "intrinsics")]
     pixel_centers: Option<PixelCenters>,
     /// Rotation and translation from the world to the camera: the 12 numbers of [R|t], row by row

@@ -19,7 +19,7 @@ const MAX_WORDS: usize = 16;
 /// The names of the files that a model or a material library refers to, relative to the model's
 /// folder, in the order in which they are mentioned. `name` is its own.
 ///
-/// What a material library refers to is not among the names of the model that refers to it.
+/// The textures of a material library are not among the names of the model that refers to it.
 pub(crate) fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
     let path = Path::new(name);
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl")) {

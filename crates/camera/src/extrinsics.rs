@@ -21,7 +21,7 @@ use homog::{Point, Vector, World};
 /// Dot products of the rows of a rotation may be off by this: matrices are written with six digits.
 const ROTATION_TOLERANCE: f64 = 1e-4;
 
-/// What the axes of camera space stand for in the picture.
+/// The directions of the axes of camera space in the picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum CameraAxes {
     /// x to the right, y down, z ahead: OpenCV, COLMAP, the optical frames of ROS.
@@ -171,7 +171,7 @@ impl Extrinsics {
         Camera::new(Point::ORIGIN + eye, basis)
     }
 
-    /// The same camera with other axes.
+    /// This camera with other axes.
     #[must_use]
     pub fn in_axes(self, axes: CameraAxes) -> Self {
         let (from, to) = (self.axes.signs(), axes.signs());
@@ -193,7 +193,7 @@ impl Extrinsics {
         self.translation
     }
 
-    /// What the axes stand for.
+    /// The directions of the axes.
     #[must_use]
     pub const fn axes(self) -> CameraAxes {
         self.axes

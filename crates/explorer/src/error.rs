@@ -9,15 +9,15 @@ use pipeline::{RenderError, ResolveError};
 pub struct ExplorerError {
     /// A stable identifier for programs, such as `unknown_key`.
     pub code: &'static str,
-    /// What is wrong.
+    /// The fault, in a sentence.
     pub message: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: String,
 }
 
-/// What to do about a scene that makes no sense.
+/// The remedy for a scene that makes no sense.
 const RESET: &str = "change a value, or reset the lesson";
-/// What to do about a model that cannot be loaded.
+/// The remedy for a model that cannot be loaded.
 const OTHER_FILE: &str = "check the file, or choose another one";
 
 impl ExplorerError {

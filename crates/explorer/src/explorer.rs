@@ -19,7 +19,7 @@ use pipeline::scene::Scene;
 use pipeline::{Picture, Textures, draw_lines};
 use std::sync::Arc;
 
-/// What a request is answered with.
+/// The answer to a request.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Answer {
     /// The media type of the bytes, such as `image/svg+xml`; `application/octet-stream` for pixels:
@@ -202,7 +202,7 @@ impl Explorer {
     }
 }
 
-/// What the state points at: the pixel under the mouse of the lesson, or the pinned point.
+/// The point of the state: that under the mouse of the lesson, or the pinned one.
 fn pointer(state: &LessonState, loaded: &LoadedScene) -> Pointer {
     let view = &loaded.views()[0].view_projection;
     match (state.lesson.pointer)(&state.values(DEFAULT_SIZE)) {

@@ -16,7 +16,7 @@ pub(crate) struct Lesson {
     /// The items of the sources' inventory that it shows.
     pub(crate) items: &'static [&'static str],
     pub(crate) title: Words,
-    /// What it teaches, in a sentence or two.
+    /// The statement that it teaches, in a sentence or two.
     pub(crate) statement: Words,
     /// The files of its models, as the scene names them.
     pub(crate) models: &'static [&'static str],
@@ -31,11 +31,11 @@ pub(crate) struct Lesson {
     pub(crate) conventions: ApiConventions,
     /// The scene of some values.
     pub(crate) describe: fn(&Values<'_>) -> SceneDescription,
-    /// What follows from the values, besides what is clipped.
+    /// The consequences of the values, besides what is clipped.
     pub(crate) consequences: fn(&Values<'_>, &Facts) -> Vec<Sentence>,
     /// The point of the world that is pinned at first, where it depends on the values.
     pub(crate) point: fn(&Values<'_>) -> Option<[f64; 3]>,
-    /// What the pane `volume` shows.
+    /// The stage that the pane `volume` shows.
     pub(crate) volume: fn(&Values<'_>) -> VolumeStage,
     /// The position in the picture, in fractions from its upper left corner, through which the line
     /// of sight is drawn; `None` for that of the pinned point.

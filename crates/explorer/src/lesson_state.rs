@@ -75,7 +75,7 @@ impl LessonState {
         Ok(Self { lesson, parameters, pin, orbit, volume_orbit, style, model, language })
     }
 
-    /// The same lesson with the default of every number; choices stay.
+    /// This lesson with the default of every number; choices stay.
     pub(crate) fn with_defaults(&self) -> Self {
         let default = |(parameter, value): (&Parameter, &ParameterValue)| match *value {
             ParameterValue::Number(_) => parameter.default_value(),

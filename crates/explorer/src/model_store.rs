@@ -160,7 +160,7 @@ impl ModelStore {
     }
 }
 
-/// What requests change of a scene file's picture.
+/// The options of a scene file's picture that requests change.
 #[derive(Clone, Debug)]
 pub(crate) struct PictureOptions {
     pub(crate) size: [u32; 2],

@@ -25,7 +25,7 @@ pub(crate) const COLORS: [(&str, [u8; 3]); 4] = [
 /// The index of the color of the line of sight.
 const SIGHT: usize = 3;
 
-/// What the panes have in common; camera, size and overlays follow.
+/// The common parts of the panes; camera, size and overlays follow.
 const SCENE: &str = r##"Scene(
     models: [Model(path: "triangles")],
     camera: Camera(projection: Orthographic()),

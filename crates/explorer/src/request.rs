@@ -10,7 +10,7 @@ pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];
 /// The largest side of a picture in pixels.
 const MAX_SIDE: u32 = 8192;
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Question {
     Lessons,

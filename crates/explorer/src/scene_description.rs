@@ -24,7 +24,7 @@ pub(crate) struct SceneDescription {
     pub(crate) background: &'static str,
     /// The scene file that is drawn as it is, and nothing of the above counts; empty for none.
     pub(crate) file: String,
-    /// What a reader of the scene may wonder about; empty for nothing.
+    /// A remark for readers of the scene; empty for none.
     pub(crate) comment: &'static str,
 }
 

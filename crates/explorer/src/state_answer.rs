@@ -137,7 +137,7 @@ fn in_picture(
 
 const PLANES_ZH: [&str; 6] = ["左", "右", "下", "上", "近", "远"];
 
-/// What the view volume cuts off, in sentences.
+/// The parts that the view volume cuts off, in sentences.
 fn clipping_sentences(facts: &Facts) -> Vec<Sentence> {
     let survey = facts.survey;
     let all = facts.triangles[1];

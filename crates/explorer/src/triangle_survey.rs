@@ -128,7 +128,7 @@ fn merge_in_grid(
     kept
 }
 
-/// What clipping does to a triangle.
+/// The effect of clipping on a triangle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Containment {
     Inside,
@@ -156,7 +156,7 @@ pub(crate) fn project(view: &ViewProjection, triangle: &WorldTriangle) -> [HPoin
     triangle.map(|point| world_to_clip.transform_point(point))
 }
 
-/// What clipping does to a triangle of clip space, and the planes that do it.
+/// The effect of clipping on a triangle of clip space, and the planes that have it.
 pub(crate) fn classify(corners: [HPoint<Clip>; 3]) -> (Containment, Outcode) {
     let codes = corners.map(|corner| Volume::CHAPTER.outcode(corner));
     if Outcode::trivially_accepts(&codes) {

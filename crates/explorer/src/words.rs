@@ -1,4 +1,4 @@
-//! What is said, in English and in Chinese.
+//! Words and sentences, in English and in Chinese.
 
 use serde_json::{Value as Json, json};
 

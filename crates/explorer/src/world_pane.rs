@@ -23,7 +23,7 @@ const MAX_VOLUMES: usize = 4;
 /// How far the framed part of a view volume goes, in distances of the farthest point of the models.
 const MAX_FRAMED_DEPTH: f64 = 1.6;
 
-/// What is pointed at: a point of the world, and the line on which it is seen.
+/// The point of the world that is pointed at, and the line on which it is seen.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pointer {
     pub(crate) point: Option<Point<World>>,

@@ -117,7 +117,7 @@ impl Intrinsics {
         Self { pixel_centers, ..self }
     }
 
-    /// The same lens with its principal point told by another rule for pixel centers.
+    /// This lens with its principal point told by another rule for pixel centers.
     #[must_use]
     pub fn in_pixel_centers(self, pixel_centers: PixelCenters) -> Self {
         let by = pixel_centers.first() - self.pixel_centers.first();
@@ -293,7 +293,7 @@ impl Intrinsics {
         [2.0 * self.focal_length[0] / width, 2.0 * self.focal_length[1] / height]
     }
 
-    /// What is straight ahead, in NDC with y up.
+    /// The point straight ahead, in NDC with y up.
     fn center(self) -> [f64; 2] {
         let ([width, height], [cx, cy]) = (self.size.map(f64::from), self.corner_principal_point());
         [2.0 * cx / width - 1.0, 1.0 - 2.0 * cy / height]

@@ -23,7 +23,7 @@ const STACK_BYTES: usize = 8 << 20;
 /// Runs `work` in another thread without the lock, and waits for it.
 ///
 /// # Errors
-/// What a signal's handler raised (`KeyboardInterrupt`), after `work` has come to its end; what
+/// The exception of a signal's handler (`KeyboardInterrupt`), after `work` has come to its end; what
 /// `work` returns; a panic.
 pub(crate) fn run_detached<T, E>(
     py: Python<'_>,

@@ -69,7 +69,7 @@ impl NativeDrawing {
         pyo3::types::PyBytes::new(py, &bytes)
     }
 
-    /// What the drawing lacks.
+    /// The parts that the drawing lacks.
     fn warnings(&self) -> Vec<String> {
         self.page.warnings.iter().map(ToString::to_string).collect()
     }

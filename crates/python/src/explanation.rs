@@ -17,7 +17,7 @@ use pipeline::{RenderError, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// What is explained.
+/// The subject of an explanation.
 enum ExplainedPart {
     Transforms,
     Point([f64; 3]),

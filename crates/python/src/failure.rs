@@ -29,13 +29,13 @@ pub(crate) type Fallible<T> = Result<T, Failure>;
 /// Why a call failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// What kind of fault, for programs.
+    /// The kind of fault, for programs.
     pub(crate) code: &'static str,
     /// Where: the argument, or the place in a file.
     pub(crate) pointer: String,
-    /// What is wrong.
+    /// The fault, in a sentence.
     pub(crate) message: String,
-    /// What to do.
+    /// The remedy.
     pub(crate) help: Option<String>,
 }
 

@@ -39,7 +39,7 @@ fn run_program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
     py.detach(|| alberti::run(arguments))
 }
 
-/// What the Python sources use.
+/// The functions and classes that the Python sources use.
 #[pymodule]
 mod _native {
     #[pymodule_export]

@@ -17,7 +17,7 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What is loaded: a file, or the content of one.
+/// The source of a model: a file, or the content of one.
 #[derive(FromPyObject)]
 enum Source {
     #[pyo3(transparent)]

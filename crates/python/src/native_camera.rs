@@ -105,7 +105,7 @@ fn can_stand(file: &CameraFile) -> bool {
     })
 }
 
-/// What the axes of camera space stand for, by their name.
+/// The directions of the axes of camera space, by their name.
 fn axes_by_name(name: &str) -> Fallible<CameraAxes> {
     let wanted = plain_name(name);
     let known = CameraAxes::ALL.iter().copied().find(|axes| plain_name(axes.name()) == wanted);

@@ -28,7 +28,7 @@ const MAX_IDLE_RENDERERS: usize = 8;
 /// Renderers between two pictures: the next one takes their memory.
 static IDLE_RENDERERS: Mutex<Vec<Renderer>> = Mutex::new(Vec::new());
 
-/// What is rendered, and how.
+/// The subject of a picture, and its options.
 pub(crate) struct RenderJob<'a> {
     subject: &'a Subject,
     /// The description of the scene, with the options of the call.
@@ -39,7 +39,7 @@ pub(crate) struct RenderJob<'a> {
     threads: usize,
 }
 
-/// What a job makes.
+/// The result of a job.
 struct RenderedJob {
     picture: Option<Picture>,
     passes: Vec<PassBuffer>,

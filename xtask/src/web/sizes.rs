@@ -36,7 +36,7 @@ pub fn check_sizes(site: &Path) -> Outcome {
     if names.is_empty() { Ok(()) } else { Err(format!("too large: {}", names.join("; "))) }
 }
 
-/// What the page loads before the module: its own files, and the module's JavaScript.
+/// Files that the page loads before the module: its own files, and the module's JavaScript.
 fn page_files(site: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files: Vec<PathBuf> =
         super::page_files()?.iter().filter_map(|path| Some(site.join(path.file_name()?))).collect();

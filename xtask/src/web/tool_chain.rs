@@ -1,4 +1,4 @@
-//! What compiles Rust to WebAssembly here: a compiler with the sources of the standard library.
+//! The tool chain that compiles Rust to WebAssembly here: a compiler with the sources of the standard library.
 //!
 //! They are compiled with the explorer: a panic without a message, which nobody would read since the
 //! page starts another worker, and sorting in less code take a sixth off the module. The compiled

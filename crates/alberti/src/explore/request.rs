@@ -19,7 +19,7 @@ pub(super) struct Request {
     pub(super) is_head: bool,
     /// The path without its first slash, percent-decoded.
     pub(super) path: String,
-    /// What follows `?`, as it was sent.
+    /// The query after `?`, as it was sent.
     pub(super) query: String,
 }
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-/// What a page of this server may load: nothing of any other host.
+/// The resources that a page of this server may load: none of any other host.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
     img-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
@@ -17,7 +17,7 @@ pub(super) struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// What was asked for.
+    /// A response with the bytes that were asked for.
     pub(super) fn ok(
         content_type: impl Into<Cow<'a, str>>,
         bytes: impl Into<Cow<'a, [u8]>>,

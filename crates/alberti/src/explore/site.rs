@@ -1,4 +1,4 @@
-//! What is served: the page, the models, and the explorer's answers.
+//! The site that is served: the page, the models, and the explorer's answers.
 
 use super::companions::{ModelFiles, is_scene};
 use super::embedded::{content_type, embedded_files};

@@ -9,7 +9,7 @@ use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{Sentence, sentence, words};
 use pipeline::explain::ApiConventions;
 
-/// What the chapter's lessons have in common.
+/// The common parts of the chapter's lessons.
 const USUAL: Lesson =
     Lesson { source: Source::Chapter, conventions: ApiConventions::Chapter, ..Lesson::USUAL };
 

@@ -27,7 +27,7 @@ pub(super) fn distortion(facts: &Facts) -> Option<Sentence> {
     ))
 }
 
-/// What the near and the far plane cut off of the model.
+/// The parts of the model that the near and the far plane cut off.
 pub(super) fn planes_only_clip(facts: &Facts) -> Vec<Sentence> {
     let (Some([nearest, farthest]), [Some(near), Some(far)]) = (facts.model_range, facts.planes)
     else {

@@ -66,7 +66,7 @@ pub(super) static MODEL: Lesson = Lesson {
     ..Lesson::USUAL
 };
 
-/// What there is of the model, and how far away.
+/// Size and distance of the model.
 pub(super) fn describe_model(facts: &Facts) -> Vec<Sentence> {
     let count = facts.triangles[0];
     let mut all = vec![sentence(

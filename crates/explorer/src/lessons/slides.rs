@@ -8,7 +8,7 @@ use crate::number_text::{decimals, scene_number, scene_tuple};
 use crate::scene_description::{SceneDescription, look_at};
 use crate::words::{sentence, words};
 
-/// What these lessons have in common.
+/// The common parts of these lessons.
 const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
 
 /// VV-2: shear, scale, depth.

@@ -6,7 +6,7 @@ use crate::number_text::{decimals, scene_tuple};
 use crate::scene_description::SceneDescription;
 use crate::words::{Sentence, sentence, words};
 
-/// What these lessons have in common.
+/// The common parts of these lessons.
 const USUAL: Lesson = Lesson { source: Source::Slides, panes: PARALLEL_PANES, ..Lesson::USUAL };
 
 /// MV-1 to MV-3: onto the principal planes.

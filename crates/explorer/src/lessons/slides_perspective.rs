@@ -5,7 +5,7 @@ use crate::number_text::{scene_number, scene_tuple};
 use crate::scene_description::SceneDescription;
 use crate::words::{Sentence, sentence, words};
 
-/// What these lessons have in common.
+/// The common parts of these lessons.
 const USUAL: Lesson = Lesson { source: Source::Slides, ..Lesson::USUAL };
 
 /// A construction: the house as a line drawing, with horizon and vanishing points.

@@ -1,4 +1,4 @@
-//! The same bytes: bands and the whole, PNG and the renderer of scene files, one explorer and
+//! Equal bytes: bands and the whole, PNG and the renderer of scene files, one explorer and
 //! another.
 
 use super::{explorer_with_models, json, lessons, scenes_folder};

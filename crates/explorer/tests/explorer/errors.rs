@@ -1,4 +1,4 @@
-//! What cannot be answered is told, and the next request works.
+//! Requests that cannot be answered are told, and the next one works.
 
 use super::{explorer_with_models, json, scenes_folder};
 use explorer::Explorer;

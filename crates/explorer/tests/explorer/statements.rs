@@ -1,4 +1,4 @@
-//! What the lessons state holds, by numbers that are computed here from the formulas.
+//! The statements of the lessons hold, by numbers that are computed here from the formulas.
 
 use super::{consequences, explorer_with_models, facts, json};
 use explorer::Explorer;
@@ -95,7 +95,7 @@ fn a_small_field_of_view_enlarges_and_a_wrong_aspect_distorts() {
     assert!(clipped["clipped_by"]["near"].as_u64() > Some(0));
 }
 
-/// What is inside, clipped and outside is all there is.
+/// Triangles inside, clipped and outside are all there are.
 #[test]
 fn every_triangle_is_counted_once() {
     let mut explorer = explorer_with_models();

@@ -96,7 +96,7 @@ scene_enum! {
             /// Columns and rows of the pictures that the numbers are for. The image may be larger
             /// or smaller, but has their shape. Default: the image's own.
             size: Option<(u32, u32)>,
-            /// What the numbers count from. Default: `Integer`.
+            /// The origin of the numbers. Default: `Integer`.
             pixel_centers: PixelCenters = PixelCenters::Integer,
             /// The distance of the near plane. Default: as far as the models allow.
             near: Option<Positive>,
