@@ -21,6 +21,7 @@ pub const PROJECTIONS: &[&str] = &[
     "TwoPoint",
     "ThreePoint",
     "NPoint",
+    "Intrinsics",
 ];
 
 /// A projection of this name with random parameters, some of them impossible.
@@ -65,6 +66,7 @@ pub fn random_projection(name: &str, r: &mut Random) -> String {
             let [p, q, r] = [0; 3].map(|_| if r.once_in(4) { 0.0 } else { r.between(-1.2, 1.2) });
             format!("p: {p}, q: {q}, r: {r}")
         }
+        "Intrinsics" => random_intrinsics(r),
         _ => return name.to_owned(),
     };
     format!("{name}({fields})")
@@ -82,6 +84,19 @@ fn random_lens(r: &mut Random) -> String {
     if r.once_in(4) {
         let near = r.between(0.05, 4.0);
         fields += &format!(", near: {near}, far: {}", r.between(2.0, 20.0));
+    }
+    fields
+}
+
+/// Focal lengths, and sometimes a principal point and a skew.
+fn random_intrinsics(r: &mut Random) -> String {
+    let mut fields = format!("fx: {}", r.between(100.0, 800.0));
+    if r.once_in(2) {
+        let [cx, cy] = [0; 2].map(|_| r.between(50.0, 250.0));
+        fields += &format!(", fy: {}, cx: {cx}, cy: {cy}", r.between(100.0, 800.0));
+    }
+    if r.once_in(3) {
+        fields += &format!(", skew: {}, pixel_centers: Half", r.between(-60.0, 60.0));
     }
     fields
 }
