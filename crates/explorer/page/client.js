@@ -54,7 +54,7 @@ export class EngineClient {
     }
   }
 
-  /** The answer to a question. @param {string} query @returns {Promise<{contentType: string, bytes: Uint8Array}>} */
+  /** The answer to a question. @returns {Promise<{contentType: string, bytes: Uint8Array}>} */
   async ask(query) {
     await this.start();
     return this.post({ query: `${query}&lang=${currentLanguage()}` });

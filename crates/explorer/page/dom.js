@@ -15,7 +15,7 @@ export function math(name, ...children) {
   return created;
 }
 
-/** A number with at most five significant digits and a true minus sign; 0 for what is rounding. @param {number} value */
+/** A number with five significant digits at most and a true minus sign. @param {number} value */
 export function formatNumber(value) {
   if (typeof value !== 'number') return String(value);
   if (Math.abs(value) < 5e-13) return '0';

@@ -13,7 +13,7 @@ export const isModel = (name) => MODEL.test(name);
 /** Whether a file is a scene. @param {string} name */
 export const isScene = (name) => /\.ron$/i.test(name);
 
-/** The scene or model among files, and whether they are too large. @param {File[]} files */
+/** The scene or model among files. @param {File[]} files */
 export function findModel(files) {
   const bytes = files.reduce((sum, file) => sum + file.size, 0);
   return { model: files.find(({ name }) => isScene(name)) ?? files.find(({ name }) => isModel(name)), isHuge: bytes > MAX_BYTES, megabytes: MAX_BYTES / 2 ** 20 };

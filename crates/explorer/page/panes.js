@@ -1,4 +1,4 @@
-// The panes that show pictures: what is asked of the engine, in which order, and how it comes onto the canvas.
+// The panes that show pictures: what is asked, in which order, and how it comes onto the canvas.
 //
 // A change marks every pane as old. One question is under way at a time, so that the next one is asked about the newest
 // state: the picture first, then one other pane, then the picture again if it has changed meanwhile. First with one sample a

@@ -1,6 +1,6 @@
 // Where the files of the page are, and what its server says.
 //
-// A page in one file sets `globalThis.explorerFiles`, an object from the names of files (`worker.js`, `models/house.glb`, …)
+// A page in one file sets `globalThis.explorerFiles`, from the names of files (`worker.js`, `models/house.glb`, …)
 // to addresses of their contents, before the modules run. Otherwise names are relative to the page.
 
 /** The address of a file of the page. @param {string} path */

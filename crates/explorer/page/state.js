@@ -1,4 +1,4 @@
-// The state of the page: a query string, the same in the link, in questions to the engine and in the history of undo.
+// The state of the page: a query string, in the link, in questions and in the history of undo.
 
 /** Version of the links. */
 const VERSION = '1';

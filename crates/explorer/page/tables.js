@@ -5,7 +5,7 @@
 import { element, formatNumber, math } from './dom.js';
 import { term } from './texts.js';
 
-/** Steps one below the other, for the matrix pane. @param {object[]} steps @param {(value: any) => string} word */
+/** Steps, for the matrix pane. @param {object[]} steps @param {(value: any) => string} word */
 export function stepsWithMatrices(steps, word) {
   return steps.map((step) =>
     element('div', { class: 'step', 'data-step': step.id }, heading(step, word), matrices(step, word), valueList(step, word)),
@@ -50,7 +50,7 @@ export function valueText(value, word) {
   return value === null || value === undefined ? '' : word(value);
 }
 
-/** Coordinates of a point in every space: a row for each space. @param {object[]} spaces @param {string[]} heads */
+/** Coordinates of a point: a row for each space. @param {object[]} spaces @param {string[]} heads */
 export function journeyTable(spaces, word, heads) {
   const row = ({ space, label, value }) => {
     const cells = ['x', 'y', 'z', 'w'].map((axis, i) =>

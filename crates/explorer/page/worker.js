@@ -1,7 +1,7 @@
 // The worker that computes, so that the page never waits: one engine behind messages.
 //
 // `{id, start: {native, files, base}}`, `{id, file: {name, bytes}}` and `{id, query}` are answered by `{id, contentType, bytes}`
-// or `{id, error: {code, message, help}}`. An error without a code of the engine's means that the engine is lost.
+// or `{id, error: {code, message, help}}`. Without a code of the engine's it is lost.
 
 let engine = null;
 

@@ -87,7 +87,7 @@ impl Intrinsics {
     /// The lens of a matrix K, row by row.
     ///
     /// # Errors
-    /// As [`new`](Self::new); or K[1][0] or the last row is not as above. A matrix that is scaled
+    /// As [`new`](Self::new); or `K[1][0]` or the last row is not as above. A matrix that is scaled
     /// as a whole is divided by its last entry.
     pub fn from_rows(rows: [[f64; 3]; 3], size: [u32; 2]) -> Result<Self, ProjectionError> {
         for value in rows.as_flattened() {
