@@ -10,7 +10,7 @@ const MAX_BYTES = 512 * 2 ** 20;
 /** Whether a file is a model by itself. @param {string} name */
 export const isModel = (name) => MODEL.test(name);
 
-/** Whether a file is a scene. @param {string} name */
+/** Whether it is a scene. @param {string} name */
 export const isScene = (name) => /\.ron$/i.test(name);
 
 /** The scene or model among files. @param {File[]} files */

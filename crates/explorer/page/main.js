@@ -45,7 +45,7 @@ async function start() {
   addEventListener('hashchange', () => openLink(location.hash.slice(1)));
 }
 
-/** Opens what a link says; nonsense is told, and its lesson opened with its defaults. */
+/** Opens a link; of nonsense, which is told, the lesson with its defaults. */
 async function openLink(link) {
   if (lesson && new State(link).query() === state.query()) return;
   hideNotice();
@@ -140,7 +140,7 @@ function showState(answer) {
   showDepthTable(answer.depth_table);
 }
 
-/** Distances, their depths, and the least step of distance that the depth buffer tells apart. */
+/** Distances, depths, and the least step of distance that the buffer resolves. */
 function showDepthTable(table) {
   byId('depth-details').hidden = !table;
   if (!table) return;

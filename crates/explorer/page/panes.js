@@ -1,8 +1,8 @@
 // The panes that show pictures: what is asked, in which order, and how it comes onto the canvas.
 //
-// A change marks every pane as old. One question is under way at a time, so that the next one is asked about the newest
-// state: the picture first, then one other pane, then the picture again if it has changed meanwhile. First with one sample a
-// pixel; once nothing has changed for a moment, with four, in bands of rows, which the next change abandons.
+// A change marks every pane as old. One question is asked at a time, about the newest state: the picture first, then one other
+// pane, then the picture again if it has changed. First with one sample a pixel; once nothing has changed for a moment, with
+// four, in bands of rows, which the next change abandons.
 
 import { byId } from './dom.js';
 
