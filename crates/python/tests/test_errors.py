@@ -223,6 +223,8 @@ def test_other_threads_run_while_a_picture_is_rendered(teapot):
 def test_ctrl_c_stops_a_picture():
     code = """
 import alberti, os, signal, sys, threading, time
+# What is started in the background of a shell ignores interrupts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 model = alberti.load(sys.argv[1])
 main = os.getpid()
 threading.Timer(0.3, lambda: os.kill(main, signal.SIGINT)).start()
