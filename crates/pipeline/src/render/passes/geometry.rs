@@ -170,8 +170,9 @@ impl<'a> SceneGeometry<'a> {
             *position = model_point(*model_positions.get(vertex)?);
         }
         let in_clip_space = positions.map(|point| draw.model_to_clip.transform_point(point));
+        let edge_normals = edge_normals(in_clip_space);
         let corners = positions.map(|point| draw.model_to_world.transform_point(point));
-        Some(HitItem { id: hit.id, draw, vertices, in_clip_space, corners })
+        Some(HitItem { id: hit.id, draw, vertices, edge_normals, corners })
     }
 
     /// The surface point at a pixel's center. Points and lines keep the rasterizer's weights: their
@@ -180,7 +181,7 @@ impl<'a> SceneGeometry<'a> {
         let weights = if item.draw.primitive.topology == Topology::Triangles {
             let center = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5, 0.0);
             let center = self.screen_to_ndc.transform_point(center).raw().with_z(1.0);
-            perspective_weights(item.in_clip_space, center)
+            perspective_weights(&item.edge_normals, center)
         } else {
             None
         };
@@ -224,8 +225,8 @@ pub(super) struct HitItem<'s, 'a> {
     draw: &'s DrawGeometry<'a>,
     /// Vertex indices.
     vertices: [usize; 3],
-    /// Vertex positions in the clip space of the tile.
-    in_clip_space: [HPoint<Clip>; 3],
+    /// What the weights at a point of the picture are computed by.
+    edge_normals: [DVec3; 3],
     /// Vertex positions in the world.
     corners: [Point<World>; 3],
 }
@@ -266,21 +267,28 @@ fn interpolate([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
+/// Normals of the planes through the origin and each edge of a triangle, in (x, y, w): q × r
+/// opposite of p, and so on, all on the side of the triangle.
+///
+/// Their products with a point (x, y, 1) of the picture are its weights, up to a factor.
+fn edge_normals(corners: [HPoint<Clip>; 3]) -> [DVec3; 3] {
+    let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
+    let normals = [q.cross(r), r.cross(p), p.cross(q)];
+    // For either winding: the volume of the triangle and the origin has the sign of the winding.
+    let sign = if normals[0].dot(p) < 0.0 { -1.0 } else { 1.0 };
+    normals.map(|normal| normal * sign)
+}
+
 /// Perspective-correct barycentric weights of a triangle at a point (x, y, 1) of the picture;
 /// `None` if the triangle is seen edge-on.
 ///
 /// The point is, up to a factor, the sum of the vertices' (x, y, w) times their weights, so the
-/// weights are its products with the edge normals: (q × r) · point for p, and so on. No divide is
-/// involved and vertices may lie behind the eye. Negative weights, of points just outside, become
-/// 0.
-fn perspective_weights(corners: [HPoint<Clip>; 3], point: DVec3) -> Option<[f64; 3]> {
-    let [p, q, r] = corners.map(|corner| DVec3::new(corner.x(), corner.y(), corner.w()));
-    let edge_values = [q.cross(r), r.cross(p), p.cross(q)].map(|normal| normal.dot(point));
-    let total = edge_values[0] + edge_values[1] + edge_values[2];
-    // For either winding the sum has the sign of the weights.
-    let weights = edge_values.map(|value| (value / total).max(0.0));
-    let sum = weights[0] + weights[1] + weights[2];
-    let weights = weights.map(|weight| weight / sum);
+/// weights are its products with the edge normals. No vertex is divided by its w, and some may lie
+/// behind the eye. Negative weights, of points just outside, become 0.
+fn perspective_weights(edge_normals: &[DVec3; 3], point: DVec3) -> Option<[f64; 3]> {
+    let weights = edge_normals.map(|normal| normal.dot(point).max(0.0));
+    let factor = 1.0 / (weights[0] + weights[1] + weights[2]);
+    let weights = weights.map(|weight| weight * factor);
     weights.iter().all(|weight| weight.is_finite()).then_some(weights)
 }
 
@@ -299,13 +307,14 @@ mod tests {
             let w = at(HPoint::w);
             let point = DVec3::new(at(HPoint::x) / w, at(HPoint::y) / w, 1.0);
             for order in [[0, 1, 2], [0, 2, 1]] {
-                let actual =
-                    perspective_weights(order.map(|k| corners[k]), point).expect("weights");
+                let actual = perspective_weights(&edge_normals(order.map(|k| corners[k])), point)
+                    .expect("weights");
                 for (weight, k) in actual.into_iter().zip(order) {
                     assert!((weight - expected[k]).abs() < 1e-14, "{actual:?} {expected:?}");
                 }
             }
         }
-        assert_eq!(perspective_weights([corners[0]; 3], DVec3::Z), None, "no area");
+        let no_area = edge_normals([corners[0]; 3]);
+        assert_eq!(perspective_weights(&no_area, DVec3::Z), None, "no area");
     }
 }
