@@ -5,6 +5,7 @@
 
 use crate::CliError;
 use crate::referenced_files::referenced_files;
+use crate::render::is_scene_file;
 use model::import::Limits;
 use pipeline::scene::parse_scene;
 use std::collections::BTreeMap;
@@ -52,14 +53,9 @@ impl ModelFiles {
     }
 }
 
-/// Whether a file is a scene by its name.
-pub(super) fn is_scene(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"))
-}
-
 /// The files that a scene, a model or a material library refers to.
 fn files_of(name: &str, bytes: &[u8]) -> Vec<String> {
-    if !is_scene(name) {
+    if !is_scene_file(Path::new(name)) {
         return referenced_files(name, bytes);
     }
     // Mistakes in the scene are told when it is shown.

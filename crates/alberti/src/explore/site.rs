@@ -1,11 +1,12 @@
 //! The site that is served: the page, the models, and the explorer's answers.
 
-use super::companions::{ModelFiles, is_scene};
+use super::companions::ModelFiles;
 use super::embedded::{content_type, embedded_files};
 use super::request::Request;
 use super::response::Response;
 use crate::CliError;
 use crate::percent_encoding::percent_encode;
+use crate::render::is_scene_file;
 use explorer::{Explorer, ExplorerError};
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -40,7 +41,7 @@ impl Site {
         }
         let mut open = String::new();
         if model.is_some() {
-            let lesson = if is_scene(&given.name) { "scene" } else { "model" };
+            let lesson = if is_scene_file(Path::new(&given.name)) { "scene" } else { "model" };
             open = format!("v=1&lesson={lesson}&model={}", percent_encode(&given.name));
             explorer.answer(&format!("{open}&what=state")).map_err(as_cli_error)?;
         }
