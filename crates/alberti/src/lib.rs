@@ -49,7 +49,6 @@ mod options;
 mod page_output;
 mod panel_subject;
 mod passes;
-mod percent_encoding;
 mod progress;
 mod reference;
 mod referenced_files;

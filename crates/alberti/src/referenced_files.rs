@@ -5,8 +5,7 @@
 //! the files and no parse of the meshes. A name too many does no harm: it is a file that does
 //! not exist, or one whose change renders a picture again.
 
-use super::percent_encoding::percent_decode;
-use pipeline::import::FileFormat;
+use pipeline::import::{FileFormat, percent_decode};
 use serde_json::Value;
 use std::path::Path;
 

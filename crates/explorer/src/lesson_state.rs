@@ -4,9 +4,10 @@ use crate::ExplorerError;
 use crate::lesson::{Choice, Domain, Lesson, Parameter, ParameterValue, Values};
 use crate::lessons::LESSONS;
 use crate::model_store::LoadedScene;
-use crate::query::{Query, encode};
+use crate::query::Query;
 use crate::request::DEFAULT_SIZE;
 use crate::words::{Language, sentence};
+use model::import::percent_encode;
 
 /// The version of the keys.
 const VERSION: &str = "1";
@@ -130,7 +131,7 @@ impl LessonState {
         add_numbers("orbit", self.orbit.as_ref().map(|orbit| &orbit[..]));
         add_numbers("volume_orbit", self.volume_orbit.as_ref().map(|orbit| &orbit[..]));
         link += &self.style.map_or(String::new(), |style| format!("&style={style}"));
-        let model = self.model.as_ref().map(|name| format!("&model={}", encode(name)));
+        let model = self.model.as_ref().map(|name| format!("&model={}", percent_encode(name)));
         link + &model.unwrap_or_default()
     }
 }

@@ -1,6 +1,7 @@
 //! Query strings: pairs of keys and values, percent-encoded.
 
 use crate::ExplorerError;
+use model::import::percent_decode;
 
 /// The longest query that is read, in bytes.
 const MAX_QUERY_BYTES: usize = 16 * 1024;
@@ -56,46 +57,16 @@ fn missing_equals_sign(pair: &str) -> ExplorerError {
 
 /// Decodes `%41` to A and `+` to a space.
 fn decode(text: &str) -> Result<String, ExplorerError> {
-    let malformed = || {
+    percent_decode(&text.replace('+', " ")).ok_or_else(|| {
         let message = format!("`{text}` is not percent-encoded UTF-8");
         ExplorerError::new("malformed_query", message, "write a percent sign as %25")
-    };
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes();
-    while let Some((&byte, after)) = rest.split_first() {
-        let digit = |at: usize| after.get(at).and_then(|&digit| char::from(digit).to_digit(16));
-        rest = after;
-        match byte {
-            b'%' => {
-                let [high, low] = [digit(0), digit(1)].map(|digit| digit.ok_or_else(malformed));
-                bytes.push((high? * 16 + low?) as u8);
-                rest = &after[2..];
-            }
-            b'+' => bytes.push(b' '),
-            byte => bytes.push(byte),
-        }
-    }
-    String::from_utf8(bytes).map_err(|_| malformed())
-}
-
-/// Encodes what is neither a letter nor a digit nor one of `-_.,~/`, so that the text can be part
-/// of a query.
-pub(crate) fn encode(text: &str) -> String {
-    let mut encoded = String::with_capacity(text.len());
-    for byte in text.bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b',' | b'~' | b'/' => {
-                encoded.push(char::from(byte));
-            }
-            byte => encoded.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    encoded
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use model::import::percent_encode;
 
     #[test]
     fn pairs_are_decoded_and_taken_once() {
@@ -120,6 +91,6 @@ mod tests {
     #[test]
     fn encoding_is_undone_by_decoding() {
         let text = "Ä b+c&d=e%/中.glb";
-        assert_eq!(decode(&encode(text)).as_deref(), Ok(text));
+        assert_eq!(decode(&percent_encode(text)).as_deref(), Ok(text));
     }
 }

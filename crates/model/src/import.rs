@@ -33,6 +33,7 @@ mod name_or_index;
 mod normals;
 mod obj;
 mod parallel_decoding;
+mod percent_encoding;
 mod plain_material;
 mod ply;
 mod polygons;
@@ -54,6 +55,7 @@ pub use image_decoder::decode_bounded as decode_image;
 pub use limits::Limits;
 pub use memory_folder::MemoryFolder;
 pub use name_or_index::NameOrIndex;
+pub use percent_encoding::{percent_decode, percent_encode};
 
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::{LengthUnit, Model, Timings, Topology, UpAxis};

@@ -10,6 +10,7 @@
 use super::ImportOptions;
 use super::limits::Limits;
 use super::memory_folder::{MemoryFolder, normalize_path};
+use super::percent_encoding::{percent_decode, percent_decode_bytes};
 use crate::diagnostic::{Diagnostic, codes};
 use base64::Engine;
 use base64::alphabet;
@@ -153,7 +154,7 @@ impl<'a> UriResolver<'a> {
         if uri.is_empty() {
             return Err(Diagnostic::invalid(pointer, "the URI is empty"));
         }
-        let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
+        let decoded = percent_decode(uri);
         let candidates =
             [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
         for candidate in candidates.into_iter().flatten() {
@@ -358,27 +359,6 @@ fn uri_scheme(uri: &str) -> Option<&str> {
     (first && rest).then_some(scheme)
 }
 
-/// Decodes `%41` to the byte 0x41 (RFC 3986 §2.1); `None` where two digits do not follow a `%`.
-pub(super) fn percent_decode(text: &str) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes();
-    while let Some((&byte, after)) = rest.split_first() {
-        let digit = |at: usize| after.get(at).and_then(|&d| char::from(d).to_digit(16));
-        match (byte, digit(0), digit(1)) {
-            (b'%', Some(high), Some(low)) => {
-                bytes.push((high * 16 + low) as u8);
-                rest = &after[2..];
-            }
-            (b'%', ..) => return None,
-            _ => {
-                bytes.push(byte);
-                rest = after;
-            }
-        }
-    }
-    Some(bytes)
-}
-
 /// Base64 with or without padding, with stray bits in the last digit.
 const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
     .with_decode_allow_trailing_bits(true)
@@ -392,7 +372,7 @@ fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
     };
     if !kind.to_ascii_lowercase().ends_with(";base64") {
         let message = "the data URI is neither base64 nor has it two digits after every %";
-        return percent_decode(data).ok_or_else(|| Diagnostic::invalid(pointer, message));
+        return percent_decode_bytes(data).ok_or_else(|| Diagnostic::invalid(pointer, message));
     }
     let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT_BASE64).decode(data);
     let bytes = standard.or_else(|error| {

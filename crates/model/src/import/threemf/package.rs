@@ -6,8 +6,8 @@ use super::xml::{Element, XmlReader};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::import::limits::Limits;
 use crate::import::memory_budget::MemoryBudget;
+use crate::import::percent_encoding::percent_decode;
 use crate::import::text::decode_text;
-use crate::import::uri_resolver::percent_decode;
 use crate::import::warnings::ImportWarnings;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -51,8 +51,7 @@ impl<'a> Package<'a> {
     /// The entry of a part by its name, with or without `/` before it, escaped or not.
     fn find_part(&self, name: &str) -> Option<&Entry> {
         let name = name.trim_start_matches('/').to_ascii_lowercase();
-        let decoded = || String::from_utf8(percent_decode(&name)?).ok();
-        let at = self.parts.get(&name).or_else(|| self.parts.get(&decoded()?));
+        let at = self.parts.get(&name).or_else(|| self.parts.get(&percent_decode(&name)?));
         at.and_then(|&at| self.archive.entries.get(at))
     }
 
