@@ -41,10 +41,16 @@ fn gltf_files(bytes: &[u8]) -> Vec<String> {
     let list = |name: &str| json.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
     let all = list("buffers").into_iter().chain(list("images"));
     let names = all.filter_map(|entry| Some(entry.get("uri")?.as_str()?.to_owned()));
-    names
-        .filter(|uri| !uri.starts_with("data:"))
-        .map(|uri| percent_decode(&uri).unwrap_or(uri))
-        .collect()
+    names.filter(|uri| !uri.starts_with("data:")).flat_map(paths_of_uri).collect()
+}
+
+/// The paths that the importer tries for a URI: as it is written, decoded, and with `\` as `/`.
+fn paths_of_uri(uri: String) -> Vec<String> {
+    let decoded = percent_decode(&uri);
+    let with_slashes = decoded.as_ref().map(|path| path.replace('\\', "/"));
+    let mut paths: Vec<String> = [Some(uri), decoded, with_slashes].into_iter().flatten().collect();
+    paths.dedup();
+    paths
 }
 
 /// The material libraries of an OBJ file: `mtllib` takes one name, which may contain spaces, or
@@ -131,15 +137,21 @@ mod tests {
     fn the_files_of_gltf_are_found_in_both_forms() {
         let json =
             br#"{"buffers":[{"uri":"a%20b.bin"},{}],"images":[{"uri":"data:x"},{"uri":"c.png"}]}"#;
-        assert_eq!(gltf_files(json), ["a b.bin", "c.png"]);
+        assert_eq!(gltf_files(json), ["a%20b.bin", "a b.bin", "c.png"]);
         let mut glb = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
         glb.extend((json.len() as u32).to_le_bytes());
         glb.extend(b"JSON");
         glb.extend(json);
-        assert_eq!(gltf_files(&glb), ["a b.bin", "c.png"]);
+        assert_eq!(gltf_files(&glb), gltf_files(json));
         for end in 0..glb.len() {
             gltf_files(&glb[..end]);
         }
+    }
+
+    #[test]
+    fn paths_of_windows_are_found_as_the_importer_finds_them() {
+        let json = br#"{"images":[{"uri":"maps\\wood%20grain.png"}]}"#;
+        assert!(gltf_files(json).iter().any(|name| name == "maps/wood grain.png"));
     }
 
     #[test]
