@@ -3,6 +3,7 @@
 use crate::ExplorerError;
 use crate::lesson_state::LessonState;
 use crate::query::Query;
+use pipeline::scene::closest_name;
 
 /// Size of a picture where none is given; the lessons are made for its shape.
 pub(crate) const DEFAULT_SIZE: [u32; 2] = [640, 400];
@@ -149,36 +150,12 @@ fn malformed(key: &str, value: &str, help: &str) -> ExplorerError {
 fn unknown_key(key: &str, state: &LessonState) -> ExplorerError {
     let lesson = state.lesson;
     let own: Vec<&str> = lesson.parameters.iter().map(|parameter| parameter.key).collect();
-    let known = own.iter().copied().chain(KEYS);
-    let closest = known.min_by_key(|known| edit_distance(known, key));
-    let similar = closest.filter(|known| edit_distance(known, key) <= 2);
-    let help = match similar {
+    let help = match closest_name(key, &[&own, &KEYS[..]].concat()) {
         Some(similar) => format!("did you mean `{similar}`?"),
         None if own.is_empty() => format!("the lesson `{}` has no parameters", lesson.id),
         None => format!("the lesson `{}` has {}", lesson.id, own.join(", ")),
     };
     ExplorerError::new("unknown_key", format!("there is no key `{key}` here"), help)
-}
-
-/// How many letters two words differ by: insertions, deletions, substitutions and exchanges of
-/// neighbors (optimal string alignment).
-fn edit_distance(a: &str, b: &str) -> usize {
-    // Long keys are no misspelt ones, and the table grows with their product.
-    let [a, b]: [Vec<char>; 2] = [a, b].map(|word| word.chars().take(24).collect());
-    let mut rows = vec![(0..=b.len()).collect::<Vec<usize>>()];
-    for (i, x) in a.iter().enumerate() {
-        let mut row = vec![i + 1];
-        for (j, y) in b.iter().enumerate() {
-            let substituted = rows[i][j] + usize::from(x != y);
-            let mut least = substituted.min(rows[i][j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && a[i - 1] == *y && *x == b[j - 1] {
-                least = least.min(rows[i - 1][j - 1] + 1);
-            }
-            row.push(least);
-        }
-        rows.push(row);
-    }
-    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]
@@ -191,8 +168,13 @@ mod tests {
 
     #[test]
     fn a_misspelt_key_is_told_with_the_right_one() {
-        let error = error("what=picture&lesson=frustum&naer=2");
-        assert_eq!((error.code, error.help.as_str()), ("unknown_key", "did you mean `near`?"));
+        for (wrong, right) in [("naer", "near"), ("Near", "near"), ("picel", "pixel")] {
+            let error = error(&format!("what=picture&lesson=frustum&{wrong}=2"));
+            let help = format!("did you mean `{right}`?");
+            assert_eq!((error.code, error.help), ("unknown_key", help));
+        }
+        let error = error("what=picture&lesson=frustum&soup=2");
+        assert!(error.help.starts_with("the lesson `frustum` has "), "{}", error.help);
     }
 
     #[test]
@@ -218,12 +200,5 @@ mod tests {
         ] {
             assert_eq!(error(text).code, code, "{text}");
         }
-    }
-
-    #[test]
-    fn distances_count_exchanged_letters_once() {
-        assert_eq!(edit_distance("near", "naer"), 1);
-        assert_eq!(edit_distance("fov", "far"), 2);
-        assert_eq!(edit_distance("", "ab"), 2);
     }
 }

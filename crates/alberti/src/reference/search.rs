@@ -1,6 +1,7 @@
 //! Search in the reference by name, type or path of fields.
 
 use super::{ReferenceEntry, ReferenceSection};
+use pipeline::scene::closest_name;
 
 /// Finds the section with the title `word`, the end of a path of fields with its types, or all
 /// entries of that name.
@@ -208,8 +209,7 @@ fn open_entries(
 /// The message for a word that nothing matches, with the most similar name as a hint, or where to
 /// look.
 ///
-/// Similarity is that of Jaro and Winkler, which favors a common beginning; below 0.8 a suggestion
-/// would mislead. Of a path only the last step is compared.
+/// Of a path only the last step is compared.
 fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
     fn collect_names<'a>(entry: &'a ReferenceEntry, found: &mut Vec<&'a str>) {
         found.extend(entry_names(entry));
@@ -221,10 +221,7 @@ fn unknown_word(sections: &[ReferenceSection], word: &str) -> String {
         .flat_map(|section| &section.entries)
         .for_each(|entry| collect_names(entry, &mut names));
     let last = word.rsplit('.').next().unwrap_or(word);
-    let likeness = |name: &&str| strsim::jaro_winkler(last, name);
-    let best = names.into_iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    let hint = best.filter(|name| likeness(name) > 0.8);
-    let hint = hint.map_or_else(
+    let hint = closest_name(last, &names).map_or_else(
         || {
             "`alberti scene doc` lists all fields of scenes, `alberti --help` all commands"
                 .to_owned()

@@ -1,10 +1,14 @@
 //! Names that are close to a misspelt one.
 
-/// The similarity (Jaro and Winkler) from which on a name is probably the one that was meant.
+/// The similarity above which a name is probably the one that was meant.
 const SIMILAR: f64 = 0.8;
 
 /// The name that is most like `word`, if one is similar. Capitals do not count.
-pub(super) fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
+///
+/// Similarity is that of Jaro and Winkler, which favors a common beginning; below 0.8 of it a
+/// suggestion would mislead.
+#[must_use]
+pub fn closest_name<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let similarity = |name: &str| strsim::jaro_winkler(&word.to_lowercase(), &name.to_lowercase());
     let best = names.iter().copied().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
     (similarity(best) > SIMILAR).then_some(best)
