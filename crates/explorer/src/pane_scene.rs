@@ -11,6 +11,7 @@ use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, Scene};
 use projection::{Convention, Orthographic};
+use shade::color::srgb_to_linear_table;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -138,11 +139,7 @@ fn primitive(material: usize, topology: Topology, positions: &[[f32; 3]]) -> Pri
 
 /// Surfaces are lit, lines are not.
 fn material((name, color): (&str, [u8; 3]), unlit: bool) -> Material {
-    // The linear part of the sRGB curve is below all of these codes.
-    let [r, g, b] = color.map(|code| {
-        let encoded = (f64::from(code) / 255.0 + 0.055) / 1.055;
-        libm::pow(encoded, 2.4) as f32
-    });
+    let [r, g, b] = color.map(|code| srgb_to_linear_table()[usize::from(code)]);
     Material {
         name: Some(name.to_owned()),
         base_color: [r, g, b, 1.0],
