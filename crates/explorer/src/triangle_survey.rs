@@ -2,7 +2,7 @@
 
 use camera::ViewProjection;
 use clip::{Outcode, PlaneIndex, Volume, clip_triangle};
-use homog::{Bounds, Clip, HPoint, Point, World};
+use homog::{Bounds, Clip, HPoint, Point, Projective, World};
 use model::{MeshInstance, ModelInstance, Topology};
 use std::collections::BTreeMap;
 
@@ -151,8 +151,10 @@ pub(crate) struct Survey {
 }
 
 /// The corners of a triangle in clip space.
-pub(crate) fn project(view: &ViewProjection, triangle: &WorldTriangle) -> [HPoint<Clip>; 3] {
-    let world_to_clip = view.world_to_clip();
+pub(crate) fn project(
+    world_to_clip: &Projective<World, Clip>,
+    triangle: &WorldTriangle,
+) -> [HPoint<Clip>; 3] {
     triangle.map(|point| world_to_clip.transform_point(point))
 }
 
@@ -173,8 +175,9 @@ impl Survey {
     /// Counts the triangles.
     pub(crate) fn new(view: &ViewProjection, triangles: &[WorldTriangle]) -> Self {
         let mut survey = Self::default();
+        let world_to_clip = view.world_to_clip();
         for triangle in triangles {
-            survey.add_triangle(project(view, triangle));
+            survey.add_triangle(project(&world_to_clip, triangle));
         }
         survey
     }

@@ -43,12 +43,12 @@ fn canonical_scene(
     observer: Observer,
     pointer: Pointer,
 ) -> Result<Scene, ExplorerError> {
-    let view = facts.view_projection;
+    let world_to_clip = facts.view_projection.world_to_clip();
     let mut geometry = PaneGeometry::default();
     for triangle in facts.loaded.models.triangles.drawn() {
-        add_divided(&mut geometry, project(&view, triangle), stage);
+        add_divided(&mut geometry, project(&world_to_clip, triangle), stage);
     }
-    let to_ndc = |point| view.world_to_clip().transform_point(point).divide();
+    let to_ndc = |point| world_to_clip.transform_point(point).divide();
     let ends =
         pointer.sight.and_then(|sight| Some([to_ndc(sight.ends[0])?, to_ndc(sight.ends[1])?]));
     if let Some(ends) = ends {
@@ -94,14 +94,15 @@ fn factor_scene(facts: &Facts, count: usize, observer: Observer) -> Result<Scene
     let view = facts.view_projection;
     let to_stage = affine_factors(facts, count).unwrap_or(Affine::IDENTITY);
     let to_stage = view.camera.world_to_view().then(to_stage);
+    let world_to_clip = view.world_to_clip();
     let mut geometry = PaneGeometry::default();
     for triangle in facts.loaded.models.triangles.drawn() {
-        let (containment, _) = classify(project(&view, triangle));
+        let (containment, _) = classify(project(&world_to_clip, triangle));
         let corners = triangle.map(|corner| to_stage.transform_point(corner));
         geometry.add_triangle(containment, corners.map(<[f64; 3]>::from));
     }
     let from_stage = to_stage.inverse().unwrap_or(view.camera.view_to_world());
-    let stage_to_clip = from_stage.then_project(view.world_to_clip());
+    let stage_to_clip = from_stage.then_project(world_to_clip);
     let volume = ViewVolume::new(stage_to_clip, Convention::CHAPTER);
     let corners = volume.corners().into_iter().flatten().chain(volume.eye());
     let finite = corners.filter_map(HPoint::divide);

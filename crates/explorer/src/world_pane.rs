@@ -44,12 +44,12 @@ pub(crate) fn world_scene(
     let shown = loaded.views();
     let first = shown[0].view_projection;
     let mut geometry = PaneGeometry::default();
-    let planes = world_planes(&first);
+    let (planes, world_to_clip) = (world_planes(&first), first.world_to_clip());
     for triangle in loaded.models.triangles.drawn() {
         let mut add = |containment, triangle: WorldTriangle| {
             geometry.add_triangle(containment, triangle.map(<[f64; 3]>::from));
         };
-        match classify(project(&first, triangle)).0 {
+        match classify(project(&world_to_clip, triangle)).0 {
             Containment::Clipped => cut_at_planes(*triangle, &planes, &mut add),
             containment => add(containment, *triangle),
         }
