@@ -81,13 +81,21 @@ fn page_files() -> Result<Vec<PathBuf>, String> {
     Ok(files.into_iter().collect())
 }
 
-/// The models of all lessons, by the engine's own word.
-fn lesson_models(site: &Path) -> Result<BTreeSet<String>, String> {
+/// The lessons, as the engine of a page lists them.
+pub fn list_lessons(site: &Path) -> Result<Vec<Value>, String> {
     let request = Request { name: "lessons.json".into(), query: "what=lessons".into() };
     let answers = Answers::ask(site, &[], &[request])?;
-    let lessons: Value = serde_json::from_slice(answers.bytes("lessons.json")?)
+    let mut answer: Value = serde_json::from_slice(answers.bytes("lessons.json")?)
         .map_err(|error| format!("the lessons of the engine: {error}"))?;
-    let lessons = lessons["lessons"].as_array().ok_or("the engine lists no lessons")?;
+    match answer["lessons"].take() {
+        Value::Array(lessons) => Ok(lessons),
+        _ => Err("the engine lists no lessons".to_owned()),
+    }
+}
+
+/// The models of all lessons.
+fn lesson_models(site: &Path) -> Result<BTreeSet<String>, String> {
+    let lessons = list_lessons(site)?;
     let models = lessons.iter().filter_map(|lesson| lesson["models"].as_array()).flatten();
     Ok(models.filter_map(|name| name.as_str().map(str::to_owned)).collect())
 }

@@ -67,11 +67,7 @@ pub fn compare_web(program: &Program) -> Outcome {
 
 /// The default of each lesson, and the states above.
 fn all_states(site: &Path) -> Result<Vec<String>, String> {
-    let request = Request { name: "lessons.json".into(), query: "what=lessons".into() };
-    let answers = Answers::ask(site, &[], &[request])?;
-    let json: Value = serde_json::from_slice(answers.bytes("lessons.json")?)
-        .map_err(|error| format!("the lessons of the engine: {error}"))?;
-    let lessons = json["lessons"].as_array().ok_or("the engine lists no lessons")?;
+    let lessons = web::list_lessons(site)?;
     // The lesson `model` has no picture before a model is chosen.
     let ids = lessons.iter().filter(|lesson| lesson["models"][0].is_string());
     let ids = ids.filter_map(|lesson| lesson["id"].as_str());
