@@ -299,3 +299,20 @@ pub(super) fn parse_image_size(text: &str) -> Result<(u32, u32), String> {
     };
     Ok((side(width)?, side(height)?))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::ValueEnum as _;
+
+    /// The names that other programs of the workspace have for styles are those of the flag.
+    #[test]
+    fn styles_of_flags_are_those_of_the_library() {
+        let names = StyleArg::value_variants().iter().map(|style| {
+            let name = style.to_possible_value().expect("a name").get_name().to_owned();
+            (name, StyleFile::from(*style))
+        });
+        let known = StyleFile::NAMED.map(|(name, make)| (name.to_owned(), make()));
+        assert_eq!(names.collect::<Vec<_>>(), known);
+    }
+}

@@ -182,6 +182,15 @@ fn find_style(name: &str) -> Result<&'static str, ExplorerError> {
     })
 }
 
+/// The name of a style in flags: `XRay` is `x-ray`, and `UvChecker` `uv`.
+pub(crate) fn style_flag(style: &str) -> String {
+    match style {
+        "UvChecker" => "uv".to_owned(),
+        "XRay" => "x-ray".to_owned(),
+        other => other.to_ascii_lowercase(),
+    }
+}
+
 /// Parses the value of a parameter.
 fn parse_value(
     parameter: &Parameter,

@@ -1,6 +1,7 @@
 //! The files and the loaded models: loaded once, shared by all states of a lesson.
 
 use crate::ExplorerError;
+use crate::lesson_state::style_flag;
 use crate::triangle_survey::WorldTriangles;
 use model::ModelInstance;
 use model::import::MemoryFolder;
@@ -181,7 +182,22 @@ impl PictureOptions {
 
 /// The style of a name, with the default of each of its fields.
 fn named_style(name: &str) -> Option<StyleFile> {
-    let value = if name == "Lines" { "Lines()" } else { name };
-    let text = format!("Scene(models: [], style: {value})");
-    parse_scene("style.ron", &text).ok().map(|file| file.style)
+    let flag = style_flag(name);
+    StyleFile::NAMED.into_iter().find(|(known, _)| *known == flag).map(|(_, make)| make())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lesson_state::STYLES;
+
+    #[test]
+    fn styles_are_those_that_scene_files_call_so() {
+        for name in STYLES {
+            let value = if name == "Lines" { "Lines()" } else { name };
+            let text = format!("Scene(models: [], style: {value})");
+            let file = parse_scene("style.ron", &text).expect("a scene");
+            assert_eq!(named_style(name), Some(file.style), "{name}");
+        }
+    }
 }

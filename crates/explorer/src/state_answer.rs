@@ -4,6 +4,7 @@ use crate::ExplorerError;
 use crate::depth_pane::depth_table_json;
 use crate::facts::{Facts, PLANES};
 use crate::lesson::ParameterValue;
+use crate::lesson_state::style_flag;
 use crate::model_store::LoadedScene;
 use crate::pane_scene::COLORS;
 use crate::request::Request;
@@ -83,15 +84,6 @@ fn command(request: &Request, text: &str) -> String {
         _ => {
             format!("alberti render - -o {}.png <<'SCENE'\n{text}SCENE\n", state.lesson.id)
         }
-    }
-}
-
-/// The name of a style in flags: `XRay` is `x-ray`, and `UvChecker` `uv`.
-fn style_flag(style: &str) -> String {
-    match style {
-        "UvChecker" => "uv".to_owned(),
-        "XRay" => "x-ray".to_owned(),
-        other => other.to_ascii_lowercase(),
     }
 }
 

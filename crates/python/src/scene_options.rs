@@ -8,27 +8,6 @@ use pipeline::SceneFile;
 use pipeline::scene::file::{BackgroundFile, Color, StyleFile};
 use pyo3::prelude::*;
 
-/// The styles by their names in flags.
-const STYLES: [(&str, fn() -> StyleFile); 17] = [
-    ("shaded", || StyleFile::Shaded),
-    ("flat", || StyleFile::Flat),
-    ("gouraud", || StyleFile::Gouraud),
-    ("clay", || StyleFile::Clay),
-    ("matcap", || StyleFile::Matcap),
-    ("normals", || StyleFile::Normals),
-    ("depth", || StyleFile::Depth),
-    ("uv", || StyleFile::UvChecker),
-    ("ids", || StyleFile::Ids),
-    ("toon", || StyleFile::Toon),
-    ("x-ray", || StyleFile::XRay),
-    ("wireframe", || StyleFile::Wireframe),
-    ("depth-cued", StyleFile::lines_depth_cued),
-    ("lines", StyleFile::lines_hidden_removed),
-    ("dashed", StyleFile::lines_hidden_dashed),
-    ("silhouette", StyleFile::lines_silhouette),
-    ("technical", StyleFile::lines_technical),
-];
-
 /// The description of a subject's scene with the options of a call.
 ///
 /// # Errors
@@ -62,9 +41,9 @@ pub(crate) fn apply_options(subject: &Subject, options: &Keywords<'_, '_>) -> Py
 /// A style by its name.
 fn style_by_name(name: &str) -> Fallible<StyleFile> {
     let wanted = plain_name(name);
-    let known = STYLES.iter().find(|(known, _)| plain_name(known) == wanted);
+    let known = StyleFile::NAMED.into_iter().find(|(known, _)| plain_name(known) == wanted);
     known.map(|(_, make)| make()).ok_or_else(|| {
-        let names = STYLES.map(|(name, _)| name).join(", ");
+        let names = StyleFile::NAMED.map(|(name, _)| name).join(", ");
         Failure::argument("style", format!("is {name:?}, expected one of {names}"))
     })
 }

@@ -43,6 +43,27 @@ scene_enum! {
 }
 
 impl StyleFile {
+    /// The styles by the names that flags have for them, each with the default of its fields.
+    pub const NAMED: [(&'static str, fn() -> Self); 17] = [
+        ("shaded", || Self::Shaded),
+        ("flat", || Self::Flat),
+        ("gouraud", || Self::Gouraud),
+        ("clay", || Self::Clay),
+        ("matcap", || Self::Matcap),
+        ("normals", || Self::Normals),
+        ("depth", || Self::Depth),
+        ("uv", || Self::UvChecker),
+        ("ids", || Self::Ids),
+        ("toon", || Self::Toon),
+        ("x-ray", || Self::XRay),
+        ("wireframe", || Self::Wireframe),
+        ("depth-cued", Self::lines_depth_cued),
+        ("lines", Self::lines_hidden_removed),
+        ("dashed", Self::lines_hidden_dashed),
+        ("silhouette", Self::lines_silhouette),
+        ("technical", Self::lines_technical),
+    ];
+
     /// Whether the light of an environment arrives in pictures of this style.
     #[must_use]
     pub const fn shows_environment(&self) -> bool {
