@@ -132,17 +132,12 @@ fn load_request(options: &Keywords<'_, '_>) -> PyResult<LoadRequest> {
     let name_or_index = |name: &str| -> PyResult<Option<NameOrIndex>> {
         Ok(choice(options, name)?.map(NameOrIndex::from))
     };
-    let crease_angle = options.number("crease")?;
-    if let Some(angle) = crease_angle.filter(|angle| !(0.0..=180.0).contains(angle)) {
-        let message = format!("is {angle}, expected an angle from 0 to 180 degrees");
-        return Err(Failure::argument("crease", message).into());
-    }
     let import = ImportOptions {
         limits: limits(options)?,
         lenient: options.flag("lenient")?,
         up: options.named("up")?,
         length_unit: options.named("unit")?,
-        crease_angle,
+        crease_angle: crease_angle(options)?,
         scene: name_or_index("scene")?,
         variant: name_or_index("variant")?,
         ..ImportOptions::default()
@@ -152,6 +147,16 @@ fn load_request(options: &Keywords<'_, '_>) -> PyResult<LoadRequest> {
         animation: choice(options, "animation")?,
         time: options.number("time")?,
     })
+}
+
+/// The crease angle in degrees.
+pub(crate) fn crease_angle(options: &Keywords<'_, '_>) -> PyResult<Option<f64>> {
+    let angle = options.number("crease")?;
+    if let Some(angle) = angle.filter(|angle| !(0.0..=180.0).contains(angle)) {
+        let message = format!("is {angle}, expected an angle from 0 to 180 degrees");
+        return Err(Failure::argument("crease", message).into());
+    }
+    Ok(angle)
 }
 
 /// A part of a file, by its name or index.

@@ -4,7 +4,7 @@ use crate::arrays::{self, Numbers};
 use crate::detached::run_detached;
 use crate::failure::{Failure, Fallible};
 use crate::keywords::Keywords;
-use crate::loading::{affine_map, limits, place_model};
+use crate::loading::{affine_map, crease_angle, limits, place_model};
 use crate::mesh_colors::{read_colors, read_texture};
 use crate::mesh_material::read_material;
 use crate::subject::Subject;
@@ -30,7 +30,7 @@ pub(crate) fn build_model(
         limits: limits(&options)?,
         up: options.named("up")?,
         length_unit: options.named("unit")?,
-        crease_angle: crease(&options)?,
+        crease_angle: crease_angle(&options)?,
         ..ImportOptions::default()
     };
     let read = |mesh: &Bound<'_, PyDict>| read_mesh(&Keywords(mesh), &import.limits);
@@ -61,16 +61,6 @@ fn default_node(meshes: &[MeshArrays], mesh: usize) -> MeshNode {
 fn read_node((name, mesh, matrix): NodeOfPython<'_>) -> PyResult<MeshNode> {
     let argument = format!("transform of {}", name.as_deref().unwrap_or("a node"));
     Ok(MeshNode { name, mesh, to_model: affine_map(&argument, &matrix)? })
-}
-
-/// The crease angle in degrees.
-fn crease(options: &Keywords<'_, '_>) -> PyResult<Option<f64>> {
-    let angle = options.number("crease")?;
-    if let Some(angle) = angle.filter(|angle| !(0.0..=180.0).contains(angle)) {
-        let message = format!("is {angle}, expected an angle from 0 to 180 degrees");
-        return Err(Failure::argument("crease", message).into());
-    }
-    Ok(angle)
 }
 
 /// Reads a mesh and its material.

@@ -61,14 +61,9 @@ fn linear_channel(channel: f64, most: f64) -> f32 {
     shade::color::srgb_to_linear_table()[channel as usize]
 }
 
-/// The linear value of an sRGB encoded one (IEC 61966-2-1); both are in [0, 1].
+/// The linear value of an sRGB encoded one; both are in [0, 1].
 pub(crate) fn linear_fraction(encoded: f64) -> f32 {
-    let linear = if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        libm::pow((encoded + 0.055) / 1.055, 2.4)
-    };
-    linear as f32
+    shade::color::srgb_to_linear(encoded) as f32
 }
 
 /// A texture: an array of bytes, or the content of an image file.
