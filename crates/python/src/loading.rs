@@ -85,10 +85,14 @@ pub(crate) fn compose(parts: Vec<(Bound<'_, Subject>, Bound<'_, PyAny>)>) -> PyR
     for (index, (part, pose)) in parts.iter().enumerate() {
         let name = format!("poses[{index}]");
         let pose = affine_map(&name, pose)?;
-        models.extend(part.get().models.iter().map(|placed| ModelInstance {
-            model: Arc::clone(&placed.model),
-            model_to_world: placed.model_to_world.then(pose),
-        }));
+        for placed in &part.get().models {
+            let model_to_world = placed.model_to_world.then(pose);
+            if !model_to_world.is_finite() {
+                let message = "together with the poses within the scene it is not finite";
+                return Err(Failure::argument(name, message).into());
+            }
+            models.push(ModelInstance { model: Arc::clone(&placed.model), model_to_world });
+        }
     }
     let (origin, file) = Origin::from_model_bytes("scene", Vec::new());
     Ok(Subject::new(origin, file, models))
