@@ -115,12 +115,16 @@ def _diffuse(material: Any) -> Any:
 
 
 def _numbers(value: Any) -> Any:
-    """The number or the three numbers of a key of an MTL library; None if they are none."""
+    """The number or the numbers of a key of an MTL library; None if they are none."""
+    import numpy as np
+
     try:
-        numbers = [float(part) for part in (value if isinstance(value, (list, tuple)) else [value])]
-    except ValueError:
+        numbers = np.asarray(value, dtype=float).ravel()
+    except (TypeError, ValueError):
         return None
-    return numbers[0] if len(numbers) == 1 else numbers
+    if numbers.size == 0 or not np.isfinite(numbers).all():
+        return None
+    return float(numbers[0]) if numbers.size == 1 else numbers
 
 
 _MTL_KEYS = ("kd", "ks", "ns", "illum", "d", "tr")
