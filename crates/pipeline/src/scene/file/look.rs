@@ -42,9 +42,12 @@ scene_enum! {
     }
 }
 
+/// The name that flags have for a style, and the style.
+type NamedStyle = (&'static str, fn() -> StyleFile);
+
 impl StyleFile {
     /// The styles by the names that flags have for them, each with the default of its fields.
-    pub const NAMED: [(&'static str, fn() -> Self); 17] = [
+    pub const NAMED: [NamedStyle; 17] = [
         ("shaded", || Self::Shaded),
         ("flat", || Self::Flat),
         ("gouraud", || Self::Gouraud),
