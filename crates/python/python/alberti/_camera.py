@@ -270,7 +270,8 @@ class Camera:
     def project(self, points: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Pixel coordinates (N, 2), column and row, and depths (N,) of points (N, 3).
 
-        Points that are not ahead of the eye have coordinates NaN and a depth of at most 0.
+        Points that are not ahead of the eye have a depth of at most 0; in a perspective, their
+        coordinates are NaN.
         """
         return self._native.project(points)
 
