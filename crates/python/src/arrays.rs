@@ -61,7 +61,9 @@ fn read_array<T: Element + Copy>(
     let given = as_array(name, value)?;
     let kind: String = given.getattr("dtype")?.getattr("kind")?.extract()?;
     let is_empty = given.getattr("size")?.extract::<usize>()? == 0;
-    if !kinds.contains(kind.as_str()) && !(is_empty && kind == "f") {
+    // An empty list has the dtype float64.
+    let is_wanted = kinds.contains(kind.as_str()) || (is_empty && kind == "f");
+    if !is_wanted {
         let wanted = if kinds == "iu" { "integers" } else { "real numbers" };
         let found = given.getattr("dtype")?.str()?.to_string();
         return Err(Failure::argument(name, format!("dtype {found}, expected {wanted}")).into());

@@ -156,15 +156,11 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
     let (mut has_color, mut passes) = (false, Vec::new());
     for name in names {
         let wanted = plain_name(&name);
-        let wanted = wanted.strip_suffix("ids").map_or(wanted.clone(), |part| match part {
-            "" => "id".to_owned(),
-            part => part.to_owned(),
-        });
         if wanted == "rgb" || wanted == "rgba" {
             has_color = true;
             continue;
         }
-        let known = Pass::ALL.into_iter().find(|pass| plain_name(pass.name()) == wanted);
+        let known = Pass::ALL.into_iter().find(|pass| means_pass(&wanted, *pass));
         let Some(pass) = known else {
             let names = Pass::ALL.map(Pass::name).join(", ");
             let message = format!("has {name:?}, expected rgb, rgba, {names}");
@@ -175,6 +171,19 @@ fn read_passes(options: &Keywords<'_, '_>) -> PyResult<(bool, Vec<Pass>)> {
         }
     }
     Ok((has_color, passes))
+}
+
+/// Whether a name, in plain letters, means a pass: the library's own, or `ids` and `model_ids` …
+fn means_pass(wanted: &str, pass: Pass) -> bool {
+    let own = plain_name(pass.name());
+    wanted == own
+        || match pass {
+            Pass::Id => wanted == "ids",
+            Pass::Model | Pass::Node | Pass::Mesh | Pass::Material => {
+                wanted.strip_suffix("ids") == Some(&own)
+            }
+            _ => false,
+        }
 }
 
 impl<'a> RenderJob<'a> {

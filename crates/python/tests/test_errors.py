@@ -120,6 +120,7 @@ def test_cameras_are_refused(pointer, make):
         ("size", {"size": (10**6, 10**6)}),
         ("size", {"size": (1.5, 2)}),
         ("passes", {"passes": ("rgb", "deep")}),
+        ("passes", {"passes": ("depth_ids",)}),
         ("passes", {"passes": 3}),
         ("style", {"style": "cubist"}),
         ("background", {"background": "plaid"}),
@@ -136,6 +137,10 @@ def test_renderings_are_refused(teapot, pointer, options):
     if "threads" not in options:
         with pytest.raises(alberti.AlbertiError):
             alberti.render_many([{"model": teapot, **options}])
+
+
+#: A pose that overflows with another such pose.
+FAR = [[1, 0, 0, 1.7e308], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 
 
 def test_other_calls_are_refused(teapot, tmp_path):
@@ -159,6 +164,7 @@ def test_other_calls_are_refused(teapot, tmp_path):
         lambda: alberti.Scene([teapot], []),
         lambda: alberti.Scene([teapot], [np.zeros((4, 4))]),
         lambda: alberti.Scene(["teapot"]),
+        lambda: alberti.Scene([alberti.Scene([teapot], [FAR])], [FAR]),
         lambda: alberti.draw(teapot).save("drawing.dxf"),
         lambda: Model.from_trimesh(5),
     ):

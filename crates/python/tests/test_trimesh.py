@@ -60,6 +60,20 @@ def test_colors_and_textures():
         assert first.rgba.tobytes() == second.rgba.tobytes(), list(theirs)
 
 
+def test_keys_of_materials_are_lists_or_arrays():
+    def picture(**keys):
+        material = trimesh.visual.material.SimpleMaterial(**keys)
+        visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+        box = trimesh.creation.box()
+        box.visual = visual
+        return alberti.render(box, size=SIZE).rgba.tobytes()
+
+    color = [0.9, 0.1, 0.2]
+    expected = picture(Kd=color)
+    assert expected != picture(Kd=[0.1, 0.9, 0.2])
+    assert expected == picture(Kd=np.array(color), Ns=None, d="none")
+
+
 def test_clouds_and_paths():
     points = np.random.default_rng(2).normal(size=(100, 3))
     cloud = alberti.Model.from_trimesh(trimesh.PointCloud(points))
