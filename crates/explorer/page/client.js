@@ -36,6 +36,7 @@ export class EngineClient {
 
   async startWorker() {
     try {
+      await 0; // `start` returns first.
       // No module: Chromium refuses those of a page in one file that has no server.
       this.worker = new Worker(resourceUrl('worker.js'));
       this.worker.onmessage = ({ data }) => this.settle(data);

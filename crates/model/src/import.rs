@@ -55,6 +55,7 @@ pub use image_decoder::decode_bounded as decode_image;
 pub use limits::Limits;
 pub use memory_folder::MemoryFolder;
 pub use name_or_index::NameOrIndex;
+pub use obj::PhongMaterial;
 pub use percent_encoding::{percent_decode, percent_encode};
 
 use crate::diagnostic::{Diagnostic, Severity, codes};

@@ -62,7 +62,7 @@ fn linear_channel(channel: f64, most: f64) -> f32 {
 }
 
 /// The linear value of an sRGB encoded one; both are in [0, 1].
-pub(crate) fn linear_fraction(encoded: f64) -> f32 {
+fn linear_fraction(encoded: f64) -> f32 {
     shade::color::srgb_to_linear(encoded) as f32
 }
 
@@ -81,6 +81,11 @@ pub(crate) fn read_texture(value: &Bound<'_, PyAny>, limits: &Limits) -> PyResul
     let side = limits.image_side as usize;
     if height == 0 || width == 0 || height.max(width) > side {
         let message = format!("has {width} x {height} texels, expected sides from 1 to {side}");
+        return Err(Failure::argument("texture", message).into());
+    }
+    if width as u64 * height as u64 > limits.image_texels {
+        let most = limits.image_texels;
+        let message = format!("has {width} x {height} texels, more than the limit of {most}");
         return Err(Failure::argument("texture", message).into());
     }
     let texel = |channels: &[u8]| match *channels {

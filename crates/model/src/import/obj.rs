@@ -22,11 +22,14 @@ mod material;
 mod mtl;
 mod parser;
 mod parts;
+mod phong;
 mod primitives;
 mod scene;
 mod statements;
 mod textures;
 mod vertex_sharing;
+
+pub use phong::PhongMaterial;
 
 use super::ImportOptions;
 use super::memory_budget::MemoryBudget;

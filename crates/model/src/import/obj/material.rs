@@ -22,17 +22,12 @@
 //! exporter writes `Ks` 0.5 for the 4 % of most dielectrics.
 
 use super::mtl::MtlMaterial;
+use super::phong::{PhongMaterial, color_beside_texture, double_sided_matte, linear_color};
 use super::scene::to_name;
 use super::textures::TextureTable;
-use crate::import::srgb::linear_from_srgb;
 use crate::import::warnings::ImportWarnings;
-use crate::material::{Anisotropy, Clearcoat, Emission, Sheen, Specular};
+use crate::material::{Anisotropy, Clearcoat, Emission, Sheen};
 use crate::{AlphaMode, Material, NormalTexture};
-
-/// Diffuse color, sRGB encoded, where a library gives none.
-const PLAIN_COLOR: [f32; 3] = [0.8; 3];
-/// The largest diffuse color of a metal, and the least specular one.
-const METAL_THRESHOLD: f32 = 0.04;
 
 /// A material of a library. Textures that it needs are entered in the table.
 pub(super) fn to_material<'a>(
@@ -40,32 +35,28 @@ pub(super) fn to_material<'a>(
     textures: &mut TextureTable<'a>,
     warnings: &mut ImportWarnings,
 ) -> Material {
+    let phong = mtl.phong();
     let mut material = Material {
         name: to_name(mtl.name),
-        double_sided: true,
-        metallic: 0.0,
-        roughness: 1.0,
-        ..Material::plain()
+        base_color: phong.base_color(),
+        ..double_sided_matte()
     };
-    let color = mtl.color_beside_texture(mtl.diffuse, "map_Kd", PLAIN_COLOR);
-    let [r, g, b] = linear_color(color);
-    material.base_color = [r, g, b, 1.0];
     set_emission(&mut material, mtl);
     let has_pbr_keys = ["Pr", "Pm"].into_iter().any(|key| mtl.numbers.contains_key(key));
     if has_pbr_keys || mtl.has_texture("map_Pr") || mtl.has_texture("map_Pm") {
         set_metallic_roughness(&mut material, mtl);
     } else {
-        set_phong(&mut material, mtl);
+        phong.set_reflection(&mut material);
     }
     set_layers(&mut material, mtl);
-    set_alpha(&mut material, mtl, warnings);
+    set_alpha_mode(&mut material, mtl, warnings);
     set_textures(&mut material, mtl, textures);
     material
 }
 
 /// Emission; a color above 1 is one of at most 1 with a strength.
 fn set_emission(material: &mut Material, mtl: &MtlMaterial<'_>) {
-    let color = mtl.color_beside_texture(mtl.emission, "map_Ke", [0.0; 3]);
+    let color = color_beside_texture(mtl.emission, mtl.has_texture("map_Ke"), [0.0; 3]);
     let strength = color.into_iter().fold(1.0, f32::max);
     let color = linear_color(color.map(|channel| channel / strength));
     material.emission = Emission { color, strength };
@@ -82,32 +73,6 @@ fn set_metallic_roughness(material: &mut Material, mtl: &MtlMaterial<'_>) {
     material.metallic = factor("Pm", "map_Pm", 0.0);
     if let Some(ior) = mtl.number("Ni").filter(|ior| *ior >= 1.0) {
         material.extensions.ior = ior;
-    }
-}
-
-/// The keys of Phong shading.
-fn set_phong(material: &mut Material, mtl: &MtlMaterial<'_>) {
-    let illumination = mtl.number("illum");
-    material.unlit = illumination == Some(0.0);
-    let is_matte = illumination == Some(1.0);
-    let exponent = mtl.number("Ns").unwrap_or(0.0).max(0.0);
-    material.roughness = if is_matte { 1.0 } else { (2.0 / (exponent + 2.0)).sqrt().sqrt() };
-    let specular = mtl.specular.unwrap_or([0.0; 3]).map(|channel| channel.clamp(0.0, 1.0));
-    let specular = if is_matte { [0.0; 3] } else { specular };
-    let largest = |color: [f32; 3]| color.into_iter().fold(0.0, f32::max);
-    let is_black = mtl.diffuse.is_some_and(|color| largest(color) < METAL_THRESHOLD);
-    if is_black && largest(specular) >= METAL_THRESHOLD && !mtl.has_texture("map_Kd") {
-        let [r, g, b] = linear_color(specular);
-        material.base_color = [r, g, b, 1.0];
-        material.metallic = 1.0;
-        return;
-    }
-    // 0.04 · strength · color = 0.08 · Ks, with a color of at least 1 in its largest channel.
-    let strength = (2.0 * largest(specular)).min(1.0);
-    let color = specular.map(|channel| if strength > 0.0 { 2.0 * channel / strength } else { 1.0 });
-    if strength != 1.0 || color != [1.0; 3] {
-        let layer = Specular { factor: strength, color, ..Specular::default() };
-        material.extensions.specular = Some(Box::new(layer));
     }
 }
 
@@ -130,28 +95,16 @@ fn set_layers(material: &mut Material, mtl: &MtlMaterial<'_>) {
     }
 }
 
-/// Alpha, by `d` or else `Tr`.
-///
-/// `Tr 1` alone would make everything invisible: programs that write it mean the opposite.
-fn set_alpha(material: &mut Material, mtl: &MtlMaterial<'_>, warnings: &mut ImportWarnings) {
-    let mut alpha = match (mtl.unit_number("d"), mtl.unit_number("Tr")) {
-        (Some(dissolve), _) => dissolve,
-        (None, Some(transparency)) => 1.0 - transparency,
-        (None, None) => 1.0,
-    };
-    if alpha == 0.0 {
-        let name = String::from_utf8_lossy(mtl.name);
-        if mtl.numbers.contains_key("d") {
-            warnings.push_warning("", format!("the material {name:?} is invisible: `d` is 0"));
-        } else {
-            let message =
-                format!("the material {name:?} has `Tr` 1 and no `d`: it is shown opaque");
-            warnings.push_warning("", message);
-            alpha = 1.0;
-        }
+/// Blending of what is translucent; warnings of what would not be seen.
+fn set_alpha_mode(material: &mut Material, mtl: &MtlMaterial<'_>, warnings: &mut ImportWarnings) {
+    let name = String::from_utf8_lossy(mtl.name);
+    if material.base_color[3] == 0.0 {
+        warnings.push_warning("", format!("the material {name:?} is invisible: `d` is 0"));
+    } else if mtl.phong().is_invisible_by_transparency() {
+        let message = format!("the material {name:?} has `Tr` 1 and no `d`: it is shown opaque");
+        warnings.push_warning("", message);
     }
-    material.base_color[3] = alpha;
-    if alpha < 1.0 || mtl.has_texture("map_d") {
+    if material.base_color[3] < 1.0 || mtl.has_texture("map_d") {
         material.alpha_mode = AlphaMode::Blend;
     }
 }
@@ -175,11 +128,6 @@ fn set_textures<'a>(
         normal.map(|(mtl, texture)| NormalTexture { texture, scale: mtl.bump });
 }
 
-/// Linear light of an sRGB color; numbers beyond 0 to 1 are clamped.
-fn linear_color(color: [f32; 3]) -> [f32; 3] {
-    color.map(|channel| linear_from_srgb(channel.clamp(0.0, 1.0)))
-}
-
 impl MtlMaterial<'_> {
     /// The number of a keyword.
     fn number(&self, key: &str) -> Option<f32> {
@@ -191,18 +139,16 @@ impl MtlMaterial<'_> {
         self.number(key).map(|number| number.clamp(0.0, 1.0))
     }
 
-    /// The color of a keyword beside a texture that it multiplies; white where it is black or not
-    /// given, as the texture would not be seen.
-    fn color_beside_texture(
-        &self,
-        color: Option<[f32; 3]>,
-        map: &str,
-        default: [f32; 3],
-    ) -> [f32; 3] {
-        match color {
-            Some(color) if color != [0.0; 3] => color,
-            _ if self.has_texture(map) => [1.0; 3],
-            color => color.unwrap_or(default),
+    /// The keys of Phong shading.
+    fn phong(&self) -> PhongMaterial {
+        PhongMaterial {
+            diffuse: self.diffuse,
+            specular: self.specular,
+            exponent: self.number("Ns"),
+            illumination: self.number("illum"),
+            dissolve: self.number("d"),
+            transparency: self.number("Tr"),
+            has_texture: self.has_texture("map_Kd"),
         }
     }
 
