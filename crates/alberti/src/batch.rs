@@ -15,20 +15,21 @@
 //! Jobs are sorted and named before the first one starts, so that neither threads nor shards change
 //! the name of a picture.
 
+#![allow(dead_code, reason = "until the workers are there")]
+
 mod contact_sheet;
+mod job;
 mod jobs;
 mod key;
+mod merge;
+mod progress;
 mod report;
-mod runner;
 mod shard;
 
 use super::CliError;
 use super::load_options::LoadArgs;
 use super::scene_overrides::SceneOverrideArgs;
-use jobs::BatchJob;
-use report::{BatchReport, JobRecord};
 use shard::Shard;
-use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -58,53 +59,11 @@ pub(crate) struct BatchArgs {
     load_options: LoadArgs,
 }
 
-/// Runs the jobs of this shard; the exit code is 1 if one has failed.
-///
-/// The reports of all shards in the folder count as earlier work, so a run may resume with another
-/// number of shards. They are read before this run's report is opened for appending.
+/// Runs the jobs of this shard.
 ///
 /// # Errors
-/// If an input cannot be listed, or the folder or its report cannot be written. A job that fails is
-/// not an error of the run: it is a record of the report, and changes the exit code only.
+/// If an input cannot be listed, or the folder or its report cannot be written.
 pub(crate) fn run(args: &BatchArgs) -> Result<ExitCode, CliError> {
-    let all = jobs::find_jobs(&args.inputs)?;
-    let shard = args.shard.unwrap_or(Shard::ALL_JOBS);
-    let mine: Vec<&BatchJob> =
-        all.iter().enumerate().filter(|(at, _)| shard.has_job(*at)).map(|(_, job)| job).collect();
-    let create_error = |cause| {
-        CliError::Usage(format!("cannot create the folder {}: {cause}", args.out_dir.display()))
-    };
-    std::fs::create_dir_all(&args.out_dir).map_err(create_error)?;
-    let settings = format!("{:?} {:?}", args.overrides, args.load_options);
-    let done = if args.force { Vec::new() } else { report::read_reports(&args.out_dir) };
-    let report = BatchReport::open_report(&args.out_dir, shard)?;
-    let threads = super::render::thread_count(args.threads);
-    let order = runner::BatchRun { args, settings: &settings, earlier: &done, threads };
-    let records = order.run_jobs(&mine, &report);
-    report.finish_report(&records)?;
-    if shard.has_all_jobs() {
-        let sheet = contact_sheet::contact_sheet_html(&records);
-        pipeline::write_file(&args.out_dir.join("index.html"), sheet.as_bytes())?;
-    }
-    print_summary(&records)
-}
-
-/// Prints the failures and the counts; returns the exit code.
-///
-/// Failures go to the standard error stream, in the order of the jobs; the counts go to the
-/// standard output:
-///
-/// ```text
-/// failed: models/broken.glb: …
-/// 118 rendered, 40 up to date, 1 failed
-/// ```
-fn print_summary(records: &[JobRecord]) -> Result<ExitCode, CliError> {
-    let count = |status| records.iter().filter(|record| record.status == status).count();
-    let (done, before, failed) =
-        (count(report::DONE), count(report::DONE_BEFORE), count(report::FAILED));
-    for record in records.iter().filter(|record| record.status == report::FAILED) {
-        super::print_message("failed", &format!("{}: {}", record.input, record.message));
-    }
-    writeln!(std::io::stdout(), "{done} rendered, {before} up to date, {failed} failed")?;
-    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    jobs::find_jobs(&args.inputs)?;
+    Ok(ExitCode::FAILURE)
 }

@@ -1,21 +1,11 @@
 //! The jobs of a batch: models and scenes to render, with a unique picture name for each.
 
+use super::job::BatchJob;
 use crate::CliError;
 use model::FileFormat;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
-
-/// A model or a scene to render, and the name of its picture.
-///
-/// The name is fixed before any job runs and depends on the set of inputs, not on their contents.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct BatchJob {
-    /// The file.
-    pub(super) input: PathBuf,
-    /// The picture's path below the output folder, with `/` between its parts.
-    pub(super) output: String,
-}
 
 /// The maximum depth of folders that are searched; symbolic links may form cycles.
 ///
@@ -137,7 +127,7 @@ fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
         *times += 1;
         let output =
             if *times == 1 { format!("{base}.png") } else { format!("{base}-{times}.png") };
-        BatchJob { input, output }
+        BatchJob { input, output, scene: None, flags: Vec::new(), line: None, fault: None }
     };
     found.into_iter().map(job).collect()
 }

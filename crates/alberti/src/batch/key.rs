@@ -6,12 +6,35 @@
 //! Content is hashed rather than compared by time, because models are copied, checked out and
 //! mounted in ways that change their times but not their bytes.
 
+use super::job::BatchJob;
 use crate::referenced_files::referenced_files;
 use crate::render::is_scene_file;
 use pipeline::Origin;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
+
+/// Makes the keys of jobs; the threads share one.
+pub(super) struct KeyMaker {
+    /// Everything in the flags of the command that changes a picture.
+    settings: String,
+    /// The folders that scenes may read from besides their own.
+    allowed: Vec<PathBuf>,
+}
+
+impl KeyMaker {
+    /// Keys of jobs with these settings.
+    pub(super) fn new(settings: String, allowed: Vec<PathBuf>) -> Self {
+        Self { settings, allowed }
+    }
+
+    /// The key of a job.
+    pub(super) fn job_key(&self, job: &BatchJob) -> String {
+        let settings =
+            format!("{}\n{:?}\n{}\n{:?}", self.settings, job.flags, job.output, job.scene);
+        content_key(&job.input, &settings, &self.allowed)
+    }
+}
 
 /// The key of a model or a scene: the first 16 bytes of a SHA-256, in hexadecimal.
 ///
@@ -20,7 +43,7 @@ use std::path::{Path, PathBuf};
 /// `settings` is the debug form of the flags; a flag that is added changes it and thereby renders
 /// everything again, which is the safe side. 128 bits make an accidental collision impossible in
 /// practice.
-pub(super) fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
+fn content_key(input: &Path, settings: &str, allowed: &[PathBuf]) -> String {
     let mut hash = Sha256::new();
     hash_part(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
     hash_part(&mut hash, settings.as_bytes());

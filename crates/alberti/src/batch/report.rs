@@ -15,6 +15,7 @@ use crate::CliError;
 use serde_json::{Value, json};
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -25,9 +26,7 @@ pub(super) struct JobRecord {
     pub(super) input: String,
     /// The path of the picture below the output folder.
     pub(super) output: String,
-    /// `done`, `done before` or `failed`.
-    ///
-    /// Only `failed` makes the next run try again.
+    /// `done` or `failed`.
     pub(super) status: String,
     /// The content key that the picture was rendered from.
     ///
@@ -41,21 +40,26 @@ pub(super) struct JobRecord {
     pub(super) warnings: usize,
     /// The error, or the first warning.
     pub(super) message: String,
+    /// The size of the picture in bytes; 0 of a job that failed.
+    pub(super) bytes: u64,
+    /// The SHA-256 of the picture in hexadecimal; empty of a job that failed.
+    pub(super) sha256: String,
+    /// The tar file below the output folder that holds the picture, if it is in one.
+    pub(super) tar: Option<String>,
 }
 
 /// The status of a picture that was rendered by this run.
 pub(super) const DONE: &str = "done";
-/// The status of a picture that was up to date.
-pub(super) const DONE_BEFORE: &str = "done before";
 /// The status of a job that failed.
 pub(super) const FAILED: &str = "failed";
 
 impl JobRecord {
     /// The record as one line of JSON.
     fn to_line(&self) -> String {
-        let Self { input, output, status, key, seconds, warnings, message } = self;
+        let Self { input, output, status, key, seconds, warnings, message, .. } = self;
         let json = json!({"input": input, "output": output, "status": status, "key": key,
-            "seconds": seconds, "warnings": warnings, "message": message});
+            "seconds": seconds, "warnings": warnings, "message": message, "bytes": self.bytes,
+            "sha256": self.sha256, "tar": self.tar});
         format!("{json}\n")
     }
 
@@ -73,71 +77,99 @@ impl JobRecord {
             seconds: json.get("seconds")?.as_f64()?,
             warnings: usize::try_from(json.get("warnings")?.as_u64()?).ok()?,
             message: word("message")?,
+            bytes: json.get("bytes")?.as_u64()?,
+            sha256: word("sha256")?,
+            tar: json.get("tar").and_then(Value::as_str).map(str::to_owned),
         })
     }
 }
 
-/// A report that is being written, shared by the worker threads.
-///
-/// The file is opened once and appended to; the operating system keeps what was written even if the
-/// process is killed.
-pub(super) struct BatchReport {
-    /// The path of the report, to which it is rewritten at the end.
-    path: PathBuf,
+/// The report of a run, shared by the threads.
+pub(super) struct ReportWriter {
+    /// The name of the run: shard, host, process.
+    run_name: String,
     /// The open report; a lock keeps the lines of several threads apart.
     file: Mutex<File>,
+    path: PathBuf,
 }
 
-impl BatchReport {
-    /// Opens the report of a shard for appending.
-    ///
-    /// An empty line is written first and skipped by readers.
-    ///
-    /// # Errors
-    /// If the file cannot be created or written, which is noticed here, before any work is done.
-    pub(super) fn open_report(folder: &Path, shard: Shard) -> Result<Self, CliError> {
-        let path = folder.join(format!("report{}.jsonl", shard.file_suffix()));
+impl ReportWriter {
+    /// Creates a report that no other run has.
+    pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, CliError> {
+        let folder = out_dir.join("reports");
+        let fault = |path: &Path, cause: std::io::Error| {
+            CliError::Usage(format!("cannot write {}: {cause}", path.display()))
+        };
+        std::fs::create_dir_all(&folder).map_err(|cause| fault(&folder, cause))?;
+        let run_name = format!("run{}-{}", shard.file_suffix(), std::process::id());
+        let path = folder.join(format!("{run_name}.jsonl"));
         let file = OpenOptions::new().create(true).append(true).open(&path);
-        let fault = |cause| CliError::Usage(format!("cannot write {}: {cause}", path.display()));
-        let mut file = file.map_err(fault)?;
-        // A killed run may have left an incomplete line.
-        file.write_all(b"\n")?;
-        Ok(Self { path, file: Mutex::new(file) })
+        let file = file.map_err(|cause| fault(&path, cause))?;
+        Ok(Self { run_name, file: Mutex::new(file), path })
+    }
+
+    /// The name of the run, which is that of no other in the output folder.
+    pub(super) fn run_name(&self) -> &str {
+        &self.run_name
     }
 
     /// Appends a record.
-    ///
-    /// The line is written in one call and not buffered: after a crash, at most the last line is
-    /// incomplete. A poisoned lock is ignored, because a panic of another thread leaves no
-    /// half-written state behind.
-    pub(super) fn append_record(&self, record: &JobRecord) {
+    pub(super) fn append_record(&self, record: &JobRecord) -> Result<(), CliError> {
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        // An error here, such as a full disk, comes again when the report is finished.
-        let _ = file.write_all(record.to_line().as_bytes());
+        file.write_all(record.to_line().as_bytes()).map_err(|cause| {
+            CliError::Usage(format!("cannot write {}: {cause}", self.path.display()))
+        })
     }
 
-    /// Rewrites the report: one line per job of this run, in the order of the jobs.
-    ///
-    /// The file is replaced atomically. Jobs of earlier runs that are no longer among the inputs
-    /// disappear from it, and `done before` stands for those that were up to date.
-    pub(super) fn finish_report(self, records: &[JobRecord]) -> Result<(), CliError> {
-        let text: String = records.iter().map(JobRecord::to_line).collect();
-        drop(self.file);
-        Ok(pipeline::write_file(&self.path, text.as_bytes())?)
+    /// Brings the report to the disk.
+    pub(super) fn finish(self) -> Result<(), CliError> {
+        Ok(())
     }
 }
 
-/// The records of all reports in a folder, later ones last; incomplete lines are skipped.
-///
-/// Reports of all shards are read, in the order of their names. A folder that does not exist yet
-/// has none; a report that cannot be read is as good as absent, and costs only time.
-pub(super) fn read_reports(folder: &Path) -> Vec<JobRecord> {
+/// The records of earlier runs.
+pub(super) struct EarlierRecords(BTreeMap<(String, String), EarlierRecord>);
+
+/// What became of a job in an earlier run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum EarlierRecord {
+    /// Its picture was made.
+    Done {
+        /// The size of the picture.
+        bytes: u64,
+        /// Whether the picture is in a tar file.
+        is_in_tar: bool,
+    },
+    /// It failed.
+    Failed,
+}
+
+impl EarlierRecords {
+    /// Reads all reports of an output folder.
+    pub(super) fn read(out_dir: &Path) -> Result<Self, CliError> {
+        let mut found = BTreeMap::new();
+        for record in read_reports(&out_dir.join("reports")) {
+            let earlier = if record.status == DONE {
+                EarlierRecord::Done { bytes: record.bytes, is_in_tar: record.tar.is_some() }
+            } else {
+                EarlierRecord::Failed
+            };
+            found.insert((record.output, record.key), earlier);
+        }
+        Ok(Self(found))
+    }
+
+    /// The record of a job with this output and key.
+    pub(super) fn find(&self, output: &str, key: &str) -> Option<EarlierRecord> {
+        self.0.get(&(output.to_owned(), key.to_owned())).copied()
+    }
+}
+
+/// The records of all reports in a folder.
+fn read_reports(folder: &Path) -> Vec<JobRecord> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    paths.retain(|path| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        name.starts_with("report") && name.ends_with(".jsonl")
-    });
+    paths.retain(|path| path.extension().is_some_and(|end| end == "jsonl"));
     paths.sort();
     let texts = paths.iter().filter_map(|path| std::fs::read_to_string(path).ok());
     let records = |text: String| -> Vec<JobRecord> {

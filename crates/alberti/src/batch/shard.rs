@@ -57,6 +57,27 @@ impl Shard {
     }
 }
 
+/// Gives the groups of jobs to shards, in the order of the jobs.
+pub(super) struct ShardBalance {
+    /// The shard that is run here.
+    shard: Shard,
+    /// The number of groups so far.
+    groups: usize,
+}
+
+impl ShardBalance {
+    /// A balance without any jobs yet.
+    pub(super) const fn new(shard: Shard) -> Self {
+        Self { shard, groups: 0 }
+    }
+
+    /// Whether the next group, of so many bytes, is one of this shard.
+    pub(super) fn takes_group(&mut self, _bytes: u64) -> bool {
+        self.groups += 1;
+        self.shard.has_job(self.groups - 1)
+    }
+}
+
 /// Parses `I/N`, or takes both from the environment for `auto`.
 ///
 /// # Errors

@@ -1,0 +1,48 @@
+//! The jobs of a batch: what each renders, from what, with which flags, and what came of it.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// One picture to render.
+///
+/// Jobs of one [`JobGroup`] have the same input, which is loaded once for all of them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct BatchJob {
+    /// The model or the scene.
+    pub(super) input: PathBuf,
+    /// The picture's path below the output folder, with `/` between its parts.
+    pub(super) output: String,
+    /// The scene that is rendered with the input in the place of its model `{input}`.
+    pub(super) scene: Option<PathBuf>,
+    /// The flags of its line, which come on top of those of the command: `--size=64x64`, `--lenient`.
+    pub(super) flags: Vec<String>,
+    /// The line of a list that describes it.
+    pub(super) line: Option<ListLine>,
+    /// What is wrong with its line: the job fails with this message before it begins.
+    pub(super) fault: Option<String>,
+}
+
+/// The pictures of one input, which go to one shard and one worker.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct JobGroup {
+    /// The pictures; at least one.
+    pub(super) jobs: Vec<BatchJob>,
+    /// The size of the input in bytes, if the list says it.
+    pub(super) bytes: Option<u64>,
+}
+
+/// A line of a list, as messages name it: `jobs.jsonl:17`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct ListLine {
+    /// The name of the list.
+    pub(super) list: Arc<str>,
+    /// The number of the line, from 1.
+    pub(super) number: u64,
+}
+
+impl fmt::Display for ListLine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.list, self.number)
+    }
+}
