@@ -4,7 +4,7 @@
 //! `alberti reference`: the first paragraph is the short help, the rest is for the long one.
 
 use super::animate::AnimateArgs;
-use super::batch::BatchArgs;
+use super::batch::{BatchArgs, WorkerArgs};
 use super::color::ColorChoice;
 use super::compare::CompareArgs;
 use super::compare_projections::CompareProjectionsArgs;
@@ -105,6 +105,9 @@ pub(crate) enum Command {
     Animate(Deferred<AnimateArgs>),
     /// Render many models: thumbnails, a report, a contact sheet
     Batch(Deferred<BatchArgs>),
+    /// Render what `batch` asks for
+    #[command(hide = true)]
+    BatchWorker(WorkerArgs),
     /// Render a thumbnail within limits of time and memory, or install the thumbnailer
     Thumbnailer(Deferred<ThumbnailerArgs>),
     /// Create, validate, format and look up scene files

@@ -41,6 +41,7 @@ mod light;
 mod load_options;
 mod manual;
 mod matrix;
+mod memory_limit;
 mod messages;
 mod model_state;
 mod negative_numbers;
@@ -72,10 +73,42 @@ use error::CliError;
 use messages::{print_message, print_note, print_stdout};
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::OnceLock;
+
+/// The words that start this program again, where it runs within another one.
+static PROGRAM_WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Runs the program within another one, as [`run`] does. `program` are the words that start it
+/// again, such as `python -m alberti`: `batch` starts workers with them.
+pub fn run_within(
+    program: impl IntoIterator<Item = OsString>,
+    arguments: impl IntoIterator<Item = OsString>,
+) -> u8 {
+    PROGRAM_WORDS.get_or_init(|| program.into_iter().collect());
+    run(arguments)
+}
+
+/// A command that starts this program again.
+///
+/// # Errors
+/// If the system does not say where the program is.
+pub(crate) fn program_command() -> std::io::Result<std::process::Command> {
+    if let Some([program, rest @ ..]) = PROGRAM_WORDS.get().map(Vec::as_slice) {
+        let mut command = std::process::Command::new(program);
+        command.args(rest);
+        return Ok(command);
+    }
+    // The very file that runs, even if another version has taken its place since.
+    if cfg!(target_os = "linux") && std::path::Path::new("/proc/self/exe").exists() {
+        return Ok(std::process::Command::new("/proc/self/exe"));
+    }
+    std::env::current_exe().map(std::process::Command::new)
+}
 
 /// Runs the program with its arguments, of which the first is its name, and returns its exit code.
 ///
-/// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap).
+/// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap), 3 a
+/// batch that could not go on, 128 and more one that a signal has interrupted.
 ///
 /// A failure is printed as one message, `error: MESSAGE`, on the standard error stream, and the
 /// code is 1. Usage errors are printed by clap with the usage of the command, and the code is 2;
@@ -93,7 +126,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     match run_command(args) {
-        Ok(code) => u8::from(code != ExitCode::SUCCESS),
+        Ok(code) => code,
         Err(failure) => {
             print_message("error", &failure.to_message());
             1
@@ -109,13 +142,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 ///
 /// # Errors
 /// If the input is invalid or the work fails; nothing has been printed about it then.
-pub(crate) fn run_command(args: Args) -> Result<ExitCode, CliError> {
+pub(crate) fn run_command(args: Args) -> Result<u8, CliError> {
+    let verdict = |code: ExitCode| u8::from(code != ExitCode::SUCCESS);
     color::set_color_choice(args.color);
     match args.command {
-        Command::Render(Deferred(args)) => return render::run(&args),
+        Command::Render(Deferred(args)) => return render::run(&args).map(verdict),
         Command::Sheet(Deferred(args)) => sheet::run(&args)?,
         Command::Info(Deferred(args)) => info::run(&args)?,
-        Command::Check(Deferred(args)) => return check::run(&args),
+        Command::Check(Deferred(args)) => return check::run(&args).map(verdict),
         Command::Matrix(Deferred(args)) => matrix::run(&args)?,
         Command::Explain(Deferred(args)) => explain::run(&args)?,
         Command::Explore(args) => explore::run(&args)?,
@@ -124,12 +158,13 @@ pub(crate) fn run_command(args: Args) -> Result<ExitCode, CliError> {
         Command::Curve(args) => curve::run(&args)?,
         Command::Demo(args) => demo::run(&args)?,
         Command::Animate(Deferred(args)) => animate::run(&args)?,
-        Command::Batch(Deferred(args)) => return batch::run(&args),
+        Command::Batch(Deferred(args)) => return batch::run(args),
+        Command::BatchWorker(args) => batch::run_worker(&args)?,
         Command::Thumbnailer(Deferred(args)) => thumbnailer::run(&args)?,
-        Command::Scene(args) => return scene::run(&args),
+        Command::Scene(args) => return scene::run(&args).map(verdict),
         Command::Completions(Deferred(args)) => manual::print_completions(&args, Args::command())?,
         Command::Man(Deferred(args)) => manual::print_man_pages(&args, Args::command())?,
         Command::Reference(Deferred(args)) => reference::run(&args, Args::command())?,
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(0)
 }

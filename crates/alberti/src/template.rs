@@ -11,7 +11,7 @@
 use std::path::PathBuf;
 
 /// A name with fields in braces; `{{` and `}}` are literal braces.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct NameTemplate {
     /// The pieces of the name, in order; literal text is never empty and never adjacent.
     parts: Vec<TemplatePart>,
@@ -75,7 +75,7 @@ impl NameTemplate {
     /// The name, with every field replaced by its value.
     ///
     /// Characters of words that are no part of a file name become `_`, so that a value cannot lead
-    /// to another folder.
+    /// to another folder. The field `{folder}` alone keeps its `/`.
     pub(super) fn expand_fields(
         &self,
         word: impl Fn(&str) -> String,
@@ -83,6 +83,11 @@ impl NameTemplate {
     ) -> PathBuf {
         let fill = |part: &TemplatePart| match part {
             TemplatePart::Text(text) => text.clone(),
+            TemplatePart::Word("folder") => {
+                let value = word("folder");
+                let parts: Vec<String> = value.split('/').map(sanitize_file_name).collect();
+                parts.join("/")
+            }
             TemplatePart::Word(name) => sanitize_file_name(&word(name)),
             TemplatePart::Number(name, digits) => format!("{:01$}", number(name), *digits),
         };

@@ -7,16 +7,16 @@
 //! A thumbnail service runs the program on whatever lies in a folder. Any input ends in a picture
 //! or in an exit code other than 0, within the limits, and never in part of a picture.
 
+mod deadline;
 mod installation;
-mod limits;
 
 use super::CliError;
-use super::load_options::parse_byte_size;
+use super::memory_limit::{import_limits, limit_process_memory, parse_memory_size};
 use super::render::{open_input, thread_count};
 use clap::ValueEnum;
-use limits::Deadline;
-use model::codes;
+use deadline::Deadline;
 use model::import::{ImportError, ImportOptions};
+use model::{Limits, codes};
 use pipeline::scene::ResolveOptions;
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
@@ -102,10 +102,10 @@ const MAX_THREADS: usize = 8;
 
 /// Renders a square picture and writes it, if there is time and memory for it.
 fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Result<(), CliError> {
-    limits::limit_process_memory(args.max_memory_bytes);
+    limit_process_memory(args.max_memory_bytes);
     let deadline = Deadline::start(args.max_seconds)?;
     let import = ImportOptions {
-        limits: limits::import_limits(args.max_memory_bytes),
+        limits: import_limits(&Limits::default(), args.max_memory_bytes),
         lenient: true,
         ..ImportOptions::default()
     };
@@ -118,7 +118,7 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
         RenderContext::new(&scene, &textures, threads).with_cancel(deadline.cancel_token());
     match Renderer::default().render_png(&context) {
         Ok((png, _)) => deadline.finish(|| Ok(write_thumbnail(output, &png)?)),
-        Err(RenderError::Cancelled) => deadline.finish(|| Err(limits::timeout(args.max_seconds))),
+        Err(RenderError::Cancelled) => deadline.finish(|| Err(deadline::timeout(args.max_seconds))),
         Err(error) => Err(error.into()),
     }
 }
@@ -155,10 +155,4 @@ fn with_memory_help(error: CliError) -> CliError {
         }
         other => other,
     }
-}
-
-/// Parses the memory of the program, which needs some for itself.
-fn parse_memory_size(text: &str) -> Result<u64, String> {
-    let size = parse_byte_size(text)?;
-    if size >= 64 << 20 { Ok(size) } else { Err("the program needs at least 64MiB".to_owned()) }
 }

@@ -33,10 +33,14 @@ mod subject;
 use pyo3::prelude::*;
 
 /// Runs the program `alberti` with its arguments, of which the first is its name; returns its exit
-/// code.
+/// code. `program` are the words that start it again.
 #[pyfunction]
-fn run_program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| alberti::run(arguments))
+fn run_program(
+    py: Python<'_>,
+    program: Vec<std::ffi::OsString>,
+    arguments: Vec<std::ffi::OsString>,
+) -> u8 {
+    py.detach(|| alberti::run_within(program, arguments))
 }
 
 /// The functions and classes that the Python sources use.

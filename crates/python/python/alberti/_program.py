@@ -12,7 +12,8 @@ def main() -> None:
     """Runs the program with the arguments of the command line, and exits with its code."""
     # Ctrl-C ends the program at once, as it ends the one without Python.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    sys.exit(_native.run_program(["alberti", *sys.argv[1:]]))
+    program = [sys.executable, "-m", "alberti"]
+    sys.exit(_native.run_program(program, ["alberti", *sys.argv[1:]]))
 
 
 if __name__ == "__main__":

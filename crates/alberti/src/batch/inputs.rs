@@ -1,6 +1,7 @@
-//! The jobs of a batch: models and scenes to render, with a unique picture name for each.
+//! The inputs of a batch: files, folders and lists of names, with a unique picture name for each.
 
-use super::job::BatchJob;
+use super::job::{BatchJob, JobGroup};
+use super::picture_name::{NameSource, PictureName, normal_parts};
 use crate::CliError;
 use model::FileFormat;
 use std::collections::BTreeMap;
@@ -20,7 +21,11 @@ const MAX_DEPTH: usize = 64;
 /// # Errors
 /// If a folder or a list cannot be read. A listed file that does not exist is no error here: its
 /// job fails, and the others run.
-pub(super) fn find_jobs(inputs: &[PathBuf]) -> Result<Vec<BatchJob>, CliError> {
+pub(super) fn find_jobs(
+    inputs: &[PathBuf],
+    scene: Option<&Path>,
+    picture_name: Option<&PictureName>,
+) -> Result<Vec<JobGroup>, CliError> {
     let mut found = Vec::new();
     for input in inputs {
         if input.as_os_str() == "-" {
@@ -41,7 +46,16 @@ pub(super) fn find_jobs(inputs: &[PathBuf]) -> Result<Vec<BatchJob>, CliError> {
     }
     found.sort();
     found.dedup();
-    Ok(name_outputs(found))
+    let named = match picture_name {
+        Some(template) => name_by_template(found, template)?,
+        None => name_outputs(found),
+    };
+    let group = |(input, output)| {
+        let scene = scene.map(Path::to_owned);
+        let job = BatchJob { input, output, scene, flags: Vec::new(), line: None, fault: None };
+        JobGroup { jobs: vec![job], bytes: None }
+    };
+    Ok(named.into_iter().map(group).collect())
 }
 
 /// The error of an input that cannot be read.
@@ -61,15 +75,9 @@ fn lowercase_extension(path: &Path) -> Option<String> {
 fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     let lines =
         list.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    found.extend(lines.map(|line| (folder.join(line), normal_components(Path::new(line)))));
-}
-
-/// A path without root and `..`, so that it stays below the output folder.
-///
-/// `../up/x.glb` and `/up/x.glb` both become `up/x.glb`. A list is often made by another program,
-/// and must not be able to write outside the folder.
-fn normal_components(path: &Path) -> PathBuf {
-    path.components().filter(|part| matches!(part, std::path::Component::Normal(_))).collect()
+    found.extend(
+        lines.map(|line| (folder.join(line), PathBuf::from(normal_parts(Path::new(line))))),
+    );
 }
 
 /// Adds the models below a folder, recursively.
@@ -113,7 +121,7 @@ fn add_models_below(
 /// a/fox.glb, b/fox.glb   ─►  fox.glb.png, fox.glb-2.png     (both named directly)
 /// ```
 /// The input is sorted, so numbers are the same in every shard.
-fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
+fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<(PathBuf, String)> {
     let stem = |name: &Path| slash_path(&name.with_extension(""));
     let mut shared: BTreeMap<String, usize> = BTreeMap::new();
     for (_, name) in &found {
@@ -127,9 +135,34 @@ fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<BatchJob> {
         *times += 1;
         let output =
             if *times == 1 { format!("{base}.png") } else { format!("{base}-{times}.png") };
-        BatchJob { input, output, scene: None, flags: Vec::new(), line: None, fault: None }
+        (input, output)
     };
     found.into_iter().map(job).collect()
+}
+
+/// Names the picture of each file by a template.
+///
+/// # Errors
+/// If two files would have the same.
+fn name_by_template(
+    found: Vec<(PathBuf, PathBuf)>,
+    template: &PictureName,
+) -> Result<Vec<(PathBuf, String)>, CliError> {
+    let mut taken: BTreeMap<String, PathBuf> = BTreeMap::new();
+    let mut named = Vec::new();
+    for (at, (input, name)) in found.into_iter().enumerate() {
+        let output = template.name_picture(NameSource { input: &name, line: at + 1, picture: 1 });
+        if let Some(other) = taken.insert(output.to_lowercase(), input.clone()) {
+            return Err(CliError::Usage(format!(
+                "{} and {} would both be rendered to {output}\n  = help: add {{folder}}, {{name}} or \
+                 {{line}} to --name",
+                other.display(),
+                input.display()
+            )));
+        }
+        named.push((input, output));
+    }
+    Ok(named)
 }
 
 /// A path with `/` as separator on every system, because it is written to reports.
@@ -145,7 +178,7 @@ mod tests {
     fn outputs(names: &[&str]) -> Vec<String> {
         let found = names.iter().enumerate();
         let found = found.map(|(at, name)| (PathBuf::from(format!("{at}")), PathBuf::from(name)));
-        name_outputs(found.collect()).into_iter().map(|job| job.output).collect()
+        name_outputs(found.collect()).into_iter().map(|(_, output)| output).collect()
     }
 
     #[test]

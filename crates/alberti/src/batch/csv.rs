@@ -1,0 +1,105 @@
+//! Comma-separated values (RFC 4180), record by record.
+
+/// A reader of one record, which is fed line by line: a quoted field may have several.
+#[derive(Debug, Default)]
+pub(super) struct CsvRecord {
+    /// The fields that are complete, and the one that is being read.
+    fields: Vec<String>,
+    /// Whether the end of the last line was inside of quotes.
+    is_open: bool,
+}
+
+impl CsvRecord {
+    /// Adds a line, with or without its line break; returns whether the record is complete.
+    ///
+    /// # Errors
+    /// If a quote stands where none can be.
+    pub(super) fn add_line(&mut self, line: &str) -> Result<bool, String> {
+        let is_quoted_before = std::mem::take(&mut self.is_open);
+        let text = if is_quoted_before { line } else { line.trim_end_matches(['\n', '\r']) };
+        let mut state = if is_quoted_before {
+            FieldState::Quoted
+        } else {
+            self.fields.push(String::new());
+            FieldState::Start
+        };
+        for c in text.chars() {
+            state = self.add_character(state, c)?;
+        }
+        self.is_open = matches!(state, FieldState::Quoted);
+        Ok(!self.is_open)
+    }
+
+    /// Adds a character to the field that is being read; a comma begins the next one.
+    fn add_character(&mut self, state: FieldState, c: char) -> Result<FieldState, String> {
+        let field = self.fields.last_mut();
+        match (state, c) {
+            (FieldState::Start, '"') => return Ok(FieldState::Quoted),
+            (FieldState::Start | FieldState::Plain | FieldState::AfterQuote, ',') => {
+                self.fields.push(String::new());
+                return Ok(FieldState::Start);
+            }
+            (FieldState::Quoted, '"') => return Ok(FieldState::AfterQuote),
+            (FieldState::AfterQuote, '\r' | '\n') => return Ok(FieldState::AfterQuote),
+            (FieldState::Plain, '"') => {
+                return Err("a quote within a field: write the field in quotes, and the quote \
+                            twice"
+                    .to_owned());
+            }
+            (FieldState::AfterQuote, c) if c != '"' => {
+                return Err(format!("`{c}` after a quoted field: a comma has to follow"));
+            }
+            _ => {}
+        }
+        field.into_iter().for_each(|field| field.push(c));
+        let is_quoted = matches!(state, FieldState::Quoted | FieldState::AfterQuote);
+        Ok(if is_quoted { FieldState::Quoted } else { FieldState::Plain })
+    }
+
+    /// The fields of a complete record.
+    pub(super) fn into_fields(self) -> Vec<String> {
+        self.fields
+    }
+}
+
+/// Where in a field a character stands.
+#[derive(Clone, Copy)]
+enum FieldState {
+    /// At its begin.
+    Start,
+    /// In a field without quotes.
+    Plain,
+    /// Between the quotes.
+    Quoted,
+    /// After a quote within quotes, which is the closing one or the first of two.
+    AfterQuote,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(lines: &[&str]) -> Result<Vec<String>, String> {
+        let mut record = CsvRecord::default();
+        for (at, line) in lines.iter().enumerate() {
+            assert_eq!(record.add_line(line)?, at + 1 == lines.len(), "{line}");
+        }
+        Ok(record.into_fields())
+    }
+
+    #[test]
+    fn fields_are_separated_quoted_and_continued() {
+        let all: [(&[&str], &[&str]); 6] = [
+            (&["a,b,c\r\n"], &["a", "b", "c"]),
+            (&["a,,\n"], &["a", "", ""]),
+            (&[""], &[""]),
+            (&["\"a,b\",c"], &["a,b", "c"]),
+            (&["\"say \"\"hi\"\"\",\"\"\r\n"], &["say \"hi\"", ""]),
+            (&["a,\"two\n", "lines\"\n"], &["a", "two\nlines"]),
+        ];
+        for (lines, fields) in all {
+            assert_eq!(read(lines).expect("a record"), fields, "{lines:?}");
+        }
+        assert!(read(&["a\"b"]).is_err() && read(&["\"a\"b"]).is_err());
+    }
+}

@@ -1,0 +1,205 @@
+//! The flags of a picture: those of the command, and those that a line of a list puts in their
+//! place.
+//!
+//! ```text
+//!  command: --size 64x64 --view front      line: {"input": "a.glb", "camera": "left"}
+//!                        └──────┬──────────────────┘
+//!                --size=64x64 --camera=left      (--camera excludes --view)
+//! ```
+
+use crate::load_options::LoadArgs;
+use crate::scene_overrides::SceneOverrideArgs;
+use clap::error::Error;
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The flags of one picture, parsed.
+#[derive(Debug, Args)]
+pub(super) struct RenderFlags {
+    #[command(flatten)]
+    pub(super) overrides: SceneOverrideArgs,
+    #[command(flatten)]
+    pub(super) load_options: LoadArgs,
+}
+
+impl RenderFlags {
+    /// Parses words such as `--size=64x64`.
+    ///
+    /// # Errors
+    /// If a value is none of its flag, or two flags exclude each other; the message is clap's.
+    pub(super) fn parse(words: &[String]) -> Result<Self, String> {
+        let command = declaration().no_binary_name(true).color(clap::ColorChoice::Never);
+        let parsed = command.try_get_matches_from(words);
+        parsed.and_then(|matches| Self::from_arg_matches(&matches)).map_err(|error| {
+            let text = error.render().to_string();
+            let text = text.strip_prefix("error: ").unwrap_or(&text);
+            let end = text.find("\n\nUsage").or_else(|| text.find("\n\nFor more"));
+            text[..end.unwrap_or(text.len())].trim_end().replace("\n\n", "\n")
+        })
+    }
+}
+
+/// The declaration of the flags.
+fn declaration() -> Command {
+    RenderFlags::augment_args(Command::new("batch").disable_help_flag(true))
+}
+
+/// The flags as they were given to the command.
+#[derive(Debug, Default)]
+pub(super) struct GivenFlags {
+    /// Name and value of each, in the order of the declaration; a switch has no value.
+    words: Vec<(String, Option<String>)>,
+    /// The folders of `--allow-outside`, and the file of `--environment`.
+    pub(super) allowed: Vec<PathBuf>,
+}
+
+impl Args for GivenFlags {
+    fn augment_args(command: Command) -> Command {
+        RenderFlags::augment_args(command)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        RenderFlags::augment_args_for_update(command)
+    }
+}
+
+impl FromArgMatches for GivenFlags {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let parsed = RenderFlags::from_arg_matches(matches)?;
+        let allowed = parsed.overrides.import_options(&parsed.load_options).allow_outside;
+        let mut words = Vec::new();
+        for flag in declaration().get_arguments() {
+            let id = flag.get_id().as_str();
+            let is_given = matches.value_source(id) == Some(clap::parser::ValueSource::CommandLine);
+            let Some(name) = flag.get_long().filter(|_| is_given) else { continue };
+            if !flag.get_action().takes_values() {
+                words.push((name.to_owned(), None));
+                continue;
+            }
+            for value in matches.get_raw(id).into_iter().flatten() {
+                let value = value.to_str().ok_or_else(|| {
+                    let message = format!("the value of --{name} is not UTF-8\n");
+                    Error::raw(clap::error::ErrorKind::InvalidUtf8, message)
+                })?;
+                words.push((name.to_owned(), Some(value.to_owned())));
+            }
+        }
+        Ok(Self { words, allowed })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl GivenFlags {
+    /// Takes the scene file of `--scene lineup.ron` out of the flags; any other value of the flag
+    /// is the name of a scene within the models.
+    pub(super) fn take_scene_file(&mut self) -> Option<PathBuf> {
+        let is_file = |(name, value): &(String, Option<String>)| {
+            name == "scene" && value.as_deref().is_some_and(is_scene_name)
+        };
+        let at = self.words.iter().position(is_file)?;
+        self.words.remove(at).1.map(PathBuf::from)
+    }
+
+    /// The flags as words, for keys and workers.
+    pub(super) fn to_words(&self) -> Vec<String> {
+        self.words.iter().map(|(name, value)| flag_word(name, value.as_deref())).collect()
+    }
+}
+
+/// Whether a value of `scene` is a scene file.
+pub(super) fn is_scene_name(value: &str) -> bool {
+    crate::render::is_scene_file(value.as_ref())
+}
+
+/// A flag as one word of a command line.
+pub(super) fn flag_word(name: &str, value: Option<&str>) -> String {
+    value.map_or_else(|| format!("--{name}"), |value| format!("--{name}={value}"))
+}
+
+/// The names of the flags, and which exclude each other.
+pub(super) struct FlagTable {
+    /// For each flag the others that it cannot be combined with.
+    conflicts: BTreeMap<String, Vec<String>>,
+}
+
+impl FlagTable {
+    /// The table of all flags of a picture.
+    pub(super) fn new() -> Self {
+        let mut command = declaration();
+        command.build();
+        let flags = command.get_arguments();
+        let named = flags.filter_map(|flag| Some((flag.get_long()?.to_owned(), flag)));
+        let mut conflicts: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (name, flag) in named {
+            conflicts.entry(name.clone()).or_default();
+            for other in command.get_arg_conflicts_with(flag) {
+                let Some(other) = other.get_long() else { continue };
+                conflicts.entry(name.clone()).or_default().push(other.to_owned());
+                conflicts.entry(other.to_owned()).or_default().push(name.clone());
+            }
+        }
+        Self { conflicts }
+    }
+
+    /// Whether there is such a flag.
+    pub(super) fn has_flag(&self, name: &str) -> bool {
+        self.conflicts.contains_key(name)
+    }
+
+    /// The names of all flags.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.conflicts.keys().map(String::as_str)
+    }
+
+    /// The words of `over` on top of those of `base`, which lose what `over` gives itself or
+    /// excludes.
+    pub(super) fn merge(&self, base: &[String], over: &[String]) -> Vec<String> {
+        let gone: Vec<&str> = over.iter().map(|word| word_name(word)).collect();
+        let is_gone = |name: &str| {
+            let others = self.conflicts.get(name).into_iter().flatten();
+            gone.contains(&name) || others.into_iter().any(|other| gone.contains(&other.as_str()))
+        };
+        let kept = base.iter().filter(|word| !is_gone(word_name(word)));
+        kept.chain(over).cloned().collect()
+    }
+}
+
+/// The name in a word such as `--size=64x64`.
+fn word_name(word: &str) -> &str {
+    let name = word.strip_prefix("--").unwrap_or(word);
+    name.split_once('=').map_or(name, |(name, _)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(list: &[&str]) -> Vec<String> {
+        list.iter().map(|word| (*word).to_owned()).collect()
+    }
+
+    #[test]
+    fn a_line_replaces_what_the_command_says_and_what_it_excludes() {
+        let table = FlagTable::new();
+        let base = words(&["--size=64x64", "--view=front", "--overlay=axes", "--overlay=grid"]);
+        let merged = table.merge(&base, &words(&["--camera=left", "--overlay=horizon"]));
+        assert_eq!(merged, ["--size=64x64", "--camera=left", "--overlay=horizon"]);
+        assert!(RenderFlags::parse(&merged).is_ok(), "{merged:?}");
+        assert_eq!(table.merge(&base, &[]), base);
+        assert!(table.has_flag("max-file-bytes") && !table.has_flag("out-dir"));
+    }
+
+    #[test]
+    fn wrong_values_are_named_in_one_paragraph() {
+        let fault = RenderFlags::parse(&words(&["--samples=3"])).expect_err("no such pattern");
+        assert!(fault.starts_with("invalid value '3' for '--samples"), "{fault}");
+        assert!(fault.contains("expected 1, 4, 8 or 16") && !fault.contains("Usage"), "{fault}");
+        let fault = RenderFlags::parse(&words(&["--view=front", "--camera=a"])).expect_err("both");
+        assert!(fault.contains("cannot be used with"), "{fault}");
+    }
+}

@@ -1,0 +1,188 @@
+//! `alberti batch-worker`: renders what the coordinator of a batch asks for, until that ends.
+//!
+//! A model that hangs, crashes or takes all memory takes its worker along, and no other.
+
+use super::protocol::{FramedAnswer, PictureRequest, PictureTarget, WorkAnswer, WorkRequest};
+use super::render_flags::RenderFlags;
+use super::worker_scene::SceneLoader;
+use crate::CliError;
+use crate::memory_limit::{limit_process_memory, parse_memory_size};
+use pipeline::{RenderContext, Renderer, Textures};
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::{BufRead as _, ErrorKind, Write};
+use std::path::Path;
+use std::time::Instant;
+
+/// Arguments of `alberti batch-worker`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct WorkerArgs {
+    /// Memory of the worker
+    #[arg(long, value_name = "SIZE", value_parser = parse_memory_size)]
+    memory: Option<u64>,
+}
+
+/// Answers requests until the end of the input.
+///
+/// # Errors
+/// If a request makes no sense, or the answers cannot be written.
+pub(crate) fn run(args: &WorkerArgs) -> Result<(), CliError> {
+    end_with_coordinator();
+    if let Some(memory) = args.memory {
+        limit_process_memory(memory);
+    }
+    let mut worker = Worker {
+        loader: SceneLoader::new(args.memory),
+        renderer: Renderer::default(),
+        flags: None,
+    };
+    let mut answers = std::io::stdout().lock();
+    for line in std::io::stdin().lock().lines() {
+        let request: WorkRequest = serde_json::from_str(&line?)
+            .map_err(|error| CliError::Usage(format!("not a request of a batch: {error}")))?;
+        for picture in &request.pictures {
+            let (answer, mut png) = worker.answer(&request.input, picture);
+            if !matches!(picture.target, PictureTarget::Pipe) {
+                png.clear();
+            }
+            let framed = FramedAnswer { answer, follows: png.len() as u64 };
+            let mut bytes = serde_json::to_vec(&framed)
+                .map_err(|error| CliError::Usage(format!("no answer: {error}")))?;
+            bytes.push(b'\n');
+            bytes.extend(png);
+            answers.write_all(&bytes).and_then(|()| answers.flush())?;
+        }
+    }
+    Ok(())
+}
+
+/// Ends this process when the coordinator is killed, even while it renders.
+#[cfg(target_os = "linux")]
+fn end_with_coordinator() {
+    use rustix::process::{Signal, set_parent_process_death_signal};
+    // Where it is forbidden, the worker ends with its next answer.
+    let _ = set_parent_process_death_signal(Some(Signal::KILL));
+}
+
+/// Other systems have no such signal: the worker ends with its next answer.
+#[cfg(not(target_os = "linux"))]
+fn end_with_coordinator() {}
+
+/// What a worker keeps from picture to picture.
+struct Worker {
+    /// The model that was loaded last.
+    loader: SceneLoader,
+    /// The buffers.
+    renderer: Renderer,
+    /// The flags that were parsed last: they are often those of the next picture.
+    flags: Option<(Vec<String>, RenderFlags)>,
+}
+
+/// Why there is no picture.
+enum PictureError {
+    /// The input or a flag is at fault.
+    Job(CliError),
+    /// The output folder is at fault.
+    Place(String),
+}
+
+impl<E: Into<CliError>> From<E> for PictureError {
+    fn from(error: E) -> Self {
+        Self::Job(error.into())
+    }
+}
+
+/// A picture that was made: PNG and warnings.
+type RenderedPicture = (Vec<u8>, Vec<String>);
+
+impl Worker {
+    /// Renders a picture and writes it; the answer, and the PNG that may have to follow it.
+    fn answer(&mut self, input: &Path, picture: &PictureRequest) -> (WorkAnswer, Vec<u8>) {
+        let begin = Instant::now();
+        let made = self.render_picture(input, picture).and_then(|made| {
+            if let PictureTarget::File { path, partial } = &picture.target {
+                write_picture(path, partial, &made.0)?;
+            }
+            Ok(made)
+        });
+        let seconds = begin.elapsed().as_secs_f64();
+        match made {
+            Ok((png, warnings)) => {
+                let answer = WorkAnswer::Done {
+                    seconds,
+                    warnings: warnings.len(),
+                    message: warnings.into_iter().next().unwrap_or_default(),
+                    bytes: png.len() as u64,
+                    sha256: hexadecimal_sha256(&png),
+                };
+                (answer, png)
+            }
+            Err(PictureError::Job(error)) => {
+                (WorkAnswer::Failed { seconds, message: error.to_string() }, Vec::new())
+            }
+            Err(PictureError::Place(message)) => (WorkAnswer::Stopped { message }, Vec::new()),
+        }
+    }
+
+    /// Renders one picture; returns it with the warnings of its models and of the drawing.
+    ///
+    /// Rendering is single-threaded, as the workers themselves are parallel.
+    fn render_picture(
+        &mut self,
+        input: &Path,
+        picture: &PictureRequest,
+    ) -> Result<RenderedPicture, PictureError> {
+        if self.flags.as_ref().is_none_or(|(words, _)| *words != picture.flags) {
+            let flags = RenderFlags::parse(&picture.flags).map_err(CliError::Usage)?;
+            self.flags = Some((picture.flags.clone(), flags));
+        }
+        let Some((_, flags)) = &self.flags else {
+            return Err(CliError::Usage("no flags".to_owned()).into());
+        };
+        let scene = self.loader.load_scene(input, picture.scene.as_deref(), flags)?;
+        let textures = Textures::for_scene(&scene);
+        let context = RenderContext::new(&scene, &textures, 1);
+        let (png, drawing) = self.renderer.render_png(&context).map_err(CliError::from)?;
+        let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
+        let warnings = warnings.map(model::Diagnostic::sentence);
+        Ok((png, warnings.chain(drawing.iter().map(ToString::to_string)).collect()))
+    }
+}
+
+/// The SHA-256 of a picture in hexadecimal.
+fn hexadecimal_sha256(png: &[u8]) -> String {
+    Sha256::digest(png).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Writes a picture whole or not at all: to a file of this worker alone, which then takes the
+/// picture's name.
+///
+/// The folder of the picture is made only now, so that failed models leave no empty folders.
+fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureError> {
+    let fault = |what: &Path, cause: std::io::Error| {
+        let message = format!("cannot write {}: {cause}", what.display());
+        match cause.kind() {
+            // The name is at fault, and with it the job.
+            ErrorKind::InvalidFilename
+            | ErrorKind::InvalidInput
+            | ErrorKind::IsADirectory
+            | ErrorKind::NotADirectory
+            | ErrorKind::AlreadyExists => PictureError::Job(CliError::Usage(message)),
+            _ => PictureError::Place(message),
+        }
+    };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|cause| fault(folder, cause))?;
+    }
+    let written = File::create(partial).and_then(|mut file| {
+        file.write_all(png)?;
+        // On the disk before the name: a crash leaves the old picture or the new one, whole.
+        file.sync_all()?;
+        std::fs::rename(partial, path)
+    });
+    written.map_err(|cause| {
+        // Best effort: an error is on its way already.
+        let _ = std::fs::remove_file(partial);
+        fault(path, cause)
+    })
+}

@@ -1,0 +1,125 @@
+//! The scenes of a worker: a model, a scene file, or a scene file with the input as its model.
+//!
+//! The models that were loaded last are kept: the next picture is often another view of them.
+
+use super::render_flags::RenderFlags;
+use crate::CliError;
+use crate::memory_limit::import_limits;
+use crate::render::{is_scene_file, open_input};
+use model::ModelInstance;
+use pipeline::import::ImportOptions;
+use pipeline::scene::ResolveOptions;
+use pipeline::{Origin, Scene, SceneFile};
+use std::path::Path;
+use std::time::SystemTime;
+
+/// The path in a scene file that the input takes the place of.
+const INPUT_PATH: &str = "{input}";
+
+/// Loads scenes, and keeps the models of the last one.
+pub(super) struct SceneLoader {
+    /// The memory of the worker, which bounds what may be loaded.
+    memory: Option<u64>,
+    /// The models that were loaded last, and what they were loaded from.
+    loaded: Option<(LoadKey, Vec<ModelInstance>)>,
+}
+
+/// What loaded models depend on.
+#[derive(PartialEq)]
+struct LoadKey {
+    /// The models of the scene file with their poses, and the options, as text.
+    description: String,
+    /// Size and time of the models' files.
+    stamps: Vec<Option<(u64, SystemTime)>>,
+}
+
+impl LoadKey {
+    /// The key of the models of a scene.
+    fn of(origin: &Origin, file: &SceneFile, import: &ImportOptions) -> Self {
+        let stamp = |path: &String| {
+            let metadata = origin.folder.join(path).metadata().ok()?;
+            Some((metadata.len(), metadata.modified().ok()?))
+        };
+        Self {
+            description: format!("{:?} {:?} {import:?}", origin.folder, file.models),
+            stamps: file.models.iter().map(|model| stamp(&model.path)).collect(),
+        }
+    }
+}
+
+impl SceneLoader {
+    /// A loader that has nothing loaded yet.
+    pub(super) const fn new(memory: Option<u64>) -> Self {
+        Self { memory, loaded: None }
+    }
+
+    /// The scene of an input, or the scene file `around` with the input as its model.
+    ///
+    /// # Errors
+    /// If a file cannot be read or is invalid, or a scene has no place for the input.
+    pub(super) fn load_scene(
+        &mut self,
+        input: &Path,
+        around: Option<&Path>,
+        flags: &RenderFlags,
+    ) -> Result<Scene, CliError> {
+        let mut import = flags.overrides.import_options(&flags.load_options);
+        if let Some(memory) = self.memory {
+            import.limits = import_limits(&import.limits, memory);
+        }
+        let (origin, mut file) = match around {
+            Some(scene) => open_scene_around(scene, input, &mut import)?,
+            None => open_input(input, &import)?,
+        };
+        flags.overrides.apply_to(&mut file);
+        let key = LoadKey::of(&origin, &file, &import);
+        let is_loaded = self.loaded.as_ref().is_some_and(|(known, _)| *known == key);
+        let mut scene = match self.loaded.take().filter(|_| is_loaded) {
+            Some((_, models)) => {
+                Scene::from_models_allowing(&origin, &file, models, &import.allow_outside)?
+            }
+            // The old models are gone by now, and do not take memory beside the new ones.
+            None => Scene::resolve(&origin, &file, &ResolveOptions { import })?,
+        };
+        self.loaded = Some((key, scene.models.clone()));
+        flags.overrides.place_camera(&origin, &file, &mut scene)?;
+        Ok(scene)
+    }
+}
+
+/// Opens a scene file and puts the input in the place of its models `{input}`.
+///
+/// The input was named by the user and may be anywhere; other models have to be below the folder of
+/// the scene.
+fn open_scene_around(
+    scene: &Path,
+    input: &Path,
+    import: &mut ImportOptions,
+) -> Result<(Origin, SceneFile), CliError> {
+    if is_scene_file(input) {
+        return Err(CliError::Usage(format!(
+            "{} is a scene itself and no model for {}",
+            input.display(),
+            scene.display()
+        )));
+    }
+    let (origin, mut file) = Origin::read_scene_allowing(scene, &import.allow_outside)?;
+    let input = std::path::absolute(input)?;
+    let path = input.to_str().ok_or_else(|| {
+        CliError::Usage(format!("the name {} is not UTF-8: rename the file", input.display()))
+    })?;
+    let mut is_there = false;
+    for model in file.models.iter_mut().filter(|model| model.path == INPUT_PATH) {
+        path.clone_into(&mut model.path);
+        is_there = true;
+    }
+    if !is_there {
+        return Err(CliError::Usage(format!(
+            "the scene {} has no place for the input\n  = help: add one: models: [Model(path: \
+             \"{INPUT_PATH}\")]",
+            scene.display()
+        )));
+    }
+    import.allow_outside.push(input);
+    Ok((origin, file))
+}

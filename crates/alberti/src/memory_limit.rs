@@ -1,0 +1,70 @@
+//! Limits of memory: those of the importer for a program of so much memory, and that of the system.
+
+use model::Limits;
+
+/// The limits of the importer for a program of this much memory.
+///
+/// | part | what it is for |
+/// | --- | --- |
+/// | 1/4 | files, as they are |
+/// | 1/2 | arrays: vertices, indices, what 3MF archives hold |
+/// | 1/3 | texels of 4 bytes; their mip levels, at a third more, take the next 1/9 |
+///
+/// The numbers of nodes, JSON values and triangles follow by what one of each takes at most:
+/// 2,048, 256 and 64 bytes. All together are more than the whole, as no model needs the most of
+/// everything; one that is made to is stopped by the system.
+pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
+    let count = |usual: usize, bytes: u64| {
+        usize::try_from(memory / bytes).map_or(usual, |most| usual.min(most))
+    };
+    Limits {
+        file_bytes: usual.file_bytes.min(memory / 4),
+        total_bytes: usual.total_bytes.min(memory / 4),
+        array_bytes: usual.array_bytes.min(memory / 2),
+        image_texels: usual.image_texels.min(memory / 12),
+        json_values: count(usual.json_values, 256),
+        nodes: count(usual.nodes, 2_048),
+        scene_items: usual.scene_items.min(memory / 64),
+        ..usual.clone()
+    }
+}
+
+/// Holds the process to this much memory of its own (heap, stacks; not the program itself): what
+/// asks for more is ended by an abort.
+#[cfg(target_os = "linux")]
+pub(crate) fn limit_process_memory(memory: u64) {
+    use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+    let maximum = getrlimit(Resource::Data).maximum;
+    let current = Some(maximum.map_or(memory, |most| most.min(memory)));
+    // Where it is forbidden, the limits of the importer hold all the same.
+    let _ = setrlimit(Resource::Data, Rlimit { current, maximum });
+}
+
+/// Other systems have no such limit: that of the importer has to do.
+#[cfg(not(target_os = "linux"))]
+pub(crate) fn limit_process_memory(_memory: u64) {}
+
+/// Parses the memory of a program, which needs some for itself.
+///
+/// # Errors
+/// If the text is no size, or less than 64 MiB.
+pub(crate) fn parse_memory_size(text: &str) -> Result<u64, String> {
+    let size = crate::load_options::parse_byte_size(text)?;
+    if size >= 64 << 20 { Ok(size) } else { Err("the program needs at least 64MiB".to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_shrink_with_the_memory_and_never_exceed_the_usual_ones() {
+        let usual = Limits::default();
+        assert_eq!(import_limits(&usual, u64::MAX), usual);
+        let small = import_limits(&usual, 64 << 20);
+        assert_eq!((small.file_bytes, small.array_bytes), (16 << 20, 32 << 20));
+        assert_eq!((small.json_values, small.nodes), (1 << 18, 1 << 15));
+        assert_eq!(small.image_side, usual.image_side);
+        assert!(small.total_bytes + small.array_bytes < 64 << 20);
+    }
+}
