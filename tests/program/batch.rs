@@ -3,11 +3,38 @@
 use crate::sandbox::Sandbox;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// The records of all runs whose reports begin with these words, in the order in which they were
+/// written.
+pub(crate) fn read_records(sandbox: &Sandbox, run: &str) -> Vec<Value> {
+    let Ok(entries) = std::fs::read_dir(sandbox.path_of("out/reports")) else { return Vec::new() };
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let is_of_run = |path: &PathBuf| {
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        name.starts_with(run) && name.ends_with(".jsonl")
+    };
+    let mut paths: Vec<PathBuf> = paths.filter(is_of_run).collect();
+    paths.sort();
+    let texts = paths.iter().map(|path| std::fs::read_to_string(path).expect("a report"));
+    let lines = |text: String| -> Vec<Value> {
+        text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
+    };
+    texts.flat_map(lines).collect()
+}
+
+/// The names of the pictures that records are of, sorted.
+fn outputs(records: &[Value]) -> Vec<&str> {
+    let mut names: Vec<&str> =
+        records.iter().map(|record| record["output"].as_str().expect("a name")).collect();
+    names.sort_unstable();
+    names
+}
+
 /// A folder of models: three good ones, one of them in a folder of its own, and a broken one.
-fn batch_sandbox(name: &str) -> Sandbox {
+pub(crate) fn batch_sandbox(name: &str) -> Sandbox {
     let sandbox = Sandbox::new(name);
     std::fs::create_dir_all(sandbox.path_of("models/more")).expect("folders");
     for (model, location) in
@@ -68,6 +95,11 @@ fn a_broken_model_is_a_line_of_the_report_and_what_is_done_is_not_done_again() {
     std::fs::remove_file(sandbox.path_of("out/more/a.png")).expect("a picture");
     let run = sandbox.run(&SMALL);
     assert_eq!(run.stdout, "2 rendered, 1 up to date, 1 failed\n", "content changed, picture gone");
+    assert!(!run.stderr.contains("broken.glb"), "{}", run.stderr);
+    assert!(run.stderr.contains("1 in an earlier run; --retry-failed"), "{}", run.stderr);
+    let run = sandbox.run(&[&SMALL[..], &["--retry-failed"]].concat());
+    assert_eq!((run.code, run.stdout.as_str()), (1, "0 rendered, 3 up to date, 1 failed\n"));
+    assert!(run.stderr.contains("broken.glb"), "it was tried again: {}", run.stderr);
     let run = sandbox.run(&[&SMALL[..], &["--background", "#123"]].concat());
     assert_eq!(run.stdout, "3 rendered, 0 up to date, 1 failed\n", "settings changed");
     let run = sandbox.run(&[&SMALL[..], &["--background", "#123", "--force"]].concat());
@@ -82,11 +114,10 @@ fn shards_unite_to_the_whole() {
         let run = sandbox.run(&[&SMALL[..], &["--shard", shard]].concat());
         assert_eq!(run.code, 0, "{}", run.stderr);
     }
-    let mut united = read_report(&sandbox, "out/report-1-of-2.jsonl");
-    let other = read_report(&sandbox, "out/report-2-of-2.jsonl");
-    assert!(other.keys().all(|picture| !united.contains_key(picture)), "no picture is made twice");
-    united.extend(other);
-    assert_eq!(united.into_keys().collect::<Vec<_>>(), ["a.png", "b.png", "more/a.png"]);
+    let [first, second] = ["1-of-2.", "2-of-2."].map(|run| read_records(&sandbox, run));
+    assert!(!first.is_empty() && !second.is_empty(), "{first:?} {second:?}");
+    let united = [first, second].concat();
+    assert_eq!(outputs(&united), ["a.png", "b.png", "more/a.png"], "no picture is made twice");
     let run = sandbox.run(&SMALL);
     assert_eq!((run.code, run.stdout.as_str()), (0, "0 rendered, 3 up to date, 0 failed\n"));
     let run = sandbox.run(&[&SMALL[..], &["--shard", "auto"]].concat());
@@ -112,14 +143,14 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
         .spawn()
         .expect("the program starts");
     let begin = Instant::now();
-    let lines = || std::fs::read_to_string(sandbox.path_of("out/report.jsonl")).unwrap_or_default();
-    while lines().lines().filter(|line| line.contains("done")).count() < 3 {
-        assert!(begin.elapsed() < Duration::from_secs(60), "it does nothing: {}", lines());
+    let done = || read_records(&sandbox, "").len();
+    while done() < 3 {
+        assert!(begin.elapsed() < Duration::from_secs(60), "it does nothing");
         std::thread::sleep(Duration::from_millis(5));
     }
     process.kill().expect("it can be killed");
     process.wait().expect("it ends");
-    let before = lines().lines().filter(|line| line.contains("done")).count();
+    let before = done();
     let run = sandbox.run(&arguments);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert_eq!(read_report(&sandbox, "out/report.jsonl").len(), 16);
@@ -132,7 +163,11 @@ fn a_run_that_is_killed_goes_on_where_it_was() {
         .expect("a count");
     assert_eq!(kept, before, "{}", run.stdout);
     assert!(kept < 16, "it was killed before it was through");
-    assert!(!sandbox.file_names().iter().any(|name| name.ends_with(".part")));
+    let entries = std::fs::read_dir(sandbox.path_of("out")).expect("the folder");
+    for entry in entries {
+        let name = entry.expect("an entry").file_name().into_string().expect("a name");
+        assert!(!name.ends_with(".part"), "{name} is no picture");
+    }
 }
 
 #[test]

@@ -5,6 +5,8 @@
 
 mod asset_models;
 mod batch;
+mod batch_lists;
+mod batch_workers;
 mod calibrated_cameras;
 mod captions;
 mod check;

@@ -73,8 +73,10 @@ Exit codes:
   0  success
   1  the input is invalid or the work failed; existing output files are left untouched
   2  wrong usage
+  3  `batch` alone: the run could not go on, as where the disk is full; run it again
 `check` exits with 1 if there are errors, but not for warnings and notes. `render --compare` exits
-with 1 if the pictures differ, and writes all of its files.";
+with 1 if the pictures differ, and writes all of its files. `batch` exits with 1 if jobs have failed,
+and with 128 plus the number of a signal that has interrupted it.";
 
 /// The commands, in the order of the help.
 #[derive(Debug, Subcommand)]

@@ -1,9 +1,9 @@
 //! `alberti batch`: renders many models and scenes, each to a picture of its own.
 //!
 //! ```text
-//!  folders, lists ─► stream of jobs ─► this shard ─► not done yet ─► pool of worker processes ─► pictures
-//!                                                         ▲                     │
-//!                                      records of earlier runs ◄── report ◄─────┘   metrics, progress
+//!  folders, lists ─► stream of jobs ─► this shard ─► not done yet ─► workers ─► pictures, tars
+//!                                                         ▲             │
+//!                                     records of earlier runs ◄── report ◄── counts, metrics
 //! ```
 //! A job is done if a report has it with the same content and settings and its picture has the
 //! recorded size. A run that was stopped or killed therefore resumes where it was. A model that is

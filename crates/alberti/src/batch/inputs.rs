@@ -154,8 +154,8 @@ fn name_by_template(
         let output = template.name_picture(NameSource { input: &name, line: at + 1, picture: 1 });
         if let Some(other) = taken.insert(output.to_lowercase(), input.clone()) {
             return Err(CliError::Usage(format!(
-                "{} and {} would both be rendered to {output}\n  = help: add {{folder}}, {{name}} or \
-                 {{line}} to --name",
+                "{} and {} would both be rendered to {output}\n  = help: add {{folder}}, {{name}} \
+                 or {{line}} to --name",
                 other.display(),
                 input.display()
             )));

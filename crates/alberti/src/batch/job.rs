@@ -15,7 +15,7 @@ pub(super) struct BatchJob {
     pub(super) output: String,
     /// The scene that is rendered with the input in the place of its model `{input}`.
     pub(super) scene: Option<PathBuf>,
-    /// The flags of its line, which come on top of those of the command: `--size=64x64`, `--lenient`.
+    /// The flags of its line, which come on top of those of the command: `--size=64x64`.
     pub(super) flags: Vec<String>,
     /// The line of a list that describes it.
     pub(super) line: Option<ListLine>,

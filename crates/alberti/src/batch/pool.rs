@@ -125,7 +125,8 @@ impl BatchRun<'_> {
                 },
             }
         }
-        let mut is_second_try = false;
+        // How many jobs were left when a worker ended that the first of them may not have ended.
+        let mut doubted = None;
         while !open.is_empty() {
             let running = match worker {
                 Some(running) => running,
@@ -139,10 +140,10 @@ impl BatchRun<'_> {
             if let Some(signal) = end.interruption() {
                 return Err(RunStop::Signal(signal));
             }
-            // What ended it may have come from jobs before, or be the end of everything here.
-            let is_doubtful = !is_fresh && end != WorkerEnd::TimedOut || end.is_killed();
-            is_second_try = is_doubtful && !is_second_try;
-            if is_second_try {
+            // Jobs before may have spoiled the worker, and who kills it may be about to kill all.
+            let is_doubtful = (!is_fresh && end != WorkerEnd::TimedOut) || end.is_killed();
+            if is_doubtful && doubted != Some(open.len()) {
+                doubted = Some(open.len());
                 continue;
             }
             if let Some(OpenJob { job, key }) = open.pop_front() {
