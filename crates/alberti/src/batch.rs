@@ -21,6 +21,7 @@
 
 mod contact_sheet;
 mod csv;
+mod earlier_records;
 mod inputs;
 mod job;
 mod job_list;
@@ -28,6 +29,7 @@ mod job_stream;
 mod key;
 mod list_line;
 mod merge;
+mod metrics;
 mod outcome;
 mod picture_name;
 mod pool;
@@ -35,8 +37,12 @@ mod progress;
 mod protocol;
 mod render_flags;
 mod report;
+mod report_reader;
 mod shard;
+mod tar_format;
 mod tar_output;
+#[cfg(test)]
+mod test_records;
 mod verify;
 mod worker;
 mod worker_process;
@@ -47,14 +53,17 @@ pub(crate) use worker::{WorkerArgs, run as run_worker};
 use super::CliError;
 use super::memory_limit::parse_memory_size;
 use super::messages::{print_message, print_stdout};
+use earlier_records::EarlierRecords;
 use job_stream::{JobSource, JobStream};
 use key::KeyMaker;
+use merge::{CurrentJobs, MergeCounts};
+use metrics::RunCounts;
 use outcome::RunStop;
 use picture_name::PictureName;
 use pool::{BatchRun, JobPolicy};
-use progress::{RunCounts, RunProgress};
+use progress::RunProgress;
 use render_flags::{FlagTable, GivenFlags};
-use report::{EarlierRecords, ReportWriter};
+use report::ReportWriter;
 use shard::Shard;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
@@ -159,7 +168,7 @@ pub(crate) fn run(mut args: BatchArgs) -> Result<u8, CliError> {
         Ok(jobs) => jobs,
         Err(error) => return Ok(print_fault(&error, WRONG_USAGE)),
     };
-    let keys = KeyMaker::new(format!("{flags:?}"), args.flags.allowed.clone());
+    let keys = KeyMaker::new(&format!("{flags:?}"), args.flags.allowed.clone());
     let code = if args.verify {
         let is_whole = verify::verify_jobs(jobs, &keys, &args.out_dir);
         is_whole.map(|is_whole| if is_whole { 0 } else { SOME_FAILED })
@@ -177,9 +186,27 @@ fn print_fault(error: &CliError, code: u8) -> u8 {
 
 /// Merges the reports; the exit code says whether one of the jobs has failed.
 fn merge_reports(args: &BatchArgs) -> Result<u8, CliError> {
-    merge::merge_reports(&args.out_dir)?;
-    contact_sheet::write_contact_sheet(&args.out_dir)?;
-    Ok(0)
+    let counts = merge::merge_reports(&args.out_dir, None)?;
+    contact_sheet::write_contact_sheet(&args.out_dir, &counts)?;
+    print_statistics(&counts)?;
+    Ok(if counts.failed == 0 { 0 } else { SOME_FAILED })
+}
+
+/// Prints what a merged report says of all pictures.
+///
+/// ```text
+/// 990 pictures of 20.5 MB in all, 10 failed
+/// 0.3 s of work a job, 61.2 s for models/engine.glb
+/// ```
+fn print_statistics(counts: &MergeCounts) -> Result<(), CliError> {
+    let MergeCounts { done, failed, bytes, seconds, longest } = counts;
+    let megabytes = *bytes as f64 / 1e6;
+    let mut text = format!("{done} pictures of {megabytes:.1} MB in all, {failed} failed\n");
+    if let Some((longest, input)) = longest {
+        let mean = seconds / (done + failed) as f64;
+        text += &format!("{mean:.2} s of work a job, {longest:.2} s for {input}\n");
+    }
+    print_stdout(text.as_bytes())
 }
 
 /// Runs the jobs, and prints what came of them.
@@ -199,7 +226,7 @@ fn run_jobs(
     let earlier = if args.force { None } else { Some(EarlierRecords::read(&args.out_dir)?) };
     let report = ReportWriter::create(&args.out_dir, shard)?;
     let tar = args.tar.map(|count| TarOutput::new(&args.out_dir, report.run_name(), count));
-    let progress = RunProgress::start(args.metrics.as_deref());
+    let progress = RunProgress::start(args.metrics.as_deref())?;
     let run = BatchRun {
         jobs: Mutex::new(jobs),
         keys,
@@ -216,10 +243,12 @@ fn run_jobs(
             retries_failed: args.retry_failed,
         },
         failures: Mutex::default(),
+        current: shard.has_all_jobs().then(Mutex::<CurrentJobs>::default),
         stop: Mutex::new(None),
     };
     run.run_jobs(super::render::thread_count(args.threads));
     let stop = run.stop.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let current = run.current.map(|jobs| jobs.into_inner().unwrap_or_else(PoisonError::into_inner));
     let failures = run.failures.into_inner().unwrap_or_else(PoisonError::into_inner);
     // What was rendered is kept, whatever has stopped the run.
     let tar = tar.map_or(Ok(()), |tar| tar.finish(&report));
@@ -234,9 +263,9 @@ fn run_jobs(
         Some(RunStop::Fault(error)) => return Err(error),
         None => closed?,
     }
-    if shard.has_all_jobs() {
-        merge::merge_reports(&args.out_dir)?;
-        contact_sheet::write_contact_sheet(&args.out_dir)?;
+    if current.is_some() {
+        let counts = merge::merge_reports(&args.out_dir, current)?;
+        contact_sheet::write_contact_sheet(&args.out_dir, &counts)?;
     }
     print_summary(counts)
 }
@@ -247,7 +276,7 @@ fn run_jobs(
 /// 118 rendered, 40 up to date, 1 failed
 /// ```
 fn print_summary(counts: RunCounts) -> Result<u8, CliError> {
-    let RunCounts { rendered, up_to_date, failed, failed_before } = counts;
+    let RunCounts { rendered, up_to_date, failed, failed_before, .. } = counts;
     if failed_before > 0 {
         let text = format!("{failed_before} in an earlier run; --retry-failed runs them again");
         print_message("failed", &text);

@@ -3,14 +3,16 @@
 //! One worker per core is faster for many small pictures than all cores on one: loading, decoding
 //! and encoding are serial, and take most of the time of a thumbnail.
 
+use super::earlier_records::{EarlierRecord, EarlierRecords};
 use super::job::{BatchJob, JobGroup};
 use super::job_stream::JobStream;
 use super::key::KeyMaker;
+use super::merge::CurrentJobs;
 use super::outcome::{FailureList, Outcome, RunStop, failed_record, worker_end_message};
 use super::progress::RunProgress;
 use super::protocol::{PictureRequest, PictureTarget, WorkAnswer, WorkRequest};
 use super::render_flags::FlagTable;
-use super::report::{DONE, EarlierRecord, EarlierRecords, JobRecord, ReportWriter};
+use super::report::{DONE, JobRecord, ReportWriter};
 use super::tar_output::TarOutput;
 use super::worker_process::{WorkerEnd, WorkerProcess};
 use crate::CliError;
@@ -54,6 +56,8 @@ pub(super) struct BatchRun<'a> {
     pub(super) policy: JobPolicy,
     /// The failures of this run, for the end.
     pub(super) failures: Mutex<FailureList>,
+    /// All jobs, by which the merged report is restricted to them; `None` of a shard.
+    pub(super) current: Option<Mutex<CurrentJobs>>,
     /// Why no further job is begun.
     pub(super) stop: Mutex<Option<RunStop>>,
 }
@@ -117,6 +121,10 @@ impl BatchRun<'_> {
         let mut open = VecDeque::new();
         for job in group.jobs {
             let key = self.keys.job_key(&job);
+            if let Some(current) = &self.current {
+                let mut current = current.lock().unwrap_or_else(PoisonError::into_inner);
+                current.add_job(&job.output, &key);
+            }
             match self.settled(&job, &key) {
                 Some(failed) => self.progress.count_earlier(failed),
                 None => match job.fault.clone() {
