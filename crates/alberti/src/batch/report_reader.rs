@@ -110,7 +110,10 @@ pub(super) fn read_report(
 }
 
 /// The paths of all reports: the merged one, then those of the runs, by number and name.
-fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, CliError> {
+///
+/// # Errors
+/// If the folder cannot be read.
+pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, CliError> {
     let folder = out_dir.join(REPORTS_FOLDER);
     let mut paths = Vec::new();
     match std::fs::read_dir(&folder) {
