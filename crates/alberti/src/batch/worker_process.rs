@@ -48,7 +48,8 @@ impl WorkerProcess {
     pub(super) fn start(memory: Option<u64>) -> Result<Self, CliError> {
         let fault = |cause| CliError::Usage(format!("cannot start a worker of the batch: {cause}"));
         let mut command = crate::program_command().map_err(fault)?;
-        command.arg("batch-worker");
+        // What a worker says at its end goes to the report, where a stack is of no use.
+        command.arg("batch-worker").env("RUST_BACKTRACE", "0");
         if let Some(memory) = memory {
             command.arg(format!("--memory={memory}"));
         }
