@@ -10,12 +10,6 @@ fn run_list(sandbox: &Sandbox, list: &str, more: &[&str]) -> (i32, String, Strin
     (run.code, run.stdout, run.stderr)
 }
 
-/// The record of a picture.
-fn record_of<'a>(records: &'a [Value], output: &str) -> &'a Value {
-    let found = records.iter().find(|record| record["output"] == output);
-    found.unwrap_or_else(|| panic!("{output}: {records:?}"))
-}
-
 #[test]
 fn lines_of_json_have_flags_of_their_own() {
     let sandbox = batch_sandbox("batch_jsonl");
@@ -66,7 +60,7 @@ fn a_wrong_line_fails_by_its_number_and_the_others_run() {
         ("{\"input\": \"models/a.glb\", \"max_anisotropy\": 4}", "did you mean `max-anisotropy`?"),
         ("{\"input\": \"models/a.glb\", \"out-dir\": \"x\"}", "unknown member `out-dir`"),
         ("{\"input\": \"models/a.glb\", \"output\": \"../x.png\"}", "below the output folder"),
-        ("{\"input\": \"models/a.glb\", \"output\": \"/tmp/x.png\"}", "below the output folder"),
+        ("{\"input\": \"models/a.glb\", \"output\": \"/x.png\"}", "below the output folder"),
         ("{\"input\": \"models/a.glb\", \"output\": \"x.jpg\"}", "end the name in .png"),
         ("{\"input\": \"models/a.glb\", \"pictures\": []}", "no list of pictures"),
         ("{\"input\": \"models/a.glb\", \"pictures\": [{\"sice\": 1}]}", "pictures[0]: unknown"),

@@ -50,6 +50,7 @@ mod options;
 mod page_output;
 mod panel_subject;
 mod passes;
+mod program;
 mod progress;
 mod reference;
 mod referenced_files;
@@ -66,6 +67,8 @@ mod template;
 mod terminal_image;
 mod thumbnailer;
 
+pub use program::run_within;
+
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
 use deferred::Deferred;
@@ -73,37 +76,6 @@ use error::CliError;
 use messages::{print_message, print_note, print_stdout};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use std::sync::OnceLock;
-
-/// The words that start this program again, where it runs within another one.
-static PROGRAM_WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
-
-/// Runs the program within another one, as [`run`] does. `program` are the words that start it
-/// again, such as `python -m alberti`: `batch` starts workers with them.
-pub fn run_within(
-    program: impl IntoIterator<Item = OsString>,
-    arguments: impl IntoIterator<Item = OsString>,
-) -> u8 {
-    PROGRAM_WORDS.get_or_init(|| program.into_iter().collect());
-    run(arguments)
-}
-
-/// A command that starts this program again.
-///
-/// # Errors
-/// If the system does not say where the program is.
-pub(crate) fn program_command() -> std::io::Result<std::process::Command> {
-    if let Some([program, rest @ ..]) = PROGRAM_WORDS.get().map(Vec::as_slice) {
-        let mut command = std::process::Command::new(program);
-        command.args(rest);
-        return Ok(command);
-    }
-    // The very file that runs, even if another version has taken its place since.
-    if cfg!(target_os = "linux") && std::path::Path::new("/proc/self/exe").exists() {
-        return Ok(std::process::Command::new("/proc/self/exe"));
-    }
-    std::env::current_exe().map(std::process::Command::new)
-}
 
 /// Runs the program with its arguments, of which the first is its name, and returns its exit code.
 ///

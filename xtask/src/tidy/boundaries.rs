@@ -10,7 +10,14 @@ use crate::metadata::Metadata;
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/model/src/import"]),
     ("ron", &["crates/pipeline/src/scene"]),
-    ("serde", &["crates/pipeline/src/scene", "crates/model/src/import/gltf/located_json.rs"]),
+    (
+        "serde",
+        &[
+            "crates/pipeline/src/scene",
+            "crates/model/src/import/gltf/located_json.rs",
+            "crates/alberti/src/batch",
+        ],
+    ),
     ("tiny_skia", &["crates/drawing/src/canvas", "crates/raster/examples/pixmap.rs"]),
     ("clap", &["crates/alberti/src"]),
 ];

@@ -39,8 +39,9 @@ impl CsvRecord {
                 self.fields.push(String::new());
                 return Ok(FieldState::Start);
             }
-            (FieldState::Quoted, '"') => return Ok(FieldState::AfterQuote),
-            (FieldState::AfterQuote, '\r' | '\n') => return Ok(FieldState::AfterQuote),
+            (FieldState::Quoted, '"') | (FieldState::AfterQuote, '\r' | '\n') => {
+                return Ok(FieldState::AfterQuote);
+            }
             (FieldState::Plain, '"') => {
                 return Err("a quote within a field: write the field in quotes, and the quote \
                             twice"

@@ -58,7 +58,7 @@ impl JobList {
             let fault = |cause| CliError::Usage(format!("cannot read {}: {cause}", path.display()));
             let file = File::open(path).map_err(fault)?;
             let length = file.metadata().map_err(fault)?;
-            (Box::new(BufReader::new(file)), length.is_file().then(|| length.len()))
+            (Box::new(BufReader::new(file)), length.is_file().then_some(length.len()))
         };
         let folder = if is_stdin { Path::new("") } else { path.parent().unwrap_or(path) };
         let name = if is_stdin { "<stdin>".into() } else { path.to_string_lossy() };
@@ -73,7 +73,7 @@ impl JobList {
             position: (0, length),
         };
         let has_brace = |list: &mut Self| -> Result<bool, CliError> {
-            let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, cause))?;
+            let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, &cause))?;
             Ok(start.trim_ascii_start().first().is_none_or(|byte| *byte == b'{'))
         };
         let ends_in_csv = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"));
@@ -130,7 +130,7 @@ impl JobList {
         let mut line = Vec::new();
         let mut limited = self.reader.by_ref().take(MAX_LINE_BYTES + 1);
         let read = limited.read_until(b'\n', &mut line);
-        let length = read.map_err(|cause| list_error(&self.name, cause))?;
+        let length = read.map_err(|cause| list_error(&self.name, &cause))?;
         self.line += 1;
         self.position.0 += length as u64;
         if length as u64 > MAX_LINE_BYTES {
@@ -254,6 +254,6 @@ fn wrong_line(line: ListLine, fault: &str) -> JobGroup {
 }
 
 /// The error of a list that cannot be read.
-fn list_error(name: &str, cause: std::io::Error) -> CliError {
+fn list_error(name: &str, cause: &std::io::Error) -> CliError {
     CliError::Usage(format!("cannot read {name}: {cause}"))
 }

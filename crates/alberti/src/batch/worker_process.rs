@@ -2,6 +2,7 @@
 
 use super::protocol::{FramedAnswer, WorkAnswer, WorkRequest};
 use crate::CliError;
+use crate::program::program_command;
 use std::io::{BufRead as _, BufReader, Read, Write as _};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -47,7 +48,7 @@ impl WorkerProcess {
     /// If the system starts no further process.
     pub(super) fn start(memory: Option<u64>) -> Result<Self, CliError> {
         let fault = |cause| CliError::Usage(format!("cannot start a worker of the batch: {cause}"));
-        let mut command = crate::program_command().map_err(fault)?;
+        let mut command = program_command().map_err(fault)?;
         // What a worker says at its end goes to the report, where a stack is of no use.
         command.arg("batch-worker").env("RUST_BACKTRACE", "0");
         if let Some(memory) = memory {
