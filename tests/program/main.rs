@@ -5,6 +5,7 @@
 
 mod asset_models;
 mod batch;
+mod batch_crashes;
 mod batch_lists;
 mod batch_workers;
 mod calibrated_cameras;

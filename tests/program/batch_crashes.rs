@@ -1,0 +1,384 @@
+//! `alberti batch` when it is killed, when its disk is full, and when it is started twice: nothing
+//! is lost, and nothing wrong is believed to be done.
+//!
+//! `ALBERTI_BATCH_KILLS` is the number of times a batch is killed, 12 if it is not set.
+
+use crate::sandbox::{RunResult, Sandbox};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant, SystemTime};
+
+/// Eighteen small models; `BATCH` renders them.
+fn crash_sandbox(name: &str) -> Sandbox {
+    let sandbox = Sandbox::new(name);
+    for model in ["crate.glb", "panes.glb", "house.glb"] {
+        sandbox.copy_model(model);
+        for folder in 0..6 {
+            let to = sandbox.path_of(&format!("models/{folder}"));
+            std::fs::create_dir_all(&to).expect("a folder");
+            std::fs::copy(sandbox.path_of(model), to.join(model)).expect("a model");
+        }
+    }
+    sandbox
+}
+
+const COUNT: usize = 18;
+const BATCH: [&str; 8] =
+    ["batch", "models", "--out-dir", "out", "--size", "96x64", "--threads", "2"];
+
+/// The batch with further flags.
+fn batch_with<'a>(flags: &[&'a str]) -> Vec<&'a str> {
+    [&BATCH[..], flags].concat()
+}
+
+/// The pictures of an undisturbed run, by their names.
+fn undisturbed_pictures(sandbox: &Sandbox) -> BTreeMap<String, Vec<u8>> {
+    let mut arguments = BATCH;
+    arguments[3] = "whole";
+    let run = sandbox.run(&arguments);
+    assert_eq!((run.code, run.stdout.as_str()), (0, "18 rendered, 0 up to date, 0 failed\n"));
+    let pictures = pictures_below(&sandbox.path_of("whole"));
+    assert_eq!(pictures.len(), COUNT);
+    pictures
+}
+
+/// All files that end in `.png`, by their path below a folder.
+fn pictures_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = files_below(folder).into_iter().filter(|name| name.ends_with(".png"));
+    // One that another process replaces at this moment is read as it was or as it is.
+    let read = |name: String| std::fs::read(folder.join(&name)).map(|bytes| (name, bytes)).ok();
+    files.filter_map(read).collect()
+}
+
+/// The paths of all files below a folder, relative to it; none if it is not there.
+fn files_below(folder: &Path) -> Vec<String> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut files = Vec::new();
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        if path.is_dir() {
+            files.extend(files_below(&path).iter().map(|below| format!("{name}/{below}")));
+        } else {
+            files.push(name);
+        }
+    }
+    files
+}
+
+/// The records that are whole in the reports of all runs.
+fn recorded(out: &Path) -> Vec<Value> {
+    let names = files_below(&out.join("reports")).into_iter();
+    let texts = names
+        .filter(|name| name.ends_with(".jsonl"))
+        .filter_map(|name| std::fs::read_to_string(out.join("reports").join(name)).ok());
+    let records = |text: String| -> Vec<Value> {
+        text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect()
+    };
+    texts.flat_map(records).collect()
+}
+
+/// Checks what a disturbed run has left: pictures are whole, and no record promises what is not
+/// there.
+fn check_remains(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &str) {
+    let out = sandbox.path_of("out");
+    let pictures = pictures_below(&out);
+    for (name, bytes) in &pictures {
+        assert!(whole.get(name) == Some(bytes), "{when}: {name} is not the whole picture");
+    }
+    for record in recorded(&out) {
+        assert_eq!(record["status"], "done", "{when}: {record}");
+        let name = record["output"].as_str().expect("a name");
+        match record["tar"].as_str() {
+            Some(tar) => assert!(out.join(tar).is_file(), "{when}: {record}"),
+            None => assert!(pictures.contains_key(name), "{when}: {record}"),
+        }
+    }
+    for tar in files_below(&out).iter().filter(|name| name.ends_with(".tar")) {
+        let bytes = std::fs::read(out.join(tar)).expect("a tar file");
+        let is_whole = bytes.len() % 512 == 0 && bytes.ends_with(&[0; 1024]);
+        assert!(is_whole, "{when}: {tar} is not whole");
+    }
+}
+
+/// Checks that a batch is complete: `--verify` says so, and another run does nothing.
+fn check_complete(sandbox: &Sandbox, flags: &[&str]) {
+    let run = sandbox.run(&batch_with(&[flags, &["--verify"]].concat()));
+    let expected = "18 whole, 0 missing, 0 wrong, 0 failed\n";
+    assert_eq!((run.code, run.stdout.as_str()), (0, expected), "{}", run.stderr);
+    let run = sandbox.run(&batch_with(flags));
+    let expected = "0 rendered, 18 up to date, 0 failed\n";
+    assert_eq!((run.code, run.stdout.as_str()), (0, expected), "{}", run.stderr);
+}
+
+/// Starts a batch whose output nobody reads.
+fn start_batch(sandbox: &Sandbox, arguments: &[&str]) -> std::process::Child {
+    let program = alberti_tests::program_path().expect("the program");
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(sandbox.path_of(""));
+    let command = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().expect("the program starts")
+}
+
+/// Kills two shards at seeded moments until it has happened often enough; those that get through
+/// are checked and begin again.
+fn kill_often(name: &str, kills: usize, flags: &[&str]) {
+    let sandbox = crash_sandbox(name);
+    let begin = Instant::now();
+    let whole = undisturbed_pictures(&sandbox);
+    let undisturbed = begin.elapsed();
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut killed = 0;
+    while killed < kills {
+        let shards = ["1/2", "2/2"].map(|shard| {
+            let arguments = batch_with(&[flags, &["--shard", shard]].concat());
+            start_batch(&sandbox, &arguments)
+        });
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let part = (state >> 40) as f64 / (1_u64 << 24) as f64;
+        std::thread::sleep(undisturbed.mul_f64(part));
+        // Now both, now one of them.
+        let spared = (state >> 38) % 4;
+        let mut ended = 0;
+        for (at, mut shard) in (0_u64..).zip(shards) {
+            if spared != at {
+                shard.kill().expect("it is ours");
+            }
+            let status = shard.wait().expect("it ends");
+            ended += usize::from(status.code() == Some(0));
+            killed += usize::from(status.code().is_none());
+            assert!(matches!(status.code(), None | Some(0)), "{status}");
+        }
+        check_remains(&sandbox, &whole, &format!("after {killed} kills"));
+        if ended == 2 {
+            check_complete(&sandbox, flags);
+            std::fs::remove_dir_all(sandbox.path_of("out")).expect("the output folder");
+        }
+    }
+    for shard in ["1/2", "2/2"] {
+        let run = sandbox.run(&batch_with(&[flags, &["--shard", shard]].concat()));
+        assert_eq!(run.code, 0, "{}", run.stderr);
+    }
+    check_remains(&sandbox, &whole, "at the end");
+    check_complete(&sandbox, flags);
+    if flags.is_empty() {
+        assert_eq!(pictures_below(&sandbox.path_of("out")), whole);
+    }
+}
+
+/// How often a batch is killed.
+fn kill_count() -> usize {
+    let text = std::env::var("ALBERTI_BATCH_KILLS").ok();
+    text.map_or(12, |text| text.parse().expect("ALBERTI_BATCH_KILLS is a number"))
+}
+
+#[test]
+fn a_batch_that_is_killed_at_any_moment_loses_nothing() {
+    kill_often("batch_kills", kill_count(), &[]);
+}
+
+#[test]
+fn tar_files_are_whole_or_absent_when_a_batch_is_killed() {
+    kill_often("batch_kills_tar", kill_count() / 2, &["--tar", "3"]);
+}
+
+#[test]
+fn workers_end_with_the_batch_that_is_killed() {
+    let sandbox = crash_sandbox("batch_orphans");
+    let mut batch = start_batch(&sandbox, &BATCH);
+    let begin = Instant::now();
+    while recorded(&sandbox.path_of("out")).is_empty() {
+        assert!(begin.elapsed() < Duration::from_secs(120), "it does nothing");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    batch.kill().expect("it is ours");
+    batch.wait().expect("it ends");
+    let files = || {
+        let mut files = files_below(&sandbox.path_of("out"));
+        files.sort();
+        files
+    };
+    // What workers have begun may still get its name, but nothing is begun.
+    std::thread::sleep(Duration::from_millis(300));
+    let left = files();
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(files(), left, "somebody goes on");
+}
+
+#[test]
+fn records_that_are_torn_are_made_again() {
+    let sandbox = crash_sandbox("batch_torn");
+    let whole = undisturbed_pictures(&sandbox);
+    assert_eq!(sandbox.run(&BATCH).code, 0);
+    // The merged report of a run without shards has all records once more.
+    let merged = sandbox.path_of("out/report.jsonl");
+    std::fs::remove_file(&merged).expect("a merged report");
+    let name = files_below(&sandbox.path_of("out/reports")).pop().expect("a report");
+    let path = sandbox.path_of("out/reports").join(name);
+    let text = std::fs::read(&path).expect("a report");
+    let mut cuts = 0;
+    for lost in [1, 2, 40, 400, text.len() - 30] {
+        std::fs::write(&path, &text[..text.len() - lost]).expect("a torn report");
+        let left = recorded(&sandbox.path_of("out")).len();
+        let run = sandbox.run(&batch_with(&["--verify"]));
+        let open = COUNT - left;
+        assert_eq!(run.code, i32::from(open > 0), "{lost}: {}", run.stdout);
+        let expected = format!("{left} whole, {open} missing, 0 wrong, 0 failed\n");
+        assert!(run.stdout.ends_with(&expected), "{lost}: {}", run.stdout);
+        let run = sandbox.run(&BATCH);
+        assert_eq!(run.stdout, format!("{open} rendered, {left} up to date, 0 failed\n"));
+        assert_eq!(pictures_below(&sandbox.path_of("out")), whole);
+        check_complete(&sandbox, &[]);
+        cuts += usize::from(open > 0);
+        for other in files_below(&sandbox.path_of("out/reports")) {
+            std::fs::remove_file(sandbox.path_of("out/reports").join(other)).expect("a report");
+        }
+        std::fs::remove_file(&merged).expect("a merged report");
+    }
+    // A line without its line break is whole.
+    assert_eq!(cuts, 4);
+}
+
+#[test]
+fn a_shard_that_runs_twice_at_once_does_no_harm() {
+    for flags in [&[][..], &["--tar", "4"]] {
+        let sandbox = crash_sandbox(&format!("batch_twice_{}", flags.len()));
+        let whole = undisturbed_pictures(&sandbox);
+        let shards = ["1/2", "1/2", "2/2", "2/2"].map(|shard| {
+            start_batch(&sandbox, &batch_with(&[flags, &["--shard", shard]].concat()))
+        });
+        for mut shard in shards {
+            assert_eq!(shard.wait().expect("it ends").code(), Some(0));
+        }
+        check_remains(&sandbox, &whole, "after four runs");
+        let tars = files_below(&sandbox.path_of("out"));
+        let tars: Vec<&String> = tars.iter().filter(|name| name.ends_with(".tar")).collect();
+        for tar in &tars {
+            let records = recorded(&sandbox.path_of("out"));
+            assert!(records.iter().any(|record| record["tar"] == tar.as_str()), "{tar}");
+        }
+        check_complete(&sandbox, flags);
+        if flags.is_empty() {
+            assert_eq!(pictures_below(&sandbox.path_of("out")), whole);
+        }
+    }
+}
+
+/// Sets the time of all files below a folder.
+fn set_times(folder: &Path, time: SystemTime) {
+    for name in files_below(folder) {
+        let file = std::fs::File::options().append(true).open(folder.join(name)).expect("a file");
+        file.set_modified(time).expect("another time");
+    }
+}
+
+#[test]
+fn what_is_done_does_not_depend_on_clocks() {
+    let sandbox = crash_sandbox("batch_clocks");
+    assert_eq!(sandbox.run(&BATCH).code, 0);
+    let ages = Duration::from_secs(20 * 365 * 86_400);
+    let (past, future) = (SystemTime::now() - ages, SystemTime::now() + ages);
+    for (inputs, outputs) in [(future, past), (past, future)] {
+        set_times(&sandbox.path_of("models"), inputs);
+        set_times(&sandbox.path_of("out"), outputs);
+        check_complete(&sandbox, &[]);
+        // A model that has changed is rendered, although its picture and its record are younger.
+        let (model, other) = (sandbox.path_of("models/3/house.glb"), sandbox.path_of("panes.glb"));
+        let former = std::fs::read(&model).expect("a model");
+        std::fs::copy(other, &model).expect("another model");
+        set_times(&sandbox.path_of("models"), past);
+        set_times(&sandbox.path_of("out"), future);
+        let run = sandbox.run(&BATCH);
+        assert_eq!(run.stdout, "1 rendered, 17 up to date, 0 failed\n");
+        check_complete(&sandbox, &[]);
+        // And once more when it is what it was: the record of then is superseded.
+        std::fs::write(&model, former).expect("the former model");
+        set_times(&sandbox.path_of("models"), past);
+        set_times(&sandbox.path_of("out"), future);
+        let run = sandbox.run(&BATCH);
+        assert_eq!(run.stdout, "1 rendered, 17 up to date, 0 failed\n");
+        check_complete(&sandbox, &[]);
+    }
+}
+
+/// Runs a script in the sandbox, with the program as `$alberti`.
+fn run_script(sandbox: &Sandbox, shell: &[&str], script: &str) -> Output {
+    let program: PathBuf = alberti_tests::program_path().expect("the program");
+    let mut command = Command::new(shell[0]);
+    command.args(&shell[1..]).arg(script).current_dir(sandbox.path_of(""));
+    command.env("alberti", program).env("batch", BATCH.join(" "));
+    command.output().expect("a shell")
+}
+
+/// Checks a run that could not write: the code is 3, a message says why, and no job is blamed.
+fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
+    assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("cannot write") || run.stderr.contains("cannot create"));
+    assert!(!run.stderr.contains("failed:"), "{}", run.stderr);
+    for record in recorded(&sandbox.path_of("out")) {
+        assert_eq!(record["status"], "done", "{record}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn files_that_cannot_grow_stop_the_run_and_blame_no_model() {
+    let sandbox = crash_sandbox("batch_file_size");
+    let whole = undisturbed_pictures(&sandbox);
+    // In blocks of 512 bytes: nothing, then at least a record.
+    for blocks in ["0", "1", "2"] {
+        // Without the signal that a write beyond the limit would send.
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$alberti\" $batch");
+        let output = run_script(&sandbox, &["sh", "-c"], &script);
+        let run = RunResult::of(output);
+        check_stopped(&sandbox, &run);
+        check_remains(&sandbox, &whole, &format!("with {blocks} blocks"));
+    }
+    assert_eq!(sandbox.run(&BATCH).code, 0);
+    assert_eq!(pictures_below(&sandbox.path_of("out")), whole);
+    check_complete(&sandbox, &[]);
+}
+
+/// Runs of a batch on a disk of its own, 64 KiB and then larger, with and without tar files.
+///
+/// The disk is there for the script only, in a namespace of its own.
+const SMALL_DISK: &str = "
+mkdir -p out && mount -t tmpfs -o size=64k tmpfs out || exit 99
+for flags in '' '--tar 4'; do
+    \"$alberti\" $batch $flags; echo \"full $?\"
+    mount -o remount,size=32m out
+    mount -o remount,ro out
+    \"$alberti\" $batch $flags; echo \"read-only $?\"
+    mount -o remount,rw out
+    \"$alberti\" $batch $flags; echo \"room $?\"
+    \"$alberti\" $batch $flags --verify; echo \"verify $?\"
+    grep -l '\"failed\"' out/reports/*; find out -name '*.part'
+    rm -r out/*
+    mount -o remount,size=64k out
+done";
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on() {
+    let sandbox = crash_sandbox("batch_disk");
+    let unshare = ["unshare", "--mount", "--map-root-user", "sh", "-c"];
+    let is_there = Command::new("unshare").arg("--version").output().is_ok();
+    let output = is_there.then(|| run_script(&sandbox, &unshare, SMALL_DISK));
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let Some(output) = output.filter(|output| text(&output.stdout).contains("full")) else {
+        let name = "a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on";
+        let why = "no file system can be mounted here (unshare --mount --map-root-user)";
+        let _ = writeln!(std::io::stderr(), "SKIPPED {name}: {why}");
+        return;
+    };
+    let (stdout, stderr) = (text(&output.stdout), text(&output.stderr));
+    let codes: Vec<&str> = stdout.lines().filter(|line| !line.contains(", ")).collect();
+    let expected = ["full 3", "read-only 3", "room 0", "verify 0"].repeat(2);
+    assert_eq!(codes, expected, "{stdout}{stderr}");
+    assert_eq!(stdout.matches("18 whole, 0 missing, 0 wrong, 0 failed").count(), 2, "{stdout}");
+    assert!(stderr.contains("No space left") && stderr.contains("Read-only"), "{stderr}");
+    assert!(!stderr.contains("failed:"), "{stderr}");
+}
