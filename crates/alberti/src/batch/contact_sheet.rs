@@ -116,7 +116,8 @@ impl<'a> ContactSheet<'a> {
             let _ = writeln!(page, "<h2>Failed</h2>\n<dl>\n{}</dl>", self.failures);
         }
         let _ = writeln!(page, "{links}</html>");
-        (self.figures.clear(), self.failures.clear());
+        self.figures.clear();
+        self.failures.clear();
         let path = self.page_path(self.page);
         if std::fs::read(&path).is_ok_and(|old| old == page.as_bytes()) {
             return Ok(());

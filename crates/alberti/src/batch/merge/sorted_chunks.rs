@@ -87,7 +87,7 @@ impl Chunks {
             let (text, spans) = (self.text, self.spans.into_iter());
             return Ok(SortedLines::Memory { text, spans });
         };
-        let chunks = self.ranges.into_iter().map(|range| ChunkReader::new(range));
+        let chunks = self.ranges.into_iter().map(ChunkReader::new);
         let mut files = FileLines { file, chunks: chunks.collect(), next: BinaryHeap::new() };
         (0..files.chunks.len()).try_for_each(|chunk| files.read_from(chunk))?;
         Ok(SortedLines::File(files))
