@@ -98,7 +98,7 @@ fn check_remains(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &st
     }
     for tar in files_below(&out).iter().filter(|name| name.ends_with(".tar")) {
         let bytes = std::fs::read(out.join(tar)).expect("a tar file");
-        let is_whole = bytes.len() % 512 == 0 && bytes.ends_with(&[0; 1024]);
+        let is_whole = bytes.len().is_multiple_of(512) && bytes.ends_with(&[0; 1024]);
         assert!(is_whole, "{when}: {tar} is not whole");
     }
 }
