@@ -80,14 +80,19 @@ fn recorded(out: &Path) -> Vec<Value> {
     texts.flat_map(records).collect()
 }
 
+/// Checks that the pictures that are there are whole.
+fn check_pictures(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &str) {
+    for (name, bytes) in pictures_below(&sandbox.path_of("out")) {
+        assert!(whole.get(&name) == Some(&bytes), "{when}: {name} is not the whole picture");
+    }
+}
+
 /// Checks what a disturbed run has left: pictures are whole, and no record promises what is not
 /// there.
 fn check_remains(sandbox: &Sandbox, whole: &BTreeMap<String, Vec<u8>>, when: &str) {
     let out = sandbox.path_of("out");
+    check_pictures(sandbox, whole, when);
     let pictures = pictures_below(&out);
-    for (name, bytes) in &pictures {
-        assert!(whole.get(name) == Some(bytes), "{when}: {name} is not the whole picture");
-    }
     for record in recorded(&out) {
         assert_eq!(record["status"], "done", "{when}: {record}");
         let name = record["output"].as_str().expect("a name");
@@ -139,7 +144,11 @@ fn kill_often(name: &str, kills: usize, flags: &[&str]) {
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let part = (state >> 40) as f64 / (1_u64 << 24) as f64;
-        std::thread::sleep(undisturbed.mul_f64(part));
+        let end = Instant::now() + undisturbed.mul_f64(part);
+        while Instant::now() < end {
+            check_pictures(&sandbox, &whole, "while it runs");
+            std::thread::sleep(Duration::from_millis(1));
+        }
         // Now both, now one of them.
         let spared = (state >> 38) % 4;
         let mut ended = 0;
@@ -323,7 +332,6 @@ fn check_stopped(sandbox: &Sandbox, run: &RunResult) {
     }
 }
 
-#[cfg(unix)]
 #[test]
 fn files_that_cannot_grow_stop_the_run_and_blame_no_model() {
     let sandbox = crash_sandbox("batch_file_size");

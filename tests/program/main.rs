@@ -5,6 +5,7 @@
 
 mod asset_models;
 mod batch;
+#[cfg(unix)]
 mod batch_crashes;
 mod batch_lists;
 mod batch_workers;
