@@ -152,6 +152,17 @@ fn workers_end_with_their_coordinator() {
 }
 
 #[test]
+fn a_pipe_in_the_place_of_a_scene_is_a_job_that_fails() {
+    let sandbox = batch_sandbox("batch_pipes");
+    let made = Command::new("mkfifo").arg(sandbox.path_of("pipe.ron")).status();
+    assert!(made.expect("mkfifo runs").success());
+    let arguments = ["batch", "pipe.ron", "models/a.glb", "--size", "8x8", "--out-dir", "out"];
+    let run = sandbox.run(&arguments);
+    assert_eq!((run.code, run.stdout.as_str()), (1, "1 rendered, 0 up to date, 1 failed\n"));
+    assert!(run.stderr.contains("it is not a regular file"), "{}", run.stderr);
+}
+
+#[test]
 fn an_output_folder_at_fault_stops_the_run_and_fails_no_job() {
     let sandbox = batch_sandbox("batch_place");
     std::fs::create_dir(sandbox.path_of("out")).expect("a folder");

@@ -97,13 +97,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(usage.exit_code()).unwrap_or(2);
         }
     };
-    match run_command(args) {
-        Ok(code) => code,
-        Err(failure) => {
-            print_message("error", &failure.to_message());
-            1
-        }
-    }
+    run_command(args).unwrap_or_else(|failure| {
+        print_message("error", &failure.to_message());
+        1
+    })
 }
 
 /// Runs the command of the arguments.

@@ -27,10 +27,15 @@ pub(crate) struct ManArgs {
 
 /// Prints the completion script of a shell. It is generated in memory first, so that a closed pipe
 /// is not an error.
-pub(crate) fn print_completions(
-    args: &CompletionArgs,
-    mut program: Command,
-) -> Result<(), CliError> {
+///
+/// Commands that are hidden from the help are left out, which the scripts would offer otherwise.
+pub(crate) fn print_completions(args: &CompletionArgs, program: Command) -> Result<(), CliError> {
+    let shown = program.get_subcommands().filter(|command| !command.is_hide_set()).cloned();
+    let flags = program.get_arguments().cloned();
+    let mut program = Command::new("alberti")
+        .version(env!("CARGO_PKG_VERSION"))
+        .args(flags)
+        .subcommands(shown.collect::<Vec<_>>());
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "alberti", &mut script);
     print_stdout(&script)

@@ -223,10 +223,15 @@ impl Origin {
 /// The text of a scene file, without the byte order mark that it may begin with.
 ///
 /// # Errors
-/// If it cannot be read, is not UTF-8, or is too long.
+/// If it cannot be read, is no regular file, is not UTF-8, or is too long.
 pub(super) fn read_scene_text(path: &Path) -> Result<String, ResolveError> {
     let unreadable = |cause| ResolveError::Unreadable { path: path.to_owned(), cause };
-    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if !metadata.is_file() {
+        // A pipe may never end.
+        return Err(unreadable(std::io::Error::other("it is not a regular file")));
+    }
+    let length = metadata.len();
     if length > MAX_SCENE_BYTES {
         let why = format!("it has {length} bytes; a scene file has {MAX_SCENE_BYTES} at most");
         return Err(unreadable(std::io::Error::other(why)));
