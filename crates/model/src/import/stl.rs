@@ -78,8 +78,9 @@ pub(super) fn import_binary_file(
     path: &Path,
     options: &ImportOptions,
 ) -> Option<Result<Model, Diagnostic>> {
+    // Opening a pipe would wait for somebody who writes to it.
+    let metadata = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
     let mut body = File::open(path).ok()?;
-    let metadata = body.metadata().ok().filter(std::fs::Metadata::is_file)?;
     let length = usize::try_from(metadata.len()).ok()?;
     let mut header = [0; HEADER_BYTES];
     body.read_exact(&mut header).ok()?;
