@@ -16,14 +16,13 @@ impl CsvRecord {
     /// If a quote stands where none can be.
     pub(super) fn add_line(&mut self, line: &str) -> Result<bool, String> {
         let is_quoted_before = std::mem::take(&mut self.is_open);
-        let text = if is_quoted_before { line } else { line.trim_end_matches(['\n', '\r']) };
         let mut state = if is_quoted_before {
             FieldState::Quoted
         } else {
             self.fields.push(String::new());
             FieldState::Start
         };
-        for c in text.chars() {
+        for c in line.chars() {
             state = self.add_character(state, c)?;
         }
         self.is_open = matches!(state, FieldState::Quoted);
@@ -39,8 +38,10 @@ impl CsvRecord {
                 self.fields.push(String::new());
                 return Ok(FieldState::Start);
             }
-            (FieldState::Quoted, '"') | (FieldState::AfterQuote, '\r' | '\n') => {
-                return Ok(FieldState::AfterQuote);
+            (FieldState::Quoted, '"') => return Ok(FieldState::AfterQuote),
+            // The line break is part of a field within quotes only.
+            (FieldState::Start | FieldState::Plain | FieldState::AfterQuote, '\r' | '\n') => {
+                return Ok(state);
             }
             (FieldState::Plain, '"') => {
                 return Err("a quote within a field: write the field in quotes, and the quote \
@@ -90,13 +91,14 @@ mod tests {
 
     #[test]
     fn fields_are_separated_quoted_and_continued() {
-        let all: [(&[&str], &[&str]); 6] = [
+        let all: [(&[&str], &[&str]); 7] = [
             (&["a,b,c\r\n"], &["a", "b", "c"]),
             (&["a,,\n"], &["a", "", ""]),
             (&[""], &[""]),
             (&["\"a,b\",c"], &["a,b", "c"]),
             (&["\"say \"\"hi\"\"\",\"\"\r\n"], &["say \"hi\"", ""]),
             (&["a,\"two\n", "lines\"\n"], &["a", "two\nlines"]),
+            (&["\"two\r\n", "lines\",b\r\n"], &["two\r\nlines", "b"]),
         ];
         for (lines, fields) in all {
             assert_eq!(read(lines).expect("a record"), fields, "{lines:?}");
