@@ -1,0 +1,125 @@
+//! A run of `alberti batch`: by one process, or as an array job of Slurm.
+
+use crate::run_command;
+use crate::slurm::{Cluster, LONGEST_WAIT, create_folder};
+use alberti_tests::project_root;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Flags of every run. The picture is large enough for the run to outlast its disturbances.
+const FLAGS: [&str; 6] = ["--size", "1024x768", "--job-seconds", "6", "--job-memory", "1GiB"];
+/// Twelve shards, of which at most three run at a time.
+const ARRAY: &str = "--array=0-11%3";
+
+/// A run, with an output folder of its own.
+pub struct BatchRun {
+    /// The folder of the test, with the list of jobs.
+    folder: PathBuf,
+    /// The name of the run and of its output folder.
+    name: String,
+    /// The program under test.
+    program: PathBuf,
+}
+
+impl BatchRun {
+    /// A run of the list of jobs below a folder.
+    pub fn new(folder: &Path, name: &str, program: &Path) -> Self {
+        Self { folder: folder.to_owned(), name: name.to_owned(), program: program.to_owned() }
+    }
+
+    /// Where the pictures and reports are.
+    pub fn out_dir(&self) -> PathBuf {
+        self.folder.join(&self.name)
+    }
+
+    /// The arguments that all commands of the run have in common.
+    fn arguments(&self) -> Vec<String> {
+        let path = |name: &str| self.folder.join(name).display().to_string();
+        let own =
+            ["--list".to_owned(), path("jobs.jsonl"), "--out-dir".to_owned(), path(&self.name)];
+        own.into_iter().chain(FLAGS.map(str::to_owned)).collect()
+    }
+
+    /// The program with those arguments.
+    fn batch(&self) -> Command {
+        let mut command = Command::new(&self.program);
+        command.arg("batch").args(self.arguments());
+        command
+    }
+
+    /// Runs all jobs in one process.
+    pub fn run_alone(&self) -> Result<(), String> {
+        run_batch(&mut self.batch(), &[1])
+    }
+
+    /// Merges the reports.
+    pub fn merge(&self) -> Result<(), String> {
+        run_batch(self.batch().arg("--merge"), &[0, 1])
+    }
+
+    /// What the program says of the pictures on its standard output, with its exit code.
+    pub fn verify(&self) -> Result<(i32, String), String> {
+        let output = self.batch().arg("--verify").output().map_err(|error| error.to_string())?;
+        let code = output.status.code().ok_or("alberti batch --verify was killed")?;
+        Ok((code, String::from_utf8_lossy(&output.stdout).into_owned()))
+    }
+
+    /// Submits the array job, by the script that people are given.
+    pub fn submit(&self, cluster: &Cluster) -> Result<Submitted, String> {
+        let logs = self.folder.join("logs");
+        create_folder(&logs)?;
+        let mut sbatch = cluster.command("sbatch");
+        sbatch.args(["--parsable", "--requeue", ARRAY, "--output"]);
+        sbatch.arg(logs.join(format!("{}-%A-%a.txt", self.name)));
+        sbatch.arg(project_root().join("deploy/slurm/batch.sh")).args(self.arguments());
+        sbatch.env("ALBERTI", &self.program);
+        let start = Instant::now();
+        Ok(Submitted { job: run_command(&mut sbatch)?.trim().to_owned(), start })
+    }
+}
+
+/// Runs the program; some models fail, which is exit code 1.
+fn run_batch(batch: &mut Command, codes: &[i32]) -> Result<(), String> {
+    let output = batch.output().map_err(|error| format!("alberti: {error}"))?;
+    if output.status.code().is_some_and(|code| codes.contains(&code)) {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    Err(format!("alberti batch ended with {}, not with one of {codes:?}: {said}", output.status))
+}
+
+/// An array job in the queue.
+pub struct Submitted {
+    /// Its number.
+    job: String,
+    /// When it was submitted.
+    start: Instant,
+}
+
+impl Submitted {
+    /// Waits for the end of the job; returns the time since it was submitted.
+    pub fn wait(&self, cluster: &Cluster) -> Result<Duration, String> {
+        self.wait_until(cluster, || false)?.ok_or_else(|| "the job did not end".to_owned())
+    }
+
+    /// Waits until something is so, or the job ends; returns the time of the job if it ended.
+    pub fn wait_until(
+        &self,
+        cluster: &Cluster,
+        mut is_so: impl FnMut() -> bool,
+    ) -> Result<Option<Duration>, String> {
+        loop {
+            if is_so() {
+                return Ok(None);
+            }
+            if !cluster.has_job(&self.job)? {
+                return Ok(Some(self.start.elapsed()));
+            }
+            if self.start.elapsed() > LONGEST_WAIT {
+                return Err(format!("job {} takes more than {LONGEST_WAIT:?}", self.job));
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+}
