@@ -30,6 +30,8 @@ const PEERS: &[&str] = &[
     "opencv-python-headless",
     "nbclient",
     "ipykernel",
+    "kubernetes-validate",
+    "ray",
 ];
 /// The most bytes of a released wheel.
 const MAX_WHEEL_BYTES: u64 = 8_000_000;
