@@ -8,6 +8,7 @@ mod batch;
 #[cfg(unix)]
 mod batch_crashes;
 mod batch_lists;
+mod batch_page;
 mod batch_workers;
 mod calibrated_cameras;
 mod captions;

@@ -9,6 +9,7 @@ mod bench;
 mod browser;
 mod conformance;
 mod determinism;
+mod farm;
 mod fuzz;
 mod gallery;
 mod golden;
@@ -109,6 +110,12 @@ const COMMANDS: &[Command] = &[
         arguments: "maths|raster|compare|--instructions …",
         about: "Measure speed relative to other programs or commits, or count instructions",
         run: bench::run_bench,
+    },
+    Command {
+        name: "simulate-farm",
+        arguments: "[REPORT]",
+        about: "Simulate a batch on up to 1,000 cores, with measured times or those of a report",
+        run: farm::run_simulation,
     },
     Command {
         name: "models",

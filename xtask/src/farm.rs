@@ -1,0 +1,245 @@
+//! `cargo xtask simulate-farm`: how long `alberti batch` takes on many cores, by simulation.
+//!
+//! ```text
+//!  times of pictures ─► shards ─► nodes of 16 cores, which die now and then ─► time, pictures a second
+//! ```
+//! The times are those of a measured run, or of a report that is named. Shards wait for a free node in
+//! their order, as in an array job. A node that dies gives its shard back after the scheduler's
+//! time-outs. The random numbers are the same in every run, and so are the tables, which
+//! `docs/batch.md` repeats.
+
+mod picture_times;
+
+use crate::Outcome;
+use crate::workspace::read_text;
+use picture_times::PictureTimes;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, VecDeque};
+use std::path::Path;
+
+/// Milliseconds, in which all times are counted: sums of integers do not depend on their order.
+type Milliseconds = u64;
+
+/// The cores of a node.
+const CORES: usize = 16;
+/// From the submission of a shard to its first picture: the scheduler, the program, the list.
+const START: Milliseconds = 2_000;
+/// From the death of a node to the next start of its shard, by Slurm's defaults: 300 s until the node
+/// counts as down, and 120 s until a job starts again.
+const LOSS: Milliseconds = 420_000;
+/// Calls to the file system by name for each picture, as counted with strace: three look-ups of the
+/// model, three openings and closings, for the key, the load and its check.
+const REQUESTS_TO_READ: u64 = 9;
+/// The same to write a file: look-up of the folder, creation, synchronization, closing, renaming.
+const REQUESTS_TO_WRITE: u64 = 6;
+/// Pictures in a tar file.
+const TAR: u64 = 1_000;
+
+/// A farm and its work.
+#[derive(Clone, Copy)]
+struct Farm {
+    nodes: usize,
+    shards: usize,
+    pictures: usize,
+    /// How many times as long a picture takes as those that were measured.
+    slowness: f64,
+    /// The mean time between two deaths of a node; 0 if none dies.
+    hours_to_death: u64,
+    /// Whether a shard continues where it was; if not, it begins again.
+    continues: bool,
+}
+
+/// What the tables vary.
+const FARM: Farm = Farm {
+    nodes: 64,
+    shards: 256,
+    pictures: 10_000_000,
+    slowness: 1.0,
+    hours_to_death: 0,
+    continues: true,
+};
+
+/// Prints the tables, for the times of a report if one is named.
+pub fn run_simulation(arguments: &[String]) -> Outcome {
+    let times = match arguments {
+        [] => PictureTimes::measured(),
+        [report] => PictureTimes::from_report(&read_text(Path::new(report))?)?,
+        _ => return Err("the only argument is a report of `alberti batch`".to_owned()),
+    };
+    println!("{}", tables(&times));
+    Ok(())
+}
+
+/// The three tables, as Markdown.
+fn tables(times: &PictureTimes) -> String {
+    let rate = 1000.0 / times.mean();
+    format!(
+        "One core draws {rate:.0} pictures a second.\n\n{}\n{}\n{}",
+        scaling_table(times),
+        death_table(times),
+        request_table(rate)
+    )
+}
+
+/// How time depends on the numbers of nodes and shards.
+fn scaling_table(times: &PictureTimes) -> String {
+    let mut text = "| nodes | cores | shards | time | pictures a second | cores at work |\n\
+                    | ---: | ---: | ---: | ---: | ---: | ---: |\n"
+        .to_owned();
+    for (nodes, shards) in [(1, 1), (4, 16), (16, 64), (64, 64), (64, 256), (64, 1024), (64, 4096)]
+    {
+        let time = Farm { nodes, shards, ..FARM }.run(times);
+        let work = FARM.pictures as f64 * times.mean();
+        let share = work / (time as f64 * (nodes * CORES) as f64) * 100.0;
+        let rate = FARM.pictures as u64 * 1000 / time.max(1);
+        let (cores, time) = (nodes * CORES, time / 1000);
+        text += &format!("| {nodes} | {cores} | {shards} | {time} s | {rate} | {share:.0} % |\n");
+    }
+    text
+}
+
+/// What the deaths of nodes cost.
+fn death_table(times: &PictureTimes) -> String {
+    let mut text = "| each node dies every | time | if shards began again |\n\
+                    | ---: | ---: | ---: |\n"
+        .to_owned();
+    for hours in [0, 100, 10, 2] {
+        let farm = Farm { hours_to_death: hours, slowness: 20.0, ..FARM };
+        let minutes = |farm: Farm| farm.run(times) / 60_000;
+        let (time, anew) = (minutes(farm), minutes(Farm { continues: false, ..farm }));
+        let name = if hours == 0 { "never".to_owned() } else { format!("{hours} h") };
+        text += &format!("| {name} | {time} min | {anew} min |\n");
+    }
+    text
+}
+
+/// How many requests a second the file system has to answer.
+fn request_table(rate: f64) -> String {
+    let mut text =
+        "| cores | a file a picture | `--tar 1000` |\n| ---: | ---: | ---: |\n".to_owned();
+    for cores in [16, 64, 256, 1024] {
+        let pictures = (rate * f64::from(cores)) as u64;
+        let files = pictures * (REQUESTS_TO_READ + REQUESTS_TO_WRITE);
+        let tar = pictures * REQUESTS_TO_READ + pictures * REQUESTS_TO_WRITE / TAR;
+        text += &format!("| {cores} | {files} | {tar} |\n");
+    }
+    text
+}
+
+impl Farm {
+    /// The time until the last picture is drawn.
+    fn run(&self, times: &PictureTimes) -> Milliseconds {
+        let mut random = Random(1);
+        let mut waiting: VecDeque<Milliseconds> = self.shard_times(times, &mut random).into();
+        // When nodes are free, and when shards come back with what is left of them: earliest first.
+        let mut free: BinaryHeap<Reverse<Milliseconds>> =
+            (0..self.nodes).map(|_| Reverse(0)).collect();
+        let mut back: BinaryHeap<Reverse<(Milliseconds, Milliseconds)>> = BinaryHeap::new();
+        let mut end = 0;
+        while let Some(Reverse(now)) = free.pop() {
+            let is_back = back.peek().is_some_and(|Reverse((at, _))| *at <= now);
+            let shard = if is_back || waiting.is_empty() {
+                back.pop().map(|Reverse(shard)| shard)
+            } else {
+                waiting.pop_front().map(|left| (0, left))
+            };
+            let Some((since, left)) = shard else { break };
+            let start = now.max(since);
+            let (death, stop) = (start + self.time_to_death(&mut random), start + START + left);
+            if death < stop {
+                let drawn = if self.continues { death.saturating_sub(start + START) } else { 0 };
+                back.push(Reverse((death + LOSS, left - drawn)));
+                // It is repaired, or another takes its place.
+                free.push(Reverse(death + LOSS));
+            } else {
+                end = end.max(stop);
+                free.push(Reverse(stop));
+            }
+        }
+        end
+    }
+
+    /// The time that each shard takes a node: at most its share of every core, and then the longest
+    /// picture (Graham 1969).
+    fn shard_times(&self, times: &PictureTimes, random: &mut Random) -> Vec<Milliseconds> {
+        let mut shards = vec![(0.0_f64, 0.0_f64); self.shards];
+        for picture in 0..self.pictures {
+            let time = times.time_at(random.next_fraction()) * self.slowness;
+            // Dealt in turn: less even than by bytes, as the program does it.
+            let (sum, longest) = &mut shards[picture % self.shards];
+            *sum += time;
+            *longest = longest.max(time);
+        }
+        let cores = CORES as f64;
+        let time = |(sum, longest): (f64, f64)| sum / cores + longest * (1.0 - 1.0 / cores);
+        shards.into_iter().map(|shard| time(shard) as Milliseconds).collect()
+    }
+
+    /// How long a node lives from now on, exponentially distributed.
+    fn time_to_death(&self, random: &mut Random) -> Milliseconds {
+        if self.hours_to_death == 0 {
+            // Longer than any run, and no overflow when it is added.
+            return Milliseconds::MAX / 4;
+        }
+        let mean = self.hours_to_death as f64 * 3_600_000.0;
+        (-libm::log(1.0 - random.next_fraction()) * mean) as Milliseconds
+    }
+}
+
+/// Random numbers: SplitMix64.
+struct Random(u64);
+
+impl Random {
+    /// A number from 0 to 1, without 1.
+    fn next_fraction(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn constant(time: f64) -> PictureTimes {
+        PictureTimes::of(&[time]).expect("times")
+    }
+
+    #[test]
+    fn equal_pictures_take_what_division_says() {
+        let farm = Farm { nodes: 10, shards: 40, pictures: 64_000, ..FARM };
+        // Four shards a node, each of 100 pictures a core at 48 ms, and the longest one.
+        assert_eq!(farm.run(&constant(48.0)), 4 * (START + 100 * 48 + 45));
+        let uneven = Farm { shards: 11, ..farm };
+        assert!(uneven.run(&constant(48.0)) >= 2 * (START + 363 * 48), "a node has two shards");
+    }
+
+    #[test]
+    fn deaths_cost_time_outs_and_more_if_shards_begin_again() {
+        let times = constant(100.0);
+        let farm = |hours| Farm {
+            nodes: 4,
+            shards: 8,
+            pictures: 8_000_000,
+            hours_to_death: hours,
+            ..FARM
+        };
+        let (never, often) = (farm(0).run(&times), farm(1).run(&times));
+        let anew = Farm { continues: false, ..farm(1) }.run(&times);
+        // Seven hours of two shards a node; a node dies every hour and then waits seven minutes.
+        assert!(never < often && often < never * 3 / 2, "{never} {often}");
+        assert!(anew > often * 2, "{often} {anew}");
+    }
+
+    #[test]
+    fn the_page_has_the_tables() {
+        let page =
+            read_text(&crate::workspace::project_root().join("docs/batch.md")).expect("the page");
+        for line in tables(&PictureTimes::measured()).lines().filter(|line| !line.is_empty()) {
+            assert!(page.contains(line), "docs/batch.md lacks: {line}");
+        }
+    }
+}
