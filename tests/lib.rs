@@ -16,6 +16,11 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// The examples of the guide, which need several crates.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/guide/embedding.md")]
+pub struct EmbeddingGuide;
+
 /// The root folder of the repository.
 #[must_use]
 pub fn project_root() -> &'static Path {

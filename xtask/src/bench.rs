@@ -6,6 +6,7 @@
 //! bench maths [NAME…]   bulk operations against plain loops (tests/bench); or `bench NAME…`
 //! bench raster [NAME…]  the rasterizer against other rasterizers (tests/peers)
 //! bench compare REV     the program of another commit beside this one's: stages, features, memory
+//! bench --page          the second as a page, docs/benchmarks.md, with what is lost
 //! bench --instructions  instruction counts of fixed workloads against the recorded ones
 //! ```
 //!
@@ -14,6 +15,7 @@
 
 mod compare;
 mod instructions;
+mod page;
 mod raster;
 
 use crate::Outcome;
@@ -26,6 +28,7 @@ pub fn run_bench(arguments: &[String]) -> Outcome {
         Some((part, rest)) if part == "maths" => bench_maths(rest),
         Some((part, rest)) if part == "raster" => raster::bench_raster(rest),
         Some((part, rest)) if part == "compare" => compare::bench_compare(rest),
+        Some((part, rest)) if part == "--page" => page::run_page(rest),
         Some((part, rest)) if part == "--instructions" => instructions::run_instructions(rest),
         Some((flag, _)) if flag.starts_with('-') => Err(format!("unknown flag `{flag}`")),
         Some(_) => bench_maths(arguments),

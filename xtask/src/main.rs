@@ -9,6 +9,7 @@ mod bench;
 mod browser;
 mod conformance;
 mod determinism;
+mod docs;
 mod farm;
 mod fuzz;
 mod gallery;
@@ -82,6 +83,12 @@ const COMMANDS: &[Command] = &[
         run: web::run_web,
     },
     Command {
+        name: "docs",
+        arguments: "[OUT]",
+        about: "Write the documentation as static pages, and check its commands and links",
+        run: docs::run_docs,
+    },
+    Command {
         name: "gallery",
         arguments: "[--models DIR]",
         about: "Render every scene, or every model of a folder in every style, to one HTML page",
@@ -107,7 +114,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "bench",
-        arguments: "maths|raster|compare|--instructions …",
+        arguments: "maths|raster|compare|--page|--instructions …",
         about: "Measure speed relative to other programs or commits, or count instructions",
         run: bench::run_bench,
     },

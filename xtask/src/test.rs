@@ -54,7 +54,11 @@ fn all_steps() -> Result<Vec<Step>, String> {
         Step::cargo(
             "fmt",
             "rustfmt would change nothing",
-            &["fmt --all --check", "fmt --manifest-path crates/python/Cargo.toml --check"],
+            &[
+                "fmt --all --check",
+                "fmt --manifest-path crates/python/Cargo.toml --check",
+                "fmt --manifest-path xtask/site/Cargo.toml --check",
+            ],
         ),
         Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[])),
         Step::built_in(
@@ -95,7 +99,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
 }
 
 /// The steps after the integration tests.
-fn last_steps() -> [Step; 6] {
+fn last_steps() -> [Step; 7] {
     [
         Step {
             name: "docs".into(),
@@ -112,6 +116,12 @@ fn last_steps() -> [Step; 6] {
             "determinism",
             "debug, release and WebAssembly render the same bytes, with every number of threads",
             &["xtask determinism"],
+        ),
+        // After the step that builds the release program, with which it renders.
+        Step::built_in(
+            "site",
+            "the documentation becomes pages: the guides' commands work, and links lead somewhere",
+            crate::docs::check_docs,
         ),
         Step::cargo(
             "browser",

@@ -103,6 +103,13 @@ fn f3d() -> Result<Viewer, String> {
     Ok(Viewer { name: "f3d", program, display: Some(display) })
 }
 
+/// The first line of what f3d says of itself.
+pub fn f3d_version() -> Option<String> {
+    let output = Command::new("f3d").arg("--version").output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
+}
+
 fn contest(
     viewers: &[Viewer],
     model: &'static str,

@@ -108,7 +108,8 @@ fn run(arguments: &[String]) -> Result<(), String> {
             Vec::new()
         }
     };
-    let figures = Figures { llvmpipe, scenes, bounds, threads, features, files };
+    let f3d = (!files.is_empty()).then(files::f3d_version).flatten();
+    let figures = Figures { llvmpipe, f3d, scenes, bounds, threads, features, files };
     println!("{}", report::held_to(&figures));
     let write = |name: &str, text: String| {
         let path = out.join(name);

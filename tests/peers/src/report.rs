@@ -13,6 +13,8 @@ use std::fmt::Write as _;
 pub struct Figures {
     /// What llvmpipe says it is, if it was there.
     pub llvmpipe: Option<String>,
+    /// The version of f3d, if it drew.
+    pub f3d: Option<String>,
     /// The scenes.
     pub scenes: Vec<Heat>,
     /// The limits of the machine.
@@ -149,6 +151,7 @@ pub fn to_json(figures: &Figures) -> Value {
     });
     json!({
         "llvmpipe": figures.llvmpipe,
+        "f3d": figures.f3d,
         "scenes": scenes.collect::<Value>(),
         "features": contestants(&figures.features, &[BASE]),
         "limits": figures.bounds.as_ref().map(|series| contestants(series, &["clear", "kernel"])),
@@ -161,7 +164,8 @@ pub fn to_json(figures: &Figures) -> Value {
 fn contestants(series: &[Series], bases: &[&str]) -> Value {
     let one = |one: &Series| {
         let mut value = json!({ "name": one.name, "seconds": spread(one.spread()),
-                                "rounds": one.times.iter().flatten().count() });
+                                "rounds": one.times.iter().flatten().count(),
+                                "times": one.times });
         for base in bases {
             let base_series = series.iter().find(|series| series.name == *base);
             value[format!("over_{base}")] = spread(base_series.and_then(|base| one.over(base)));

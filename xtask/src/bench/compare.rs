@@ -33,11 +33,11 @@
 
 mod chart;
 mod json;
-mod machine;
+pub mod machine;
 mod measurement;
 mod models;
 mod patched_model;
-mod revision;
+pub mod revision;
 mod run;
 mod spread;
 mod summary;

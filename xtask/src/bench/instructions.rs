@@ -60,6 +60,23 @@ pub fn run_instructions(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
+/// The stored counts, for the page of benchmarks.
+#[derive(Default)]
+pub struct RecordedCounts {
+    /// The compiler whose instructions were counted.
+    pub compiler: String,
+    /// Each piece of work with its count.
+    pub counts: Vec<(&'static str, u64)>,
+}
+
+/// The stored counts.
+pub fn recorded_counts() -> Result<RecordedCounts, String> {
+    let table = CountTable::read_table()?;
+    let count = |name| Some((name, table.count_for(name)?.count));
+    let counts = known_names().into_iter().filter_map(count).collect();
+    Ok(RecordedCounts { counts, compiler: table.compiler })
+}
+
 /// Name and number of the compiler, without its date: another one makes other instructions.
 fn compiler_version() -> Result<String, String> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

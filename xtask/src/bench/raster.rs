@@ -4,20 +4,35 @@
 //! tables and leaves `raster.json` and `raster.svg` in `target/bench`; it judges nothing.
 
 use crate::Outcome;
-use crate::program::{Build, Program, cargo_command, run_visibly};
+use crate::program::{Build, Program, cargo_command, run_command, run_visibly};
 use crate::workspace::{create_folder, target_folder};
+use std::process::Command;
 
 /// The arguments are parts of the names of what is to be measured, and `--rounds N`.
 pub fn bench_raster(arguments: &[String]) -> Outcome {
-    let program = Program::build(Build::Release)?;
+    run_peers(&Program::build(Build::Release)?, arguments)
+}
+
+/// Builds the contest.
+pub fn build_peers() -> Outcome {
+    run_command(&mut peers_command("build"))
+}
+
+/// Runs the contest, built or not.
+pub fn run_peers(program: &Program, arguments: &[String]) -> Outcome {
     let out = target_folder().join("bench");
     create_folder(&out)?;
-    let call = ["run", "--quiet", "--release", "--manifest-path", "tests/peers/Cargo.toml", "--"];
-    let mut peers = cargo_command(&call);
-    peers.arg("--out").arg(&out).arg("--alberti").arg(program.path()).args(arguments);
+    let mut peers = peers_command("run");
+    peers.args(["--", "--out"]).arg(&out).arg("--alberti").arg(program.path()).args(arguments);
     // Mesa draws with the calling thread alone: CPU times can then be compared.
-    peers.env("LP_NUM_THREADS", "0").env("CARGO_TARGET_DIR", target_folder().join("peers"));
-    run_visibly(&mut peers)?;
+    run_visibly(peers.env("LP_NUM_THREADS", "0"))?;
     println!("{} and raster.svg hold the same figures", out.join("raster.json").display());
     Ok(())
+}
+
+fn peers_command(action: &str) -> Command {
+    let call = [action, "--quiet", "--release", "--manifest-path", "tests/peers/Cargo.toml"];
+    let mut peers = cargo_command(&call);
+    peers.env("CARGO_TARGET_DIR", target_folder().join("peers"));
+    peers
 }

@@ -27,18 +27,13 @@ pub struct Machine {
 impl Machine {
     /// Asks git, the compiler and the system.
     pub fn describe(old: &Commit) -> Result<Self, String> {
-        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-        let compiler = Command::new(rustc).arg("--version").current_dir(project_root()).output();
-        let compiler = compiler.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
-        let date = capture_output(Command::new("date").args(["-u", "+%Y-%m-%dT%H:%M:%SZ"]));
-        let cores = std::thread::available_parallelism();
         Ok(Self {
             old: format!("{} ({})", old.revision, old.hash),
             new: current_commit()?,
-            processor: processor_model(&read_text(Path::new("/proc/cpuinfo")).unwrap_or_default()),
-            cores: cores.map_or(1, std::num::NonZeroUsize::get),
-            compiler: compiler.unwrap_or_default().trim().to_owned(),
-            date: date.ok().map(|date| date.trim().to_owned()),
+            processor: processor(),
+            cores: std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get),
+            compiler: compiler(),
+            date: date(),
         })
     }
 
@@ -50,6 +45,26 @@ impl Machine {
             "date": date,
         })
     }
+}
+
+/// The model of the processor, if the system tells.
+pub fn processor() -> String {
+    processor_model(&read_text(Path::new("/proc/cpuinfo")).unwrap_or_default())
+}
+
+/// `rustc --version`.
+pub fn compiler() -> String {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let output = Command::new(rustc).arg("--version").current_dir(project_root()).output();
+    output
+        .map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+        .unwrap_or_default()
+}
+
+/// Date and time of the system, in UTC.
+pub fn date() -> Option<String> {
+    let date = capture_output(Command::new("date").args(["-u", "+%Y-%m-%dT%H:%M:%SZ"])).ok()?;
+    Some(date.trim().to_owned())
 }
 
 fn processor_model(cpuinfo: &str) -> String {

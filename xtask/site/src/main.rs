@@ -1,0 +1,66 @@
+//! `alberti-site`: the documentation of the repository as static pages.
+//!
+//! ```text
+//!  README, docs/*.md, crates ──► documents ─┐
+//!  docs/guide/*.md ──► guides: run commands ├─► template ──► pages ──► links: checked
+//!  scenes/*.ron ──► gallery: rendered       │
+//!  alberti reference ──► reference ─────────┘
+//! ```
+//!
+//! Run by `cargo xtask docs`. Pages need neither scripts nor anything from another host. It fails
+//! if a command of a guide fails or prints something else, if a scene cannot be rendered, or if a
+//! link leads nowhere.
+
+mod documents;
+mod files;
+mod gallery;
+mod guides;
+mod links;
+mod markdown;
+mod program;
+mod reference;
+mod site;
+mod template;
+
+use program::Program;
+use site::Site;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Nothing, or an error message.
+type Outcome = Result<(), String>;
+
+const USAGE: &str = "alberti-site ROOT PROGRAM OUT\n\
+    Writes the documentation of the repository ROOT, with pictures by PROGRAM, into the folder OUT.";
+
+fn main() -> ExitCode {
+    let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let [root, program, out] = &arguments[..] else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    let built = Program::at(program).and_then(|program| build_site(Site::new(root, out), &program));
+    match built {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Writes all pages into an empty folder and checks their links.
+fn build_site(mut site: Site, program: &Program) -> Outcome {
+    files::empty_folder(&site.out)?;
+    site.write_text("style.css", template::STYLE)?;
+    let scenes = gallery::render_scenes(&site, program)?;
+    documents::add_documents(&mut site)?;
+    gallery::add_gallery(&mut site, &scenes)?;
+    reference::add_reference(&mut site, program)?;
+    guides::run_guides(&mut site, program)?;
+    documents::add_linked_files(&mut site)?;
+    site.write_pages()?;
+    let report = links::check_links(&site.out)?;
+    println!("{}: {}", site.out.join("index.html").display(), report);
+    Ok(())
+}

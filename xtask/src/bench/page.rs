@@ -1,0 +1,153 @@
+//! `cargo xtask bench --page`: the rasterizer and the program beside others, as the page
+//! `docs/benchmarks.md` with every single figure in `docs/benchmarks.csv`.
+//!
+//! ```text
+//! cargo xtask bench --page                      # a quarter of an hour on a quiet machine
+//! cargo xtask bench --page --rounds 3           # sooner, and less certain
+//! ```
+//!
+//! It measures what `cargo xtask bench raster` does, and takes the same arguments; the page says
+//! where, when, of which commit and under which load. What is lost comes first.
+
+mod losses;
+mod place;
+mod tables;
+
+use crate::Outcome;
+use crate::workspace::{project_root, read_text, target_folder};
+use place::Place;
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Measures, then writes the page and the rows.
+pub fn run_page(arguments: &[String]) -> Outcome {
+    // Built before the load is read: the builds of others would count, and its own must not.
+    let program = crate::program::Program::build(crate::program::Build::Release)?;
+    super::raster::build_peers()?;
+    let mut place = Place::describe()?;
+    super::raster::run_peers(&program, arguments)?;
+    place.load_after = place::load();
+    let text = read_text(&target_folder().join("bench/raster.json"))?;
+    let figures: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    let counts = super::instructions::recorded_counts()?;
+    let folder = project_root().join("docs");
+    write(&folder.join("benchmarks.md"), &page(&place, &figures, &counts))?;
+    write(&folder.join("benchmarks.csv"), &rows(&figures))
+}
+
+fn write(path: &Path, text: &str) -> Outcome {
+    println!("{}", path.display());
+    std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+const INTRODUCTION: &str = "\
+# Benchmarks
+
+Written by `cargo xtask bench --page`. All figures are ratios of one run on one machine, with the programs that were installed there;
+[benchmarks.csv](benchmarks.csv) holds every single time. What is lost comes first.
+";
+
+const METHOD: &str = "
+## Method
+
+- Everybody draws the same vertices at 1920 × 1080 in one process with one thread, by turns: in each round everybody once, in another
+  order each time, after one round for warming up. What counts is CPU time of the thread, and the ratio within a round: a
+  machine that is busy for a second is busy for all. Tables show medians, and in parentheses the least and the greatest.
+- `raster` is the crate of that name with a plain shader, `render` the whole of `pipeline::render`. \"4x\" is with four samples a
+  pixel. Slow contestants run in fewer rounds.
+- Files are drawn by the programs as processes of their own, from the file to a PNG; CPU time and peak memory are the system's
+  account of the process. f3d has a virtual display, and Mesa's llvmpipe draws for it.
+- Peers on a graphics card, and programs that take minutes a picture, are not compared.
+- `tests/peers/README.md` says what is needed to run it. Nothing is asserted: times are no fact about the code alone. What is
+  asserted are the counts of instructions at the end, which another run reproduces to the last one.
+";
+
+/// The page.
+fn page(place: &Place, figures: &Value, counts: &super::instructions::RecordedCounts) -> String {
+    let mut text = INTRODUCTION.to_owned();
+    text += &place.to_markdown(figures);
+    text += &losses::to_markdown(figures);
+    text += METHOD;
+    text += "\n## Scenes\n";
+    for scene in tables::list(&figures["scenes"]) {
+        text += &tables::scene(scene);
+    }
+    text += &tables::files(&figures["files"]);
+    text += &tables::contest("Limits of the machine", &figures["limits"], &["clear", "kernel"]);
+    text += &tables::contest(
+        "What features of the shading cost",
+        &figures["features"],
+        &["usual picture"],
+    );
+    text += &tables::threads(&figures["threads"]);
+    text += &tables::goals(&figures["goals"]);
+    let _ = write!(text, "\n## Instructions\n\nBy callgrind, program of {}:\n\n", counts.compiler);
+    text += "| work | instructions |\n| --- | --- |\n";
+    for (name, count) in &counts.counts {
+        let _ = writeln!(text, "| {name} | {count} |");
+    }
+    text
+}
+
+/// Every single time: what was drawn, by whom, in which round, in how many seconds.
+fn rows(figures: &Value) -> String {
+    let mut text = "subject,contestant,round,cpu_seconds\n".to_owned();
+    let mut add = |subject: &str, contestants: &Value| {
+        for one in tables::list(contestants) {
+            for (round, time) in tables::list(&one["times"]).iter().enumerate() {
+                if let Some(time) = time.as_f64() {
+                    let name = tables::text(&one["name"]).replace(',', " ");
+                    let _ = writeln!(text, "{subject},{name},{},{time:.6}", round + 1);
+                }
+            }
+        }
+    };
+    for scene in tables::list(&figures["scenes"]) {
+        add(tables::text(&scene["name"]), &scene["contestants"]);
+    }
+    add("limits", &figures["limits"]);
+    add("features", &figures["features"]);
+    for file in tables::list(&figures["files"]) {
+        add(tables::text(&file["model"]), &file["contestants"]);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn spread(median: f64) -> Value {
+        json!({ "low": median / 2.0, "median": median, "high": median * 2.0 })
+    }
+
+    fn contestant(name: &str, seconds: f64, over: f64) -> Value {
+        json!({ "name": name, "seconds": spread(seconds), "over_raster": spread(over),
+                "times": [seconds, null] })
+    }
+
+    #[test]
+    fn rows_are_single_times_and_losses_come_first() {
+        let figures = json!({
+            "llvmpipe": "llvmpipe 1", "f3d": null, "limits": null,
+            "scenes": [{ "name": "floor", "about": "a floor", "agreement": [], "contestants": [
+                contestant("raster", 0.002, 1.0), contestant("fast, other", 0.001, 0.5),
+            ]}],
+            "goals": [{ "about": "time", "whose": "raster", "reached": spread(1.0), "wanted": 2.0,
+                        "at_least": true, "met": false }],
+        });
+        assert_eq!(
+            rows(&figures),
+            "subject,contestant,round,cpu_seconds\n\
+             floor,raster,1,0.002000\nfloor,fast  other,1,0.001000\n"
+        );
+        let counts = super::super::instructions::RecordedCounts::default();
+        let page = page(&Place::default(), &figures, &counts);
+        let at = |part: &str| page.find(part).unwrap_or_else(|| panic!("{part}: {page}"));
+        assert!(at("fast, other | 0.50 (0.25 … 1.00)") < at("## Method"), "{page}");
+        assert!(at("| time (raster) | 1.00 (0.50 … 2.00) | ≥ 2.00 |") < at("## Scenes"));
+        assert!(page.contains("| raster | 2.00 (1.00 … 4.00) |"), "{page}");
+    }
+}

@@ -1,0 +1,46 @@
+//! What is lost: peers that are faster, and goals that are missed.
+
+use super::tables::{list, ratio, text};
+use serde_json::Value;
+use std::fmt::Write as _;
+
+/// What contestants of ours are called: alone, and before their number of samples or the like.
+const OURS: [&str; 3] = ["raster", "render", "alberti"];
+
+/// The section of the page.
+pub fn to_markdown(figures: &Value) -> String {
+    let mut found = faster_peers(figures);
+    for goal in list(&figures["goals"]).iter().filter(|goal| goal["met"] == false) {
+        found += &super::tables::goal_row(goal);
+    }
+    if found.is_empty() {
+        return "\n## What is lost\n\nNothing of what was measured.\n".into();
+    }
+    format!(
+        "\n## What is lost\n\nPeers that take less time than we do, as their time over ours, and goals that are missed.\n\n\
+         | what | reached | wanted |\n| --- | --- | --- |\n{found}"
+    )
+}
+
+/// A row for each peer that is faster than one of ours in a scene or with a file.
+fn faster_peers(figures: &Value) -> String {
+    let mut rows = String::new();
+    let scenes = list(&figures["scenes"]).iter().map(|scene| (scene, &scene["name"]));
+    let files = list(&figures["files"]).iter().map(|file| (file, &file["model"]));
+    for (subject, name) in scenes.chain(files) {
+        let peers = list(&subject["contestants"]).iter().filter(|one| !is_ours(one));
+        for (peer, whose) in peers.flat_map(|peer| OURS.map(|whose| (peer, whose))) {
+            let over = &peer[format!("over_{whose}")];
+            if over["median"].as_f64().is_some_and(|median| median < 1.0) {
+                let (name, peer) = (text(name), text(&peer["name"]));
+                let _ = writeln!(rows, "| {name}, {whose}: {peer} | {} | ≥ 1.00 |", ratio(over));
+            }
+        }
+    }
+    rows
+}
+
+fn is_ours(contestant: &Value) -> bool {
+    let name = text(&contestant["name"]);
+    OURS.contains(&name.split([' ', ',']).next().unwrap_or_default())
+}

@@ -1,0 +1,118 @@
+//! Where and when the figures of the page were measured, of which commit, and with which peers.
+
+use super::tables::text;
+use crate::bench::compare::machine::{compiler, date, processor};
+use crate::bench::compare::revision::current_commit;
+use crate::workspace::{project_root, read_text};
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Running threads per core from which on a machine counts as busy.
+const BUSY: f64 = 0.3;
+
+/// The machine, the commit and the hour.
+#[derive(Default)]
+pub struct Place {
+    processor: String,
+    cores: usize,
+    system: String,
+    compiler: String,
+    commit: String,
+    date: String,
+    euc: String,
+    /// Running threads, the mean of a minute, before and after.
+    load_before: Option<f64>,
+    pub load_after: Option<f64>,
+}
+
+impl Place {
+    /// Asks the system, the compiler and git, before anything is measured.
+    pub fn describe() -> Result<Self, String> {
+        Ok(Self {
+            processor: processor(),
+            cores: std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get),
+            system: system(),
+            compiler: compiler(),
+            commit: current_commit()?,
+            date: date().unwrap_or_default(),
+            euc: locked_version("euc"),
+            load_before: load(),
+            load_after: None,
+        })
+    }
+
+    /// The section of the page. Mesa and f3d are in the figures: they said it themselves.
+    pub fn to_markdown(&self, figures: &Value) -> String {
+        let or_missing = |value: &Value| match text(value) {
+            "" => "not installed: left out".to_owned(),
+            version => version.to_owned(),
+        };
+        let peers = format!(
+            "llvmpipe: {}; euc {}; f3d: {}",
+            or_missing(&figures["llvmpipe"]),
+            self.euc,
+            or_missing(&figures["f3d"])
+        );
+        let shown = |load: Option<f64>| load.map_or("unknown".into(), |load| format!("{load:.2}"));
+        let load = format!("{}, then {}", shown(self.load_before), shown(self.load_after));
+        let rows = [
+            ("processor", format!("{}, {} threads", self.processor, self.cores)),
+            ("system", self.system.clone()),
+            ("compiler", self.compiler.clone()),
+            ("commit", self.commit.clone()),
+            ("date", self.date.clone()),
+            ("peers", peers),
+            ("load of the machine before and after", load),
+        ];
+        let mut text = "\n## Where and when\n\n| | |\n| --- | --- |\n".to_owned();
+        for (name, value) in rows {
+            let _ = writeln!(text, "| {name} | {value} |");
+        }
+        if self.was_busy() {
+            text += "\n**The machine was busy with other work.** Ratios of one round still compare like with like, but caches and clocks were \
+                     shared: run it again on a quiet machine before you rely on a figure.\n";
+        }
+        text
+    }
+
+    /// Whether others were computing when it began. Afterwards it is this very measurement.
+    fn was_busy(&self) -> bool {
+        self.load_before.is_some_and(|load| load > BUSY * self.cores as f64)
+    }
+}
+
+/// Running threads, the mean of the last minute, where the system tells.
+pub fn load() -> Option<f64> {
+    read_text(Path::new("/proc/loadavg")).ok()?.split(' ').next()?.parse().ok()
+}
+
+/// The name of the system.
+fn system() -> String {
+    let about = read_text(Path::new("/etc/os-release")).unwrap_or_default();
+    let name = about.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="));
+    name.map_or(std::env::consts::OS, |name| name.trim_matches('"')).to_owned()
+}
+
+/// The version of a package that the contest is built with.
+fn locked_version(name: &str) -> String {
+    let lock = read_text(&project_root().join("tests/peers/Cargo.lock")).unwrap_or_default();
+    let after = lock.split_once(&format!("name = \"{name}\"\nversion = \"")).map(|(_, rest)| rest);
+    after.and_then(|rest| rest.split('"').next()).unwrap_or("of unknown version").to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_busy_machine_is_named() {
+        let at = |load| Place { cores: 4, load_before: Some(load), ..Place::default() };
+        let text = |load| at(load).to_markdown(&Value::Null);
+        assert!(text(2.0).contains("was busy") && !text(0.5).contains("was busy"));
+        assert!(
+            text(0.5).contains("| load of the machine before and after | 0.50, then unknown |")
+        );
+        assert!(locked_version("euc").starts_with("0.5"));
+    }
+}

@@ -1,0 +1,132 @@
+//! Tables of the page, from the figures that the contest leaves.
+
+use serde_json::Value;
+use std::fmt::Write as _;
+
+/// The elements of an array; none of anything else.
+pub fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// A text; an empty one of anything else.
+pub fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or_default()
+}
+
+/// A median with least and greatest.
+pub fn ratio(spread: &Value) -> String {
+    scaled(spread, 1.0)
+}
+
+fn scaled(spread: &Value, factor: f64) -> String {
+    let [low, median, high] = ["low", "median", "high"].map(|key| spread[key].as_f64());
+    let (Some(low), Some(median), Some(high)) = (low, median, high) else { return "–".into() };
+    format!("{:.2} ({:.2} … {:.2})", median * factor, low * factor, high * factor)
+}
+
+/// A scene: its contestants, and how far pictures are apart.
+pub fn scene(scene: &Value) -> String {
+    let mut markdown = format!("\n### {}\n\n{}.\n\n", text(&scene["name"]), text(&scene["about"]));
+    markdown += &contestants(&scene["contestants"], &["raster", "render"]);
+    for found in list(&scene["agreement"]) {
+        let _ = write!(
+            markdown,
+            "\nAgainst {}: {} of {} pixels covered otherwise, {} colored otherwise.\n",
+            text(&found["peer"]),
+            found["covered_otherwise"],
+            found["drawn"],
+            found["coloured_otherwise"]
+        );
+    }
+    markdown
+}
+
+/// A section of one contest.
+pub fn contest(title: &str, series: &Value, bases: &[&str]) -> String {
+    if list(series).is_empty() {
+        return String::new();
+    }
+    format!("\n## {title}\n\n{}", contestants(series, bases))
+}
+
+/// Times in milliseconds, and as multiples of others in the same round.
+fn contestants(series: &Value, bases: &[&str]) -> String {
+    let over: String = bases.iter().map(|base| format!(" × {base} |")).collect();
+    let mut markdown = format!("| | ms |{over}\n| --- | --- |{}\n", " --- |".repeat(bases.len()));
+    for one in list(series) {
+        let _ = write!(markdown, "| {} | {} |", text(&one["name"]), scaled(&one["seconds"], 1e3));
+        for base in bases {
+            let _ = write!(markdown, " {} |", ratio(&one[format!("over_{base}")]));
+        }
+        markdown.push('\n');
+    }
+    markdown
+}
+
+/// From files to pictures: CPU time, wall time, memory.
+pub fn files(files: &Value) -> String {
+    let mut markdown = String::new();
+    if list(files).is_empty() {
+        return markdown;
+    }
+    markdown += "\n## From file to PNG\n\n| model | program | CPU ms | × alberti | wall ms | MiB |\n| --- | --- | --- | --- | --- | --- |\n";
+    for file in list(files) {
+        for (at, one) in list(&file["contestants"]).iter().enumerate() {
+            let _ = writeln!(
+                markdown,
+                "| {} | {} | {} | {} | {} | {} |",
+                text(&file["model"]),
+                text(&one["name"]),
+                scaled(&one["seconds"], 1e3),
+                ratio(&one["over_alberti"]),
+                scaled(&file["wall_seconds"][at], 1e3),
+                scaled(&file["peak_bytes"][at], 1.0 / 1_048_576.0),
+            );
+        }
+    }
+    markdown
+}
+
+/// What a second thread brings.
+pub fn threads(threads: &Value) -> String {
+    let mut markdown = String::new();
+    if list(threads).is_empty() {
+        return markdown;
+    }
+    markdown += "\n## Two threads\n\nWall time over that of one thread, in the rounds in which one thread had its core to itself.\n\n\
+                 | scene | whose | wall time | quiet rounds | same picture |\n| --- | --- | --- | --- | --- |\n";
+    for found in list(threads) {
+        let _ = writeln!(
+            markdown,
+            "| {} | {} | {} | {} | {} |",
+            text(&found["scene"]),
+            text(&found["peer"]),
+            ratio(&found["wall_of_two_over_one"]),
+            found["quiet_rounds"],
+            if found["same_picture"] == true { "yes" } else { "NO" }
+        );
+    }
+    markdown
+}
+
+/// What the figures are held to.
+pub fn goals(goals: &Value) -> String {
+    let mut markdown = String::new();
+    if list(goals).is_empty() {
+        return markdown;
+    }
+    markdown += "\n## Goals\n\n| | what | reached | wanted |\n| --- | --- | --- | --- |\n";
+    for goal in list(goals) {
+        let verdict = if goal["met"] == true { "met" } else { "missed" };
+        markdown += &format!("| {verdict} {}", goal_row(goal));
+    }
+    markdown
+}
+
+/// A goal: what, reached, wanted.
+pub fn goal_row(goal: &Value) -> String {
+    let sign = if goal["at_least"] == true { "≥" } else { "≤" };
+    let wanted = goal["wanted"].as_f64().unwrap_or_default();
+    let (about, whose) = (text(&goal["about"]), text(&goal["whose"]));
+    format!("| {about} ({whose}) | {} | {sign} {wanted:.2} |\n", ratio(&goal["reached"]))
+}
