@@ -44,7 +44,7 @@ fn write(path: &Path, text: &str) -> Outcome {
 const INTRODUCTION: &str = "\
 # Benchmarks
 
-Written by `cargo xtask bench --page`. All figures are ratios of one run on one machine, with the programs that were installed there;
+Written by `cargo xtask bench --page`. All figures are of one run on one machine, with the programs that were installed there;
 [benchmarks.csv](benchmarks.csv) holds every single time. What is lost comes first.
 ";
 
@@ -54,8 +54,9 @@ const METHOD: &str = "
 - Everybody draws the same vertices at 1920 × 1080 in one process with one thread, by turns: in each round everybody once, in another
   order each time, after one round for warming up. What counts is CPU time of the thread, and the ratio within a round: a
   machine that is busy for a second is busy for all. Tables show medians, and in parentheses the least and the greatest.
-- `raster` is the crate of that name with a plain shader, `render` the whole of `pipeline::render`. \"4x\" is with four samples a
-  pixel. Slow contestants run in fewer rounds.
+- `raster` is the crate of that name with the plain shader that the peers have too. `render` is the whole of `pipeline::render`: it
+  shades the same scene with all that pictures of the program have. \"4x\" is with four samples a pixel. Slow contestants run in
+  fewer rounds.
 - Files are drawn by the programs as processes of their own, from the file to a PNG; CPU time and peak memory are the system's
   account of the process. f3d has a virtual display, and Mesa's llvmpipe draws for it.
 - Peers on a graphics card, and programs that take minutes a picture, are not compared.

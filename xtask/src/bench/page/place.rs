@@ -1,6 +1,6 @@
 //! Where and when the figures of the page were measured, of which commit, and with which peers.
 
-use super::tables::text;
+use super::tables::{list, text};
 use crate::bench::compare::machine::{compiler, date, processor};
 use crate::bench::compare::revision::current_commit;
 use crate::workspace::{project_root, read_text};
@@ -63,6 +63,7 @@ impl Place {
             ("commit", self.commit.clone()),
             ("date", self.date.clone()),
             ("peers", peers),
+            ("rounds", rounds(figures).to_string()),
             ("load of the machine before and after", load),
         ];
         let mut text = "\n## Where and when\n\n| | |\n| --- | --- |\n".to_owned();
@@ -80,6 +81,12 @@ impl Place {
     fn was_busy(&self) -> bool {
         self.load_before.is_some_and(|load| load > BUSY * self.cores as f64)
     }
+}
+
+/// Rounds of the contest, the one for warming up not counted.
+fn rounds(figures: &Value) -> usize {
+    let contestants = list(&figures["scenes"]).iter().flat_map(|scene| list(&scene["contestants"]));
+    contestants.map(|one| list(&one["times"]).len()).max().unwrap_or(0)
 }
 
 /// Running threads, the mean of the last minute, where the system tells.
