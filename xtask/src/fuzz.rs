@@ -10,8 +10,9 @@
 //! ```
 //!
 //! The targets are in `tests/fuzz`, a package of its own that needs a C++ compiler; the stable
-//! compiler does for them. They begin with the shared assets (`$ASSETS`, or `shared/assets` beside
-//! the project), the scenes and the cases of `tests/hostile`. A panic, a broken promise, more than
+//! compiler does for them. They begin with `tests/fuzz/corpus`, which holds a few small cases for
+//! each target, the shared assets (`$ASSETS`, or `shared/assets` beside the project), the scenes and
+//! the cases of `tests/hostile`. A panic, a broken promise, more than
 //! a second or more than 200 MB of memory is a crash: the input is saved in `DIR/TARGET/artifacts`,
 //! the run ends with 1, and later runs begin with that input. Mend it, and put a small case like it
 //! into `tests/hostile` or the tests of the crate.
@@ -56,6 +57,27 @@ const TARGETS: &[FuzzTarget] = &[
         name: "scene",
         about: "the text of a scene: parsed, resolved, drawn by one thread and by two",
         words: Some("scene.dict"),
+    },
+    FuzzTarget {
+        name: "include",
+        about: "a scene and files that it includes",
+        words: Some("scene.dict"),
+    },
+    FuzzTarget {
+        name: "background",
+        about: "an image behind a scene: PNG, JPEG, WebP",
+        words: None,
+    },
+    FuzzTarget {
+        name: "environment",
+        about: "a Radiance image around a scene",
+        words: Some("environment.dict"),
+    },
+    FuzzTarget { name: "camera", about: "cameras by K, R and t", words: None },
+    FuzzTarget {
+        name: "explorer",
+        about: "requests and links of the explorer",
+        words: Some("explorer.dict"),
     },
     FuzzTarget {
         name: "maths",
@@ -149,7 +171,7 @@ fn fuzz_help() -> String {
          Crashes are kept in DIR/TARGET/artifacts and tried first by later runs.\n",
     );
     for target in TARGETS {
-        text += &format!("\n  {:8} {}", target.name, target.about);
+        text += &format!("\n  {:11} {}", target.name, target.about);
     }
     text
 }

@@ -5,9 +5,11 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program prints")]
 #![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
+mod api;
 mod bench;
 mod browser;
 mod conformance;
+mod deny;
 mod determinism;
 mod docs;
 mod farm;
@@ -57,6 +59,18 @@ const COMMANDS: &[Command] = &[
         arguments: "[--check]",
         about: "Write or check tests/CONFORMANCE.md, the table of topics and their tests",
         run: conformance::run_conformance,
+    },
+    Command {
+        name: "deny",
+        arguments: "",
+        about: "Check licenses, sources and versions of the dependencies against deny.toml",
+        run: deny::run_deny,
+    },
+    Command {
+        name: "api",
+        arguments: "[--bless]",
+        about: "Compare the public interfaces with docs/api, or write these listings",
+        run: api::run_api,
     },
     Command {
         name: "golden",

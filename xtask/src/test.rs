@@ -70,6 +70,11 @@ fn all_steps() -> Result<Vec<Step>, String> {
             crate::conformance::run_conformance(&["--check".into()])
         }),
         Step::cargo(
+            "deny",
+            "dependencies have the licenses, sources and versions that deny.toml allows",
+            &["xtask deny"],
+        ),
+        Step::cargo(
             "clippy",
             "no warning from clippy",
             &["clippy --quiet --workspace --all-targets -- -D warnings"],
@@ -106,6 +111,11 @@ fn last_steps() -> [Step; 7] {
             about: "the documentation builds without warnings".into(),
             action: Action::Documentation,
         },
+        Step::cargo(
+            "api",
+            "the public interfaces are as docs/api lists them, and as the version promises",
+            &["xtask api"],
+        ),
         // As processes, so that their SKIPPED lines are repeated at the end.
         Step::cargo(
             "web",

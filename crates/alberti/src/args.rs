@@ -19,7 +19,7 @@ use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
 use super::model_state::ModelStateArgs;
 use super::passes::PassArgs;
-use super::reference::ReferenceArgs;
+use super::reference::FullReferenceArgs;
 use super::region::RegionArgs;
 use super::scene::SceneArgs;
 use super::scene_overrides::{SceneOverrideArgs, named_view_parser};
@@ -119,7 +119,7 @@ pub(crate) enum Command {
     /// Print or write manual pages
     Man(Deferred<ManArgs>),
     /// Print the reference of all flags, scene fields and formulas
-    Reference(Deferred<ReferenceArgs>),
+    Reference(Deferred<FullReferenceArgs>),
 }
 
 /// Arguments of `alberti render`.

@@ -1,4 +1,5 @@
-//! `alberti reference` and `alberti scene doc`: the reference of flags, scene fields and formulas.
+//! `alberti reference` and `alberti scene doc`: the reference of flags, scene fields, formulas and
+//! JSON.
 //!
 //! ```text
 //!  clap's commands ─► flags ──┐
@@ -14,12 +15,14 @@ mod flags;
 mod formula;
 mod html;
 mod markdown;
+mod schema;
 mod search;
 mod text;
 
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
 use pipeline::formulas::{Formula, entries, find_formula, find_formulas};
+use schema::SchemaName;
 
 /// Arguments of `alberti reference` and `alberti scene doc`.
 #[derive(Debug, clap::Args)]
@@ -33,6 +36,19 @@ pub(crate) struct ReferenceArgs {
     /// Output format
     #[arg(long, default_value = "text")]
     format: ReferenceFormat,
+}
+
+/// Arguments of `alberti reference`: what `scene doc` takes, and schemas.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FullReferenceArgs {
+    #[command(flatten)]
+    sections: ReferenceArgs,
+    /// Print the JSON Schema of what a command writes
+    ///
+    /// Draft 2020-12. New members may come in any release; the version in a document rises when one
+    /// is removed or changes its meaning.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["word", "format"])]
+    schema: Option<SchemaName>,
 }
 
 /// The value of `--format`.
@@ -72,11 +88,15 @@ struct ReferenceEntry {
     inner: Vec<Self>,
 }
 
-/// Prints the reference of the flags and of scene files, or a formula.
+/// Prints the reference of the flags and of scene files, a formula, or a schema.
 ///
 /// # Errors
 /// If nothing has the name that is looked up.
-pub(crate) fn run(args: &ReferenceArgs, program: Command) -> Result<(), CliError> {
+pub(crate) fn run(args: &FullReferenceArgs, program: Command) -> Result<(), CliError> {
+    if let Some(schema) = args.schema {
+        return print_stdout(schema.schema_text().as_bytes());
+    }
+    let args = &args.sections;
     let word = args.word.as_deref().unwrap_or_default();
     if let Some(formula) = find_formula(word) {
         return print_stdout(formula::format_formula(&formula, args.format).as_bytes());

@@ -3,7 +3,10 @@
 //! ```text
 //!  model ───────────────────────► a whole .glb or .gltf ─┐
 //!  meshopt, draco, image ─wrap──► a model around them ───┴─► load ─► promises ─► pose ─► draw ─► PNG
-//!  scene ───────────────────────► the text of a scene ─────► parse ─► resolve ──────────► draw
+//!  scene, include ──────────────► the text of a scene ─────► parse ─► resolve ──────────► draw
+//!  background, environment ─────► an image of a scene ─────► decode ─► resolve ─────────► draw
+//!  camera ──────────────────────► K, R, t ─────────────────► matrices, and a scene ─────► draw
+//!  explorer ────────────────────► a query ─────────────────► the answer, or an error
 //!  maths ───────────────────────► numbers for the calls of `tests/soak`
 //!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
 //! ```
@@ -11,12 +14,16 @@
 //! A case fails by a panic, by a broken promise, by more than a second or by more than 200 MB; see
 //! [`case`].
 
+pub mod camera;
 pub mod case;
+pub mod explorer;
 pub mod glb;
 pub mod model;
 pub mod mutate;
+pub mod numbers;
 #[path = "../../hostile/promises.rs"]
 mod promises;
 pub mod raster;
 pub mod scene;
+pub mod scene_files;
 pub mod streams;

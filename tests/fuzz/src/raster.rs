@@ -1,25 +1,11 @@
 //! Any triangles, lines and points: drawn whole, in two parts and at every SIMD level,
 //! they are the same.
 
+use crate::numbers::Numbers;
 use homog::{PixelRect, Point};
 use raster::{Frame, Opacity, Samples, ScreenVertex, SimdLevel, VisibilityBuffer};
 
-/// The fuzzer's bytes as numbers; zeros after their end.
-struct Numbers<'a>(&'a [u8]);
-
 impl Numbers<'_> {
-    fn take<const N: usize>(&mut self) -> [u8; N] {
-        let (now, later) = self.0.split_at(N.min(self.0.len()));
-        self.0 = later;
-        let mut bytes = [0; N];
-        bytes[..now.len()].copy_from_slice(now);
-        bytes
-    }
-
-    fn byte(&mut self) -> u8 {
-        u8::from_le_bytes(self.take())
-    }
-
     /// A coordinate: any 64 bits, or one of the picture's neighbourhood on the grid or between its
     /// steps.
     fn number(&mut self) -> f64 {

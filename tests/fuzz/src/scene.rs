@@ -2,7 +2,7 @@
 //! two.
 
 use pipeline::scene::parse_scene;
-use pipeline::{Origin, Scene, render};
+use pipeline::{Origin, Scene, SceneFile, render};
 use std::path::Path;
 
 /// A small model with several materials.
@@ -17,22 +17,26 @@ pub fn text(bytes: &[u8]) {
         Err(error) => return assert!(!error.to_string().is_empty(), "an error says nothing"),
     };
     let nowhere = Path::new("nowhere-at-all");
-    resolve(text, nowhere, &file).err().into_iter().for_each(|problem| {
-        assert!(!problem.is_empty(), "an error says nothing");
-    });
+    let origin = Origin::from_text("scene.ron", text, nowhere.to_owned());
+    if let Err(error) = Scene::resolve(&origin, &file, &Default::default()) {
+        assert!(!error.to_string().is_empty(), "an error says nothing");
+    }
     file.models.truncate(2);
     for model in &mut file.models {
         model.path = MODEL.to_owned();
     }
-    let Ok(mut scene) = resolve(text, Path::new(FOLDER), &file) else { return };
+    resolve_and_draw(&Origin::from_text("scene.ron", text, FOLDER.into()), &file);
+}
+
+/// Resolves a scene, which may fail with a message, and draws it small, by one thread and by two.
+pub fn resolve_and_draw(origin: &Origin, file: &SceneFile) {
+    let mut scene = match Scene::resolve(origin, file, &Default::default()) {
+        Ok(scene) => scene,
+        Err(error) => return assert!(!error.to_string().is_empty(), "an error says nothing"),
+    };
     scene.image.width = scene.image.width.min(32);
     scene.image.height = scene.image.height.min(24);
     if let (Ok(alone), Ok(together)) = (render(&scene, 1), render(&scene, 2)) {
         assert!(alone == together, "two threads draw another picture than one");
     }
-}
-
-fn resolve(text: &str, folder: &Path, file: &pipeline::SceneFile) -> Result<Scene, String> {
-    let origin = Origin::from_text("scene.ron", text, folder.to_owned());
-    Scene::resolve(&origin, file, &Default::default()).map_err(|error| error.to_string())
 }

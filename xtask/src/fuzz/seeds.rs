@@ -22,8 +22,12 @@ pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
         "draco" => model_seeds().iter().flat_map(draco_seeds).collect(),
         "image" => image_seeds(),
         "scene" => scene_seeds()?,
-        _ => number_seeds(),
+        "maths" | "raster" => number_seeds(),
+        "background" => image_seeds(),
+        // Everything that these begin with is committed.
+        _ => Vec::new(),
     };
+    seeds.extend(committed_cases(target)?);
     let largest = if ["model", "stl", "obj", "mtl", "ply", "threemf"].contains(&target) {
         LARGEST_MODEL
     } else {
@@ -41,6 +45,16 @@ pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
         run_command(cargo_command(&call).arg("--write").arg(folder))?;
     }
     fs::read_dir(folder).map(Iterator::count).map_err(|error| error.to_string())
+}
+
+/// The cases in `tests/fuzz/corpus`.
+fn committed_cases(target: &str) -> Result<Vec<Vec<u8>>, String> {
+    let folder = project_root().join("tests/fuzz/corpus").join(target);
+    let entries =
+        fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    Ok(paths.iter().filter_map(|path| fs::read(path).ok()).collect())
 }
 
 /// All files below a folder with one of these endings, sorted.

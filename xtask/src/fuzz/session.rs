@@ -194,7 +194,7 @@ const LAST_LINES: usize = 30;
 impl SessionReport {
     /// Column headings of the table of reports.
     pub const HEADING: &str =
-        "target    CPU min  executions   per s    edges  features  corpus  crashes";
+        "target       CPU min  executions   per s    edges  features  corpus  crashes";
 }
 
 impl fmt::Display for SessionReport {
@@ -204,7 +204,7 @@ impl fmt::Display for SessionReport {
         let (minutes, rate) = (seconds / 60.0, *executions as f64 / seconds);
         write!(
             f,
-            "{name:8} {minutes:8.1} {executions:11} {rate:7.0} {edges:8} {features:9} {corpus:7} {crashes:8}"
+            "{name:11} {minutes:8.1} {executions:11} {rate:7.0} {edges:8} {features:9} {corpus:7} {crashes:8}"
         )
     }
 }

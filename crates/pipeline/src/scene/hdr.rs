@@ -3,7 +3,8 @@
 //! Source: G. Ward, *Real Pixels*, Graphics Gems II, 1991, and the file format in Radiance's
 //! manual. Both encodings of scanlines are read, flat with old-style runs and run-length encoded
 //! channels; only the orientation `-Y … +X …`. Sizes are checked against the length of the file
-//! before anything is allocated.
+//! before anything is allocated, and rows are halved as they come: sixteen bytes can be a row of
+//! 16,384 texels, and a file of a hundred kilobytes would otherwise take 800 MB.
 //!
 //! ```text
 //!  value = (mantissa + ½) · 2^(exponent − 136)     0 if the exponent is 0
@@ -48,18 +49,18 @@ impl Panorama {
         if data.len() / 4 < height {
             return Err("the file ends before its picture does".to_owned());
         }
-        let mut texels = Vec::new();
+        let mut rows = HalvedRows::new(width, height);
         let mut rest = data;
         let mut row = vec![[0; 4]; width];
         for _ in 0..height {
             rest = read_scanline(rest, &mut row).ok_or("the file ends before its picture does")?;
-            texels.extend(row.iter().map(|&texel| decode_rgbe(texel)));
+            rows.push_row(0, row.iter().map(|&texel| decode_rgbe(texel)).collect());
         }
-        let mut panorama = Self { width, height, texels };
-        while panorama.width > 1024 && panorama.height > 1 {
-            panorama = panorama.downsample_by_two();
-        }
-        Ok(panorama)
+        Ok(Self {
+            width: width >> rows.pending.len(),
+            height: height >> rows.pending.len(),
+            texels: rows.texels,
+        })
     }
 
     /// Bilinear lookup of the radiance from a direction, a unit vector.
@@ -83,16 +84,42 @@ impl Panorama {
             upper + (lower - upper) * t
         })
     }
+}
 
-    /// The next mip level by a 2 × 2 box filter; an odd last row or column is dropped.
-    fn downsample_by_two(&self) -> Self {
-        let (width, height) = (self.width / 2, self.height / 2);
-        let texel = |n: usize| {
-            let at = 2 * (n / width) * self.width + 2 * (n % width);
-            let four = [at, at + 1, at + self.width, at + self.width + 1].map(|at| self.texels[at]);
+/// Rows of an image, halved by 2 × 2 box filters until they are at most 1024 texels wide; an odd
+/// last row or column is dropped each time.
+struct HalvedRows {
+    /// For each halving the upper row of the next pair, if it has come.
+    pending: Vec<Option<Vec<[f32; 3]>>>,
+    /// The rows that are halved as often as that.
+    texels: Vec<[f32; 3]>,
+}
+
+impl HalvedRows {
+    fn new(width: usize, height: usize) -> Self {
+        let (mut width, mut height, mut pending) = (width, height, Vec::new());
+        while width > 1024 && height > 1 {
+            (width, height) = (width / 2, height / 2);
+            pending.push(None);
+        }
+        Self { pending, texels: Vec::new() }
+    }
+
+    /// Takes a row that has been halved so often, and those that follow from it.
+    fn push_row(&mut self, level: usize, row: Vec<[f32; 3]>) {
+        let Some(pending) = self.pending.get_mut(level) else {
+            return self.texels.extend(row);
+        };
+        let Some(upper) = pending.take() else {
+            *pending = Some(row);
+            return;
+        };
+        let half = |at: usize| {
+            let four = [upper[2 * at], upper[2 * at + 1], row[2 * at], row[2 * at + 1]];
             [0, 1, 2].map(|k: usize| four.iter().map(|texel| texel[k]).sum::<f32>() * 0.25)
         };
-        Self { width, height, texels: (0..width * height).map(texel).collect() }
+        let halved = (0..row.len() / 2).map(half).collect();
+        self.push_row(level + 1, halved);
     }
 }
 
@@ -244,6 +271,21 @@ mod tests {
         let found = Panorama::decode_hdr(&file("-Y 1 +X 8", &runs)).unwrap();
         assert_eq!(found.texels[0], [10.5, 20.5, 30.5].map(|c| c / 256.0));
         assert_eq!(found.texels[7], [2.5 / 256.0; 3]);
+    }
+
+    /// A row of 2048 equal texels in twelve bytes, old-style runs.
+    fn equal_row(mantissa: u8) -> [u8; 12] {
+        [mantissa, 0, 0, 136, 1, 1, 1, 255, 1, 1, 1, 7]
+    }
+
+    #[test]
+    fn wide_rows_are_halved_by_means_and_an_odd_last_row_is_dropped() {
+        let data = [equal_row(10), equal_row(30), equal_row(90)].concat();
+        let found = Panorama::decode_hdr(&file("-Y 3 +X 2048", &data)).unwrap();
+        assert_eq!((found.width, found.height), (1024, 1));
+        assert_eq!(found.texels, vec![[20.5, 0.5, 0.5]; 1024]);
+        let single = Panorama::decode_hdr(&file("-Y 1 +X 2048", &equal_row(10))).unwrap();
+        assert_eq!((single.width, single.height, single.texels.len()), (2048, 1, 2048));
     }
 
     #[test]

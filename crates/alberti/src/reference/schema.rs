@@ -1,0 +1,49 @@
+//! The JSON Schemas (draft 2020-12) of what the program writes as JSON.
+
+use clap::ValueEnum;
+
+/// A schema, by the name that its documents have in `schema.name` after `alberti-`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(super) enum SchemaName {
+    /// `alberti render --json`
+    Render,
+    /// `alberti info --json`
+    Info,
+    /// `alberti check --json`
+    Check,
+    /// `alberti scene check --json`
+    SceneCheck,
+    /// `alberti explain --json` and `alberti matrix --json`
+    Explain,
+    /// The table of `alberti curve depth -o FILE.json`
+    DepthCurve,
+    /// A line of the reports of `alberti batch`
+    BatchRecord,
+    /// The lessons of `alberti explore`
+    ExploreLessons,
+    /// The state of a lesson of `alberti explore`
+    ExploreState,
+    /// A pixel of `alberti explore`
+    ExplorePick,
+    /// An error of `alberti explore`
+    ExploreError,
+}
+
+impl SchemaName {
+    /// The schema as the repository has it.
+    pub(super) fn schema_text(self) -> &'static str {
+        match self {
+            Self::Render => include_str!("../../schemas/render.schema.json"),
+            Self::Info => include_str!("../../schemas/info.schema.json"),
+            Self::Check => include_str!("../../schemas/check.schema.json"),
+            Self::SceneCheck => include_str!("../../schemas/scene-check.schema.json"),
+            Self::Explain => include_str!("../../schemas/explain.schema.json"),
+            Self::DepthCurve => include_str!("../../schemas/depth-curve.schema.json"),
+            Self::BatchRecord => include_str!("../../schemas/batch-record.schema.json"),
+            Self::ExploreLessons => include_str!("../../schemas/explore-lessons.schema.json"),
+            Self::ExploreState => include_str!("../../schemas/explore-state.schema.json"),
+            Self::ExplorePick => include_str!("../../schemas/explore-pick.schema.json"),
+            Self::ExploreError => include_str!("../../schemas/explore-error.schema.json"),
+        }
+    }
+}

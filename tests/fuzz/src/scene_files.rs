@@ -1,0 +1,81 @@
+//! Scenes that read other files: included scenes, images behind a scene, environments.
+//!
+//! The files are in a folder of this process, beside a model.
+
+use crate::scene::resolve_and_draw;
+use pipeline::Origin;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// A small model with several materials.
+const MODEL: &[u8] = include_bytes!("../../../scenes/models/crate.glb");
+
+/// What separates the files of a case.
+const SEPARATOR: &str = "\n====\n";
+
+/// The files of a scene, the first of which is the scene: the others are there to be included.
+const FILES: [&str; 4] = ["scene.ron", "a.ron", "b.ron", "sub/c.ron"];
+
+static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
+    let folder = std::env::temp_dir().join(format!("alberti-fuzz-{}", std::process::id()));
+    for model in ["crate.glb", "sub/crate.glb"] {
+        write_file(&folder.join(model), MODEL);
+    }
+    folder
+});
+
+/// # Panics
+/// If the system's folder of temporary files cannot be written: then nothing can be tested.
+fn write_file(path: &Path, bytes: &[u8]) {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| fs::write(path, bytes));
+    assert!(written.is_ok(), "{}: {written:?}", path.display());
+}
+
+/// A scene and the files that it includes: parts of the bytes, in the order of [`FILES`].
+pub fn included(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let mut parts = text.splitn(FILES.len(), SEPARATOR);
+    for name in FILES {
+        // What is left of the case before would make it another one.
+        write_file(&FOLDER.join(name), parts.next().unwrap_or_default().as_bytes());
+    }
+    match Origin::read_scene(&FOLDER.join(FILES[0])) {
+        Ok((origin, mut file)) => {
+            // Models are the subject of other targets.
+            file.models.truncate(2);
+            resolve_and_draw(&origin, &file);
+        }
+        Err(error) => assert!(!error.to_string().is_empty(), "an error says nothing"),
+    }
+}
+
+/// An image behind a scene; the first byte says how it fills the picture.
+pub fn background(bytes: &[u8]) {
+    let Some((&kind, image)) = bytes.split_first() else { return };
+    let fit = ["Cover", "Contain", "Stretch"][usize::from(kind % 3)];
+    let background = format!("image: Image(background: Picture(path: \"image\", fit: {fit}))");
+    with_file("image", image, &background);
+}
+
+/// A Radiance image around a scene; the first byte turns it.
+pub fn environment(bytes: &[u8]) {
+    let Some((&turn, image)) = bytes.split_first() else { return };
+    let environment = format!(
+        "environment: File(path: \"sky.hdr\", rotation_degrees: {turn}), \
+         image: Image(background: Environment(blur: 0.{turn}))"
+    );
+    with_file("sky.hdr", image, &environment);
+}
+
+/// A scene with further fields, one of which reads a file.
+fn with_file(name: &str, bytes: &[u8], fields: &str) {
+    write_file(&FOLDER.join(name), bytes);
+    let text = format!("Scene(models: [Model(path: \"crate.glb\")], {fields})");
+    let origin = Origin::from_text("scene.ron", text, FOLDER.clone());
+    match origin.parse_with_includes(&[]) {
+        Ok((origin, file)) => resolve_and_draw(&origin, &file),
+        Err(error) => panic!("the scene of this target is wrong: {error}"),
+    }
+}

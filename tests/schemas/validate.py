@@ -1,0 +1,94 @@
+"""Validates JSON documents against the schemas that are shipped: validate.py SCHEMAS DOCUMENTS.
+
+DOCUMENTS has a line of JSON for each case: {"schema": NAME, "case": …, "document": …}. A document must be valid, and must have no
+member that its schema does not know: users may meet new members, but those of today are described. So that a schema is not valid for
+everything, each member of the first documents is replaced by what it cannot be, which must be found. Prints a line `FAILED …` for
+each fault; the last line counts.
+"""
+
+import copy
+import json
+import pathlib
+import sys
+
+try:
+    from jsonschema import Draft202012Validator
+except ImportError:
+    print("SKIPPED schemas: there is no Python with jsonschema")
+    sys.exit(0)
+
+# What no member of any document is.
+ABSURD = {"absurd": [{}]}
+# So many documents of each schema are varied, and so many of their members.
+VARIED_DOCUMENTS, VARIED_MEMBERS = 3, 400
+
+
+def closed(schema, is_root=True):
+    """The schema without room for further members."""
+    if isinstance(schema, list):
+        return [closed(part, False) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    result = {key: closed(part, False) for key, part in schema.items()}
+    # A schema within another is extended where it is used, and is closed by itself in its own file.
+    is_embedded = "$id" in schema and not is_root
+    is_object = isinstance(schema.get("properties"), dict) and "type" in schema
+    if is_object and not is_embedded and "additionalProperties" not in schema:
+        composed = "oneOf" in schema or "$ref" in schema
+        result["unevaluatedProperties" if composed else "additionalProperties"] = False
+    return result
+
+
+def places(document, path=()):
+    """The paths of all members, those of objects in lists included."""
+    if isinstance(document, dict):
+        for key, value in document.items():
+            yield path + (key,)
+            yield from places(value, path + (key,))
+    elif isinstance(document, list):
+        for at, value in enumerate(document[:3]):
+            yield from places(value, path + (at,))
+
+
+def varied(document, path):
+    """The document with another value at a place."""
+    other = copy.deepcopy(document)
+    parent = other
+    for step in path[:-1]:
+        parent = parent[step]
+    parent[path[-1]] = ABSURD
+    return other
+
+
+def main(schema_folder, document_file):
+    validators = {}
+    for path in sorted(pathlib.Path(schema_folder).glob("*.schema.json")):
+        schema = json.loads(path.read_text(encoding="utf-8"))
+        Draft202012Validator.check_schema(schema)
+        name = path.name.removesuffix(".schema.json")
+        validators[name] = (Draft202012Validator(schema), Draft202012Validator(closed(schema)))
+    counts, faults, variations = dict.fromkeys(validators, 0), [], 0
+    with open(document_file, encoding="utf-8") as lines:
+        for line in lines:
+            case = json.loads(line)
+            name, document = case["schema"], case["document"]
+            usual, strict = validators[name]
+            for error in list(strict.iter_errors(document))[:3]:
+                place = "/".join(map(str, error.absolute_path))
+                faults.append(f"{case['case']} ({name}): at /{place}: {error.message[:300]}")
+            counts[name] += 1
+            if counts[name] > VARIED_DOCUMENTS:
+                continue
+            for path in list(places(document))[:VARIED_MEMBERS]:
+                variations += 1
+                if usual.is_valid(varied(document, path)):
+                    place = "/".join(map(str, path))
+                    faults.append(f"{case['case']} ({name}): anything is valid at /{place}")
+    faults += [f"no document is of the schema {name}" for name, count in counts.items() if count == 0]
+    for fault in faults:
+        print("FAILED", fault)
+    print(f"{sum(counts.values())} documents of {len(counts)} schemas, {variations} variations, {len(faults)} faults")
+    sys.exit(1 if faults else 0)
+
+
+main(*sys.argv[1:])

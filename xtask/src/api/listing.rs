@@ -1,0 +1,182 @@
+//! The public interface of a crate as text, out of the pages that rustdoc writes.
+//!
+//! ```text
+//! homog::PixelRect
+//!     pub struct PixelRect {
+//!         pub x: u32,
+//!     }
+//!     impl PixelRect
+//!         pub const fn area(self) -> usize
+//!     impl Clone for PixelRect
+//! ```
+//! Rustdoc writes the same words as JSON for the nightly compiler only; its pages are there after
+//! every build of the documentation. Automatic and blanket implementations follow from the rest and
+//! are left out.
+
+use crate::workspace::read_text;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The listing of a crate, from the folder of its pages.
+pub fn crate_listing(folder: &Path) -> Result<String, String> {
+    let mut pages = Vec::new();
+    collect_pages(folder, &mut pages)?;
+    pages.sort();
+    let mut items = Vec::new();
+    for page in &pages {
+        if let Some(name) = item_name(folder, page) {
+            let lines = item_lines(&read_text(page)?);
+            if !lines.is_empty() {
+                items.push((name, lines));
+            }
+        }
+    }
+    items.sort();
+    let text = |(name, lines): &(String, Vec<String>)| {
+        let lines: String = lines.iter().map(|line| format!("    {line}\n")).collect();
+        format!("{name}\n{lines}")
+    };
+    Ok(items.iter().map(text).collect())
+}
+
+fn collect_pages(folder: &Path, pages: &mut Vec<PathBuf>) -> Result<(), String> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        if path.is_dir() {
+            collect_pages(&path, pages)?;
+        } else if path.extension().is_some_and(|ending| ending == "html") {
+            pages.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// The kinds of pages with a declaration, as their file names begin.
+const KINDS: [&str; 9] =
+    ["struct", "enum", "union", "trait", "fn", "type", "constant", "static", "macro"];
+
+/// The path of the item of a page, such as `homog::PixelRect`; `None` for pages of modules.
+fn item_name(folder: &Path, page: &Path) -> Option<String> {
+    let file = page.file_stem()?.to_str()?;
+    let (_, name) = file.split_once('.').filter(|(kind, _)| KINDS.contains(kind))?;
+    let modules = page.parent()?.strip_prefix(folder.parent()?).ok()?;
+    let modules = modules.iter().map(|part| part.to_string_lossy());
+    Some(modules.chain([name.into()]).collect::<Vec<_>>().join("::"))
+}
+
+/// What follows from the rest of a page, or belongs to another item: everything from here on.
+const ENDS: [&str; 5] = [
+    "id=\"synthetic-implementations\"",
+    "id=\"blanket-implementations\"",
+    "id=\"implementors\"",
+    "id=\"foreign-impls\"",
+    "id=\"deref-methods-",
+];
+
+/// The declaration of a page, its methods, and the traits it implements.
+fn item_lines(page: &str) -> Vec<String> {
+    let declaration = element(page, "<pre class=\"rust item-decl\">", "</pre>");
+    let mut lines: Vec<String> = declaration
+        .map(|html| plain_text(html).lines().map(|line| line.trim_end().to_owned()).collect())
+        .unwrap_or_default();
+    lines.retain(|line| !line.trim().is_empty());
+    let Some(at) =
+        page.find("id=\"implementations\"").or(page.find("id=\"trait-implementations\""))
+    else {
+        return lines;
+    };
+    let rest = &page[at..];
+    let end = ENDS.iter().filter_map(|end| rest.find(end)).min().unwrap_or(rest.len());
+    let (own, traits) = match rest[..end].find("id=\"trait-implementations\"") {
+        Some(at) => rest[..end].split_at(at),
+        None => (&rest[..end], ""),
+    };
+    lines.extend(headers(own, true));
+    let mut implemented = headers(traits, false);
+    implemented.sort();
+    lines.extend(implemented);
+    lines
+}
+
+/// The headings of code in a part of a page: of implementations, and of what is in them.
+fn headers(html: &str, with_methods: bool) -> Vec<String> {
+    let starts = html.match_indices("class=\"code-header\">");
+    let header = |(at, start): (usize, &str)| {
+        let level = html[..at].rfind("<h").map_or("", |tag| &html[tag..]);
+        let is_method = level.starts_with("<h4");
+        let code = &html[at + start.len()..];
+        let code = &code[..code.find(if is_method { "</h4>" } else { "</h3>" })?];
+        let text = plain_text(code).split_whitespace().collect::<Vec<_>>().join(" ");
+        (with_methods || !is_method).then(|| if is_method { format!("    {text}") } else { text })
+    };
+    // Implemented by a derive, and of no meaning to callers.
+    starts.filter_map(header).filter(|text| !text.contains("StructuralPartialEq")).collect()
+}
+
+/// The content of the first element that begins so.
+fn element<'a>(page: &'a str, start: &str, end: &str) -> Option<&'a str> {
+    let rest = &page[page.find(start)? + start.len()..];
+    Some(&rest[..rest.find(end)?])
+}
+
+/// The text of HTML: without tags, and without the labels of what can be folded.
+fn plain_text(html: &str) -> String {
+    let mut text = String::new();
+    let mut rest = html;
+    while let Some(at) = rest.find('<') {
+        text += &rest[..at];
+        rest = &rest[at..];
+        let end = if rest.starts_with("<summary") { "</summary>" } else { ">" };
+        if rest.starts_with("<br") || rest.starts_with("<div class=\"where\"") {
+            text.push('\n');
+        }
+        rest = rest.find(end).map_or("", |at| &rest[at + end.len()..]);
+    }
+    text += rest;
+    [
+        ("&lt;", "<"),
+        ("&gt;", ">"),
+        ("&quot;", "\""),
+        ("&#39;", "'"),
+        ("&nbsp;", " "),
+        ("\u{a0}", " "),
+    ]
+    .iter()
+    .fold(text, |text, (code, sign)| text.replace(code, sign))
+    .replace("&amp;", "&")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAGE: &str = "<h1>x</h1><pre class=\"rust item-decl\"><code>pub struct A&lt;'a&gt; {\n    \
+        pub b: &amp;'a <a href=\"u8.html\">u8</a>,\n}</code></pre>\
+        <h2 id=\"implementations\">Implementations</h2>\
+        <h3 class=\"code-header\">impl A<wbr></h3><h4 class=\"code-header\">pub fn <a>c</a>(self)</h4>\
+        <h2 id=\"trait-implementations\">T</h2><h3 class=\"code-header\">impl Clone for A</h3>\
+        <h4 class=\"code-header\">fn clone(&amp;self) -&gt; Self</h4>\
+        <h3 class=\"code-header\">impl StructuralPartialEq for A</h3>\
+        <h2 id=\"synthetic-implementations\">S</h2><h3 class=\"code-header\">impl Send for A</h3>";
+
+    #[test]
+    fn a_page_gives_its_declaration_its_methods_and_its_traits() {
+        let expected = [
+            "pub struct A<'a> {",
+            "    pub b: &'a u8,",
+            "}",
+            "impl A",
+            "    pub fn c(self)",
+            "impl Clone for A",
+        ];
+        assert_eq!(item_lines(PAGE), expected);
+    }
+
+    #[test]
+    fn items_are_named_by_their_pages() {
+        let folder = Path::new("doc/homog");
+        let name = |page: &str| item_name(folder, &folder.join(page));
+        assert_eq!(name("ray/struct.Ray.html").as_deref(), Some("homog::ray::Ray"));
+        assert_eq!((name("index.html"), name("all.html")), (None, None));
+    }
+}

@@ -1,0 +1,245 @@
+//! `cargo xtask deny`: the dependencies against `deny.toml`, and the oldest compiler they allow.
+//!
+//! Licenses, sources, versions that are there twice, and `rust-version`: by `cargo metadata`, for
+//! the workspace and the packages beside it that are shipped. `cargo deny` reads the same file and
+//! is run as well where it is installed; building it takes longer than all of these tests.
+//! Advisories need its database, so they are checked there only.
+
+mod license;
+mod policy;
+
+use crate::Outcome;
+use crate::program::{capture_output, cargo_command, run_command};
+use crate::workspace::{project_root, read_text};
+use license::is_satisfied;
+use policy::Policy;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+/// The manifests of what is shipped.
+const SHIPPED: [&str; 3] = ["Cargo.toml", "crates/web/Cargo.toml", "crates/python/Cargo.toml"];
+
+/// The manifests of all packages of the project: one compiler is enough for each.
+const MANIFESTS: [&str; 5] = [
+    "Cargo.toml",
+    "crates/web/Cargo.toml",
+    "crates/python/Cargo.toml",
+    "tests/fuzz/Cargo.toml",
+    "tests/peers/Cargo.toml",
+];
+
+/// Checks the dependencies.
+pub fn run_deny(arguments: &[String]) -> Outcome {
+    if let Some(argument) = arguments.first() {
+        return Err(format!("unknown argument `{argument}`"));
+    }
+    let policy = Policy::parse(&read_text(&project_root().join("deny.toml"))?)?;
+    let floor = workspace_floor()?;
+    let mut faults = floors_of_packages(&floor)?;
+    let mut count = 0;
+    for manifest in SHIPPED {
+        let call = ["metadata", "--format-version", "1", "--locked", "--manifest-path", manifest];
+        match capture_output(&mut cargo_command(&call)) {
+            Ok(text) => {
+                let json: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+                let found = Dependency::list(&json);
+                count += found.len();
+                faults.extend(
+                    dependency_faults(&found, &policy, &floor)?
+                        .into_iter()
+                        .map(|fault| format!("{manifest}: {fault}")),
+                );
+            }
+            // What only these packages need may not have been fetched yet.
+            Err(error) if manifest != "Cargo.toml" && is_offline(&error) => {
+                println!("SKIPPED deny {manifest}: its dependencies cannot be fetched");
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    if faults.is_empty() {
+        println!("{count} dependencies of {} packages are as deny.toml asks", SHIPPED.len());
+        print_compiler(&floor)?;
+        return run_cargo_deny();
+    }
+    Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
+}
+
+/// A package that is not of this project.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Dependency {
+    name: String,
+    version: String,
+    license: String,
+    source: String,
+    /// The oldest compiler it needs, if it says so.
+    floor: Option<String>,
+}
+
+impl Dependency {
+    fn list(metadata: &Value) -> Vec<Self> {
+        let packages = metadata["packages"].as_array().into_iter().flatten();
+        let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+        let dependency = |package: &Value| {
+            Some(Self {
+                name: text(&package["name"]),
+                version: text(&package["version"]),
+                license: text(&package["license"]),
+                source: package["source"].as_str()?.to_owned(),
+                floor: package["rust_version"].as_str().map(str::to_owned),
+            })
+        };
+        packages.filter_map(dependency).collect()
+    }
+}
+
+/// Everything about the dependencies that the policy does not allow.
+fn dependency_faults(
+    found: &[Dependency],
+    policy: &Policy,
+    floor: &str,
+) -> Result<Vec<String>, String> {
+    let (licenses, sources) =
+        (policy.list("licenses.allow")?, policy.list("sources.allow-registry")?);
+    let (banned, twice) = (policy.list("bans.deny")?, policy.list("bans.skip")?);
+    let mut faults = Vec::new();
+    let mut versions: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for Dependency { name, version, license, source, floor: needed } in found {
+        versions.entry(name).or_default().insert(version);
+        let mut fault = |what: String| faults.push(format!("{name} {version}: {what}"));
+        if !is_satisfied(license, licenses) {
+            fault(format!("no license of `{license}` is allowed by licenses.allow"));
+        }
+        let registry = source.trim_start_matches("registry+").trim_start_matches("sparse+");
+        if !sources.iter().any(|allowed| allowed == registry) {
+            fault(format!("its source `{source}` is not in sources.allow-registry"));
+        }
+        if banned.contains(name) {
+            fault("it is banned by bans.deny".to_owned());
+        }
+        if needed.as_deref().is_some_and(|needed| version_numbers(needed) > version_numbers(floor))
+        {
+            fault(format!(
+                "it needs Rust {}, and ours is {floor}",
+                needed.as_deref().unwrap_or("")
+            ));
+        }
+    }
+    for (name, versions) in versions.iter().filter(|(_, versions)| versions.len() > 1) {
+        if !twice.iter().any(|allowed| allowed == name) {
+            let list = versions.iter().copied().collect::<Vec<_>>().join(" and ");
+            faults
+                .push(format!("{name}: {list} are there at once, and bans.skip does not name it"));
+        }
+    }
+    Ok(faults)
+}
+
+/// The three numbers of a version, to compare.
+fn version_numbers(version: &str) -> [u32; 3] {
+    let mut numbers = version.split('.').map(|number| number.parse().unwrap_or(0));
+    [(); 3].map(|()| numbers.next().unwrap_or(0))
+}
+
+/// The oldest compiler that the workspace supports.
+fn workspace_floor() -> Result<String, String> {
+    let manifest = read_text(&project_root().join("Cargo.toml"))?;
+    rust_version(&manifest).ok_or_else(|| "Cargo.toml has no rust-version".into())
+}
+
+fn rust_version(manifest: &str) -> Option<String> {
+    let line = manifest.lines().find_map(|line| line.strip_prefix("rust-version = \""))?;
+    Some(line.split('"').next()?.to_owned())
+}
+
+/// Packages with another `rust-version` than the workspace.
+fn floors_of_packages(floor: &str) -> Result<Vec<String>, String> {
+    let mut faults = Vec::new();
+    for manifest in MANIFESTS {
+        let found = rust_version(&read_text(&project_root().join(manifest))?);
+        if found.as_deref() != Some(floor) {
+            let found = found.unwrap_or_else(|| "none".into());
+            faults
+                .push(format!("{manifest}: rust-version is {found}, and the workspace's {floor}"));
+        }
+    }
+    Ok(faults)
+}
+
+/// Says whether the tests run by the oldest supported compiler: only then is the promise tested.
+fn print_compiler(floor: &str) -> Outcome {
+    let compiler = std::env::var_os("RUSTC").unwrap_or("rustc".into());
+    let text = capture_output(Command::new(compiler).arg("--version").current_dir(project_root()))?;
+    let version = text.split_whitespace().nth(1).unwrap_or_default();
+    let [[major, minor, _], [floor_major, floor_minor, _]] = [version, floor].map(version_numbers);
+    if (major, minor) == (floor_major, floor_minor) {
+        println!("the compiler of these tests is the oldest supported one, {version}");
+    } else {
+        println!(
+            "SKIPPED deny rust-version: these tests run by {version}, and {floor} is promised"
+        );
+    }
+    Ok(())
+}
+
+/// Whether Cargo could not reach a registry.
+fn is_offline(error: &str) -> bool {
+    ["download", "network", "offline", "resolve host"].iter().any(|word| error.contains(word))
+}
+
+/// The same policy by `cargo deny`, if it is there.
+fn run_cargo_deny() -> Outcome {
+    if run_command(&mut cargo_command(&["deny", "--version"])).is_err() {
+        println!("cargo-deny is not installed: advisories are not checked");
+        return Ok(());
+    }
+    run_command(&mut cargo_command(&["deny", "check", "licenses", "bans", "sources"]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POLICY: &str = "[licenses]\nallow = [\"MIT\"]\n[bans]\ndeny = [\"bad\"]\nskip = [\"syn\"]\n\
+        [sources]\nallow-registry = [\"https://registry\"]\n";
+
+    fn dependency(name: &str, version: &str) -> Dependency {
+        Dependency {
+            name: name.into(),
+            version: version.into(),
+            license: "MIT".into(),
+            source: "registry+https://registry".into(),
+            floor: Some("1.80".into()),
+        }
+    }
+
+    #[test]
+    fn each_part_of_the_policy_finds_its_fault() {
+        let policy = Policy::parse(POLICY).unwrap();
+        let good = dependency("a", "1.0.0");
+        let faults = |found: &[Dependency]| dependency_faults(found, &policy, "1.95").unwrap();
+        let twice = |name: &str| vec![dependency(name, "1.0.0"), dependency(name, "2.0.0")];
+        assert_eq!(faults(std::slice::from_ref(&good)), Vec::<String>::new());
+        assert_eq!(faults(&twice("syn")), Vec::<String>::new());
+        let table = [
+            (vec![Dependency { license: "GPL-3.0-only".into(), ..good.clone() }], "licenses.allow"),
+            (vec![Dependency { license: String::new(), ..good.clone() }], "licenses.allow"),
+            (vec![Dependency { source: "git+https://x".into(), ..good.clone() }], "sources"),
+            (vec![Dependency { floor: Some("1.96".into()), ..good.clone() }], "1.96"),
+            (vec![dependency("bad", "1.0.0")], "bans.deny"),
+            (twice("a"), "bans.skip"),
+        ];
+        for (found, expected) in table {
+            let faults = faults(&found);
+            assert!(faults.len() == 1 && faults[0].contains(expected), "{expected}: {faults:?}");
+        }
+    }
+
+    #[test]
+    fn versions_are_compared_by_their_numbers() {
+        assert!(version_numbers("1.100") > version_numbers("1.95"));
+        assert!(version_numbers("1.95.1") > version_numbers("1.95"));
+        assert_eq!(version_numbers("1.95.0"), version_numbers("1.95"));
+    }
+}
