@@ -65,6 +65,7 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     violations.extend(boundaries::dependencies()?);
     violations.extend(scenes::goldens_and_table()?);
     violations.extend(documents::broken_links()?);
+    violations.extend(documents::citation_version()?);
     if violations.is_empty() {
         println!("{} files of Rust are tidy", sources.len());
         return Ok(());

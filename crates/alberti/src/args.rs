@@ -118,7 +118,7 @@ pub(crate) enum Command {
     Completions(Deferred<CompletionArgs>),
     /// Print or write manual pages
     Man(Deferred<ManArgs>),
-    /// Print the reference of all flags, scene fields and formulas
+    /// Print the reference of all flags, scene fields and formulas, or a JSON Schema
     Reference(Deferred<FullReferenceArgs>),
 }
 

@@ -14,21 +14,18 @@
 //! are left out.
 
 use crate::workspace::read_text;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The listing of a crate, from the folder of its pages.
+///
+/// Pages of items that are gone stay in the folder, so the list of all items says which there are.
 pub fn crate_listing(folder: &Path) -> Result<String, String> {
-    let mut pages = Vec::new();
-    collect_pages(folder, &mut pages)?;
-    pages.sort();
+    let all = read_text(&folder.join("all.html"))?;
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let mut items = Vec::new();
-    for page in &pages {
-        if let Some(name) = item_name(folder, page) {
-            let lines = item_lines(&read_text(page)?);
-            if !lines.is_empty() {
-                items.push((name, lines));
-            }
+    for page in listed_pages(&all) {
+        if let Some(item) = item_name(&name, page) {
+            items.push((item, item_lines(&read_text(&folder.join(page))?)));
         }
     }
     items.sort();
@@ -39,29 +36,26 @@ pub fn crate_listing(folder: &Path) -> Result<String, String> {
     Ok(items.iter().map(text).collect())
 }
 
-fn collect_pages(folder: &Path, pages: &mut Vec<PathBuf>) -> Result<(), String> {
-    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
-        if path.is_dir() {
-            collect_pages(&path, pages)?;
-        } else if path.extension().is_some_and(|ending| ending == "html") {
-            pages.push(path);
-        }
-    }
-    Ok(())
+/// The pages that the list of all items links to, relative to its folder.
+fn listed_pages(all: &str) -> impl Iterator<Item = &str> {
+    let list = all.split_once("class=\"all-items\"").map_or("", |(_, list)| list);
+    let links = list.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    links.filter(|link| {
+        !link.starts_with("http") && !link.starts_with("..") && link.ends_with(".html")
+    })
 }
 
 /// The kinds of pages with a declaration, as their file names begin.
 const KINDS: [&str; 9] =
     ["struct", "enum", "union", "trait", "fn", "type", "constant", "static", "macro"];
 
-/// The path of the item of a page, such as `homog::PixelRect`; `None` for pages of modules.
-fn item_name(folder: &Path, page: &Path) -> Option<String> {
-    let file = page.file_stem()?.to_str()?;
-    let (_, name) = file.split_once('.').filter(|(kind, _)| KINDS.contains(kind))?;
-    let modules = page.parent()?.strip_prefix(folder.parent()?).ok()?;
-    let modules = modules.iter().map(|part| part.to_string_lossy());
-    Some(modules.chain([name.into()]).collect::<Vec<_>>().join("::"))
+/// The path of the item of a page, such as `homog::PixelRect`; `None` for other pages.
+fn item_name(name: &str, page: &str) -> Option<String> {
+    let (modules, file) = page.rsplit_once('/').unwrap_or(("", page));
+    let (kind, item) = file.strip_suffix(".html")?.split_once('.')?;
+    let parts = std::iter::once(name).chain(modules.split('/')).chain([item]);
+    let path: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    KINDS.contains(&kind).then(|| path.join("::"))
 }
 
 /// What follows from the rest of a page, or belongs to another item: everything from here on.
@@ -174,9 +168,12 @@ mod tests {
 
     #[test]
     fn items_are_named_by_their_pages() {
-        let folder = Path::new("doc/homog");
-        let name = |page: &str| item_name(folder, &folder.join(page));
+        let name = |page: &str| item_name("homog", page);
         assert_eq!(name("ray/struct.Ray.html").as_deref(), Some("homog::ray::Ray"));
-        assert_eq!((name("index.html"), name("all.html")), (None, None));
+        assert_eq!(name("fn.remap.html").as_deref(), Some("homog::remap"));
+        assert_eq!((name("index.html"), name("mod.x.html")), (None, None));
+        let all = "<a href=\"a.html\"></a><ul class=\"all-items\"><li><a href=\"struct.B.html\">B</a>\
+            <a href=\"https://x/y.html\">";
+        assert_eq!(listed_pages(all).collect::<Vec<_>>(), ["struct.B.html"]);
     }
 }

@@ -3,7 +3,7 @@
 
 use super::Violation;
 use super::source::text_files;
-use crate::workspace::project_root;
+use crate::workspace::{project_root, read_text};
 use std::path::Path;
 
 /// Folders of the workspace; a word of a document that begins with one is a path.
@@ -16,6 +16,17 @@ pub fn broken_links() -> Result<Vec<Violation>, String> {
     Ok(documents
         .flat_map(|(path, text)| document_links(path, text, |at| project_root().join(at).exists()))
         .collect())
+}
+
+/// A version in `CITATION.cff` that is not the workspace's.
+pub fn citation_version() -> Result<Vec<Violation>, String> {
+    let read = |name: &str| read_text(&project_root().join(name));
+    let (citation, manifest) = (read("CITATION.cff")?, read("Cargo.toml")?);
+    let cited = citation.lines().find_map(|line| line.strip_prefix("version: "));
+    let is_ours = |cited: &str| manifest.contains(&format!("\nversion = \"{cited}\"\n"));
+    let message = "give the version of the workspace's Cargo.toml";
+    let fault = (!cited.is_some_and(is_ours)).then(|| Violation::new("CITATION.cff", message));
+    Ok(fault.into_iter().collect())
 }
 
 fn document_links(path: &str, text: &str, exists: impl Fn(&Path) -> bool) -> Vec<Violation> {
