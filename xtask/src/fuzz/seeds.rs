@@ -20,10 +20,9 @@ pub fn write_seeds(target: &str, folder: &Path) -> Result<usize, String> {
         "threemf" => files_with_endings(&["3mf", "3MF"]),
         "meshopt" => model_seeds().iter().flat_map(meshopt_seeds).collect(),
         "draco" => model_seeds().iter().flat_map(draco_seeds).collect(),
-        "image" => image_seeds(),
+        "image" | "background" => image_seeds(),
         "scene" => scene_seeds()?,
         "maths" | "raster" => number_seeds(),
-        "background" => image_seeds(),
         // Everything that these begin with is committed.
         _ => Vec::new(),
     };
