@@ -104,7 +104,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
 }
 
 /// The steps after the integration tests.
-fn last_steps() -> [Step; 7] {
+fn last_steps() -> [Step; 8] {
     [
         Step {
             name: "docs".into(),

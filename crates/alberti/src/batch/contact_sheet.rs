@@ -12,6 +12,7 @@ use super::report::write_error;
 use super::report_reader::{MERGED_REPORT, RecordLine, read_report};
 use crate::CliError;
 use drawing::escape_markup;
+use model::import::percent_encode;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -172,25 +173,13 @@ img { width: 100%; background: #fff; border: 1px solid #ccc } pre { white-space:
 
 /// A relative URL of a path, percent-encoded.
 ///
-/// The `./` in front marks it as relative, whatever the name begins with. Everything but letters,
-/// digits and `/.-_` is encoded byte by byte, in UTF-8:
+/// The `./` in front marks it as relative, whatever the name begins with.
 ///
 /// ```text
 /// a b/c#d.png  ─►  ./a%20b/c%23d.png
 /// ```
 fn relative_url(path: &str) -> String {
-    let mut url = String::from("./");
-    for byte in path.bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'.' | b'-' | b'_' => {
-                url.push(char::from(byte));
-            }
-            _ => {
-                let _ = write!(url, "%{byte:02X}");
-            }
-        }
-    }
-    url
+    format!("./{}", percent_encode(path))
 }
 
 #[cfg(test)]

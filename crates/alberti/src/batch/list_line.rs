@@ -3,14 +3,12 @@
 use super::job::{BatchJob, JobGroup, ListLine};
 use super::picture_name::{NameSource, PictureName, check_picture_name, normal_parts};
 use super::render_flags::{FlagTable, flag_word, is_scene_name};
+use pipeline::scene::closest_name;
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 
 /// The members that are not flags.
 const OWN_MEMBERS: [&str; 5] = ["input", "output", "scene", "bytes", "pictures"];
-
-/// The least likeness of a name that is suggested.
-const SIMILAR: f64 = 0.8;
 
 /// What the lines of a list have in common.
 pub(super) struct ListContext {
@@ -33,12 +31,9 @@ impl ListContext {
         if OWN_MEMBERS.contains(&name) || self.flags.has_flag(name) {
             return Ok(());
         }
-        let wanted = name.trim_start_matches('-').replace('_', "-").to_lowercase();
-        let likeness = |known: &str| strsim::jaro_winkler(&wanted, known);
-        let known = OWN_MEMBERS.into_iter().chain(self.flags.names());
-        let best = known.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-        let best = best.filter(|best| likeness(best) > SIMILAR);
-        let help = best.map_or_else(
+        let wanted = name.trim_start_matches('-').replace('_', "-");
+        let known: Vec<&str> = OWN_MEMBERS.into_iter().chain(self.flags.names()).collect();
+        let help = closest_name(&wanted, &known).map_or_else(
             || {
                 "members are input, output, scene, bytes, pictures, and the flags of a picture"
                     .to_owned()
