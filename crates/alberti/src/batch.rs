@@ -243,7 +243,8 @@ fn run_jobs(
             retries_failed: args.retry_failed,
         },
         failures: Mutex::default(),
-        current: shard.has_all_jobs().then(Mutex::<CurrentJobs>::default),
+        // A list may be too long to be kept.
+        current: (shard.has_all_jobs() && args.list.is_none()).then(Mutex::<CurrentJobs>::default),
         stop: Mutex::new(None),
     };
     run.run_jobs(super::render::thread_count(args.threads));
@@ -263,7 +264,7 @@ fn run_jobs(
         Some(RunStop::Fault(error)) => return Err(error),
         None => closed?,
     }
-    if current.is_some() {
+    if shard.has_all_jobs() {
         let counts = merge::merge_reports(&args.out_dir, current)?;
         contact_sheet::write_contact_sheet(&args.out_dir, &counts)?;
     }

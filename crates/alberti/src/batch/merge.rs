@@ -39,7 +39,7 @@ pub(super) struct MergeCounts {
 
 /// The jobs of a run, by which a merged report is restricted to them.
 ///
-/// Eight bytes for each, as a list may have millions.
+/// Eight bytes for each, as a folder may have millions.
 #[derive(Clone, Default, Debug)]
 pub(super) struct CurrentJobs {
     /// The hashes of output and key.

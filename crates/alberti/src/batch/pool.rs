@@ -56,7 +56,8 @@ pub(super) struct BatchRun<'a> {
     pub(super) policy: JobPolicy,
     /// The failures of this run, for the end.
     pub(super) failures: Mutex<FailureList>,
-    /// All jobs, by which the merged report is restricted to them; `None` of a shard.
+    /// All jobs, by which the merged report is restricted to them; `None` of a shard
+    /// and of a list.
     pub(super) current: Option<Mutex<CurrentJobs>>,
     /// Why no further job is begun.
     pub(super) stop: Mutex<Option<RunStop>>,
