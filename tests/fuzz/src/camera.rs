@@ -3,10 +3,10 @@
 use crate::numbers::Numbers;
 use crate::scene::resolve_and_draw;
 use camera::{CameraAxes, Extrinsics};
-use homog::{PixelCenters, Point};
+use homog::Point;
 use pipeline::Origin;
 use pipeline::scene::parse_scene;
-use projection::{Convention, Intrinsics};
+use projection::{Convention, Intrinsics, PixelCenters};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models");
 
