@@ -70,6 +70,10 @@ impl Axis {
     /// has not.
     fn linear_ticks(&self) -> Vec<f64> {
         let span = self.to - self.from;
+        if !(span > 0.0 && span.is_finite()) {
+            // An axis of one value has no step.
+            return vec![self.from];
+        }
         let power = libm::floor(libm::log10(span)) as i32;
         let steps = [power - 1, power].into_iter().flat_map(|n| [1.0, 2.0, 5.0].map(|d| (d, n)));
         for (digit, power) in steps {
