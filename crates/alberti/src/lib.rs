@@ -131,7 +131,7 @@ pub(crate) fn run_command(args: Args) -> Result<u8, CliError> {
         Command::BatchWorker(args) => batch::run_worker(&args)?,
         Command::Thumbnailer(Deferred(args)) => thumbnailer::run(&args)?,
         Command::Scene(args) => return scene::run(&args).map(verdict),
-        Command::Completions(Deferred(args)) => manual::print_completions(&args, Args::command())?,
+        Command::Completions(Deferred(args)) => manual::print_completions(&args, &Args::command())?,
         Command::Man(Deferred(args)) => manual::print_man_pages(&args, Args::command())?,
         Command::Reference(Deferred(args)) => reference::run(&args, Args::command())?,
     }

@@ -29,7 +29,7 @@ pub(crate) struct ManArgs {
 /// is not an error.
 ///
 /// Commands that are hidden from the help are left out, which the scripts would offer otherwise.
-pub(crate) fn print_completions(args: &CompletionArgs, program: Command) -> Result<(), CliError> {
+pub(crate) fn print_completions(args: &CompletionArgs, program: &Command) -> Result<(), CliError> {
     let shown = program.get_subcommands().filter(|command| !command.is_hide_set()).cloned();
     let flags = program.get_arguments().cloned();
     let mut program = Command::new("alberti")
