@@ -5,8 +5,15 @@
 //! AVX2 and fused multiply-add, which is where sums computed in floating point first go apart; it
 //! needs a processor that has them. Last come the pictures of the explorer, which WebAssembly draws
 //! as well (`determinism/web.rs`).
+//!
+//! `--targets` compares other processors, C libraries, compilers and optimizations instead
+//! (`determinism/targets.rs`): all of them, or those named as in `--targets=aarch64,musl`.
 
+mod outputs;
+mod target;
+mod targets;
 mod web;
+mod workload;
 
 use crate::Outcome;
 use crate::program::{Build, Program};
@@ -23,6 +30,9 @@ struct Variant {
 /// Renders all scenes in several ways and compares the bytes.
 pub fn run_determinism(arguments: &[String]) -> Outcome {
     let options = Options::parse_arguments(arguments)?;
+    if let Some(names) = &options.targets {
+        return targets::compare_targets(names);
+    }
     let mut builds = vec![Build::Release, Build::Debug];
     if options.wide {
         builds.push(Build::Wide);
@@ -42,20 +52,28 @@ pub fn run_determinism(arguments: &[String]) -> Outcome {
 struct Options {
     wide: bool,
     threads: u32,
+    /// Names of targets to compare instead of builds; none is all.
+    targets: Option<Vec<String>>,
 }
 
 impl Options {
     fn parse_arguments(arguments: &[String]) -> Result<Self, String> {
-        let mut options = Self { wide: false, threads: 3 };
+        let mut options = Self { wide: false, threads: 3, targets: None };
         let mut rest = arguments.iter();
         while let Some(argument) = rest.next() {
             match argument.as_str() {
                 "--wide" => options.wide = true,
+                "--targets" => options.targets = Some(Vec::new()),
                 "--threads" => {
                     let count = rest.next().and_then(|count| count.parse().ok());
                     options.threads = count.ok_or("--threads needs a number")?;
                 }
-                other => return Err(format!("unknown argument `{other}`")),
+                other => match other.strip_prefix("--targets=") {
+                    Some(names) => {
+                        options.targets = Some(names.split(',').map(str::to_owned).collect());
+                    }
+                    None => return Err(format!("unknown argument `{other}`")),
+                },
             }
         }
         Ok(options)

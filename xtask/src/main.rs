@@ -23,6 +23,7 @@ mod python;
 mod soak;
 mod test;
 mod tidy;
+mod tool_chain;
 mod web;
 mod workspace;
 
@@ -80,8 +81,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "determinism",
-        arguments: "[--threads N] [--wide]",
-        about: "Render every scene in debug and release builds, and compare the bytes",
+        arguments: "[--threads N] [--wide] [--targets[=NAME,…]]",
+        about: "Render every scene with several builds, or on other targets, and compare the bytes",
         run: determinism::run_determinism,
     },
     Command {

@@ -124,8 +124,8 @@ fn last_steps() -> [Step; 8] {
         ),
         Step::cargo(
             "determinism",
-            "debug, release and WebAssembly render the same bytes, with every number of threads",
-            &["xtask determinism"],
+            "debug, release, WebAssembly and AArch64 give the same bytes, with every number of threads",
+            &["xtask determinism", "xtask determinism --targets=aarch64"],
         ),
         // After the step that builds the release program, with which it renders.
         Step::built_in(

@@ -52,7 +52,7 @@ pub fn site_folder() -> PathBuf {
 
 /// Why WebAssembly cannot be built here, if it cannot.
 pub fn missing_tools() -> Option<String> {
-    let tool_chain = tool_chain::ToolChain::find().err();
+    let tool_chain = tool_chain::WebToolChain::find().err();
     tool_chain.or_else(node::missing_node)
 }
 

@@ -1,6 +1,6 @@
 //! From the package `web` to two files that a browser loads: `web.js` and `web_bg.wasm`.
 
-use super::tool_chain::ToolChain;
+use super::tool_chain::WebToolChain;
 use crate::program::{capture_output, cargo_command, run_command};
 use crate::workspace::{create_folder, project_root, target_folder};
 use std::fs;
@@ -12,7 +12,7 @@ use std::process::Command;
 /// # Errors
 /// A tool is missing, or fails.
 pub fn build_module(out: &Path) -> Result<(), String> {
-    let tool_chain = ToolChain::find()?;
+    let tool_chain = WebToolChain::find()?;
     let wasm_opt = install_wasm_opt()?;
     let package = project_root().join("crates/web");
     println!("compiling to WebAssembly, which takes minutes for the first time");

@@ -1,0 +1,99 @@
+//! The files of a folder by their SHA-256, and where two folders differ.
+
+use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+/// The files that one target wrote.
+#[derive(Clone, Default, Debug)]
+pub struct Outputs {
+    digests: BTreeMap<String, [u8; 32]>,
+    bytes: u64,
+}
+
+impl Outputs {
+    /// Reads the files of a folder.
+    ///
+    /// # Errors
+    /// One cannot be read.
+    pub fn read(folder: &Path) -> Result<Self, String> {
+        let with_path = |error| format!("{}: {error}", folder.display());
+        let mut outputs = Self::default();
+        for entry in fs::read_dir(folder).map_err(with_path)? {
+            let entry = entry.map_err(with_path)?;
+            let bytes = fs::read(entry.path()).map_err(with_path)?;
+            outputs.insert(entry.file_name().to_string_lossy().into_owned(), &bytes);
+        }
+        Ok(outputs)
+    }
+
+    fn insert(&mut self, name: String, bytes: &[u8]) {
+        self.bytes += bytes.len() as u64;
+        self.digests.insert(name, Sha256::digest(bytes).into());
+    }
+
+    /// How many files there are.
+    pub fn file_count(&self) -> usize {
+        self.digests.len()
+    }
+
+    /// The sum of their sizes.
+    pub fn byte_count(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The SHA-256 of the list of names and their SHA-256, in the order of the names.
+    pub fn digest(&self) -> String {
+        let mut all = Sha256::new();
+        for (name, digest) in &self.digests {
+            all.update(format!("{} {name}\n", hexadecimal(digest)));
+        }
+        hexadecimal(&all.finalize())
+    }
+
+    /// The names of files that differ or that only one of both has.
+    pub fn differences(&self, other: &Self) -> Vec<String> {
+        let names: BTreeSet<&String> = self.digests.keys().chain(other.digests.keys()).collect();
+        let differs = |name: &&&String| self.digests.get(**name) != other.digests.get(**name);
+        names.iter().filter(differs).map(|name| (*name).clone()).collect()
+    }
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outputs(files: &[(&str, &str)]) -> Outputs {
+        let mut outputs = Outputs::default();
+        for (name, text) in files {
+            outputs.insert((*name).to_owned(), text.as_bytes());
+        }
+        outputs
+    }
+
+    #[test]
+    fn a_changed_and_a_missing_file_differ() {
+        let one = outputs(&[("a", "1"), ("b", "2"), ("c", "3")]);
+        let other = outputs(&[("a", "1"), ("b", "4"), ("d", "3")]);
+        assert_eq!(one.differences(&other), ["b", "c", "d"]);
+        assert_eq!(one.differences(&one), [""; 0]);
+        assert_ne!(one.digest(), other.digest());
+        assert_eq!((one.file_count(), one.byte_count()), (3, 3));
+    }
+
+    #[test]
+    fn the_digest_is_that_of_sha256sum() {
+        // printf 'ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad a\n' | sha256sum
+        let expected = "f558893557ef8db5b3b643b8d470746c03217e6e78870cf099dcc84a5e67c255";
+        assert_eq!(outputs(&[("a", "abc")]).digest(), expected);
+    }
+}
