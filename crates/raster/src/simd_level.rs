@@ -42,12 +42,12 @@ impl SimdLevel {
     /// All levels that this processor has: the baseline, and AVX2 where there is more than that.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        let mut levels = vec![Self::baseline()];
+        let baseline = Self::baseline();
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         if let Some(avx2) = Level::new().as_avx2() {
-            levels.push(Self { level: Level::Avx2(avx2) });
+            return vec![baseline, Self { level: Level::Avx2(avx2) }];
         }
-        levels
+        vec![baseline]
     }
 
     /// Runs a kernel, compiled for these instructions.
