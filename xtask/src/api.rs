@@ -136,7 +136,7 @@ fn item_lines(listing: &str) -> BTreeMap<String, usize> {
     lines
 }
 
-/// What has been removed since the last release, if the version does not say so.
+/// Items that have been removed since the last release, if the version does not say so.
 fn fault_since_release(name: &str, listing: &str) -> Result<Option<String>, String> {
     let mut describe = Command::new("git");
     describe.args(["describe", "--tags", "--abbrev=0", "--match", "v[0-9]*"]);

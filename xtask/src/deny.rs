@@ -188,7 +188,7 @@ fn is_offline(error: &str) -> bool {
     ["download", "network", "offline", "resolve host"].iter().any(|word| error.contains(word))
 }
 
-/// The same policy by `cargo deny`, if it is there.
+/// Checks the policy by `cargo deny`, if it is there.
 fn run_cargo_deny() -> Outcome {
     if run_command(&mut cargo_command(&["deny", "--version"])).is_err() {
         println!("cargo-deny is not installed: advisories are not checked");

@@ -30,7 +30,7 @@ const LOSS: Milliseconds = 420_000;
 /// Calls to the file system by name for each picture, as counted with strace: three look-ups of the
 /// model, three openings and closings, for the key, the load and its check.
 const REQUESTS_TO_READ: u64 = 9;
-/// The same to write a file: look-up of the folder, creation, synchronization, closing, renaming.
+/// Calls to write a file: look-up of the folder, creation, synchronization, closing, renaming.
 const REQUESTS_TO_WRITE: u64 = 6;
 /// Pictures in a tar file.
 const TAR: u64 = 1_000;
@@ -49,7 +49,7 @@ struct Farm {
     continues: bool,
 }
 
-/// What the tables vary.
+/// The quantities that the tables vary.
 const FARM: Farm = Farm {
     nodes: 64,
     shards: 256,
@@ -98,7 +98,7 @@ fn scaling_table(times: &PictureTimes) -> String {
     text
 }
 
-/// What the deaths of nodes cost.
+/// The cost of nodes that die.
 fn death_table(times: &PictureTimes) -> String {
     let mut text = "| each node dies every | time | if shards began again |\n\
                     | ---: | ---: | ---: |\n"

@@ -8,8 +8,10 @@ use std::sync::OnceLock;
 /// The words that start this program again, where it runs within another one.
 static PROGRAM_WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Runs the program within another one, as [`run`](crate::run) does. `program` are the words that start it
-/// again, such as `python -m alberti`: `batch` starts workers with them.
+/// Runs the program within another one, as [`run`](crate::run) does.
+///
+/// `program` are the words that start it again, such as `python -m alberti`: `batch` starts workers
+/// with them.
 pub fn run_within(
     program: impl IntoIterator<Item = OsString>,
     arguments: impl IntoIterator<Item = OsString>,

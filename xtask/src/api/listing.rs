@@ -58,7 +58,7 @@ fn item_name(name: &str, page: &str) -> Option<String> {
     KINDS.contains(&kind).then(|| path.join("::"))
 }
 
-/// What follows from the rest of a page, or belongs to another item: everything from here on.
+/// Text that follows from the rest of a page, or belongs to another item: everything from here on.
 const ENDS: [&str; 5] = [
     "id=\"synthetic-implementations\"",
     "id=\"blanket-implementations\"",

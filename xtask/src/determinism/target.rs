@@ -12,7 +12,7 @@ use std::process::Command;
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     pub name: &'static str,
-    /// What it proves.
+    /// The property that it proves.
     pub about: &'static str,
     compiler: Compiler,
     /// Flags of the compiler, after those of the profile; `{own}` is a folder of this target.
@@ -23,7 +23,7 @@ pub struct Target {
     runner: &'static [&'static str],
 }
 
-/// What compiles a target.
+/// The compiler of a target.
 #[derive(Clone, Copy, Debug)]
 enum Compiler {
     /// That of this workspace, for this machine.

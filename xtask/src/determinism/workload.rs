@@ -1,4 +1,4 @@
-//! What each target is asked for: pictures, passes, drawings, films and explanations.
+//! The commands that each target runs: pictures, passes, drawings, films and explanations.
 
 use super::outputs::Outputs;
 use crate::Outcome;

@@ -19,7 +19,7 @@ const MEASURED: [f64; 129] = [
 pub struct PictureTimes(Vec<f64>);
 
 impl PictureTimes {
-    /// What was measured.
+    /// The times that were measured.
     pub fn measured() -> Self {
         Self(MEASURED.to_vec())
     }

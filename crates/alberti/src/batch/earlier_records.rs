@@ -1,4 +1,4 @@
-//! What earlier runs have done, in a form of 24 bytes for each record.
+//! Records of earlier runs, packed into 24 bytes each.
 
 use super::report_reader::{RecordLine, read_report, report_paths};
 use crate::CliError;
@@ -8,7 +8,7 @@ use std::path::Path;
 /// The number of tar files of which it is remembered whether they are there.
 const MAX_TARS: usize = 1 << 16;
 
-/// What became of a job in an earlier run.
+/// The result of a job in an earlier run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum EarlierRecord {
     /// Its picture was made.
@@ -47,7 +47,7 @@ struct PackedRecord {
     key: u64,
 }
 
-/// What a record is about. Of records of one run, pictures come last.
+/// The kind of a record. Of records of one run, pictures come last.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum RecordKind {
     Failed = 0,

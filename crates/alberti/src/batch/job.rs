@@ -19,7 +19,7 @@ pub(super) struct BatchJob {
     pub(super) flags: Vec<String>,
     /// The line of a list that describes it.
     pub(super) line: Option<ListLine>,
-    /// What is wrong with its line: the job fails with this message before it begins.
+    /// The mistake in its line: the job fails with this message before it begins.
     pub(super) fault: Option<String>,
 }
 

@@ -28,7 +28,7 @@ pub(super) struct JobList {
     reader: Box<dyn BufRead + Send>,
     /// Its name in messages.
     name: Arc<str>,
-    /// What its lines are relative to.
+    /// The context of its lines: folder, scene, template of names.
     context: ListContext,
     /// The columns of a CSV file; `None` for JSON lines.
     columns: Option<Vec<String>>,

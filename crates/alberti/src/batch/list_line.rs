@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// The members that are not flags.
 const OWN_MEMBERS: [&str; 5] = ["input", "output", "scene", "bytes", "pictures"];
 
-/// What the lines of a list have in common.
+/// The context that the lines of a list share.
 pub(super) struct ListContext {
     /// The folder that inputs and scenes are relative to.
     pub(super) folder: PathBuf,

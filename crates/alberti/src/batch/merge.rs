@@ -22,7 +22,7 @@ use std::path::Path;
 /// The size of a chunk of records that is sorted in memory.
 const CHUNK_BYTES: usize = 8 << 20;
 
-/// What a merged report says of all pictures.
+/// The counts of a merged report.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub(super) struct MergeCounts {
     /// The number of pictures.

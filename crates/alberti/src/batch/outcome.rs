@@ -1,4 +1,4 @@
-//! What comes of jobs that fail and of runs that end early.
+//! Records of jobs that fail, and the reasons of runs that end early.
 
 use super::job::BatchJob;
 use super::pool::JobPolicy;

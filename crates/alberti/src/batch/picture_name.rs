@@ -13,7 +13,7 @@ use std::path::{Component, Path};
 #[derive(Clone, Debug)]
 pub(super) struct PictureName(NameTemplate);
 
-/// What the fields of a name are taken from.
+/// The source of the fields of a name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NameSource<'a> {
     /// The input, relative to the folder or the list that it was found in.

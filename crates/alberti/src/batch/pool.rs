@@ -48,7 +48,7 @@ pub(super) struct BatchRun<'a> {
     pub(super) report: &'a ReportWriter,
     /// The tar files that the pictures go to.
     pub(super) tar: Option<&'a TarOutput>,
-    /// What counts the jobs.
+    /// The counter of the jobs.
     pub(super) progress: &'a RunProgress,
     /// The output folder.
     pub(super) out_dir: &'a Path,

@@ -35,7 +35,7 @@ pub(super) struct RunProgress {
     display: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
-/// What is counted.
+/// The counts of the run.
 #[derive(Clone, Copy, Default)]
 struct ProgressState {
     counts: RunCounts,

@@ -1,4 +1,4 @@
-//! What the coordinator of a batch and its workers say to each other: one JSON object a line.
+//! The protocol between the coordinator of a batch and its workers: one JSON object a line.
 //!
 //! ```text
 //!  coordinator ─► {"input":"a.glb","pictures":[{"flags":["--size=64x64"],…},…]} ─► worker
@@ -51,7 +51,7 @@ pub(super) struct FramedAnswer {
     pub(super) follows: u64,
 }
 
-/// What became of a picture.
+/// The result of a picture.
 #[derive(Serialize, Deserialize, PartialEq, Debug)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum WorkAnswer {

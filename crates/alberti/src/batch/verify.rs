@@ -47,7 +47,7 @@ pub(super) fn verify_jobs(
     Ok(counts.is_all_whole())
 }
 
-/// What is known of the picture of a job.
+/// The state of the picture of a job.
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Verdict {
     /// It is there and has the bytes that were recorded.
@@ -102,7 +102,7 @@ struct Verifier<'a> {
     records: Vec<(u64, RecordedPicture)>,
     /// The names of the tar files.
     tars: Vec<String>,
-    /// What is in the tar files that were read.
+    /// The samples of the tar files that were read.
     contents: BTreeMap<u32, TarContent>,
 }
 

@@ -68,7 +68,7 @@ fn end_with_coordinator() {
 #[cfg(not(target_os = "linux"))]
 fn end_with_coordinator() {}
 
-/// What a worker keeps from picture to picture.
+/// A worker, with all that it keeps from picture to picture.
 struct Worker {
     /// The model that was loaded last.
     loader: SceneLoader,

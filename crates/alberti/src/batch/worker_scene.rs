@@ -24,7 +24,7 @@ pub(super) struct SceneLoader {
     loaded: Option<(LoadKey, Vec<ModelInstance>)>,
 }
 
-/// What loaded models depend on.
+/// The files and options that loaded models depend on.
 #[derive(PartialEq)]
 struct LoadKey {
     /// The models of the scene file with their poses, and the options, as text.

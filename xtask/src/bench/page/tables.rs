@@ -87,7 +87,7 @@ pub fn files(files: &Value) -> String {
     markdown
 }
 
-/// What a second thread brings.
+/// The gain of a second thread.
 pub fn threads(threads: &Value) -> String {
     let mut markdown = String::new();
     if list(threads).is_empty() {

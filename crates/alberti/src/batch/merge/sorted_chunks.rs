@@ -204,7 +204,7 @@ impl FileLines {
 struct ChunkReader {
     /// The part of the file that is not read yet.
     range: [u64; 2],
-    /// What was read from the file.
+    /// The bytes that were read from the file.
     buffer: Vec<u8>,
     /// How much of `buffer` is used.
     used: usize,

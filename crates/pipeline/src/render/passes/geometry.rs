@@ -225,7 +225,7 @@ pub(super) struct HitItem<'s, 'a> {
     draw: &'s DrawGeometry<'a>,
     /// Vertex indices.
     vertices: [usize; 3],
-    /// What the weights at a point of the picture are computed by.
+    /// Edge normals in (x, y, w), by which weights at a point of the picture are computed.
     edge_normals: [DVec3; 3],
     /// Vertex positions in the world.
     corners: [Point<World>; 3],
