@@ -29,6 +29,7 @@ mod check;
 mod color;
 mod compare;
 mod compare_projections;
+mod content_digest;
 mod curve;
 mod deferred;
 mod demo;

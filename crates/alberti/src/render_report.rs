@@ -16,12 +16,13 @@
 //! Several pictures print several documents, one after the other.
 
 use super::CliError;
+use super::content_digest::{ContentDigest, to_hexadecimal};
 use super::render_job::{RenderJob, RenderOutput};
 use homog::PixelRect;
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::io::{Read, Write};
+use std::fs::File;
+use std::io::Write;
 use std::path::Path;
 
 /// The version of the JSON schema.
@@ -122,17 +123,7 @@ fn models_json(job: &RenderJob<'_>) -> Vec<Value> {
 /// # Errors
 /// If the file cannot be read.
 fn file_json(path: &Path) -> Result<Value, CliError> {
-    let mut file = std::fs::File::open(path)?;
-    let (mut hash, mut bytes) = (Sha256::new(), 0);
-    let mut block = vec![0; 1 << 16];
-    loop {
-        let count = file.read(&mut block)?;
-        if count == 0 {
-            break;
-        }
-        hash.update(&block[..count]);
-        bytes += count;
-    }
-    let sha256: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let ContentDigest { bytes, sha256 } = ContentDigest::of_reader(&mut File::open(path)?)?;
+    let sha256 = to_hexadecimal(&sha256);
     Ok(json!({"path": path.to_string_lossy(), "bytes": bytes, "sha256": sha256}))
 }

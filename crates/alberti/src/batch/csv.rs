@@ -67,7 +67,7 @@ impl CsvRecord {
 /// Where in a field a character stands.
 #[derive(Clone, Copy)]
 enum FieldState {
-    /// At its begin.
+    /// At its beginning.
     Start,
     /// In a field without quotes.
     Plain,

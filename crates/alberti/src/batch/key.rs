@@ -8,6 +8,7 @@
 //! mounted in ways that change their times but not their bytes.
 
 use super::job::BatchJob;
+use crate::content_digest::to_hexadecimal;
 use crate::referenced_files::referenced_files;
 use crate::render::is_scene_file;
 use pipeline::Origin;
@@ -90,7 +91,7 @@ impl KeyMaker {
             }
             hash.update(self.content_hash(&job.input));
         }
-        hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+        to_hexadecimal(&hash.finalize()[..16])
     }
 
     /// The hash of a model or a scene with all that it refers to.

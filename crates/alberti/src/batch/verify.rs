@@ -7,15 +7,15 @@ use super::report_reader::{RecordLine, read_reports};
 use super::tar_format::read_archive;
 use super::tar_output::sample_name;
 use crate::CliError;
+use crate::content_digest::{ContentDigest, parse_sha256};
 use crate::messages::print_stdout;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::BufReader;
 use std::path::Path;
 
-/// The size of the pieces in which a picture is hashed.
-const PIECE_BYTES: usize = 1 << 16;
+/// The size of the buffer in which tar files are read.
+const BUFFER_BYTES: usize = 1 << 16;
 
 /// Verifies the jobs and prints what is wrong, one picture a line, then the counts; whether nothing
 /// is wrong.
@@ -107,20 +107,13 @@ struct Verifier<'a> {
 }
 
 /// The pictures of a tar file by the hash of their names, or why it cannot be read.
-type TarContent = Result<BTreeMap<u64, PictureHash>, String>;
-
-/// Size and SHA-256 of a picture.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-struct PictureHash {
-    bytes: u64,
-    sha256: [u8; 32],
-}
+type TarContent = Result<BTreeMap<u64, ContentDigest>, String>;
 
 /// A picture, as it was recorded. Those that were made come first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum RecordedPicture {
     /// It was made, and is in the tar file of this index if it is in one.
-    Done(PictureHash, Option<u32>),
+    Done(ContentDigest, Option<u32>),
     Failed,
 }
 
@@ -169,7 +162,12 @@ impl<'a> Verifier<'a> {
     }
 
     /// Compares a picture with its record.
-    fn verify_picture(&mut self, output: &str, recorded: PictureHash, tar: Option<u32>) -> Verdict {
+    fn verify_picture(
+        &mut self,
+        output: &str,
+        recorded: ContentDigest,
+        tar: Option<u32>,
+    ) -> Verdict {
         let found = match tar {
             Some(tar) => self.picture_in_tar(output, tar),
             None => match File::open(self.out_dir.join(output)) {
@@ -181,7 +179,7 @@ impl<'a> Verifier<'a> {
                     ));
                 }
                 Ok(mut file) => {
-                    PictureHash::of_reader(&mut file).map_err(|cause| cause.to_string())
+                    ContentDigest::of_reader(&mut file).map_err(|cause| cause.to_string())
                 }
             },
         };
@@ -193,7 +191,7 @@ impl<'a> Verifier<'a> {
     }
 
     /// The picture in a tar file, which is read once.
-    fn picture_in_tar(&mut self, output: &str, tar: u32) -> Result<PictureHash, String> {
+    fn picture_in_tar(&mut self, output: &str, tar: u32) -> Result<ContentDigest, String> {
         let (name, out_dir) = (&self.tars[tar as usize], self.out_dir);
         let content = self.contents.entry(tar).or_insert_with(|| read_tar(&out_dir.join(name)));
         let pictures = content.as_ref().map_err(|fault| format!("{name}: {fault}"))?;
@@ -206,8 +204,8 @@ impl<'a> Verifier<'a> {
 fn read_tar(path: &Path) -> TarContent {
     let mut pictures = BTreeMap::new();
     let file = File::open(path).map_err(|cause| cause.to_string())?;
-    let read = read_archive(&mut BufReader::with_capacity(PIECE_BYTES, file), |name, content| {
-        pictures.insert(record_hash(name, ""), PictureHash::of_reader(content)?);
+    let read = read_archive(&mut BufReader::with_capacity(BUFFER_BYTES, file), |name, content| {
+        pictures.insert(record_hash(name, ""), ContentDigest::of_reader(content)?);
         Ok(())
     });
     read.map(|()| pictures).map_err(|cause| cause.to_string())
@@ -220,35 +218,8 @@ impl RecordedPicture {
             return Some(Self::Failed);
         }
         let sha256 = parse_sha256(&record.sha256)?;
-        Some(Self::Done(PictureHash { bytes: record.bytes, sha256 }, tar))
+        Some(Self::Done(ContentDigest { bytes: record.bytes, sha256 }, tar))
     }
-}
-
-impl PictureHash {
-    fn of_reader(reader: &mut dyn Read) -> std::io::Result<Self> {
-        let (mut hash, mut bytes, mut piece) = (Sha256::new(), 0, vec![0; PIECE_BYTES]);
-        loop {
-            let count = reader.read(&mut piece)?;
-            if count == 0 {
-                return Ok(Self { bytes, sha256: hash.finalize().into() });
-            }
-            hash.update(&piece[..count]);
-            bytes += count as u64;
-        }
-    }
-}
-
-/// Parses a SHA-256 in hexadecimal.
-fn parse_sha256(text: &str) -> Option<[u8; 32]> {
-    let mut sha256 = [0; 32];
-    if text.len() != 2 * sha256.len() {
-        return None;
-    }
-    for (at, byte) in sha256.iter_mut().enumerate() {
-        let digit = |at: usize| char::from(text.as_bytes()[at]).to_digit(16);
-        *byte = u8::try_from(digit(2 * at)? * 16 + digit(2 * at + 1)?).ok()?;
-    }
-    Some(sha256)
 }
 
 #[cfg(test)]
@@ -258,11 +229,12 @@ mod tests {
     use crate::batch::report::{JobRecord, ReportWriter};
     use crate::batch::tar_output::TarOutput;
     use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::content_digest::hexadecimal_sha256;
     use std::path::PathBuf;
 
     /// The record of a picture of these bytes.
     fn record_of(output: &str, picture: &[u8]) -> JobRecord {
-        let sha256 = Sha256::digest(picture).iter().map(|byte| format!("{byte:02x}")).collect();
+        let sha256 = hexadecimal_sha256(picture);
         JobRecord { bytes: picture.len() as u64, sha256, ..done_record(output, "k") }
     }
 
@@ -340,13 +312,5 @@ mod tests {
         assert!(counts.count_verdict(&Verdict::Failed).is_some());
         assert!(!counts.is_all_whole());
         assert_eq!(counts.summary(), "1 whole, 0 missing, 0 wrong, 1 failed");
-    }
-
-    #[test]
-    fn hexadecimal_is_parsed_exactly() {
-        assert_eq!(parse_sha256(&"0f".repeat(32)), Some([15; 32]));
-        for wrong in ["", "0f", &"0g".repeat(32), &"ä".repeat(32), &"+f".repeat(32)] {
-            assert_eq!(parse_sha256(wrong), None, "{wrong}");
-        }
     }
 }

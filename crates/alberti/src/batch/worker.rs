@@ -6,9 +6,9 @@ use super::protocol::{FramedAnswer, PictureRequest, PictureTarget, WorkAnswer, W
 use super::render_flags::RenderFlags;
 use super::worker_scene::SceneLoader;
 use crate::CliError;
+use crate::content_digest::hexadecimal_sha256;
 use crate::memory_limit::{limit_process_memory, parse_memory_size};
 use pipeline::{RenderContext, Renderer, Textures};
-use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{BufRead as _, ErrorKind, Write};
 use std::path::Path;
@@ -147,11 +147,6 @@ impl Worker {
         let warnings = warnings.map(model::Diagnostic::sentence);
         Ok((png, warnings.chain(drawing.iter().map(ToString::to_string)).collect()))
     }
-}
-
-/// The SHA-256 of a picture in hexadecimal.
-fn hexadecimal_sha256(png: &[u8]) -> String {
-    Sha256::digest(png).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Writes a picture whole or not at all: to a file of this worker alone, which then takes the
