@@ -21,12 +21,13 @@ use std::process::Command;
 const SHIPPED: [&str; 3] = ["Cargo.toml", "crates/web/Cargo.toml", "crates/python/Cargo.toml"];
 
 /// The manifests of all packages of the project: one compiler is enough for each.
-const MANIFESTS: [&str; 5] = [
+const MANIFESTS: [&str; 6] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
     "crates/python/Cargo.toml",
     "tests/fuzz/Cargo.toml",
     "tests/peers/Cargo.toml",
+    "xtask/site/Cargo.toml",
 ];
 
 /// Checks the dependencies.
