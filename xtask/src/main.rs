@@ -20,6 +20,7 @@ mod metadata;
 mod models;
 mod program;
 mod python;
+mod release;
 mod soak;
 mod test;
 mod tidy;
@@ -132,6 +133,12 @@ const COMMANDS: &[Command] = &[
         arguments: "maths|raster|compare|--page|--instructions …",
         about: "Measure speed relative to other programs or commits, or count instructions",
         run: bench::run_bench,
+    },
+    Command {
+        name: "release",
+        arguments: "OUT|--check|--deb",
+        about: "Build what is handed out, or check that it works and that its bytes are reproducible",
+        run: release::run_release,
     },
     Command {
         name: "simulate-farm",

@@ -10,6 +10,8 @@ use std::path::PathBuf;
 pub struct Package {
     /// The name in its manifest.
     pub name: String,
+    /// The version in its manifest.
+    pub version: String,
     /// Names of the packages in its table `[dependencies]`; those of tests and build scripts are
     /// left out.
     pub dependencies: Vec<String>,
@@ -85,6 +87,7 @@ impl Package {
         let tests = targets.filter(|target| as_list(&target["kind"]).iter().any(|k| k == "test"));
         Self {
             name: as_text(&json["name"]),
+            version: as_text(&json["version"]),
             dependencies: normal.map(|entry| as_text(&entry["name"])).collect(),
             tests: tests
                 .map(|target| (as_text(&target["name"]), as_text(&target["src_path"]).into()))

@@ -63,6 +63,11 @@ impl Program {
         Ok(Self { path: folder.join("release").join(name) })
     }
 
+    /// A program that is built already.
+    pub fn at(path: &Path) -> Self {
+        Self { path: path.to_owned() }
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path

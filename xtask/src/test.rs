@@ -104,7 +104,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
 }
 
 /// The steps after the integration tests.
-fn last_steps() -> [Step; 8] {
+fn last_steps() -> [Step; 9] {
     [
         Step {
             name: "docs".into(),
@@ -132,6 +132,11 @@ fn last_steps() -> [Step; 8] {
             "site",
             "the documentation becomes pages: the guides' commands work, and links lead somewhere",
             crate::docs::check_docs,
+        ),
+        Step::cargo(
+            "package",
+            "the Debian package works in an empty Debian, and its removal leaves nothing there",
+            &["xtask release --deb"],
         ),
         Step::cargo(
             "browser",

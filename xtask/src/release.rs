@@ -1,0 +1,146 @@
+//! `cargo xtask release`: what is handed out, built so that anybody can build the same bytes.
+//!
+//! ```text
+//! release OUT               everything for users, in an empty folder
+//! release --check           the same as a dry run: twice, in two folders, with all its tests
+//! release --deb [PROGRAM]   the Debian package of the release build, or of another, tried in an
+//!                           empty Debian
+//! ```
+//! Nothing is published; `RELEASING.md` says how that is done. Tools of Debian are needed: `tar`,
+//! `gzip`, `dpkg-deb`, `sha256sum`, and `debootstrap` for the trial.
+
+mod archives;
+mod build;
+mod contents;
+mod debian;
+mod sbom;
+mod third_party;
+
+use crate::Outcome;
+use crate::metadata::Metadata;
+use crate::program::{Build, Program, capture_output};
+use crate::workspace::{create_folder, list_files, project_root, read_text, target_folder};
+use build::Programs;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// The most bytes of the program in a package. To be lowered to 8,000,000: optimizing all crates
+/// together (`lto`) saves less, and makes pictures take 70 % more instructions.
+const MAX_PROGRAM_BYTES: u64 = 10_000_000;
+
+/// Builds, or checks, what is handed out.
+pub fn run_release(arguments: &[String]) -> Outcome {
+    let here = std::env::current_dir().map_err(|error| error.to_string())?;
+    match arguments {
+        [flag] if flag == "--check" => check_release(),
+        [flag] if flag == "--deb" => check_debian_package(&Program::build(Build::Release)?),
+        [flag, program] if flag == "--deb" => {
+            check_debian_package(&Program::at(&here.join(program)))
+        }
+        [folder] if !folder.starts_with('-') => {
+            let out = here.join(folder);
+            if out.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
+                return Err(format!("{} is not empty", out.display()));
+            }
+            write_release(project_root(), &target_folder().join("release-build"), &out).map(drop)
+        }
+        _ => Err("one of: OUT, --check, --deb [PROGRAM]".to_owned()),
+    }
+}
+
+/// Version and time of a release.
+pub struct Release {
+    /// The version of the workspace.
+    pub version: String,
+    /// Seconds since 1970, of the last commit unless `SOURCE_DATE_EPOCH` says otherwise.
+    pub epoch: String,
+}
+
+impl Release {
+    fn read() -> Result<Self, String> {
+        let metadata = Metadata::load()?;
+        let program = metadata.package("alberti").ok_or("there is no package alberti")?;
+        let epoch = match std::env::var("SOURCE_DATE_EPOCH") {
+            Ok(epoch) => epoch,
+            Err(_) => {
+                let mut git = Command::new("git");
+                git.current_dir(project_root()).args(["log", "-1", "--format=%ct"]);
+                capture_output(&mut git).map_err(|error| {
+                    format!("{error}\n  = help: outside of a checkout set SOURCE_DATE_EPOCH")
+                })?
+            }
+        };
+        Ok(Self { version: program.version.clone(), epoch: epoch.trim().to_owned() })
+    }
+}
+
+/// Builds the sources in a folder and writes everything that is handed out.
+fn write_release(sources: &Path, target: &Path, out: &Path) -> Result<Programs, String> {
+    let release = Release::read()?;
+    create_folder(out)?;
+    let programs = build::build_programs(sources, target)?;
+    check_size(&programs.dynamic)?;
+    let dependencies = third_party::shipped_dependencies()?;
+    let notices = third_party::license_texts(&dependencies)?;
+    let bill = sbom::bill_of_materials(&release, &dependencies);
+    let staging = target.join("staging");
+    let files = contents::packaged_files(&programs.dynamic, &notices)?;
+    archives::write_deb(&release, &files, &staging.join("deb"), out)?;
+    let files = contents::packaged_files(&programs.standalone, &notices)?;
+    archives::write_tar(&release, &files, &staging.join("tar"), out)?;
+    write_file(&out.join(format!("alberti-{}.cdx.json", release.version)), bill.as_bytes())?;
+    write_file(&out.join("THIRD-PARTY-LICENSES.txt"), notices.as_bytes())?;
+    archives::write_checksums(out)?;
+    println!("{}: {} files", out.display(), fs::read_dir(out).map_or(0, Iterator::count));
+    Ok(programs)
+}
+
+/// Two releases of two copies of the sources in folders of different names, which must be equal.
+fn check_release() -> Outcome {
+    let folder = target_folder().join("release-check");
+    let _ = fs::remove_dir_all(&folder);
+    let mut builds = Vec::new();
+    for name in ["one", "the other folder"] {
+        let sources = folder.join(name).join("sources");
+        build::copy_sources(&sources)?;
+        let out = folder.join(name).join("out");
+        let programs = write_release(&sources, &folder.join(name).join("target"), &out)?;
+        builds.push((read_text(&out.join(archives::CHECKSUMS))?, out, programs));
+    }
+    let [(first, out, programs), (second, ..)] = builds.as_slice() else { return Ok(()) };
+    print!("{first}");
+    if first != second {
+        let folder = folder.display();
+        return Err(format!("two builds differ (see {folder}):\n{first}and\n{second}"));
+    }
+    println!("two builds in two folders have the same bytes");
+    let deb = list_files(out, "deb")?.pop().ok_or("there is no package")?;
+    debian::try_package(&deb, &Program::at(&programs.dynamic))
+}
+
+/// Packs a program for Debian and tries the package.
+fn check_debian_package(program: &Program) -> Outcome {
+    let release = Release::read()?;
+    let folder = target_folder().join("deb");
+    create_folder(&folder)?;
+    let notices = third_party::license_texts(&third_party::shipped_dependencies()?)?;
+    let files = contents::packaged_files(program.path(), &notices)?;
+    let deb = archives::write_deb(&release, &files, &folder.join("staging"), &folder)?;
+    debian::try_package(&deb, program)
+}
+
+/// A program must stay small.
+fn check_size(program: &Path) -> Outcome {
+    let bytes = fs::metadata(program).map_err(|error| error.to_string())?.len();
+    println!("{} has {bytes} bytes", program.display());
+    if bytes > MAX_PROGRAM_BYTES {
+        return Err(format!("the program has {bytes} bytes, more than {MAX_PROGRAM_BYTES}"));
+    }
+    Ok(())
+}
+
+/// Writes a file; the error names it.
+fn write_file(path: &Path, bytes: &[u8]) -> Outcome {
+    fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))
+}

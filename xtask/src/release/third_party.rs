@@ -1,0 +1,152 @@
+//! What the program is built with besides its own code, and the licenses that have to go with it.
+
+use crate::program::{capture_output, cargo_command};
+use crate::workspace::{project_root, read_text};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A crate that is linked into the program.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Dependency {
+    /// Its name on the registry.
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// Its license, as an SPDX expression.
+    pub license: String,
+    /// The SHA-256 of its archive, as the lock file has it; crates of the project have none.
+    pub checksum: Option<String>,
+    /// Where its sources are.
+    folder: PathBuf,
+}
+
+impl Dependency {
+    /// Whether it is one of the project itself.
+    pub fn is_ours(&self) -> bool {
+        self.checksum.is_none()
+    }
+}
+
+/// All crates that are linked into the program on this machine, sorted; procedural macros and what
+/// builds are not.
+pub fn shipped_dependencies() -> Result<Vec<Dependency>, String> {
+    let mut tree = cargo_command(&["tree", "--locked", "--package", "alberti", "--prefix", "none"]);
+    tree.args(["--edges", "normal,no-proc-macro", "--format", "{p}"]);
+    let linked: BTreeSet<(String, String)> =
+        capture_output(&mut tree)?.lines().filter_map(name_and_version).collect();
+    let text =
+        capture_output(&mut cargo_command(&["metadata", "--locked", "--format-version", "1"]))?;
+    let metadata: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    let checksums = checksums(&read_text(&project_root().join("Cargo.lock"))?);
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let mut found: Vec<Dependency> = metadata["packages"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(|package| {
+            let key = (text(&package["name"]), text(&package["version"]));
+            let manifest = PathBuf::from(text(&package["manifest_path"]));
+            Dependency {
+                license: text(&package["license"]).replace('/', " OR "),
+                checksum: checksums.get(&key).cloned(),
+                folder: manifest.parent().unwrap_or(&manifest).to_owned(),
+                name: key.0,
+                version: key.1,
+            }
+        })
+        .filter(|package| linked.contains(&(package.name.clone(), package.version.clone())))
+        .collect();
+    found.sort();
+    Ok(found)
+}
+
+/// The name and the version in a line of `cargo tree`: `png v0.18.1`.
+fn name_and_version(line: &str) -> Option<(String, String)> {
+    let mut words = line.split_whitespace();
+    Some((words.next()?.to_owned(), words.next()?.strip_prefix('v')?.to_owned()))
+}
+
+/// The checksums in a lock file, by name and version.
+fn checksums(lock: &str) -> BTreeMap<(String, String), String> {
+    let field = |package: &str, name: &str| {
+        let line = package.lines().find_map(|line| line.strip_prefix(name))?;
+        Some(line.trim_start_matches(" = ").trim_matches('"').to_owned())
+    };
+    lock.split("[[package]]")
+        .filter_map(|package| {
+            let key = (field(package, "name")?, field(package, "version")?);
+            Some((key, field(package, "checksum")?))
+        })
+        .collect()
+}
+
+/// The licenses of all crates of others and of the standard library, with their texts.
+///
+/// # Errors
+/// If a crate comes without its text, and may not be used under the Apache License either.
+pub fn license_texts(dependencies: &[Dependency]) -> Result<String, String> {
+    let mut users_by_text: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let apache = read_text(&project_root().join("LICENSE-APACHE"))?;
+    let mut list = String::new();
+    for dependency in dependencies.iter().filter(|dependency| !dependency.is_ours()) {
+        let Dependency { name, version, license, folder, .. } = dependency;
+        list += &format!("  {name} {version}: {license}\n");
+        let mut texts = texts_in(folder)?;
+        if texts.is_empty() {
+            // Under that license no copyright line of the crate itself is needed.
+            if !license.contains("Apache-2.0") {
+                return Err(format!("{name} {version} has no text of its license `{license}`"));
+            }
+            texts.push(apache.clone());
+        }
+        for text in texts {
+            users_by_text.entry(text).or_default().push(format!("{name} {version}"));
+        }
+    }
+    users_by_text.entry(apache).or_default().push("the Rust standard library".to_owned());
+    let mut page = format!(
+        "The program alberti is licensed as MIT OR Apache-2.0. It contains the following, under the\n\
+         licenses named, whose texts follow.\n\n{list}  \
+         the Rust standard library: MIT OR Apache-2.0\n\n\
+         The program for download, which needs no C library, contains that of GNU (LGPL-2.1-or-later)\n\
+         and libgcc (GPL-3.0-or-later WITH GCC-exception-3.1); the sources of alberti are enough to link it\n\
+         with other versions of them.\n"
+    );
+    let mut sections: Vec<(Vec<String>, String)> =
+        users_by_text.into_iter().map(|(text, users)| (users, text)).collect();
+    sections.sort();
+    for (users, text) in sections {
+        page += &format!("\n{}\n{}\n\n{}\n", "=".repeat(80), users.join(", "), text.trim_end());
+    }
+    Ok(page)
+}
+
+/// The texts of licenses and notices in a folder, with plain ends of lines.
+fn texts_in(folder: &Path) -> Result<Vec<String>, String> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let is_license = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_uppercase();
+        let begins = ["LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE"];
+        path.is_file() && begins.iter().any(|begin| name.starts_with(begin))
+    };
+    let mut paths: Vec<PathBuf> =
+        entries.filter_map(|entry| Some(entry.ok()?.path())).filter(is_license).collect();
+    paths.sort();
+    paths.iter().map(|path| Ok(read_text(path)?.replace("\r\n", "\n"))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_the_tree_and_of_the_lock_file_are_read() {
+        let key = ("png".to_owned(), "0.18.1".to_owned());
+        assert_eq!(name_and_version("png v0.18.1 (*)"), Some(key.clone()));
+        let lock = "version = 4\n\n[[package]]\nname = \"png\"\nversion = \"0.18.1\"\n\
+                    checksum = \"ab\"\n\n[[package]]\nname = \"ours\"\nversion = \"0.1.0\"\n";
+        assert_eq!(checksums(lock), BTreeMap::from([(key, "ab".to_owned())]));
+    }
+}
