@@ -28,22 +28,24 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The models of the explorer's lessons, in `scenes/models`.
+/// The models of the explorer's lessons.
 const LESSON_MODELS: [&str; 5] =
     ["crate.glb", "floor.glb", "house.glb", "mexican_hat.glb", "mexican_hat_lines.glb"];
 
 /// Writes `explorer_files.rs`: the explorer's page, the models of its lessons, and its engine, each
 /// compressed (zlib).
+///
+/// `embedded` has links to page and models, so that the package contains them.
 fn embed_explorer(engine: Option<&Path>) -> Result<()> {
     let folder_of = |name: &str| PathBuf::from(std::env::var_os(name).unwrap_or_default());
     let (root, out) = (folder_of("CARGO_MANIFEST_DIR"), folder_of("OUT_DIR"));
-    let page = root.join("../explorer/page");
+    let page = root.join("embedded/page");
     println!("cargo::rerun-if-changed={}", page.display());
     let entries: Result<Vec<_>> = std::fs::read_dir(&page)?.collect();
     let mut files: Vec<(String, PathBuf)> =
         entries?.iter().map(|entry| (file_name(&entry.path()), entry.path())).collect();
     files.sort();
-    let models = root.join("../../scenes/models");
+    let models = root.join("embedded/models");
     files.extend(LESSON_MODELS.map(|name| (format!("models/{name}"), models.join(name))));
     let engine_files = |folder: &Path| ["web.js", "web_bg.wasm"].map(|name| folder.join(name));
     files.extend(engine.into_iter().flat_map(engine_files).map(|path| (file_name(&path), path)));

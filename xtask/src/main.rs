@@ -136,7 +136,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "release",
-        arguments: "OUT|--check|--deb",
+        arguments: "OUT|--check|--crates|--deb",
         about: "Build what is handed out, or check that it works and that its bytes are reproducible",
         run: release::run_release,
     },

@@ -60,14 +60,16 @@ impl Metadata {
         }
     }
 
-    /// A package of the workspace by its name.
+    /// A package of the workspace by its name, or by the one in code.
     pub fn package(&self, name: &str) -> Option<&Package> {
-        self.packages.iter().find(|package| package.name == name)
+        self.packages
+            .iter()
+            .find(|package| package.name == name || short_name(&package.name) == name)
     }
 
     /// Names of all packages that a package is built with, directly or not.
     pub fn transitive_dependencies(&self, name: &str) -> BTreeSet<&str> {
-        let roots = self.resolved.iter().filter(|(_, (known, _))| known == name);
+        let roots = self.resolved.iter().filter(|(_, (known, _))| short_name(known) == name);
         let mut pending: Vec<&String> = roots.flat_map(|(_, (_, ids))| ids).collect();
         let (mut visited, mut names) = (BTreeSet::new(), BTreeSet::new());
         while let Some(id) = pending.pop() {
@@ -94,6 +96,11 @@ impl Package {
                 .collect(),
         }
     }
+}
+
+/// The name by which code knows a package: the short names are taken on the registry.
+pub fn short_name(package: &str) -> &str {
+    package.strip_prefix("alberti-").unwrap_or(package)
 }
 
 fn as_text(value: &Value) -> String {

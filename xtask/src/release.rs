@@ -5,6 +5,7 @@
 //! release --check           the same as a dry run: twice, in two folders, with all its tests
 //! release --deb [PROGRAM]   the Debian package of the release build, or of another, tried in an
 //!                           empty Debian
+//! release --crates          the crates as archives for the registry, not built
 //! ```
 //! Nothing is published; `RELEASING.md` says how that is done. Tools of Debian are needed: `tar`,
 //! `gzip`, `dpkg-deb`, `sha256sum`, and `debootstrap` for the trial.
@@ -12,6 +13,7 @@
 mod archives;
 mod build;
 mod contents;
+mod crates;
 mod debian;
 mod sbom;
 mod third_party;
@@ -34,6 +36,7 @@ pub fn run_release(arguments: &[String]) -> Outcome {
     let here = std::env::current_dir().map_err(|error| error.to_string())?;
     match arguments {
         [flag] if flag == "--check" => check_release(),
+        [flag] if flag == "--crates" => crates::package_crates(false),
         [flag] if flag == "--deb" => check_debian_package(&Program::build(Build::Release)?),
         [flag, program] if flag == "--deb" => {
             check_debian_package(&Program::at(&here.join(program)))
@@ -45,7 +48,7 @@ pub fn run_release(arguments: &[String]) -> Outcome {
             }
             write_release(project_root(), &target_folder().join("release-build"), &out).map(drop)
         }
-        _ => Err("one of: OUT, --check, --deb [PROGRAM]".to_owned()),
+        _ => Err("one of: OUT, --check, --crates, --deb [PROGRAM]".to_owned()),
     }
 }
 
@@ -98,6 +101,7 @@ fn write_release(sources: &Path, target: &Path, out: &Path) -> Result<Programs, 
 
 /// Two releases of two copies of the sources in folders of different names, which must be equal.
 fn check_release() -> Outcome {
+    crates::package_crates(true)?;
     let folder = target_folder().join("release-check");
     let _ = fs::remove_dir_all(&folder);
     let mut builds = Vec::new();

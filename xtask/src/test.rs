@@ -10,7 +10,7 @@ mod no_std;
 mod step;
 
 use crate::Outcome;
-use crate::metadata::Metadata;
+use crate::metadata::{Metadata, short_name};
 use crate::tidy::NO_STD;
 use crate::workspace::read_text;
 use std::path::PathBuf;
@@ -46,8 +46,9 @@ pub fn run_tests(arguments: &[String]) -> Outcome {
 
 /// All steps in the order in which they run.
 fn all_steps() -> Result<Vec<Step>, String> {
-    let maths: String = NO_STD.iter().map(|name| format!(" --package {name}")).collect();
-    let without_maths: String = NO_STD.iter().map(|name| format!(" --exclude {name}")).collect();
+    let maths: String = NO_STD.iter().map(|name| format!(" --package alberti-{name}")).collect();
+    let without_maths: String =
+        NO_STD.iter().map(|name| format!(" --exclude alberti-{name}")).collect();
     let metadata = Metadata::load()?;
     let unit_tests = tests_of_crates(&metadata);
     let mut steps = vec![
@@ -104,7 +105,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
 }
 
 /// The steps after the integration tests.
-fn last_steps() -> [Step; 9] {
+fn last_steps() -> [Step; 10] {
     [
         Step {
             name: "docs".into(),
@@ -132,6 +133,11 @@ fn last_steps() -> [Step; 9] {
             "site",
             "the documentation becomes pages: the guides' commands work, and links lead somewhere",
             crate::docs::check_docs,
+        ),
+        Step::cargo(
+            "crates",
+            "every crate can be packed for the registry, with what its manifest has to say",
+            &["xtask release --crates"],
         ),
         Step::cargo(
             "package",
@@ -170,7 +176,7 @@ fn integration_tests(metadata: &Metadata) -> Result<Vec<Step>, String> {
 /// Flags for the integration tests of the crates, besides those of mathematics.
 fn tests_of_crates(metadata: &Metadata) -> String {
     let others = metadata.packages.iter().filter(|package| {
-        package.name != "alberti-tests" && !NO_STD.contains(&package.name.as_str())
+        package.name != "alberti-tests" && !NO_STD.contains(&short_name(&package.name))
     });
     others.flat_map(|package| &package.tests).map(|(name, _)| format!(" --test {name}")).collect()
 }

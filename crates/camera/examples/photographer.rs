@@ -1,7 +1,7 @@
 //! A photographer's round: walks about a house, keeps all of it in the picture, and ends with a
 //! stereo pair.
 //!
-//! Run it with `cargo run -p camera --example photographer`.
+//! Run it with `cargo run -p alberti-camera --example photographer`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use camera::{FramingError, NamedView, Slopes, StereoRig, frame_parallel, frame_perspective};

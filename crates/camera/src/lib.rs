@@ -55,7 +55,7 @@
 //!   [`FramingError`] that names the values at fault and says what would do: a view-up along the
 //!   gaze comes back with one that works.
 //!
-//! `cargo run -p camera --example photographer` shows the crate at work.
+//! `cargo run -p alberti-camera --example photographer` shows the crate at work.
 //!
 //! Sources: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
 //! *Viewing* (CA-1 to CA-3); R. Kooima, *Generalized Perspective Projection*, 2008, for screens.

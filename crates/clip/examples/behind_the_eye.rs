@@ -1,6 +1,6 @@
 //! Why clipping comes before the divide: a rail that runs from ahead of the camera to behind it.
 //!
-//! Run it with `cargo run -p clip --example behind_the_eye`. It prints where the ends of the rail
+//! Run it with `cargo run -p alberti-clip --example behind_the_eye`. It prints where the ends of the rail
 //! come out, once divided right away and once clipped first, and draws both pictures.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 

@@ -1,7 +1,7 @@
 //! Answers a request with the models of a folder, and writes the answer to standard output.
 //!
 //! ```sh
-//! cargo run -p explorer --example answer -- scenes 'what=world&lesson=frustum&format=png' > world.png
+//! cargo run -p alberti-explorer --example answer -- scenes 'what=world&lesson=frustum&format=png' > world.png
 //! ```
 //! Each further request is answered too; the times are written to standard error.
 

@@ -1,6 +1,6 @@
 //! A railway in perspective: parallel rails meet, sleepers crowd towards the horizon.
 //!
-//! Run it with `cargo run -p homog --example railway`.
+//! Run it with `cargo run -p alberti-homog --example railway`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use homog::{Clip, Foreshortening, HPoint, Point, Projective, Vector, View};

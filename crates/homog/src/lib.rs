@@ -67,7 +67,7 @@
 //!
 //! Beside the three-dimensional types stand those of the line and the plane, [`HPoint1`],
 //! [`HPoint2`], [`HLine2`] and [`Homography`], on which the textbook explains homogeneous
-//! coordinates. `cargo run -p homog --example railway` shows the crate at work.
+//! coordinates. `cargo run -p alberti-homog --example railway` shows the crate at work.
 //!
 //! Source: P. Shirley, S. Marschner and others, *Fundamentals of Computer Graphics*, chapter 8,
 //! *Viewing*. Formula ids such as HO-2 or IN-1 in the documentation name entries of the project's

@@ -1,7 +1,7 @@
 //! A depth map of a model: for each pixel how far ahead of the eye the surface in it is, in the
 //! units of the model.
 //!
-//! Run it with `cargo run -p pipeline --example depth_map -- model.glb depth.npy`.
+//! Run it with `cargo run -p alberti-pipeline --example depth_map -- model.glb depth.npy`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use pipeline::render::passes::{Pass, render_passes};

@@ -1,6 +1,6 @@
 //! The color of a pixel explained: its triangles, the nearest surface point, and every stage to it.
 //!
-//! Run it with `cargo run -p pipeline --example explain -- model.glb 480 360`.
+//! Run it with `cargo run -p alberti-pipeline --example explain -- model.glb 480 360`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use pipeline::explain::{ApiConventions, TransformChain, explain_pixel};

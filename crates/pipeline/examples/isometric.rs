@@ -1,6 +1,6 @@
 //! An isometric line drawing of a model, hidden lines dashed, as an SVG.
 //!
-//! Run it with `cargo run -p pipeline --example isometric -- model.glb drawing.svg`.
+//! Run it with `cargo run -p alberti-pipeline --example isometric -- model.glb drawing.svg`.
 
 use pipeline::scene::file::{ProjectionFile, StyleFile};
 use pipeline::{Origin, Scene, Timings, draw_lines, write_file};

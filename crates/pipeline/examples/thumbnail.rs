@@ -1,6 +1,6 @@
 //! A thumbnail of a model: framed and lit by itself, as pixels in memory and as a PNG.
 //!
-//! Run it with `cargo run -p pipeline --example thumbnail -- model.glb thumb.png`.
+//! Run it with `cargo run -p alberti-pipeline --example thumbnail -- model.glb thumb.png`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use pipeline::{Origin, Scene, render};

@@ -1,6 +1,6 @@
 //! A turntable of a model: twelve pictures of a whole turn, loaded once and drawn two at a time.
 //!
-//! Run it with `cargo run -p pipeline --example turntable -- model.glb frames`.
+//! Run it with `cargo run -p alberti-pipeline --example turntable -- model.glb frames`.
 
 use pipeline::sequence::{Motion, Sequence};
 use pipeline::{Origin, Scene};

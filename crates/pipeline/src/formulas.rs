@@ -10,7 +10,7 @@
 use std::fmt;
 
 /// The file that the entries are read from.
-const PAGE: &str = include_str!("../../../docs/formulas.md");
+const PAGE: &str = include_str!("../formulas.md");
 
 /// An entry of the formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,8 +1,8 @@
 //! Tells what a 4×4 matrix is, and whether it looks like a known misprint.
 //!
 //! ```text
-//! cargo run -p projection --example doctor                 the slides' Ortho, as printed
-//! cargo run -p projection --example doctor -- 1 0 0 0 …    sixteen numbers, row by row
+//! cargo run -p alberti-projection --example doctor                 the slides' Ortho, as printed
+//! cargo run -p alberti-projection --example doctor -- 1 0 0 0 …    sixteen numbers, row by row
 //! ```
 
 #![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]

@@ -1,7 +1,7 @@
 //! A house in every planar projection of the textbooks, drawn with letters.
 //!
 //! ```text
-//! cargo run -p projection --example gallery
+//! cargo run -p alberti-projection --example gallery
 //! ```
 //!
 //! Walks the classification tree, takes a typical projection of each leaf, and draws the edges of a

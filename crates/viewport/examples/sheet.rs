@@ -1,7 +1,7 @@
 //! A drawing sheet: three views of a house to scale on A4, and what their viewports look like in
 //! pixels.
 //!
-//! Run it with `cargo run -p viewport --example sheet`.
+//! Run it with `cargo run -p alberti-viewport --example sheet`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
 use homog::{PixelConvention, Point};

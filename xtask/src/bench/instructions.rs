@@ -163,7 +163,7 @@ struct Count {
 
 fn count_all() -> Result<Vec<Count>, String> {
     let program = Program::build(Build::Release)?;
-    let example = ["--package", "raster", "--example", "workload"];
+    let example = ["--package", "alberti-raster", "--example", "workload"];
     run_command(cargo_command(&["build", "--quiet", "--release"]).args(example))?;
     let workload = target_folder().join("release/examples/workload");
     create_folder(&target_folder().join("bench"))?;

@@ -50,3 +50,30 @@ fn licenses(dependency: &Dependency) -> Value {
 fn package_url(dependency: &Dependency) -> String {
     format!("pkg:cargo/{}@{}", dependency.name, dependency.version.replace('+', "%2B"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::PathBuf;
+
+    #[test]
+    fn the_program_is_what_the_bill_is_of_and_the_rest_its_components() {
+        let dependency = |name: &str, version: &str, checksum: Option<&str>| Dependency {
+            name: name.into(),
+            version: version.into(),
+            license: "MIT".into(),
+            checksum: checksum.map(str::to_owned),
+            folder: PathBuf::new(),
+        };
+        let all = [dependency("alberti", "1.0.0", None), dependency("x", "2.0.0+3", Some("ab"))];
+        let release = Release { version: "1.0.0".into(), epoch: "0".into() };
+        let bill: Value = serde_json::from_str(&bill_of_materials(&release, &all)).unwrap();
+        assert_eq!(bill["metadata"]["component"]["purl"], "pkg:cargo/alberti@1.0.0");
+        assert_eq!(bill["components"].as_array().map(Vec::len), Some(1));
+        let component = &bill["components"][0];
+        assert_eq!(component["purl"], "pkg:cargo/x@2.0.0%2B3");
+        assert_eq!(component["licenses"][0]["expression"], "MIT");
+        assert_eq!(component["hashes"][0], json!({ "alg": "SHA-256", "content": "ab" }));
+        assert_eq!(bill["dependencies"][0]["dependsOn"][0], component["bom-ref"]);
+    }
+}

@@ -19,7 +19,7 @@ pub struct Dependency {
     /// The SHA-256 of its archive, as the lock file has it; crates of the project have none.
     pub checksum: Option<String>,
     /// Where its sources are.
-    folder: PathBuf,
+    pub folder: PathBuf,
 }
 
 impl Dependency {

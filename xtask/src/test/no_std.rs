@@ -8,16 +8,17 @@ use crate::program::{capture_output, cargo_command, run_command};
 use crate::tidy::NO_STD;
 
 /// Allowed dependencies; procedural macros, which run in the compiler, do not count.
-const ALLOWED_DEPENDENCIES: &[&str] = &["homog", "glam", "libm", "thiserror"];
+const ALLOWED_DEPENDENCIES: &[&str] = &["alberti-homog", "glam", "libm", "thiserror"];
 
 /// Builds each crate and inspects its dependency tree.
 pub fn check_no_std() -> Outcome {
     for name in NO_STD {
-        run_command(&mut cargo_command(&["build", "--quiet", "--package", name]))?;
+        let package = format!("alberti-{name}");
+        run_command(&mut cargo_command(&["build", "--quiet", "--package", &package]))?;
         let mut tree =
             cargo_command(&["tree", "--edges", "normal,no-proc-macro", "--prefix", "none"]);
-        let tree = capture_output(tree.args(["--format", "{p}|{f}", "--package", name]))?;
-        if let Some(fault) = tree.lines().find_map(|line| dependency_fault(name, line)) {
+        let tree = capture_output(tree.args(["--format", "{p}|{f}", "--package", &package]))?;
+        if let Some(fault) = tree.lines().find_map(|line| dependency_fault(&package, line)) {
             return Err(format!("{name} is not free of the standard library: {fault}"));
         }
         println!("{name} is built without std");
@@ -42,7 +43,7 @@ mod tests {
 
     #[test]
     fn strange_crates_and_std_features_are_faults() {
-        assert_eq!(dependency_fault("clip", "clip v0.1.0 (somewhere)|"), None);
+        assert_eq!(dependency_fault("alberti-clip", "alberti-clip v0.1.0 (somewhere)|"), None);
         assert_eq!(dependency_fault("clip", "glam v0.34.0|f64,libm (*)"), None);
         assert!(dependency_fault("clip", "camera v0.1.0|").is_some());
         assert!(dependency_fault("clip", "thiserror v2.0.0|default,std (*)").is_some());

@@ -3,7 +3,7 @@
 use super::Violation;
 use super::code::is_word_char;
 use super::source::Source;
-use crate::metadata::Metadata;
+use crate::metadata::{Metadata, short_name};
 
 /// Crates that only one part of the code may name, so that they can be replaced, and the paths of
 /// that part.
@@ -109,7 +109,7 @@ fn dependency_violations(metadata: &Metadata) -> Vec<Violation> {
         let is_stage = STAGES.contains(name);
         for dependency in &package.dependencies {
             let is_legal = if metadata.package(dependency).is_some() {
-                allowed.contains(&dependency.as_str())
+                allowed.contains(&short_name(dependency))
             } else {
                 !is_stage
                     || STAGE_DEPENDENCIES.contains(&dependency.as_str())

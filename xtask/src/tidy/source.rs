@@ -60,7 +60,8 @@ pub fn text_files() -> Result<Vec<(String, String)>, String> {
     paths.iter().map(|path| Ok((relative_path(path), read_text(path)?))).collect()
 }
 
-/// All files below a folder, sorted, without build output and hidden folders.
+/// All files below a folder, sorted, without build output, hidden folders, and links, which are read
+/// where they lead.
 fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let mut found = Vec::new();
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -68,6 +69,9 @@ fn walk_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     paths.sort();
     for path in paths {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_symlink() {
+            continue;
+        }
         if path.is_dir() {
             if !matches!(&*name, "target" | "node_modules") && !name.starts_with('.') {
                 found.extend(walk_files(&path)?);

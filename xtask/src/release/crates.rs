@@ -1,0 +1,48 @@
+//! The crates as the registry would get them.
+//!
+//! ```text
+//!  sources ─► copy with `publish = true` ─► cargo package --workspace ─► target/package-sources
+//! ```
+//! Cargo packs crates that depend on each other only where they may be published, which nobody
+//! should do by mistake; so the copy allows it. Without a build the step takes a second and finds
+//! what manifests lack; with it, each crate is built from its archive alone, so that what the
+//! archive lacks is found too.
+
+use super::build::copy_sources;
+use super::write_file;
+use crate::Outcome;
+use crate::program::{cargo_command, run_command};
+use crate::workspace::{list_files, read_text, target_folder};
+use std::fs;
+
+/// Members of the workspace that stay at home.
+const UNPUBLISHED: [&str; 3] = ["alberti-tests", "scene-models", "xtask"];
+
+/// Packs all crates; with `is_built` each is also built from its archive.
+pub fn package_crates(is_built: bool) -> Outcome {
+    let sources = target_folder().join("package-sources");
+    let _ = fs::remove_dir_all(&sources);
+    copy_sources(&sources)?;
+    let manifest = sources.join("Cargo.toml");
+    let text = read_text(&manifest)?;
+    let published = text.replace("\npublish = false\n", "\npublish = true\n");
+    if published == text {
+        return Err("Cargo.toml has no line `publish = false`: see RELEASING.md".to_owned());
+    }
+    write_file(&manifest, published.as_bytes())?;
+    let mut cargo = cargo_command(&["package", "--quiet", "--workspace", "--allow-dirty"]);
+    for name in UNPUBLISHED {
+        cargo.args(["--exclude", name]);
+    }
+    if !is_built {
+        cargo.arg("--no-verify");
+    }
+    run_command(cargo.current_dir(&sources).env_remove("CARGO_TARGET_DIR"))?;
+    let folder = sources.join("target/package");
+    for archive in list_files(&folder, "crate")? {
+        let bytes = fs::metadata(&archive).map_err(|error| error.to_string())?.len();
+        let name = archive.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        println!("{name:40} {bytes:>8} bytes");
+    }
+    Ok(())
+}
