@@ -2,7 +2,8 @@
 //! finite numbers is finite.
 //!
 //! `cargo xtask soak [--calls N] [--seed S] [NAME…]` runs it in release mode; names choose
-//! functions by a part of theirs. A call draws its arguments from a generator whose whole state is
+//! functions by a part of theirs. `cargo xtask soak --scenes MINUTES [--seed S]` renders random scenes
+//! instead. A call draws its arguments from a generator whose whole state is
 //! one number, so that a call that went wrong is made again from that number, to print its
 //! arguments.
 
@@ -16,6 +17,8 @@ mod finite;
 mod homog;
 mod projection;
 mod random;
+mod scene_text;
+mod scenes;
 mod subject;
 mod viewport;
 
@@ -33,6 +36,8 @@ const SUBJECTS: [&[Subject]; 5] =
 struct Order {
     calls: u64,
     seed: u64,
+    /// Minutes of random scenes, in the place of calls.
+    scenes: Option<u64>,
     names: Vec<String>,
 }
 
@@ -44,11 +49,21 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
+    subject::catch_panics_quietly();
+    if let Some(minutes) = order.scenes {
+        return match scenes::soak_scenes(minutes, order.seed) {
+            Ok(true) => ExitCode::SUCCESS,
+            Ok(false) => ExitCode::FAILURE,
+            Err(message) => {
+                println!("{message}");
+                ExitCode::FAILURE
+            }
+        };
+    }
     let chosen = |(name, _): &&Subject| {
         order.names.is_empty() || order.names.iter().any(|part| name.contains(part.as_str()))
     };
     let subjects: Vec<&Subject> = SUBJECTS.into_iter().flatten().filter(chosen).collect();
-    subject::catch_panics_quietly();
     let start = Instant::now();
     let reports = run(&subjects, &order);
     let calls: u64 = reports.iter().map(|report| report.calls).sum();
@@ -65,7 +80,7 @@ fn main() -> ExitCode {
 }
 
 fn order(mut arguments: impl Iterator<Item = String>) -> Result<Order, String> {
-    let mut order = Order { calls: 10_000_000, seed: 1, names: Vec::new() };
+    let mut order = Order { calls: 10_000_000, seed: 1, scenes: None, names: Vec::new() };
     while let Some(argument) = arguments.next() {
         let mut number = || {
             let text = arguments.next().unwrap_or_default();
@@ -75,6 +90,7 @@ fn order(mut arguments: impl Iterator<Item = String>) -> Result<Order, String> {
         match argument.as_str() {
             "--calls" => order.calls = number()?,
             "--seed" => order.seed = number()?,
+            "--scenes" => order.scenes = Some(number()?),
             // Cargo says so to every benchmark.
             "--bench" => {}
             flag if flag.starts_with('-') => return Err(format!("unknown flag `{flag}`")),

@@ -35,8 +35,8 @@ pub fn run(&(name, call): &Subject, calls: u64, seed: u64) -> Report {
                 report.fault = Some(format!("not finite for {}", arguments(call, bits)));
             }
             Err(_) => {
-                let message = LAST_PANIC.take();
-                report.fault = Some(format!("panicked {message} for {}", arguments(call, bits)));
+                let message = last_panic();
+                report.fault = Some(format!("{message} for {}", arguments(call, bits)));
             }
         }
     }
@@ -63,6 +63,11 @@ impl fmt::Display for Report {
 
 thread_local! {
     static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// The message of this thread's last panic.
+pub fn last_panic() -> String {
+    format!("panicked {}", LAST_PANIC.take())
 }
 
 /// Keeps a panic's message for the report instead of printing it.

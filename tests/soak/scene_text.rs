@@ -1,0 +1,173 @@
+//! Texts of random scenes, written from the declarations of the scene language.
+//!
+//! ```text
+//!  reference::all_types() ─► for each field: left out, or a value of its type ─► Scene(…)
+//! ```
+//! A field that the language gets tomorrow is in these scenes tomorrow. Most values are sensible,
+//! so that most scenes are drawn; what does not fit together has to be refused with a message.
+
+use crate::bits::Bits;
+use pipeline::scene::reference::{
+    FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types,
+};
+
+/// The files beside the scenes.
+pub struct SceneFiles {
+    /// Models, by their names.
+    pub models: Vec<String>,
+    /// An environment.
+    pub environment: &'static str,
+    /// An image for the background.
+    pub image: &'static str,
+    /// A scene to include.
+    pub include: &'static str,
+}
+
+/// The scene of a number.
+pub fn random_scene_text(number: u64, files: &SceneFiles) -> String {
+    let mut writer = SceneWriter { bits: Bits::new(number), files };
+    let scene = all_types()[0];
+    let Shape::Fields(fields) = scene.shape else { return String::new() };
+    // A scene needs a model, and small pictures make more scenes a minute.
+    let required = ["models", "image"];
+    let mut written = String::new();
+    for field in fields {
+        if required.contains(&field.name) || writer.is_chosen(field) {
+            written += &format!("  {}: {},\n", field.name, writer.value("Scene", field));
+        }
+    }
+    format!("Scene(\n{written})\n")
+}
+
+/// Writes values from a source of bits.
+struct SceneWriter<'a> {
+    bits: Bits,
+    files: &'a SceneFiles,
+}
+
+impl SceneWriter<'_> {
+    /// Whether a field is written: always if it has to be, else one time in three.
+    fn is_chosen(&mut self, field: &FieldEntry) -> bool {
+        !field.is_optional || self.below(3) == 0
+    }
+
+    /// The value of a field of the type or variant `owner`.
+    fn value(&mut self, owner: &str, field: &FieldEntry) -> String {
+        self.value_of_type(owner, field.name, &(field.value_type)())
+    }
+
+    fn value_of_type(&mut self, owner: &str, field: &str, value_type: &ValueType) -> String {
+        match value_type {
+            ValueType::Plain(words) => self.plain_value(owner, field, words),
+            ValueType::Declared(entry) => self.declared_value(field, entry),
+            ValueType::List(element) => {
+                let values = (0..=self.below(2)).map(|_| self.value_of_type(owner, field, element));
+                format!("[{}]", values.collect::<Vec<_>>().join(", "))
+            }
+            ValueType::Tuple(parts) => {
+                let values = parts.iter().map(|part| self.value_of_type(owner, field, part));
+                format!("({})", values.collect::<Vec<_>>().join(", "))
+            }
+        }
+    }
+
+    fn declared_value(&mut self, field: &str, entry: &TypeEntry) -> String {
+        match entry.shape {
+            Shape::Plain => self.number_or_color(field, entry.name),
+            Shape::Fields(fields) => self.fields(entry.name, fields),
+            Shape::Variants(variants) => {
+                let variant = &variants[self.below(variants.len())];
+                self.variant(variant)
+            }
+        }
+    }
+
+    /// A struct in brackets; its name is part of the language, too.
+    fn fields(&mut self, name: &str, fields: &[FieldEntry]) -> String {
+        let mut written = Vec::new();
+        for field in fields {
+            // Pictures of a scene are as small as this.
+            if self.is_chosen(field) || (name, field.name) == ("Image", "size") {
+                written.push(format!("{}: {}", field.name, self.value(name, field)));
+            }
+        }
+        format!("{name}({})", written.join(", "))
+    }
+
+    fn variant(&mut self, variant: &VariantEntry) -> String {
+        match variant.value_type {
+            Some(value_type) => {
+                let value = self.value_of_type(variant.name, variant.name, &value_type());
+                format!("{}({value})", variant.name)
+            }
+            None if variant.fields.is_empty() => variant.name.to_owned(),
+            None => self.fields(variant.name, variant.fields),
+        }
+    }
+
+    /// A number in words of the reference, a string or a truth value.
+    fn plain_value(&mut self, owner: &str, field: &str, words: &str) -> String {
+        match words {
+            "true or false" => (self.below(2) == 0).to_string(),
+            "string" => format!("{:?}", self.string(owner, field)),
+            "whole number" => self.whole_number(owner, field).to_string(),
+            other => unreachable!("no random value for {owner}.{field}: {other}"),
+        }
+    }
+
+    fn whole_number(&mut self, owner: &str, field: &str) -> usize {
+        match field {
+            "size" => 24 + self.below(40),
+            "samples" => [1, 4, 8, 16][self.below(4)],
+            "bits" => [8, 16][self.below(2)],
+            _ if owner == "Index" => self.below(2),
+            _ => 1 + self.below(4),
+        }
+    }
+
+    fn string(&mut self, owner: &str, field: &str) -> String {
+        match (owner, field) {
+            ("Model", "path") => self.files.models[self.below(self.files.models.len())].clone(),
+            ("File", "path") => self.files.environment.to_owned(),
+            (_, "path") => self.files.image.to_owned(),
+            _ => ["A", "Ø 12 ± 0.1", "视锥体", ""][self.below(4)].to_owned(),
+        }
+    }
+
+    /// A value of a type without parts that the language declares.
+    fn number_or_color(&mut self, field: &str, name: &str) -> String {
+        let [low, high] = match name {
+            "Finite" if field.ends_with("_degrees") => [-180.0, 180.0],
+            "Finite" => [-3.0, 3.0],
+            "Positive" => [0.05, 5.0],
+            "NonNegative" => [0.0, 5.0],
+            "FieldOfView" => [5.0, 120.0],
+            "Percent" => [0.0, 40.0],
+            "Fraction" => [0.0, 1.0],
+            "Softness" => [0.0, 10.0],
+            "CreaseAngle" => [0.0, 180.0],
+            "HatchSpacing" => [0.5, 20.0],
+            "LabelSize" => [4.0, 30.0],
+            "Scale" => [0.3, 2.0],
+            "Triple" => {
+                let [x, y, z] = [0; 3].map(|_| self.between(-3.0, 3.0));
+                return format!("({x}, {y}, {z})");
+            }
+            "Color" => return ["\"#345\"", "\"white\"", "\"#a0c8ff\""][self.below(3)].to_owned(),
+            "LightColor" => return ["\"#ffe0c0\"", "(0.2, 1, 3)"][self.below(2)].to_owned(),
+            "Paths" => return format!("[{:?}]", self.files.include),
+            other => unreachable!("no random value for {field}: {other}"),
+        };
+        self.between(low, high).to_string()
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.bits.next() >> 32) as usize % count
+    }
+
+    /// A number with three decimals, which a person can read.
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.bits.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
+        ((low + (high - low) * unit) * 1000.0).round() / 1000.0
+    }
+}
