@@ -80,6 +80,11 @@ const TARGETS: &[FuzzTarget] = &[
         words: Some("explorer.dict"),
     },
     FuzzTarget {
+        name: "job_list",
+        about: "a list of jobs for `batch`, as JSON lines or CSV",
+        words: Some("job_list.dict"),
+    },
+    FuzzTarget {
         name: "maths",
         about: "any numbers for the functions of `tests/soak`",
         words: None,
@@ -117,6 +122,7 @@ pub fn run_fuzz(arguments: &[String]) -> Outcome {
         println!("{}: {}; {seeds} seeds", target.name, target.about);
         let session = Session {
             program: programs.join(target.name),
+            is_talkative: target.name == "job_list",
             words: target.words.map(|file| project_root().join("tests/fuzz").join(file)),
             folder,
             minutes: order.minutes,

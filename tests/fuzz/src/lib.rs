@@ -6,6 +6,7 @@
 //!  scene, include ──────────────► the text of a scene ─────► parse ─► resolve ──────────► draw
 //!  background, environment ─────► an image of a scene ─────► decode ─► resolve ─────────► draw
 //!  camera ──────────────────────► K, R, t ─────────────────► matrices, and a scene ─────► draw
+//!  job_list ────────────────────► a list of jobs ──────────► every picture's name, flags, verdict
 //!  explorer ────────────────────► a query ─────────────────► the answer, or an error
 //!  maths ───────────────────────► numbers for the calls of `tests/soak`
 //!  raster ──────────────────────► triangles, lines and points, drawn whole, in parts, by all instructions
@@ -18,6 +19,7 @@ pub mod camera;
 pub mod case;
 pub mod explorer;
 pub mod glb;
+pub mod job_list;
 pub mod model;
 pub mod mutate;
 pub mod numbers;

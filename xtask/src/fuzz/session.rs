@@ -14,6 +14,8 @@ use std::time::{Duration, Instant};
 pub struct Session {
     /// The target's executable.
     pub program: PathBuf,
+    /// Whether the target prints messages for each case.
+    pub is_talkative: bool,
     /// The dictionary.
     pub words: Option<PathBuf>,
     /// Where `seeds`, `corpus` and `artifacts` are.
@@ -92,6 +94,10 @@ impl Session {
         // As the last resort only, for each case judges its own time and memory.
         let mut command = Command::new(&self.program);
         command.args(["-timeout=30", "-rss_limit_mb=2048", "-print_final_stats=1"]);
+        if self.is_talkative {
+            // Messages of the program under test; the fuzzer's own still come.
+            command.arg("-close_fd_mask=3");
+        }
         command.arg(format!("-artifact_prefix={}/", folder("artifacts").display()));
         if let Some(words) = &self.words {
             command.arg(format!("-dict={}", words.display()));
