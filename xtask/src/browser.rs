@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Where Debian installs it. Playwright's own browsers are not used.
-const CHROMIUM: &str = "/usr/bin/chromium";
+pub const CHROMIUM: &str = "/usr/bin/chromium";
 
 /// The least major version of Node that Playwright runs on.
 const NODE: u32 = 20;
@@ -39,7 +39,7 @@ pub fn run_browser(_arguments: &[String]) -> Outcome {
 }
 
 /// Requirements of the tests that cannot be had.
-fn missing_tool(folder: &Path) -> Option<String> {
+pub fn missing_tool(folder: &Path) -> Option<String> {
     if !Path::new(CHROMIUM).exists() {
         return Some("chromium is not installed (Debian: chromium)".into());
     }
@@ -62,7 +62,7 @@ fn missing_tool(folder: &Path) -> Option<String> {
 }
 
 /// The folder that `cargo xtask web` has written, if it holds the page as it is now.
-fn current_site() -> Option<PathBuf> {
+pub fn current_site() -> Option<PathBuf> {
     let site = target_folder().join("web");
     site.join("web_bg.wasm").metadata().ok()?;
     let page = std::fs::read_dir(project_root().join("crates/explorer/page")).ok()?;

@@ -21,13 +21,14 @@ use std::process::Command;
 const SHIPPED: [&str; 3] = ["Cargo.toml", "crates/web/Cargo.toml", "crates/python/Cargo.toml"];
 
 /// The manifests of all packages of the project: one compiler is enough for each.
-const MANIFESTS: [&str; 6] = [
+const MANIFESTS: [&str; 7] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
     "crates/python/Cargo.toml",
     "tests/fuzz/Cargo.toml",
     "tests/peers/Cargo.toml",
     "xtask/site/Cargo.toml",
+    "book/mdbook-alberti/Cargo.toml",
 ];
 
 /// Checks the dependencies.

@@ -7,6 +7,7 @@
 
 mod api;
 mod bench;
+mod book;
 mod browser;
 mod conformance;
 mod deny;
@@ -103,6 +104,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[OUT]",
         about: "Write the documentation as static pages, and check its commands and links",
         run: docs::run_docs,
+    },
+    Command {
+        name: "book",
+        arguments: "[--check|--pdf|--pot|--update|…]",
+        about: "Build the book in English and Chinese, check it, print it, or update its catalogs",
+        run: book::run_book,
     },
     Command {
         name: "gallery",

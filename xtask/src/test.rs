@@ -59,6 +59,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
                 "fmt --all --check",
                 "fmt --manifest-path crates/python/Cargo.toml --check",
                 "fmt --manifest-path xtask/site/Cargo.toml --check",
+                "fmt --manifest-path book/mdbook-alberti/Cargo.toml --check",
             ],
         ),
         Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[])),
@@ -95,7 +96,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
             "unit tests and doctests of the other crates",
             &[
                 &format!("test --workspace{without_maths} --lib --bins --examples{unit_tests}"),
-                &format!("test --workspace{without_maths} --doc"),
+                &format!("test --workspace{without_maths} --doc -- --skip book_pages"),
             ],
         ),
     ];
@@ -105,7 +106,7 @@ fn all_steps() -> Result<Vec<Step>, String> {
 }
 
 /// The steps after the integration tests.
-fn last_steps() -> [Step; 10] {
+fn last_steps() -> [Step; 11] {
     [
         Step {
             name: "docs".into(),
@@ -133,6 +134,11 @@ fn last_steps() -> [Step; 10] {
             "site",
             "the documentation becomes pages: the guides' commands work, and links lead somewhere",
             crate::docs::check_docs,
+        ),
+        Step::cargo(
+            "book",
+            "the book's code, figures and numbers work, its links lead somewhere, both editions are whole",
+            &["xtask book --test", "test --workspace --doc book_pages"],
         ),
         Step::cargo(
             "crates",

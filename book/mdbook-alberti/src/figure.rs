@@ -1,0 +1,152 @@
+//! Figures: what a block says about one, and its element in the page.
+
+use crate::command::{Job, Kind, hash};
+use crate::language::Language;
+use crate::marks::Fence;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The widest figure in pixels of CSS: the column of text.
+const WIDEST: f64 = 640.0;
+
+/// The attributes of a block ```` ```alberti ````.
+#[derive(PartialEq, Eq, Debug)]
+pub struct FigureMark {
+    /// The command that draws it.
+    pub job: Job,
+    /// The query of the explorer's page that shows the same state.
+    pub explore: Option<String>,
+}
+
+impl FigureMark {
+    /// Reads a block.
+    pub fn parse(fence: &Fence) -> Result<Self, String> {
+        let (mut kind, mut explore) = (Kind::Svg, None);
+        let words = shlex::split(fence.arguments()).ok_or("a quotation mark is not closed")?;
+        for word in words {
+            match word.split_once('=') {
+                Some(("format", "svg")) => kind = Kind::Svg,
+                Some(("format", "png")) => kind = Kind::Png,
+                Some(("explore", query)) => explore = Some(query.to_owned()),
+                _ => return Err(format!("unknown attribute `{word}`: format=png, explore=\"…\"")),
+            }
+        }
+        if fence.caption.as_ref().is_none_or(|caption| caption.text.trim().is_empty()) {
+            return Err(
+                "the paragraph right after a figure is its caption, all of it *emphasized*".into(),
+            );
+        }
+        let job = Job::parse(&fence.body, kind)?;
+        if job.words.iter().any(|word| word == "-o" || word == "--output") {
+            return Err("the output file of a figure is not written in its command".into());
+        }
+        Ok(Self { job, explore })
+    }
+}
+
+/// A figure that has been drawn.
+pub struct Figure<'a> {
+    /// The file in the cache.
+    pub path: &'a Path,
+    /// The caption as HTML.
+    pub caption: &'a str,
+    /// The caption without markup.
+    pub alt: &'a str,
+    /// The query of the explorer, if its page is beside the book.
+    pub explore: Option<&'a str>,
+    /// The language of the page.
+    pub language: Language,
+}
+
+impl Figure<'_> {
+    /// The element: a single line of HTML.
+    pub fn to_html(&self) -> Result<String, String> {
+        let bytes =
+            fs::read(self.path).map_err(|error| format!("{}: {error}", self.path.display()))?;
+        let (width, height) = size(&bytes).ok_or("the size of the figure cannot be read")?;
+        let factor = (WIDEST / width).min(1.0);
+        let (width, height) = ((width * factor).round(), (height * factor).round());
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let link = self.explore.map_or_else(String::new, |query| {
+            let words = self.language.texts().explore;
+            let query = escape_attribute(query);
+            format!(" <a class=\"explore\" href=\"../explorer/index.html#{query}&amp;lang={}\">{words}</a>", self.language.code())
+        });
+        Ok(format!(
+            "<figure><img src=\"figures/{name}\" alt=\"{}\" width=\"{width}\" height=\"{height}\" \
+             data-hash=\"{}\"><figcaption>{}{link}</figcaption></figure>",
+            escape_attribute(self.alt),
+            hash(&bytes),
+            self.caption.replace('\n', " ")
+        ))
+    }
+}
+
+/// Escapes text for an attribute between double quotation marks.
+pub fn escape_attribute(text: &str) -> String {
+    text.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Width and height in pixels of CSS.
+fn size(bytes: &[u8]) -> Option<(f64, f64)> {
+    if bytes.starts_with(b"\x89PNG") {
+        let number = |at: usize| {
+            Some(f64::from(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?)))
+        };
+        return Some((number(16)?, number(20)?));
+    }
+    let text = std::str::from_utf8(bytes).ok()?;
+    let root = text.get(text.find("<svg")?..)?.split('>').next()?;
+    let length = |name: &str| {
+        let value = root.split(&format!(" {name}=\"")).nth(1)?.split('"').next()?;
+        let digits = value.trim_end_matches(|letter: char| letter.is_alphabetic() || letter == '%');
+        let factor = match &value[digits.len()..] {
+            "mm" => 96.0 / 25.4,
+            "" | "px" => 1.0,
+            "pt" => 96.0 / 72.0,
+            _ => return None,
+        };
+        Some(digits.parse::<f64>().ok()? * factor)
+    };
+    Some((length("width")?, length("height")?))
+}
+
+/// Copies the figures of a page beside it.
+pub fn copy_figures(paths: &[PathBuf], folder: &Path) -> Result<(), String> {
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for path in paths {
+        let target = folder.join(path.file_name().unwrap_or_default());
+        fs::copy(path, &target).map_err(|error| format!("{}: {error}", target.display()))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::marks::Marks;
+
+    #[test]
+    fn attributes_and_captions_are_read() {
+        let text = "```alberti format=png explore=\"lesson=near-far&n=2\"\nalberti render a.ron\n```\n\n*A.*\n";
+        let mark = FigureMark::parse(&Marks::read(text).fences[0]).unwrap();
+        assert_eq!(mark.job.kind, Kind::Png);
+        assert_eq!(mark.explore.as_deref(), Some("lesson=near-far&n=2"));
+        let faults = [
+            "```alberti\nalberti render a.ron\n```\n\nNo caption.\n",
+            "```alberti size=3\nalberti render a.ron\n```\n\n*A.*\n",
+            "```alberti\nalberti render a.ron -o b.svg\n```\n\n*A.*\n",
+        ];
+        for text in faults {
+            assert!(FigureMark::parse(&Marks::read(text).fences[0]).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn sizes_are_in_pixels() {
+        assert_eq!(size(b"<svg xmlns=\"x\" width=\"25.4mm\" height=\"12\">"), Some((96.0, 12.0)));
+        let png = [b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".as_slice(), &[0, 0, 2, 0, 0, 0, 1, 0]].concat();
+        assert_eq!(size(&png), Some((512.0, 256.0)));
+        assert_eq!(size(b"<svg width=\"100%\" height=\"1\">"), None);
+    }
+}

@@ -1,0 +1,71 @@
+// Search in Chinese. The index that mdBook writes takes what stands between blanks for a word, and drops Han letters when it trims
+// words. Where the page is Chinese its documents are indexed again when the search is first opened: Latin words as they are, and
+// runs of Han letters as their pairs. So 透视除法 finds whatever contains 透视, 视除 and 除法.
+'use strict';
+
+(function searchHan() {
+  const HAN = /[\u3400-\u9fff\uf900-\ufaff]/;
+  const WORDS = /[\u3400-\u9fff\uf900-\ufaff]+|[\p{L}\p{N}_]+/gu;
+
+  /** The terms of a text: Latin words in lower case, Han in pairs; a single letter stands for itself. */
+  function tokenize(text) {
+    const terms = [];
+    for (const [word] of String(text ?? '').toLowerCase().matchAll(WORDS)) {
+      if (!HAN.test(word) || word.length === 1) terms.push(word);
+      else for (let at = 0; at + 1 < word.length; at += 1) terms.push(word.slice(at, at + 2));
+    }
+    return terms;
+  }
+
+  /** An index of the same documents by these terms. */
+  function rebuild(elasticlunr, dump) {
+    elasticlunr.tokenizer = tokenize;
+    const index = new elasticlunr.Index();
+    index.setRef('id');
+    for (const field of dump.fields) index.addField(field);
+    for (const [id, doc] of Object.entries(dump.documentStore.docs)) index.addDoc({ ...doc, id });
+    return index;
+  }
+
+  /** The part of a text around the first term that is found, with all terms emphasized. */
+  function teaser(text, terms) {
+    const plain = text.toLowerCase();
+    const places = terms.map((term) => plain.indexOf(term)).filter((at) => at >= 0);
+    const start = Math.max(0, Math.min(...(places.length > 0 ? places : [0])) - 30);
+    return `${start > 0 ? '…' : ''}${text.slice(start, start + 120)}${start + 120 < text.length ? '…' : ''}`;
+  }
+
+  function install(elasticlunr) {
+    const load = elasticlunr.Index.load;
+    elasticlunr.Index.load = function loadHan(dump) {
+      if (dump.documentStore === undefined) return load(dump);
+      const index = rebuild(elasticlunr, dump);
+      const search = index.search.bind(index);
+      // The teaser of mdBook counts words between blanks: it gets a short text, with blanks around the words that were sought.
+      index.search = (query, options) => {
+        const words = query.toLowerCase().split(/\s+/).filter((word) => word !== '');
+        return search(query, options).map((found) => {
+          let body = teaser(found.doc.body, words);
+          for (const word of words) body = body.split(word).join(` ${word} `);
+          return { ...found, doc: { ...found.doc, body } };
+        });
+      };
+      return index;
+    };
+  }
+
+  const TEXTS = {
+    '#mdbook-searchbar': ['placeholder', '搜索本书…'],
+    '#mdbook-search-toggle': ['title', '搜索 (/)'],
+    '#mdbook-sidebar-toggle': ['title', '目录'],
+    '#mdbook-theme-toggle': ['title', '主题'],
+    '.print-button': ['title', '打印'],
+  };
+
+  if (typeof module !== 'undefined') module.exports = { install, tokenize };
+  if (typeof document === 'undefined' || !document.documentElement.lang.startsWith('zh')) return;
+  for (const [selector, [name, value]] of Object.entries(TEXTS)) {
+    document.querySelector(selector)?.closest('a, button, label, input')?.setAttribute(name, value);
+  }
+  if (typeof elasticlunr !== 'undefined') install(elasticlunr);
+})();

@@ -1,0 +1,131 @@
+//! `cargo xtask book`: the book in English and Chinese, target/book/en and target/book/zh.
+//!
+//! ```text
+//! book                    build both editions
+//! book --language CODE    build one
+//! book --check            check what was built: links, ids, sizes, topics, search, layout
+//! book --test             test the builder, build, check the editions and the catalogs
+//! book --pdf              a PDF of each edition, by Chromium
+//! book --pot              templates of the catalogs for translators, in target/book/pot
+//! book --update [PAGE…]   bring the catalogs of book/po up to date with the pages
+//! book --check-po [PAGE…] faults of the catalogs
+//! book --coverage         how much of each page is translated
+//! ```
+//!
+//! The work is done by a package of its own, `book/mdbook-alberti`: it needs mdBook, which nobody
+//! else does.
+
+mod pdf;
+
+use crate::Outcome;
+use crate::browser::{current_site, missing_tool};
+use crate::program::{Build, Program, cargo_command, run_visibly};
+use crate::workspace::{create_folder, project_root, target_folder};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The package that builds the book.
+const BUILDER: &str = "book/mdbook-alberti/Cargo.toml";
+
+/// The part of the messages that must be translated, in percent.
+const COVERAGE: &str = "98";
+
+/// Runs the command that the first argument names; builds the book without one.
+pub fn run_book(arguments: &[String]) -> Outcome {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        [] => build_editions(&[]),
+        ["--language", code] => build_editions(&["--language", code]),
+        ["--check"] => check_editions(),
+        ["--test"] => test_book(),
+        ["--pdf"] => pdf::print_editions(&book_folder()),
+        ["--pot"] => {
+            let folder = book_folder().join("pot");
+            run_builder("pot", &[&folder.to_string_lossy()])
+        }
+        ["--update", pages @ ..] => run_builder("update", pages),
+        ["--check-po", pages @ ..] => run_builder("check-po", pages),
+        ["--coverage"] => run_builder("coverage", &[]),
+        _ => Err(
+            "book [--language CODE | --check | --test | --pdf | --pot | --update | --check-po | --coverage]"
+                .into(),
+        ),
+    }
+}
+
+/// What the step of the tests runs.
+fn test_book() -> Outcome {
+    let mut tests = cargo_command(&["test", "--quiet", "--locked", "--manifest-path", BUILDER]);
+    run_visibly(tests.env("CARGO_TARGET_DIR", builder_target()))?;
+    build_editions(&[])?;
+    run_builder("coverage", &["--assert", COVERAGE])?;
+    run_builder("check-po", &[])?;
+    check_editions()
+}
+
+/// Where the editions are.
+fn book_folder() -> PathBuf {
+    target_folder().join("book")
+}
+
+/// Where the builder is compiled.
+fn builder_target() -> PathBuf {
+    target_folder().join("book-build")
+}
+
+fn build_editions(flags: &[&str]) -> Outcome {
+    let program = Program::build(Build::Release)?;
+    copy_explorer(&book_folder().join("explorer"))?;
+    let path = program.path().to_string_lossy().into_owned();
+    run_builder("build", &[&["--program", &path], flags].concat())
+}
+
+/// Puts the explorer's page beside the editions; without it their links to it are left out.
+fn copy_explorer(folder: &Path) -> Outcome {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    match current_site() {
+        Some(site) => copy_folder(&site, folder),
+        None => {
+            println!(
+                "SKIPPED book: links to the explorer: `cargo xtask web` has not built its page"
+            );
+            Ok(())
+        }
+    }
+}
+
+fn copy_folder(from: &Path, to: &Path) -> Outcome {
+    create_folder(to)?;
+    let entries = fs::read_dir(from).map_err(|error| format!("{}: {error}", from.display()))?;
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let target = to.join(path.file_name().unwrap_or_default());
+        if path.is_dir() {
+            copy_folder(&path, &target)?;
+        } else {
+            fs::copy(&path, &target).map_err(|error| format!("{}: {error}", path.display()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Links, ids, sizes and topics; then search and layout, where there is a browser.
+fn check_editions() -> Outcome {
+    run_builder("check", &[])?;
+    let folder = project_root().join("tests/browser");
+    if let Some(missing) = missing_tool(&folder) {
+        println!("SKIPPED book: search and layout in a browser: {missing}");
+        return Ok(());
+    }
+    let mut node = Command::new("node");
+    run_visibly(node.current_dir(&folder).arg("book.mjs").arg(book_folder()))
+}
+
+fn run_builder(command: &str, arguments: &[&str]) -> Outcome {
+    let mut cargo =
+        cargo_command(&["run", "--quiet", "--locked", "--manifest-path", BUILDER, "--", command]);
+    cargo.env("CARGO_TARGET_DIR", builder_target());
+    run_visibly(cargo.args(arguments).arg("--out").arg(book_folder()))
+}
