@@ -1,4 +1,7 @@
-//! Lists the pages of the book as modules with their text as documentation.
+//! Lists the pages of the book as modules whose documentation is their Rust code.
+//!
+//! All other lines are left empty, so that a failure names the line of the page: figures, formulas
+//! and outputs are blocks that rustdoc would warn about.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -7,23 +10,40 @@ use std::{env, fs};
 fn main() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
     println!("cargo:rerun-if-changed={}", folder.display());
-    let mut names: Vec<String> = fs::read_dir(&folder)
-        .expect("the pages of the book")
-        .flatten()
+    let out = env::var_os("OUT_DIR").expect("Cargo names the folder");
+    let out = Path::new(&out);
+    let files = fs::read_dir(&folder).expect("the pages of the book").flatten();
+    let mut names: Vec<String> = files
         .filter_map(|entry| entry.file_name().to_str()?.strip_suffix(".md").map(str::to_owned))
-        .filter(|name| name != "SUMMARY")
         .collect();
     names.sort();
     let mut modules = String::new();
     for name in names {
-        let path = folder.join(format!("{name}.md"));
+        let text = fs::read_to_string(folder.join(format!("{name}.md"))).expect("a page");
+        let code = out.join(format!("{name}.md"));
+        fs::write(&code, rust_lines(&text)).expect("the folder can be written to");
         // Writing to a text does not fail.
         let _ = writeln!(
             modules,
-            "#[doc = include_str!({path:?})]\nmod {} {{}}",
-            name.replace('-', "_")
+            "#[doc = include_str!({code:?})]\nmod {} {{}}",
+            name.replace('-', "_").to_lowercase()
         );
     }
-    let out = env::var_os("OUT_DIR").expect("Cargo names the folder");
-    fs::write(Path::new(&out).join("pages.rs"), modules).expect("the folder can be written to");
+    fs::write(out.join("pages.rs"), modules).expect("the folder can be written to");
+}
+
+/// A page with nothing but its title, where rustdoc begins to count lines, and its blocks of Rust.
+fn rust_lines(page: &str) -> String {
+    let mut is_rust = false;
+    let mut out = String::new();
+    for (at, line) in page.lines().enumerate() {
+        let is_fence = line.starts_with("```");
+        let is_opening = is_fence && !is_rust && line.starts_with("```rust");
+        if is_rust || is_opening || at == 0 {
+            out.push_str(line);
+        }
+        out.push('\n');
+        is_rust = is_opening || is_rust && !is_fence;
+    }
+    out
 }

@@ -49,22 +49,27 @@ function measurePage() {
   };
 }
 
-async function testPage(browser, address, language, name) {
-  for (const view of VIEWS) {
-    const page = await browser.newPage(view);
-    const foreign = [];
-    page.on('request', (request) => request.url().startsWith(address) || request.url().startsWith('data:') || foreign.push(request.url()));
-    await page.goto(`${address}${language}/${name}`);
-    const found = await page.evaluate(measurePage);
-    assert(found.language === language, `lang is ${found.language}`);
-    assert(found.excess <= 0, `${view.viewport.width} px: ${found.excess} px too wide: ${found.wide.join(', ')}`);
-    assert(found.broken.length === 0, `figures are missing: ${found.broken}`);
-    assert(found.dark === 0, `${found.dark} figures without white paper`);
-    assert(found.raw.length === 0, `LaTeX is shown: ${found.raw}`);
-    assert(found.math === 0, `${found.math} formulas are not shown`);
-    assert(foreign.length === 0, `loaded from elsewhere: ${foreign}`);
-    await page.close();
-  }
+/** A tab that counts what it loads from other hosts. */
+async function openTab(browser, address, view) {
+  const page = await browser.newPage(view);
+  const foreign = [];
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!url.startsWith(address) && !url.startsWith('data:')) foreign.push(url);
+  });
+  return { page, foreign, width: view.viewport.width };
+}
+
+async function testPage({ page, foreign, width }, address, language, name) {
+  await page.goto(`${address}${language}/${name}`);
+  const found = await page.evaluate(measurePage);
+  assert(found.language === language, `lang is ${found.language}`);
+  assert(found.excess <= 0, `${width} px: ${found.excess} px too wide: ${found.wide.join(', ')}`);
+  assert(found.broken.length === 0, `figures are missing: ${found.broken}`);
+  assert(found.dark === 0, `${found.dark} figures without white paper`);
+  assert(found.raw.length === 0, `LaTeX is shown: ${found.raw}`);
+  assert(found.math === 0, `${found.math} formulas are not shown`);
+  assert(foreign.length === 0, `loaded from elsewhere: ${foreign.splice(0)}`);
 }
 
 async function testSearch(browser, address, language) {
@@ -85,7 +90,11 @@ const browser = await launchBrowser();
 let count = 0;
 for (const language of LANGUAGES) {
   const names = (await readdir(path.join(folder, language))).filter((name) => name.endsWith('.html') && !OTHERS.includes(name));
-  for (const name of names) await test(`${language}/${name}`, () => testPage(browser, site.address, language, name));
+  for (const view of VIEWS) {
+    const tab = await openTab(browser, site.address, view);
+    for (const name of names) await test(`${language}/${name}`, () => testPage(tab, site.address, language, name));
+    await tab.page.close();
+  }
   await test(`search in ${language}`, () => testSearch(browser, site.address, language));
   count += names.length;
 }

@@ -20,7 +20,9 @@ mod pdf;
 use crate::Outcome;
 use crate::browser::{current_site, missing_tool};
 use crate::program::{Build, Program, cargo_command, run_visibly};
-use crate::workspace::{create_folder, project_root, target_folder};
+use crate::web::{list_lessons, missing_tools};
+use crate::workspace::{create_folder, list_files, project_root, read_text, target_folder};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -114,6 +116,7 @@ fn copy_folder(from: &Path, to: &Path) -> Outcome {
 /// Links, ids, sizes and topics; then search and layout, where there is a browser.
 fn check_editions() -> Outcome {
     run_builder("check", &[])?;
+    check_lessons()?;
     let folder = project_root().join("tests/browser");
     if let Some(missing) = missing_tool(&folder) {
         println!("SKIPPED book: search and layout in a browser: {missing}");
@@ -121,6 +124,27 @@ fn check_editions() -> Outcome {
     }
     let mut node = Command::new("node");
     run_visibly(node.current_dir(&folder).arg("book.mjs").arg(book_folder()))
+}
+
+/// Links to the explorer name lessons that it has.
+fn check_lessons() -> Outcome {
+    let site = book_folder().join("explorer");
+    if !site.is_dir() || missing_tools().is_some() {
+        println!("SKIPPED book: lessons of links to the explorer: its page is not beside the book");
+        return Ok(());
+    }
+    let lessons = list_lessons(&site)?;
+    let known: BTreeSet<&str> = lessons.iter().filter_map(|it| it["id"].as_str()).collect();
+    let mut faults = Vec::new();
+    for page in list_files(&book_folder().join("en"), "html")? {
+        let html = read_text(&page)?;
+        let links = html.split("../explorer/index.html#").skip(1);
+        let queries = links.filter_map(|link| link.split('"').next());
+        let names = queries.filter_map(|query| query.split("lesson=").nth(1)?.split('&').next());
+        let unknown = names.filter(|name| !known.contains(name));
+        faults.extend(unknown.map(|name| format!("{}: no lesson `{name}`", page.display())));
+    }
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
 }
 
 fn run_builder(command: &str, arguments: &[&str]) -> Outcome {

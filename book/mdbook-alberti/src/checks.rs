@@ -4,9 +4,12 @@ use crate::arguments::Arguments;
 use crate::edition::Edition;
 use crate::language::Language;
 use crate::marks::Marks;
-use crate::page::Page;
+use crate::page::{Page, plain_text};
 use crate::topics::Topics;
+use crate::translation::translate_page;
 use anyhow::{Result, anyhow};
+use polib::catalog::Catalog;
+use polib::metadata::CatalogMetadata;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -49,6 +52,7 @@ fn source_faults(edition: &Edition) -> Result<Vec<String>> {
             }
             formulas.insert(id.to_owned(), here);
         }
+        faults.extend(round_trip_fault(&text).map(|fault| format!("{name}.md: {fault}")));
         let marks = Marks::read(&text);
         pages.push(Page { name, title, english, text, marks });
     }
@@ -66,6 +70,28 @@ fn source_faults(edition: &Edition) -> Result<Vec<String>> {
         topics.titles().count()
     );
     Ok(faults)
+}
+
+/// What a page loses when it is taken apart into messages and put together again.
+fn round_trip_fault(text: &str) -> Option<String> {
+    let again = match translate_page(text, &Catalog::new(CatalogMetadata::new())) {
+        Ok(again) => again,
+        Err(error) => return Some(error),
+    };
+    let parts = |text: &str| {
+        let marks = Marks::read(text);
+        let codes = marks.spans.iter().map(|span| span.code.clone());
+        let blocks = marks.fences.iter().map(|it| {
+            let words =
+                it.caption.as_ref().map_or(String::new(), |caption| plain_text(&caption.text));
+            format!("{} {} {words}", it.info, it.body)
+        });
+        codes.chain(blocks).chain(marks.heading_ids()).collect::<Vec<_>>()
+    };
+    let (before, after) = (parts(text), parts(&again));
+    let lost = before.iter().zip(&after).find(|(a, b)| a != b);
+    let fault = lost.map(|(a, b)| format!("translation would change `{a}` to `{b}`"));
+    fault.or((before.len() != after.len()).then(|| "translation would lose marks".into()))
 }
 
 fn unnamed_misprints(topics: &Topics, pages: &[Page]) -> Vec<String> {

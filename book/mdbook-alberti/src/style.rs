@@ -68,7 +68,8 @@ impl Parts {
     }
 }
 
-fn is_han(letter: char) -> bool {
+/// Whether a letter is Chinese.
+pub fn is_han(letter: char) -> bool {
     ('\u{4e00}'..='\u{9fff}').contains(&letter)
 }
 

@@ -1,6 +1,7 @@
 //! Translations: the messages of a page, its catalog, and its text in another language.
 
 use crate::marks::Marks;
+use crate::style::is_han;
 use mdbook_i18n_helpers::{
     extract_events, extract_messages, reconstruct_markdown, translate_events,
 };
@@ -16,7 +17,10 @@ pub fn read_catalog(path: &Path) -> Result<Catalog, String> {
     if !path.exists() {
         return Ok(Catalog::new(CatalogMetadata::new()));
     }
-    po_file::parse(path).map_err(|error| format!("{}: {error}", path.display()))
+    // The reader panics where a field of the header is missing.
+    let parsed = std::panic::catch_unwind(|| po_file::parse(path))
+        .map_err(|_| format!("{}: its header is not whole; `update` writes one", path.display()))?;
+    parsed.map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The translation of a message, unless there is none or somebody must look at it.
@@ -64,10 +68,10 @@ pub fn messages(text: &str) -> Result<Vec<String>, String> {
     Ok(out)
 }
 
-/// Whether a message has a word outside of code, HTML and addresses.
+/// Whether a message has a word, of other letters than Han, outside of code, HTML and addresses.
 pub fn needs_translation(message: &str) -> bool {
     let words = |text: &str| {
-        let mut parts = text.split(|letter: char| !letter.is_alphabetic());
+        let mut parts = text.split(|letter: char| !letter.is_alphabetic() || is_han(letter));
         parts.any(|word| word.chars().count() > 1)
     };
     extract_events(message, None)
