@@ -1,0 +1,114 @@
+//! A check line with its values: what the names of a formula mean, and what the crates answer.
+
+use crate::check_line::{Check, Given, Reference};
+use crate::evaluate::Scope;
+use crate::name::Name;
+use crate::registry::{Entry, Inputs, find_entry};
+use crate::value::Value;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A check that can be compared.
+#[derive(Debug)]
+pub struct PreparedCheck {
+    pub expected: Value,
+    /// Given in the check line.
+    values: BTreeMap<Name, Value>,
+    /// Offered by the crates.
+    extras: BTreeMap<Name, Value>,
+    /// The names that an entry behind a name needs.
+    behind: BTreeMap<Name, &'static Entry>,
+    target: Reference,
+    used: RefCell<BTreeSet<Name>>,
+}
+
+impl PreparedCheck {
+    pub fn new(check: &Check) -> Result<Self, String> {
+        let entry = find_entry(&check.target.name)?;
+        let mut values: BTreeMap<Name, Value> = BTreeMap::new();
+        for (name, given) in &check.givens {
+            if let Given::Value(value) = given {
+                values.insert(name.clone(), value.clone());
+            }
+        }
+        let mut behind = BTreeMap::new();
+        let mut named = BTreeMap::new();
+        for (name, given) in &check.givens {
+            let Given::Reference(reference) = given else { continue };
+            let other = find_entry(&reference.name)?;
+            let value = reference.select(&answer(other, &values)?)?;
+            let name = if value.is_column() { name.as_bold() } else { name.clone() };
+            behind.insert(name.clone(), other);
+            named.insert(name, value);
+        }
+        values.extend(named);
+        let expected = check.target.select(&answer(entry, &values)?)?;
+        let extras = match entry.extras {
+            Some(extras) => extras(&Inputs::new(entry.variables, &values)),
+            None => Ok(Vec::new()),
+        };
+        let extras = extras.map_err(|error| error.to_string())?;
+        let extras = extras.into_iter().map(|(name, value)| (Name::parse(name).key(), value));
+        let prepared = Self {
+            expected,
+            values,
+            extras: extras.collect(),
+            behind,
+            target: check.target.clone(),
+            used: RefCell::default(),
+        };
+        prepared.check_givens(entry)?;
+        Ok(prepared)
+    }
+
+    /// Each value belongs to the entry or to one behind a name.
+    fn check_givens(&self, entry: &Entry) -> Result<(), String> {
+        let takes = |entry: &Entry, name: &Name| Inputs::takes(entry.variables, name);
+        for name in self.values.keys().filter(|name| !self.behind.contains_key(*name)) {
+            if !takes(entry, name) && !self.behind.values().any(|other| takes(other, name)) {
+                return Err(format!(
+                    "{} has no variable `{name}`; it has `{}`",
+                    entry.name, entry.variables
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// A name with a value that the formula has not used, once it has been evaluated.
+    pub fn unused_name(&self) -> Option<&Name> {
+        let used = self.used.borrow();
+        let uses_extras = self.extras.keys().any(|name| used.contains(name));
+        let behind_used = |name: &Name| {
+            let mut entries = self.behind.iter().filter(|(name, _)| used.contains(*name));
+            entries.any(|(_, entry)| Inputs::takes(entry.variables, name))
+        };
+        let of_whole = self.target.index.is_empty() && !uses_extras;
+        self.values.keys().find(|name| {
+            let is_needed = of_whole || self.behind.contains_key(*name);
+            is_needed && !used.contains(*name) && !behind_used(name)
+        })
+    }
+}
+
+fn answer(entry: &Entry, values: &BTreeMap<Name, Value>) -> Result<Value, String> {
+    let value = (entry.build)(&Inputs::new(entry.variables, values));
+    value.map_err(|error| format!("{}: {error}", entry.name))
+}
+
+impl Scope for PreparedCheck {
+    /// A plain letter also finds a bold value; a bold one finds a plain matrix, but no number.
+    fn value_of(&self, name: &Name) -> Result<Value, String> {
+        let key = name.key();
+        let other = Name { is_bold: !key.is_bold, ..key.clone() };
+        for name in [&key, &other] {
+            let found = self.values.get(name).or_else(|| self.extras.get(name));
+            let fits = |value: &&Value| name == &key || !key.is_bold || value.to_number().is_err();
+            if let Some(value) = found.filter(fits) {
+                self.used.borrow_mut().insert(name.clone());
+                return Ok(value.clone());
+            }
+        }
+        Err(format!("`{key}` has no value in the check line"))
+    }
+}
