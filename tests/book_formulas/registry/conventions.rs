@@ -5,7 +5,9 @@ use super::inputs::{Answer, Inputs, give};
 use super::normalization::{divided, point};
 use super::{Entry, Extras};
 use homog::{Clip, Point, Projective, View, World};
-use projection::{ApexMovedFrustum, Convention, Fov, Frustum, Perspective, ProjectionError, api};
+use projection::{
+    ApexMovedFrustum, ApexMovedSteps, Convention, Fov, Frustum, Perspective, ProjectionError, api,
+};
 use std::error::Error;
 
 const VOLUME: &str = "l r b t N F";
@@ -63,10 +65,22 @@ pub const ENTRIES: &[Entry] = &[
         let [l, r, b, t] = v.numbers()?;
         give(ApexMovedFrustum::new(l, r, b, t, 1.0, 2.0)?.apex())
     }),
-    Entry::new("LW-1.move", VOLUME, |v| give(moved(v)?.steps(Convention::OPENGL).move_apex)),
-    Entry::new("LW-1.map_depth", VOLUME, |v| give(moved(v)?.steps(Convention::OPENGL).map_depth)),
-    Entry::new("LW-1.project", VOLUME, |v| give(moved(v)?.steps(Convention::OPENGL).project)),
-    Entry::new("LW-1.scale", VOLUME, |v| give(moved(v)?.steps(Convention::OPENGL).scale_window)),
+    Entry::new("LW-1.move", "l r b t", |v| {
+        let [l, r, b, t] = v.numbers()?;
+        give(steps([l, r, b, t, 1.0, 2.0])?.move_apex)
+    }),
+    Entry::new("LW-1.map_depth", "N F", |v| {
+        let [near, far] = v.numbers()?;
+        give(steps([-1.0, 1.0, -1.0, 1.0, near, far])?.map_depth)
+    }),
+    Entry::new("LW-1.project", "N", |v| {
+        let near = v.number("N")?;
+        give(steps([-1.0, 1.0, -1.0, 1.0, near, 2.0 * near])?.project)
+    }),
+    Entry::new("LW-1.scale", "l r b t", |v| {
+        let [l, r, b, t] = v.numbers()?;
+        give(steps([l, r, b, t, 1.0, 2.0])?.scale_window)
+    }),
     Entry::new("LW-1.clip", VOLUME_AND_POINT, |v| {
         give(moved(v)?.view_to_clip(Convention::OPENGL).transform_point(point(v)?))
     }),
@@ -187,4 +201,9 @@ fn frustum(v: &Inputs<'_>) -> Result<Frustum, Box<dyn Error>> {
 fn moved(v: &Inputs<'_>) -> Result<ApexMovedFrustum, Box<dyn Error>> {
     let [l, r, b, t, near, far] = v.these(VOLUME)?;
     Ok(ApexMovedFrustum::new(l, r, b, t, near, far)?)
+}
+
+/// The steps of LW-1; a step depends on some of the six numbers only.
+fn steps([l, r, b, t, near, far]: [f64; 6]) -> Result<ApexMovedSteps, ProjectionError> {
+    Ok(ApexMovedFrustum::new(l, r, b, t, near, far)?.steps(Convention::OPENGL))
 }

@@ -104,10 +104,13 @@ pub const ENTRIES: &[Entry] = &[
         let plane = Plane::<World>::through(v.vector("p")?.into(), Normal::new(a, b, c));
         give(plane.evaluate(Point::from(v.vector("q")?)))
     }),
+    // The crates leave out the division by the determinant: the length of a normal is free.
     Entry::new("normal", "M \\mathbf{n}", |v| {
-        let map = Affine::<World, World>::from_rows(v.matrix("M")?.to_square()?);
+        let linear = Homography::from_rows(v.matrix("M")?.to_square()?).raw();
+        let map = Affine::<World, World>::from_raw(glam::DMat4::from_mat3(linear));
+        let map = map.ok_or("M is not affine")?;
         let [a, b, c] = v.vector("n")?;
-        give(map.ok_or("M is not affine")?.transform_normal(Normal::new(a, b, c)))
+        give((map.transform_normal(Normal::new(a, b, c)).raw() / map.determinant()).to_array())
     }),
     Entry::new("determinant", "M", |v| match v.matrix("M")?.to_square::<3>() {
         Ok(rows) => give(Homography::from_rows(rows).determinant()),
