@@ -144,7 +144,7 @@ fn compare(row: &Statement, check: &PreparedCheck) -> Result<(), String> {
     Ok(())
 }
 
-/// Changes each number, sign and letter of a row, one at a time: some check must notice.
+/// Changes each number, sign, letter and angle function of a row, one at a time: some check must notice.
 fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) -> Vec<String> {
     let mut letters: Vec<TokenKind> = Vec::new();
     for token in row.members().iter().flatten().filter(|token| is_letter(&token.kind)) {
@@ -168,15 +168,29 @@ fn damage_row(row: &Statement, checks: &[PreparedCheck], counts: &mut Counts) ->
     unnoticed
 }
 
-/// Another number, the other sign, each other letter of the row.
+/// Another number, the other sign, another angle function, each other letter of the row.
 fn damage(kind: &TokenKind, letters: &[TokenKind]) -> Vec<TokenKind> {
     match kind {
         TokenKind::Number(number) => vec![TokenKind::Number(number + 1.0)],
         TokenKind::Symbol('+') => vec![TokenKind::Symbol('-')],
         TokenKind::Symbol('-') => vec![TokenKind::Symbol('+')],
+        TokenKind::Command(name) if other_function(name).is_some() => other_function(name)
+            .map(|other| TokenKind::Command(other.to_owned()))
+            .into_iter()
+            .collect(),
         _ if is_letter(kind) => letters.iter().filter(|letter| *letter != kind).cloned().collect(),
         _ => Vec::new(),
     }
+}
+
+fn other_function(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "sin" => "cos",
+        "cos" => "sin",
+        "tan" => "cot",
+        "cot" => "tan",
+        _ => return None,
+    })
 }
 
 fn is_letter(kind: &TokenKind) -> bool {
