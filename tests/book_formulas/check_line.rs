@@ -26,6 +26,17 @@ pub struct Reference {
     pub index: Vec<usize>,
 }
 
+impl Check {
+    /// The names of the registry that it mentions.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let behind = self.givens.iter().filter_map(|(_, given)| match given {
+            Given::Reference(reference) => Some(reference),
+            Given::Value(_) => None,
+        });
+        behind.chain([&self.target]).map(|reference| reference.name.as_str())
+    }
+}
+
 impl Reference {
     fn parse(text: &str) -> Result<Self, String> {
         let (name, index) = text.split_once('[').unwrap_or((text, ""));

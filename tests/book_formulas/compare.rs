@@ -8,6 +8,7 @@ use crate::registry::all_entries;
 use crate::scope::PreparedCheck;
 use crate::statement::{Statement, split_rows};
 use crate::token::{Token, TokenKind, tokenize};
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// Results differ by at most this part of the largest entry.
@@ -30,12 +31,14 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Counts of what was tested.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+/// What was tested.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Counts {
     pub numbered: usize,
     pub checks: usize,
     pub damages: usize,
+    /// Names of the registry.
+    pub names: BTreeSet<String>,
 }
 
 /// All faults of a formula; counts what it tests.
@@ -64,6 +67,7 @@ pub fn find_faults(formula: &Formula, counts: &mut Counts) -> Vec<Fault> {
     for check in &formula.checks {
         counts.checks += 1;
         let ready = parse_check(&check.text).and_then(|read| {
+            counts.names.extend(read.names().map(str::to_owned));
             let row = row_of(&read, rows.len())?;
             let ready = PreparedCheck::new(&read)?;
             compare(&rows[row - 1].without_left_side(), &ready).map(|()| (row, ready))
