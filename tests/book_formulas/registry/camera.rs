@@ -19,15 +19,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("CA-1.u", GAZE, |v| give(basis(v)?.u())).with_extras(basis_extras),
     Entry::new("CA-1.v", GAZE, |v| give(basis(v)?.v())).with_extras(basis_extras),
     Entry::new("CA-2", PLACED, |v| give(camera(v)?.world_to_view())).with_extras(camera_extras),
-    Entry::new("CA-2.rotation", PLACED, |v| give(camera(v)?.rotation())).with_extras(camera_extras),
-    Entry::new("CA-2.translation", PLACED, |v| give(camera(v)?.translation()))
-        .with_extras(camera_extras),
     Entry::new("CA-2.inverse", PLACED, |v| give(camera(v)?.view_to_world()))
         .with_extras(camera_extras),
-    Entry::new("CA-2.eye", "\\mathbf{e} \\mathbf{g} \\mathbf{t} \\mathbf{p}", |v| {
-        give(camera(v)?.world_to_view().transform_point(v.vector("p")?.into()))
-    })
-    .with_extras(camera_extras),
     Entry::new("CA-3.u", "l r x n_x", |v| {
         let [l, r, x, n_x] = v.numbers()?;
         give(place_on_window([l, r, -1.0, 1.0], [n_x, 1.0], [x, 0.0])?.x())
@@ -65,10 +58,6 @@ pub const ENTRIES: &[Entry] = &[
     Entry::new("intrinsics", "f_x f_y c_x c_y s", |v| {
         let lens = intrinsics(v)?.with_skew(v.number("s")?)?;
         give(homog::Homography::from_rows(lens.to_rows()))
-    }),
-    Entry::new("intrinsics.project", "f_x f_y c_x c_y x y z", |v| {
-        let point = Point::from(v.these::<3>("x y z")?);
-        give(intrinsics(v)?.project(point).ok_or("the point is not ahead of the eye")?)
     }),
     Entry::new("intrinsics.focal", "\\theta n_y", |v| {
         let [theta, n_y] = v.numbers()?;

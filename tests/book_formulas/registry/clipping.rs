@@ -1,9 +1,9 @@
 //! Half-spaces, segments, polygons and interpolation (CL-1 to CL-4, IN-1, IN-2).
 
+use super::Entry;
 use super::inputs::{Answer, Inputs, give};
-use super::{Entry, Extras};
 use clip::{PlaneIndex, Volume, clip_segment, clip_triangle};
-use homog::{Clip, Foreshortening, HPoint, Point, World, perspective_weights};
+use homog::{Clip, Foreshortening, HPoint, perspective_weights};
 use std::error::Error;
 
 const IN_TRIANGLE: &str = "\\lambda_0 \\lambda_1 \\lambda_2 a_0 a_1 a_2 w_0 w_1 w_2";
@@ -13,44 +13,9 @@ pub const ENTRIES: &[Entry] = &[
         let [x, y, z, w] = v.numbers()?;
         distances(&Volume::OPENGL, PlaneIndex::BOX, HPoint::new(x, y, z, w))
     }),
-    Entry::new("CL-1.left", "x w", |v| along_x(v, [PlaneIndex::LEFT])),
-    Entry::new("CL-1.right", "x w", |v| along_x(v, [PlaneIndex::RIGHT])),
     Entry::new("CL-1.x", "x w", |v| along_x(v, [PlaneIndex::LEFT, PlaneIndex::RIGHT])),
-    Entry::new("CL-1.bottom", "y w", |v| along_y(v, [PlaneIndex::BOTTOM])),
-    Entry::new("CL-1.top", "y w", |v| along_y(v, [PlaneIndex::TOP])),
-    Entry::new("CL-1.y", "y w", |v| along_y(v, [PlaneIndex::BOTTOM, PlaneIndex::TOP])),
-    Entry::new("CL-1.near", "z w", |v| along_z(v, Volume::OPENGL, [PlaneIndex::NEAR])),
-    Entry::new("CL-1.far", "z w", |v| along_z(v, Volume::OPENGL, [PlaneIndex::FAR])),
-    Entry::new("CL-1.z", "z w", |v| {
-        along_z(v, Volume::OPENGL, [PlaneIndex::NEAR, PlaneIndex::FAR])
-    }),
-    Entry::new("CL-1.near_zero_one", "z", |v| {
-        let point = HPoint::new(0.0, 0.0, v.number("z")?, 1.0);
-        distances(&Volume::ZERO_ONE, [PlaneIndex::NEAR], point)
-    }),
-    Entry::new("CL-1.z_zero_one", "z w", |v| {
-        along_z(v, Volume::ZERO_ONE, [PlaneIndex::NEAR, PlaneIndex::FAR])
-    }),
-    Entry::new("CL-1.near_chapter", "z w", |v| along_z(v, Volume::CHAPTER, [PlaneIndex::NEAR])),
-    Entry::new("CL-1.far_chapter", "z w", |v| along_z(v, Volume::CHAPTER, [PlaneIndex::FAR])),
-    Entry::new("CL-2", "a b", |v| segment_parameter(v.numbers()?)),
     Entry::new("CL-2.t", "a b", |v| segment_parameter(v.numbers()?)),
-    Entry::new("CL-2.point", "\\mathbf{p} \\mathbf{q} t", |v| {
-        let t = v.number("t")?;
-        match (v.matrix("\\mathbf{p}")?.to_column(), v.matrix("\\mathbf{q}")?.to_column()) {
-            (Ok([x, y, z, w]), Ok(end)) => {
-                give(HPoint::<Clip>::new(x, y, z, w).lerp(HPoint::from(end), t))
-            }
-            _ => give(Point::<World>::from(v.vector("p")?).lerp(v.vector("q")?.into(), t)),
-        }
-    }),
-    Entry::new("CL-3", "d_a d_b", |v| give(polygon_parameter(v)?)),
     Entry::new("CL-3.t", "d_a d_b", |v| give(polygon_parameter(v)?)),
-    Entry::new("CL-3.point", "\\mathbf{a} \\mathbf{b} d_a d_b", |v| {
-        let end = |name| Ok::<_, String>(HPoint::<Clip>::from(v.matrix(name)?.to_column::<4>()?));
-        give(end("\\mathbf{a}")?.lerp(end("\\mathbf{b}")?, polygon_parameter(v)?))
-    })
-    .with_extras(|v| -> Extras { Ok(vec![("t", polygon_parameter(v)?.into())]) }),
     Entry::new("CL-4", "k x w", |v| {
         let [k, x, w] = v.numbers()?;
         let volume = Volume::OPENGL.with_guard_band(k, k)?;
@@ -74,11 +39,6 @@ pub const ENTRIES: &[Entry] = &[
         give(segment.interpolate_attribute(s, a_0, a_1).ok_or("no value")?)
     }),
     Entry::new("IN-2.triangle", IN_TRIANGLE, triangle_attribute),
-    Entry::new("RA-2", IN_TRIANGLE, triangle_attribute),
-    Entry::new("IN-2.weight", "\\lambda_0 \\lambda_1 \\lambda_2 w_0 w_1 w_2", |v| {
-        let [a, b, c, w_0, w_1, w_2] = v.numbers()?;
-        give(perspective_weights([a, b, c], [w_0, w_1, w_2]).ok_or("no weights")?)
-    }),
 ];
 
 /// The values of planes at a point: one is a number, several a column.
@@ -95,16 +55,6 @@ fn distances<const N: usize>(
 fn along_x<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {
     let [x, w] = v.numbers()?;
     distances(&Volume::OPENGL, planes, HPoint::new(x, 0.0, 0.0, w))
-}
-
-fn along_y<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {
-    let [y, w] = v.numbers()?;
-    distances(&Volume::OPENGL, planes, HPoint::new(0.0, y, 0.0, w))
-}
-
-fn along_z<const N: usize>(v: &Inputs<'_>, volume: Volume, planes: [PlaneIndex; N]) -> Answer {
-    let [z, w] = v.numbers()?;
-    distances(&volume, planes, HPoint::new(0.0, 0.0, z, w))
 }
 
 /// A segment in clip space whose ends have these values at the left plane, up to a common factor,

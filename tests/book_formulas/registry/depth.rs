@@ -8,37 +8,15 @@ const AT: &str = "N F D";
 const ZERO_ONE: Convention = Convention::DIRECT3D;
 
 pub const ENTRIES: &[Entry] = &[
-    Entry::new("GL-1.depth", AT, |v| depth(v, Convention::OPENGL)),
-    Entry::new("GL-1.depth_z", "N F z", |v| {
-        let [near, far, z] = v.numbers()?;
-        let curve = DepthCurve::perspective(near, far, Convention::OPENGL)?;
-        give(curve.depth(-z).ok_or("z = 0")?)
-    }),
-    Entry::new("GL-1.distance", "N F z'", |v| distance(v.numbers()?, Convention::OPENGL)),
-    Entry::new("GL-1.slope", AT, |v| slope(v, Convention::OPENGL)),
-    Entry::new("GL-1.middle", "N F", half_range),
     Entry::new("GL-3.depth", AT, |v| parallel_depth(v, Convention::OPENGL)),
     Entry::new("LW-3", AT, |v| depth(v, Convention::OPENGL)),
-    Entry::new("LW-3.depth", AT, |v| depth(v, Convention::OPENGL)),
     Entry::new("LW-3.c1", "N F", |v| give(coefficients(v)?.1)),
     Entry::new("LW-3.c2", "N F", |v| give(coefficients(v)?.0)),
     Entry::new("LW-3.zero", "N F", half_range),
-    Entry::new("D3D-1.depth", AT, |v| depth(v, ZERO_ONE)),
-    Entry::new("D3D-2.depth", AT, |v| depth(v, ZERO_ONE)),
-    Entry::new("D3D-3.depth", AT, |v| depth(v, ZERO_ONE)),
-    Entry::new("D3D-4.depth", AT, |v| depth(v, ZERO_ONE)),
-    Entry::new("D3D-5.depth", AT, |v| parallel_depth(v, ZERO_ONE)),
-    Entry::new("D3D-6.depth", AT, |v| parallel_depth(v, ZERO_ONE)),
-    Entry::new("RV-1.depth", AT, |v| depth(v, ZERO_ONE.reversed())),
-    Entry::new("IF-1.depth", "N D", |v| endless_depth(v, Convention::OPENGL)),
-    Entry::new("IF-2.depth", "N D", |v| endless_depth(v, ZERO_ONE)),
-    Entry::new("IF-3.depth", "N D", |v| endless_depth(v, ZERO_ONE.reversed())),
     Entry::new("ZP-1", AT, |v| depth(v, ZERO_ONE)),
-    Entry::new("ZP-1.depth", AT, |v| depth(v, ZERO_ONE)),
     Entry::new("ZP-1.slope", AT, |v| slope(v, ZERO_ONE)),
     Entry::new("ZP-1.reversed", AT, |v| depth(v, ZERO_ONE.reversed())),
     Entry::new("ZP-1.infinite", "N D", |v| endless_depth(v, ZERO_ONE.reversed())),
-    Entry::new("ZP-1.distance", "N F d", |v| distance(v.numbers()?, ZERO_ONE)),
     Entry::new("ZP-1.step", "N F D B", |v| {
         let [near, far, at, bits] = v.numbers()?;
         let bits = (1..=64).find(|&whole| f64::from(whole) == bits).ok_or("B is 1 to 64")?;
@@ -60,11 +38,6 @@ fn endless_depth(v: &Inputs<'_>, convention: Convention) -> Answer {
 fn parallel_depth(v: &Inputs<'_>, convention: Convention) -> Answer {
     let [near, far, at] = v.numbers()?;
     give(DepthCurve::parallel(near, far, convention)?.depth(at).ok_or("no depth")?)
-}
-
-fn distance([near, far, depth]: [f64; 3], convention: Convention) -> Answer {
-    let curve = DepthCurve::perspective(near, far, convention)?;
-    give(curve.distance(depth).ok_or("no distance has this depth")?)
 }
 
 fn slope(v: &Inputs<'_>, convention: Convention) -> Answer {

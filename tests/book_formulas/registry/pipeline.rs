@@ -19,8 +19,6 @@ const SEGMENT: &str = "\\mathbf{n} \\mathbf{p} \\mathbf{a} \\mathbf{b}";
 pub const ENTRIES: &[Entry] = &[
     Entry::new("PL-1", CHAIN, |v| give(world_to_screen(v, perspective(v)?)?))
         .with_extras(chain_extras),
-    Entry::new("PL-1.parallel", CHAIN, |v| give(world_to_screen(v, parallel(v)?)?))
-        .with_extras(chain_extras),
     Entry::new("PL-2", "x y w", |v| {
         let [x, y, w] = v.numbers()?;
         let place = HPoint::<World>::new(x, y, 0.0, w).divide().ok_or("w = 0")?;
@@ -44,12 +42,6 @@ pub const ENTRIES: &[Entry] = &[
         give(ray.ray.direction.normalized().ok_or("no direction")?)
     })
     .with_extras(ray_extras),
-    Entry::new("HL-1", "\\mathbf{a} \\mathbf{b} t", |v| give(on_segment(v)?)),
-    Entry::new("HL-1.point", "\\mathbf{a} \\mathbf{b} t", |v| give(on_segment(v)?)),
-    Entry::new("HL-1.behind", "\\mathbf{n} \\mathbf{p} \\mathbf{a} \\mathbf{b} t", |v| {
-        give(-plane(v)?.evaluate(on_segment(v)?))
-    })
-    .with_extras(|v| -> Extras { Ok(vec![("\\mathbf{P}", on_segment(v)?.into())]) }),
     Entry::new("HL-1.t", SEGMENT, crossing),
 ];
 
@@ -102,10 +94,6 @@ fn ray_extras(v: &Inputs<'_>) -> Extras {
     let mut extras = chain_extras(v)?;
     extras.extend([("\\mathbf{p}_n", near.into()), ("\\mathbf{p}_f", far.into())]);
     Ok(extras)
-}
-
-fn on_segment(v: &Inputs<'_>) -> Result<Point<World>, Box<dyn Error>> {
-    Ok(Point::from(v.vector("a")?).lerp(v.vector("b")?.into(), v.number("t")?))
 }
 
 fn plane(v: &Inputs<'_>) -> Result<Plane<World>, Box<dyn Error>> {

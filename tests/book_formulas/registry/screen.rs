@@ -2,74 +2,30 @@
 
 use super::inputs::{Answer, Inputs, give};
 use super::{Entry, Extras};
-use homog::{Affine, Ndc, PixelConvention, Point, Screen, perspective_weights, remap_interval};
+use homog::{PixelConvention, Point, perspective_weights, remap_interval};
 use raster::{SUBPIXELS, ScreenVertex, signed_area};
 use std::error::Error;
 use viewport::{DepthRange, Limits, PointGrid, Rectangle, Viewport, WindowToViewport};
 
 const SIZE: &str = "n_x n_y";
 const WINDOW_X: &str = "x_{wmin} x_{wmax} x_{vmin} x_{vmax}";
-const WINDOW_Y: &str = "y_{wmin} y_{wmax} y_{vmin} y_{vmax}";
 const WINDOW: &str = "x_{wmin} x_{wmax} y_{wmin} y_{wmax} x_{vmin} x_{vmax} y_{vmin} y_{vmax}";
 const EDGE: &str = "x_0 y_0 x_1 y_1 x y";
 const TRIANGLE: &str = "x_0 y_0 x_1 y_1 x_2 y_2";
 
 pub const ENTRIES: &[Entry] = &[
     Entry::new("VP-1", SIZE, |v| give(image(v, PixelConvention::CHAPTER)?.ndc_to_screen())),
-    Entry::new("VP-1.inverse", SIZE, |v| give(image(v, PixelConvention::CHAPTER)?.screen_to_ndc())),
     Entry::new("VP-2", SIZE, |v| give(image(v, PixelConvention::CHAPTER_Y_DOWN)?.ndc_to_screen())),
-    Entry::new("VP-2.inverse", SIZE, |v| {
-        give(image(v, PixelConvention::CHAPTER_Y_DOWN)?.screen_to_ndc())
-    }),
-    Entry::new("VP-1.x", "n_x x", |v| along_x(v, PixelConvention::CHAPTER)),
-    Entry::new("VP-1.y", "n_y y", |v| along_y(v, PixelConvention::CHAPTER)),
-    Entry::new("VP-2.y", "n_y y", |v| along_y(v, PixelConvention::CHAPTER_Y_DOWN)),
     Entry::new("VP-3", "x_0 y_0 w h d_n d_f", |v| {
         let [x, y, width, height, near, far] = v.numbers()?;
         let depth = DepthRange::new([-1.0, 1.0], [near, far])?;
         let area = Rectangle::new(x, y, width, height)?;
         give(Viewport::new(area, PixelConvention::OPENGL, depth).ndc_to_screen())
     }),
-    Entry::new("VP-3.image", SIZE, |v| give(image(v, PixelConvention::OPENGL)?.ndc_to_screen())),
-    Entry::new("VP-3.down", SIZE, |v| give(image(v, PixelConvention::IMAGE)?.ndc_to_screen())),
-    Entry::new("VP-3.x", "x_0 w x", |v| {
-        let [x_0, width, x] = v.numbers()?;
-        give(on_area([x_0, 0.0, width, 1.0], [x, 0.0])?.x())
-    }),
-    Entry::new("VP-3.y", "y_0 h y", |v| {
-        let [y_0, height, y] = v.numbers()?;
-        give(on_area([0.0, y_0, 1.0, height], [0.0, y])?.y())
-    }),
-    Entry::new("VP-3.depth", "d_n d_f z", |v| {
-        let [near, far, z] = v.numbers()?;
-        give(DepthRange::new([-1.0, 1.0], [near, far])?.ndc_to_depth(z))
-    }),
     Entry::new("VP-4", "n_y x y", to_image),
-    Entry::new("VP-4.image", "n_y x y", to_image),
-    Entry::new("VP-4.half", "x", |v| {
-        let map = PixelConvention::CHAPTER.convert_to(PixelConvention::OPENGL, 1.0)?;
-        give(map.transform_point(Point::new(v.number("x")?, 0.0, 0.0)).x())
-    }),
-    Entry::new("VP-4.down", "n_y y", |v| {
-        turned_y(v, PixelConvention::CHAPTER, PixelConvention::CHAPTER_Y_DOWN)
-    }),
-    Entry::new("VP-4.down_half", "n_y y", |v| {
-        turned_y(v, PixelConvention::OPENGL, PixelConvention::IMAGE)
-    }),
     Entry::new("DP-1.gl", "z", |v| give(DepthRange::ZERO_ONE.ndc_to_depth(v.number("z")?))),
     Entry::new("DP-1.chapter", "z", |v| {
         give(DepthRange::ZERO_ONE_FLIPPED.ndc_to_depth(v.number("z")?))
-    }),
-    Entry::new("DP-1.inverse_z", "", |_| {
-        let flipped = Viewport::image(2, 2)?.with_depth(DepthRange::NEGATED).ndc_to_screen();
-        let kept = Viewport::image(2, 2)?.with_depth(DepthRange::KEEP).screen_to_ndc();
-        give(flipped.then(kept))
-    }),
-    Entry::new("WV-1", "x_w x_{wmin} x_{wmax} x_{vmin} x_{vmax}", ratio_x),
-    Entry::new("WV-1.x", "x_w x_{wmin} x_{wmax} x_{vmin} x_{vmax}", ratio_x),
-    Entry::new("WV-1.y", "y_w y_{wmin} y_{wmax} y_{vmin} y_{vmax}", |v| {
-        let [_, y] = across_y(v)?.map_by_ratio([0.0, v.number("y_w")?]);
-        give(y)
     }),
     Entry::new("WV-1.ratio", "x_v x_{vmin} x_{vmax}", |v| {
         let [x, low, high] = v.numbers()?;
@@ -80,13 +36,8 @@ pub const ENTRIES: &[Entry] = &[
         Ok(vec![("s_x", s_x.into()), ("s_y", s_y.into())])
     }),
     Entry::new("WV-2.s_x", WINDOW_X, |v| give(across_x(v)?.scale_factors()[0])),
-    Entry::new("WV-2.s_y", WINDOW_Y, |v| give(across_y(v)?.scale_factors()[1])),
     Entry::new("WV-3", "x_s n_x", |v| back_x(v, PixelConvention::CHAPTER)),
-    Entry::new("WV-3.x", "x_s n_x", |v| back_x(v, PixelConvention::CHAPTER)),
     Entry::new("WV-3.half", "x_s n_x", |v| back_x(v, PixelConvention::OPENGL)),
-    Entry::new("WV-3.y", "y_s n_y", |v| back_y(v, PixelConvention::CHAPTER)),
-    Entry::new("WV-3.y_down", "y_s n_y", |v| back_y(v, PixelConvention::CHAPTER_Y_DOWN)),
-    Entry::new("WV-3.half_y_down", "y_s n_y", |v| back_y(v, PixelConvention::IMAGE)),
     Entry::new("WV-4.x", "i rows", |v| {
         let [i, rows] = v.numbers()?;
         let grid = PointGrid::new(pixels(rows)? as usize, 2)?;
@@ -97,9 +48,7 @@ pub const ENTRIES: &[Entry] = &[
         let grid = PointGrid::new(2, pixels(columns)? as usize)?;
         give(grid.xz(0, pixels(j)? as usize).ok_or("j is beyond the last column")?[1])
     }),
-    Entry::new("RA-1", EDGE, edge),
     Entry::new("RA-1.edge", EDGE, edge),
-    Entry::new("RA-1.area", TRIANGLE, |v| give(area(corners(v)?) / 2.0)),
     // The rasterizer keeps weights in f32; the exact ones are ratios of areas.
     Entry::new("RA-1.weight", "x_0 y_0 x_1 y_1 x_2 y_2 x y", |v| {
         give(edges(v)?.map(|edge| edge / corners(v).map_or(f64::NAN, area)))
@@ -136,35 +85,9 @@ fn sized(n_x: f64, n_y: f64, convention: PixelConvention) -> Result<Viewport, Bo
     Ok(Viewport::chapter(pixels(n_x)?, pixels(n_y)?)?.with_convention(convention))
 }
 
-fn along_x(v: &Inputs<'_>, convention: PixelConvention) -> Answer {
-    let [n_x, x] = v.numbers()?;
-    give(sized(n_x, 1.0, convention)?.ndc_to_screen().transform_point(Point::new(x, 0.0, 0.0)).x())
-}
-
-fn along_y(v: &Inputs<'_>, convention: PixelConvention) -> Answer {
-    let [n_y, y] = v.numbers()?;
-    give(sized(1.0, n_y, convention)?.ndc_to_screen().transform_point(Point::new(0.0, y, 0.0)).y())
-}
-
 fn back_x(v: &Inputs<'_>, convention: PixelConvention) -> Answer {
     let [x, n_x] = v.numbers()?;
     give(sized(n_x, 1.0, convention)?.screen_to_ndc().transform_point(Point::new(x, 0.0, 0.0)).x())
-}
-
-fn back_y(v: &Inputs<'_>, convention: PixelConvention) -> Answer {
-    let [y, n_y] = v.numbers()?;
-    give(sized(1.0, n_y, convention)?.screen_to_ndc().transform_point(Point::new(0.0, y, 0.0)).y())
-}
-
-/// The position on the screen of an NDC position, in an area of a picture.
-fn on_area(
-    [x_0, y_0, width, height]: [f64; 4],
-    [x, y]: [f64; 2],
-) -> Result<Point<Screen>, Box<dyn Error>> {
-    let area = Rectangle::new(x_0, y_0, width, height)?;
-    let map: Affine<Ndc, Screen> =
-        Viewport::new(area, PixelConvention::OPENGL, DepthRange::KEEP).ndc_to_screen();
-    Ok(map.transform_point(Point::new(x, y, 0.0)))
 }
 
 fn to_image(v: &Inputs<'_>) -> Answer {
@@ -172,11 +95,6 @@ fn to_image(v: &Inputs<'_>) -> Answer {
     let map = PixelConvention::CHAPTER.convert_to(PixelConvention::IMAGE, n_y)?;
     let place = map.transform_point(Point::new(x, y, 0.0));
     give([place.x(), place.y()])
-}
-
-fn turned_y(v: &Inputs<'_>, from: PixelConvention, to: PixelConvention) -> Answer {
-    let [n_y, y] = v.numbers()?;
-    give(from.convert_to(to, n_y)?.transform_point(Point::new(0.0, y, 0.0)).y())
 }
 
 fn window_map(v: &Inputs<'_>) -> Result<WindowToViewport, Box<dyn Error>> {
@@ -188,16 +106,6 @@ fn window_map(v: &Inputs<'_>) -> Result<WindowToViewport, Box<dyn Error>> {
 fn across_x(v: &Inputs<'_>) -> Result<WindowToViewport, Box<dyn Error>> {
     let ([x0, x1, to_x0, to_x1], y) = (v.these(WINDOW_X)?, [0.0, 1.0]);
     Ok(WindowToViewport::new(Limits { x: [x0, x1], y }, Limits { x: [to_x0, to_x1], y })?)
-}
-
-fn across_y(v: &Inputs<'_>) -> Result<WindowToViewport, Box<dyn Error>> {
-    let ([y0, y1, to_y0, to_y1], x) = (v.these(WINDOW_Y)?, [0.0, 1.0]);
-    Ok(WindowToViewport::new(Limits { x, y: [y0, y1] }, Limits { x, y: [to_y0, to_y1] })?)
-}
-
-fn ratio_x(v: &Inputs<'_>) -> Answer {
-    let [x, _] = across_x(v)?.map_by_ratio([v.number("x_w")?, 0.0]);
-    give(x)
 }
 
 fn vertex(x: f64, y: f64) -> Result<ScreenVertex, String> {
