@@ -2,8 +2,11 @@
 //!
 //! The table, `tests/CONFORMANCE.md`, is made from the source text of the tests. With `--check` it
 //! is compared instead of written. Either way a crate of mathematics without a test of an item it
-//! answers for is a failure, and so is a test that names an item there is none of.
+//! answers for is a failure, and so is a test that names an item there is none of. The book marks
+//! every topic on the page that treats it, and its pages are the evidence of topics that are no
+//! mathematics.
 
+mod book;
 mod items;
 mod scan;
 mod table;
@@ -12,11 +15,17 @@ mod vectors;
 use crate::Outcome;
 use crate::tidy::{Source, rust_files};
 use crate::workspace::{project_root, read_text};
+use book::BookMarks;
 use scan::Test;
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 use vectors::VECTORS;
 
 const TABLE_PATH: &str = "tests/CONFORMANCE.md";
+const BOOK_PATH: &str = "book/src";
+/// Where the inventory of the sources is, from the root, unless `INVENTORY` says otherwise.
+const INVENTORY_PATH: &str = "../shared/inventory.md";
 
 /// Writes the table, or compares it with `--check`; fails if a topic has no test.
 pub fn run_conformance(arguments: &[String]) -> Outcome {
@@ -30,17 +39,23 @@ pub fn run_conformance(arguments: &[String]) -> Outcome {
     let of_crates = sources.iter().filter(|source| !source.path.starts_with("xtask/"));
     let tests: Vec<Test> =
         of_crates.flat_map(|source| scan::scan_tests(&source.path, &source.text)).collect();
-    let document = table::conformance_document(&tests);
+    let marks = BookMarks::read(&project_root().join(BOOK_PATH))?;
+    let document = table::conformance_document(&tests, marks.as_ref());
     let path = project_root().join(TABLE_PATH);
-    let mut faults =
-        [missing_items(&tests), unknown_items(&tests), vectors_without_runner(&sources)].concat();
+    let mut faults = [
+        missing_items(&tests),
+        unknown_items(&tests),
+        vectors_without_runner(&sources),
+        differing_lists(&document, marks.as_ref())?,
+    ]
+    .concat();
     if !check {
         fs::write(&path, &document).map_err(|error| format!("{TABLE_PATH}: {error}"))?;
     } else if read_text(&path).ok().as_ref() != Some(&document) {
         faults.push(format!("{TABLE_PATH} is stale: run `cargo xtask conformance`"));
     }
     if faults.is_empty() {
-        println!("{}", coverage_summary(&tests));
+        println!("{}", coverage_summary(&tests, marks.as_ref()));
         return Ok(());
     }
     Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  ")))
@@ -64,6 +79,28 @@ fn unknown_items(tests: &[Test]) -> Vec<String> {
     lines.collect()
 }
 
+/// Topics that the inventory of the sources, the table and the marks of the book do not share.
+fn differing_lists(document: &str, marks: Option<&BookMarks>) -> Result<Vec<String>, String> {
+    let topics: BTreeSet<String> =
+        items::ITEMS.iter().chain(items::MISPRINTS.iter()).map(|item| item.id.clone()).collect();
+    let mut faults = Vec::new();
+    faults
+        .extend(book::compare_topics(TABLE_PATH, &book::inventory_topics(document), &topics).err());
+    let named = std::env::var_os("INVENTORY").unwrap_or_else(|| INVENTORY_PATH.into());
+    let inventory = project_root().join(Path::new(&named));
+    if inventory.is_file() {
+        let found = book::inventory_topics(&read_text(&inventory)?);
+        faults.extend(book::compare_topics("the inventory", &found, &topics).err());
+    } else {
+        println!("SKIPPED the inventory of the sources: {} is missing", inventory.display());
+    }
+    match marks {
+        Some(marks) => faults.extend(marks.faults(&topics)),
+        None => println!("SKIPPED the marks of the book: there is no {BOOK_PATH}"),
+    }
+    Ok(faults)
+}
+
 /// The runners name their files as `("file", function)`.
 fn vectors_without_runner(sources: &[Source]) -> Vec<String> {
     let runners = sources.iter().filter(|source| source.path.starts_with("tests/vectors/"));
@@ -72,11 +109,12 @@ fn vectors_without_runner(sources: &[Source]) -> Vec<String> {
     strange.map(|(name, _)| format!("no runner in tests/vectors is for {name}")).collect()
 }
 
-fn coverage_summary(tests: &[Test]) -> String {
+fn coverage_summary(tests: &[Test], marks: Option<&BookMarks>) -> String {
     let naming = tests.iter().filter(|test| !test.ids.is_empty()).count();
     let all = items::all_items().count();
-    let proved =
-        |item: &&items::Item| item.owners.iter().all(|owner| table::has_test(item, owner, tests));
+    let proved = |item: &&items::Item| {
+        item.owners.iter().all(|owner| table::has_evidence(item, owner, tests, marks))
+    };
     let proved = items::all_items().filter(proved).count();
     format!(
         "{naming} tests name topics; {proved} of {all} topics have a test in every crate that implements them"

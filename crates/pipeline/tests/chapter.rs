@@ -1,5 +1,12 @@
 //! The chapter's claims about the whole pipeline, seen in pictures and in numbers.
 
+#[path = "chapter/derivations.rs"]
+mod derivations;
+#[path = "chapter/stages.rs"]
+mod stages;
+#[path = "chapter/volumes.rs"]
+mod volumes;
+
 use homog::{HPoint, Model, Point, World};
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, Scene, render};

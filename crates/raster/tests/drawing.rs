@@ -279,3 +279,37 @@ fn weights_are_finite_and_whole_for_every_w() {
         assert!(!alike || pairs.all(near), "{ws:?}");
     }
 }
+
+/// C2: lines hide no more than their own pixels, and triangles hide what is behind them.
+#[test]
+fn c2_near_lines_do_not_hide_far_ones_and_near_triangles_do() {
+    let line = |frame: &mut Frame, ends: [[f64; 2]; 2], depth: f64, id: u32| {
+        let ends = ends.map(|[x, y]| vertex(x, y, depth));
+        frame.add_line(ends, 1.0, id, Opacity::Opaque);
+    };
+    let pixels_of = |frame: &Frame, id: u32| -> Vec<usize> {
+        let ids = frame.visibility_buffer().ids;
+        (0..ids.len()).filter(|at| ids[*at] == Some(id)).collect()
+    };
+    let far_line = [[2.0, 8.5], [14.0, 8.5]];
+    let mut alone = Frame::new(16, 16, Samples::One).expect("a small frame");
+    line(&mut alone, far_line, 0.2, 0);
+    let whole = pixels_of(&alone, 0);
+    assert_eq!(whole, (2..14).map(|x| 8 * 16 + x).collect::<Vec<usize>>());
+    // The outline of a square before it takes the two pixels that it crosses.
+    let corners = [[4.5, 4.5], [11.5, 4.5], [11.5, 11.5], [4.5, 11.5]];
+    let mut wireframe = alone.clone();
+    for side in 0..4 {
+        line(&mut wireframe, [corners[side], corners[(side + 1) % 4]], 0.8, 1);
+    }
+    let crossed = [8 * 16 + 4, 8 * 16 + 11];
+    let left: Vec<usize> = whole.iter().copied().filter(|at| !crossed.contains(at)).collect();
+    assert_eq!(pixels_of(&wireframe, 0), left);
+    assert!(crossed.iter().all(|at| pixels_of(&wireframe, 1).contains(at)));
+    // The square itself takes all between them: the centers from 4.5 to, without, 11.5.
+    let mut solid = alone.clone();
+    rectangle(&mut solid, [4.5, 4.5, 11.5, 11.5], 0.8, 2, Opacity::Opaque);
+    let outside = |at: &usize| !(4..11).contains(&(at % 16));
+    let left: Vec<usize> = whole.into_iter().filter(outside).collect();
+    assert_eq!(pixels_of(&solid, 0), left);
+}

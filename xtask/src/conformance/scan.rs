@@ -77,7 +77,7 @@ fn named_ids(words: impl Iterator<Item = String>) -> BTreeSet<String> {
 }
 
 /// A letter, a number, and for a misprint perhaps a letter more.
-fn is_item_id(word: &str) -> bool {
+pub fn is_item_id(word: &str) -> bool {
     let number = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
     let misprint = |rest: &str| number(rest) || number(rest.trim_end_matches(['b', 'c']));
     word.strip_prefix('C').is_some_and(number) || word.strip_prefix('M').is_some_and(misprint)

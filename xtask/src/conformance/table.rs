@@ -1,9 +1,13 @@
 //! The Markdown document `tests/CONFORMANCE.md`.
 
+use super::book::BookMarks;
 use super::items::{EXERCISES, ITEMS, Item, MISPRINTS};
 use super::scan::Test;
 use super::vectors::VECTORS;
 use std::collections::BTreeMap;
+
+/// The owner of topics that are no mathematics.
+const DOCUMENTS: &str = "documents";
 
 const OPENING: &str = "\
 # Conformance
@@ -16,18 +20,18 @@ from the doc comments above them. `cargo xtask test conformance` fails if the fi
 mathematics has no test of a topic that it implements.
 
 “Not yet” marks a crate that implements a topic and has no test that names it. The files of
-[exact vectors](vectors/data/README.md) are a second, independent test.
+[exact vectors](vectors/data/README.md) are a second, independent test. What is no mathematics has a page of the book.
 ";
 
 /// The whole document.
-pub fn conformance_document(tests: &[Test]) -> String {
+pub fn conformance_document(tests: &[Test], marks: Option<&BookMarks>) -> String {
     let mut text = OPENING.to_owned();
     let sections: [(&str, &[Item]); 3] =
         [("Items", &ITEMS), ("Exercises", &EXERCISES), ("Misprints", &MISPRINTS)];
     for (heading, items) in sections {
         text += &format!("\n## {heading}\n\n| id | topic | tests |\n| --- | --- | --- |\n");
         for item in items {
-            let proofs = item_proofs(item, tests).join("<br>");
+            let proofs = item_proofs(item, tests, marks).join("<br>");
             text += &format!("| {} | {} | {proofs} |\n", item.id, item.title);
         }
     }
@@ -35,7 +39,7 @@ pub fn conformance_document(tests: &[Test]) -> String {
 }
 
 /// A line for each file that has a test of the item, for the vectors, and for what is missing.
-fn item_proofs(item: &Item, tests: &[Test]) -> Vec<String> {
+fn item_proofs(item: &Item, tests: &[Test], marks: Option<&BookMarks>) -> Vec<String> {
     let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for test in tests.iter().filter(|test| test.ids.contains(&item.id)) {
         files.entry(&test.path).or_default().push(&test.name);
@@ -47,7 +51,15 @@ fn item_proofs(item: &Item, tests: &[Test]) -> Vec<String> {
     if !vectors.is_empty() {
         lines.push(format!("vectors: {}", vectors.join(", ")));
     }
-    let missing = item.owners.iter().filter(|owner| !has_test(item, owner, tests));
+    if item.owners.contains(&DOCUMENTS) {
+        let pages = marks.into_iter().flat_map(|marks| marks.pages_of(&item.id));
+        let pages: Vec<String> =
+            pages.map(|page| format!("[{page}](../book/src/{page}.md)")).collect();
+        if !pages.is_empty() {
+            lines.push(format!("book: {}", pages.join(", ")));
+        }
+    }
+    let missing = item.owners.iter().filter(|owner| !has_evidence(item, owner, tests, marks));
     lines.extend(missing.map(|owner| format!("not yet: {owner}")));
     lines
 }
@@ -61,4 +73,13 @@ fn file_entry(path: &str, names: &[&str]) -> String {
 /// Whether a crate has a test that names the item.
 pub fn has_test(item: &Item, owner: &str, tests: &[Test]) -> bool {
     tests.iter().any(|test| test.owner() == owner && test.ids.contains(&item.id))
+}
+
+/// Whether a crate has a test that names the item, or for what is no mathematics, the book a page
+/// that marks it.
+pub fn has_evidence(item: &Item, owner: &str, tests: &[Test], marks: Option<&BookMarks>) -> bool {
+    if owner == DOCUMENTS {
+        return marks.is_some_and(|marks| marks.pages_of(&item.id).next().is_some());
+    }
+    has_test(item, owner, tests)
 }
