@@ -124,8 +124,11 @@ fn c104_every_command_of_the_exercises_gives_the_worked_answer() {
 }
 
 #[test]
-fn the_page_has_eleven_exercises_and_items_of_all_sources() {
-    let cases = read_cases(&read_page("exercises.md"));
+fn the_page_has_all_exercises_and_items_of_all_sources() {
+    let page = read_page("exercises.md");
+    let cases = read_cases(&page);
+    let headings = (12..=24).map(|number| format!("\n### Exercise {number} [own]\n"));
+    assert!(headings.into_iter().all(|heading| page.contains(&heading)));
     let titles: BTreeSet<&str> = cases.iter().map(|case| case.title.as_str()).collect();
     for number in 1..=11 {
         assert!(titles.contains(format!("Exercise {number} [S]").as_str()), "exercise {number}");
@@ -134,6 +137,31 @@ fn the_page_has_eleven_exercises_and_items_of_all_sources() {
     assert!(items.len() >= 30, "{} items", items.len());
     for source in ["[S]", "[N]", "[G]", "[L]", "[A]"] {
         assert!(items.iter().filter(|title| title.ends_with(source)).count() >= 4, "{source}");
+    }
+}
+
+/// The answers that the page has checked by `alberti exercise` are right.
+#[test]
+fn answers_in_the_text_of_the_exercises_are_right() {
+    let sandbox = Sandbox::new("exercises_answers");
+    let page = read_page("exercises.md");
+    let spans = page.split('`').skip(1).step_by(2);
+    let commands: Vec<&str> = spans
+        .filter(|span| span.starts_with("alberti exercise") && span.contains("--answer "))
+        .collect();
+    assert_eq!(commands.len(), 5, "{commands:?}");
+    for command in commands {
+        assert_eq!(run_command(&sandbox, command, &["--language", "en"]), "right\n", "{command}");
+    }
+    // The samples of the section on checking.
+    let (_, samples) = page.split_once("```text\n").expect("samples");
+    let samples = samples.split("```").next().unwrap_or_default();
+    for sample in samples.split("$ ").skip(1) {
+        let (command, said) = sample.split_once('\n').expect("an answer");
+        let words = split_words(command);
+        let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
+        let words = [&words[..], &["--language", "en"]].concat();
+        assert_eq!(sandbox.run(&words).stdout, said, "{command}");
     }
 }
 

@@ -17,6 +17,7 @@ mod compare_projections;
 mod curve;
 mod drawings;
 mod examples;
+mod exercise;
 mod exercises;
 mod explain;
 mod explore;

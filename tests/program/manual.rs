@@ -8,7 +8,7 @@ fn shells_learn_the_commands_and_flags() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let run = sandbox.run(&["completions", shell]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{shell}");
-        for word in ["render", "projection", "turntable", "overlay"] {
+        for word in ["render", "projection", "turntable", "overlay", "exercise"] {
             assert!(run.stdout.contains(word), "{shell}: {word}");
         }
         assert!(

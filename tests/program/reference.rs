@@ -20,6 +20,7 @@ fn every_flag_of_every_command_is_in_the_reference() {
         "check",
         "matrix",
         "explain",
+        "exercise",
         "compare-projections",
         "sweep",
         "curve depth",

@@ -149,6 +149,12 @@ fn other_calls() -> Vec<Call> {
         ("explain", "matrix 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 --json"),
         ("explain", "matrix --frustum -1,3,-2,1,2,6 --conventions vulkan --json"),
         ("explain", "matrix --look-at 4,3,6,0,0,0 --point 3,2,-2 --json"),
+        ("exercise", "exercise --json"),
+        ("exercise", "exercise 3 --json"),
+        ("exercise", "exercise 3 --answer A=n+f;B=-n*f --json"),
+        ("exercise", "exercise 3 --answer A=n+f;B=n*f --json"),
+        ("exercise", "exercise 3 --answer A=n+f;B=2f --json"),
+        ("exercise", "exercise 16 --answer 3.81 --json"),
     ]
     .map(|(schema, line)| Call::new(schema, line))
     .into();

@@ -11,6 +11,7 @@ use super::compare_projections::CompareProjectionsArgs;
 use super::curve::CurveArgs;
 use super::deferred::Deferred;
 use super::demo::DemoArgs;
+use super::exercise::ExerciseArgs;
 use super::explain::ExplainArgs;
 use super::explore::ExploreArgs;
 use super::format::OutputFormat;
@@ -60,6 +61,7 @@ Examples:
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti explore model.glb                       the same live, in a browser on this machine
+  alberti exercise 3 --answer 'A=n+f; B=-n*f'     an answer to an exercise, checked
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12
   alberti curve depth --near 0.1 --far 1000 -o depth.svg
@@ -75,8 +77,9 @@ Exit codes:
   2  wrong usage
   3  `batch` alone: the run could not go on, as where the disk is full; run it again
 `check` exits with 1 if there are errors, but not for warnings and notes. `render --compare` exits
-with 1 if the pictures differ, and writes all of its files. `batch` exits with 1 if jobs have failed,
-and with 128 plus the number of a signal that has interrupted it.";
+with 1 if the pictures differ, and writes all of its files. `exercise` exits with 1 if the answer is
+wrong. `batch` exits with 1 if jobs have failed, and with 128 plus the number of a signal that has
+interrupted it.";
 
 /// The commands, in the order of the help.
 #[derive(Debug, Subcommand)]
@@ -95,6 +98,8 @@ pub(crate) enum Command {
     Explain(Deferred<ExplainArgs>),
     /// Explore the viewing pipeline in a browser: lessons, or a model
     Explore(ExploreArgs),
+    /// Print the exercises of the book, and check answers: what is wrong has a name
+    Exercise(Deferred<ExerciseArgs>),
     /// Draw a subject in every classical projection, side by side, with formulas and numbers
     CompareProjections(Deferred<CompareProjectionsArgs>),
     /// Draw a series of pictures that differ in one parameter of the camera, side by side

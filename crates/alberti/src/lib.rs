@@ -34,6 +34,7 @@ mod curve;
 mod deferred;
 mod demo;
 mod error;
+mod exercise;
 mod explain;
 mod explore;
 mod format;
@@ -83,11 +84,10 @@ use std::process::ExitCode;
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap), 3 a
 /// batch that could not go on, 128 and more one that a signal has interrupted.
 ///
-/// A failure is printed as one message, `error: MESSAGE`, on the standard error stream, and the
-/// code is 1. Usage errors are printed by clap with the usage of the command, and the code is 2;
-/// `--help` and `--version` are printed by it as well, with 0. `check`, `render --compare`, `batch`
-/// and `scene fmt --check` also return 1 for a verdict rather than for a failure; they have then
-/// printed it themselves, without `error:`.
+/// A failure is printed as `error: MESSAGE` on the standard error stream, and the code is 1. clap
+/// prints usage errors, and `--help` and `--version` with the code 0. `check`, `render --compare`,
+/// `batch`, `scene fmt --check` and `exercise` also return 1 for a verdict rather than for a
+/// failure; they have then printed it themselves, without `error:`.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words = negative_numbers::join_negative_numbers(arguments, Args::command);
     let args = match Args::try_parse_from(words) {
@@ -106,9 +106,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Runs the command of the arguments.
 ///
-/// The color choice is set first, because every message that follows depends on it. Commands with a
-/// verdict of their own (`render`, `check`, `batch`, `scene`) return their exit code; any other
-/// command succeeds or fails.
+/// The color choice is set first, because messages depend on it. Commands with a verdict of their
+/// own (`render`, `check`, `batch`, `scene`, `exercise`) return their exit code.
 ///
 /// # Errors
 /// If the input is invalid or the work fails; nothing has been printed about it then.
@@ -123,6 +122,7 @@ pub(crate) fn run_command(args: Args) -> Result<u8, CliError> {
         Command::Matrix(Deferred(args)) => matrix::run(&args)?,
         Command::Explain(Deferred(args)) => explain::run(&args)?,
         Command::Explore(args) => explore::run(&args)?,
+        Command::Exercise(Deferred(args)) => return exercise::run(&args).map(verdict),
         Command::CompareProjections(Deferred(args)) => compare_projections::run(&args)?,
         Command::Sweep(Deferred(args)) => sweep::run(&args)?,
         Command::Curve(args) => curve::run(&args)?,

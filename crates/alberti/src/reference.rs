@@ -19,6 +19,8 @@ mod schema;
 mod search;
 mod text;
 
+pub(super) use text::wrap_paragraphs;
+
 use super::{CliError, print_stdout};
 use clap::{Command, ValueEnum};
 use pipeline::formulas::{Formula, entries, find_formula, find_formulas};

@@ -3,6 +3,7 @@
 mod catalogue;
 mod depth_pane;
 mod error;
+pub mod exercise;
 mod explorer;
 mod facts;
 mod lesson;
@@ -25,3 +26,4 @@ mod world_pane;
 
 pub use error::ExplorerError;
 pub use explorer::{Answer, Explorer};
+pub use words::{Language, Sentence, Words};

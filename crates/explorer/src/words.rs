@@ -4,9 +4,11 @@ use serde_json::{Value as Json, json};
 
 /// A fixed text in both languages.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Words {
-    pub(crate) en: &'static str,
-    pub(crate) zh: &'static str,
+pub struct Words {
+    /// The text in English.
+    pub en: &'static str,
+    /// The text in Chinese, in simplified characters.
+    pub zh: &'static str,
 }
 
 /// A fixed text in both languages.
@@ -15,6 +17,15 @@ pub(crate) const fn words(en: &'static str, zh: &'static str) -> Words {
 }
 
 impl Words {
+    /// The text in a language.
+    #[must_use]
+    pub const fn text(self, language: Language) -> &'static str {
+        match language {
+            Language::English => self.en,
+            Language::Chinese => self.zh,
+        }
+    }
+
     pub(crate) fn to_json(self) -> Json {
         json!({"en": self.en, "zh": self.zh})
     }
@@ -22,9 +33,11 @@ impl Words {
 
 /// A sentence with numbers in it, in both languages.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Sentence {
-    pub(crate) en: String,
-    pub(crate) zh: String,
+pub struct Sentence {
+    /// The sentence in English.
+    pub en: String,
+    /// The sentence in Chinese, in simplified characters.
+    pub zh: String,
 }
 
 /// A sentence in both languages.
@@ -33,6 +46,15 @@ pub(crate) fn sentence(en: impl Into<String>, zh: impl Into<String>) -> Sentence
 }
 
 impl Sentence {
+    /// The sentence in a language.
+    #[must_use]
+    pub fn text(&self, language: Language) -> &str {
+        match language {
+            Language::English => &self.en,
+            Language::Chinese => &self.zh,
+        }
+    }
+
     pub(crate) fn to_json(&self) -> Json {
         json!({"en": self.en, "zh": self.zh})
     }
@@ -40,8 +62,10 @@ impl Sentence {
 
 /// The language of texts that are said in one only.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub(crate) enum Language {
+pub enum Language {
+    /// English.
     #[default]
     English,
+    /// Chinese, in simplified characters.
     Chinese,
 }

@@ -46,7 +46,7 @@ fn write_entry(page: &mut String, entry: &ReferenceEntry, indent: usize) {
 ///
 /// The width includes the indentation. A word longer than a line is not broken. Widths are counted
 /// in characters, which is exact for the text of the reference.
-pub(super) fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
+pub(crate) fn wrap_paragraphs(page: &mut String, text: &str, indent: usize) {
     for line in text.lines().filter(|line| !line.is_empty()) {
         let mut column = 0;
         for word in line.split_whitespace() {

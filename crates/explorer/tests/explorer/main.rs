@@ -3,6 +3,7 @@
 mod equal_bytes;
 mod errors;
 mod every_lesson;
+mod exercises;
 mod statements;
 
 use explorer::Explorer;

@@ -1,0 +1,221 @@
+//! `alberti exercise`: exercises on viewing, and what is wrong with an answer.
+//!
+//! The exercises are those of `explorer::exercise`; here they are printed. Questions are said in
+//! English or Chinese, JSON has both.
+
+use super::reference::wrap_paragraphs;
+use super::{CliError, print_stdout};
+use clap::ValueEnum;
+use explorer::exercise::{Exercise, Verdict, exercises, find_exercise};
+use explorer::{Language, Sentence, Words};
+use serde_json::{Value as Json, json};
+use std::process::ExitCode;
+
+/// The version of the JSON document.
+const VERSION: u32 = 1;
+
+/// The examples of the help.
+const EXAMPLES: &str = "\
+Examples:
+  alberti exercise                                the list
+  alberti exercise 3                              a question
+  alberti exercise 3 --answer 'A=n+f; B=-n*f'     right
+  alberti exercise 8 --answer '1 0 0 0; 0 1 0 0; 0 0 3 2; 0 0 1 0'
+                                                  wrong: the sign of f n …
+
+Exits with 0 if the answer is right, with 1 if it is wrong.";
+
+/// Arguments of `alberti exercise`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct ExerciseArgs {
+    /// Number of the exercise [default: list all]
+    number: Option<u32>,
+    /// Check an answer
+    ///
+    /// Rows of a matrix are separated by `;`, numbers by blanks or commas. Fractions such as 80/21,
+    /// the letters of the exercise, + - * / ^ ( ), sqrt, sin, cos, tan, cot, atan, abs, pi and
+    /// degrees as 30° may stand in it; several values may be named, as in A=n+f; B=-n*f.
+    #[arg(long, value_name = "ANSWER", allow_hyphen_values = true, requires = "number")]
+    answer: Option<String>,
+    /// Print the hints
+    #[arg(long, requires = "number", conflicts_with = "answer")]
+    hint: bool,
+    /// Print JSON, with all texts in both languages
+    #[arg(long)]
+    json: bool,
+    /// Language of the texts [default: from LC_ALL, LC_MESSAGES or LANG]
+    #[arg(long, value_name = "LANGUAGE")]
+    language: Option<TextLanguage>,
+}
+
+/// The value of `--language`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TextLanguage {
+    /// English
+    En,
+    /// Chinese
+    Zh,
+}
+
+impl From<TextLanguage> for Language {
+    fn from(language: TextLanguage) -> Self {
+        match language {
+            TextLanguage::En => Self::English,
+            TextLanguage::Zh => Self::Chinese,
+        }
+    }
+}
+
+/// Prints the exercises, one of them, its hints, or the verdict on an answer, whose exit code is 1
+/// if it is wrong.
+///
+/// # Errors
+/// If there is no such exercise, or the answer cannot be read.
+pub(crate) fn run(args: &ExerciseArgs) -> Result<ExitCode, CliError> {
+    let language = args.language.map_or_else(language_of_environment, Language::from);
+    let chosen = args.number.map(numbered_exercise).transpose()?;
+    let shown = chosen.as_ref().map_or(exercises(), std::slice::from_ref);
+    let verdict = match (chosen, &args.answer) {
+        (Some(exercise), Some(answer)) => Some(
+            exercise
+                .check(answer)
+                .map_err(|error| CliError::Usage(error.message.text(language).to_owned()))?,
+        ),
+        _ => None,
+    };
+    let text = if args.json {
+        format!("{:#}\n", document(shown, verdict.as_ref()))
+    } else if let Some(verdict) = &verdict {
+        format!("{}\n", verdict.sentence().text(language))
+    } else {
+        match chosen {
+            None => format_list(language),
+            Some(exercise) if args.hint => format_hints(exercise, language),
+            Some(exercise) => format_question(exercise, language),
+        }
+    };
+    print_stdout(text.as_bytes())?;
+    let is_wrong = verdict.is_some_and(|verdict| !verdict.is_right());
+    Ok(if is_wrong { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}
+
+/// Chinese, if the environment asks for it: the first variable that is set counts.
+fn language_of_environment() -> Language {
+    let values = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().filter_map(std::env::var_os);
+    let first = values.into_iter().find(|value| !value.is_empty());
+    match first {
+        Some(value) if value.to_string_lossy().starts_with("zh") => Language::Chinese,
+        _ => Language::English,
+    }
+}
+
+fn numbered_exercise(number: u32) -> Result<&'static Exercise, CliError> {
+    find_exercise(number).ok_or_else(|| {
+        let count = exercises().len();
+        CliError::Usage(format!(
+            "there is no exercise {number}\n  = help: the exercises are 1 to {count}; `alberti exercise` lists them"
+        ))
+    })
+}
+
+fn format_list(language: Language) -> String {
+    let line = |exercise: &&Exercise| {
+        format!("{:>2}  {}\n", exercise.number, exercise.title.text(language))
+    };
+    exercises().iter().map(line).collect()
+}
+
+fn format_question(exercise: &Exercise, language: Language) -> String {
+    let Exercise { number, title, question, .. } = exercise;
+    let (title, form) = (title.text(language), exercise.form());
+    let form = form.text(language);
+    let mut page = String::new();
+    match language {
+        Language::English => {
+            page += &format!("Exercise {number}: {title}\n\n");
+            wrap_paragraphs(&mut page, question.text(language), 0);
+            page.push('\n');
+            wrap_paragraphs(&mut page, &format!("Answer: {form}."), 0);
+            page += &format!("Check:  alberti exercise {number} --answer \"…\"\n");
+            page += &format!("Hints:  alberti exercise {number} --hint\n");
+        }
+        Language::Chinese => {
+            page += &format!("习题 {number}：{title}\n\n{}\n\n", question.text(language));
+            page += &format!("答案：{form}。\n");
+            page += &format!("检查：alberti exercise {number} --answer \"…\"\n");
+            page += &format!("提示：alberti exercise {number} --hint\n");
+        }
+    }
+    page
+}
+
+fn format_hints(exercise: &Exercise, language: Language) -> String {
+    let mut page = String::new();
+    for (number, hint) in (1..).zip(exercise.hints) {
+        let hint = format!("{number}. {}", hint.text(language));
+        match language {
+            Language::English => wrap_paragraphs(&mut page, &hint, 0),
+            Language::Chinese => page += &format!("{hint}\n"),
+        }
+    }
+    page
+}
+
+/// The document of `--json`: exercises, and the verdict on an answer if one was given.
+fn document(shown: &[&Exercise], verdict: Option<&Verdict>) -> Json {
+    json!({
+        "schema": {"name": "alberti-exercise", "version": VERSION},
+        "exercises": shown.iter().map(|exercise| exercise_json(exercise)).collect::<Vec<_>>(),
+        "verdict": verdict.map(verdict_json),
+    })
+}
+
+fn exercise_json(exercise: &Exercise) -> Json {
+    json!({
+        "number": exercise.number,
+        "title": words_json(exercise.title),
+        "question": words_json(exercise.question),
+        "form": sentence_json(&exercise.form()),
+        "letters": exercise.letters,
+        "hints": exercise.hints.iter().copied().map(words_json).collect::<Vec<_>>(),
+    })
+}
+
+fn verdict_json(verdict: &Verdict) -> Json {
+    let (kind, mistake) = match verdict {
+        Verdict::Right => ("right", None),
+        Verdict::Mistaken(mistake) => ("mistake", Some(mistake.id)),
+        Verdict::Rounded => ("rounded", None),
+        Verdict::Different { .. } => ("different", None),
+    };
+    let (mut differences, mut letters) = (Vec::new(), json!({}));
+    if let Verdict::Different { differences: found, letters: at, .. } = verdict {
+        differences.extend(found.iter().map(|difference| {
+            json!({
+                "row": difference.row + 1,
+                "column": difference.column + 1,
+                "name": sentence_json(&difference.name),
+                "value": difference.value,
+            })
+        }));
+        for (name, value) in at {
+            letters[*name] = json!(value);
+        }
+    }
+    json!({
+        "kind": kind,
+        "mistake": mistake,
+        "sentence": sentence_json(&verdict.sentence()),
+        "differences": differences,
+        "letters": letters,
+    })
+}
+
+fn words_json(words: Words) -> Json {
+    json!({"en": words.en, "zh": words.zh})
+}
+
+fn sentence_json(sentence: &Sentence) -> Json {
+    json!({"en": sentence.en, "zh": sentence.zh})
+}

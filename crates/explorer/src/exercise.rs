@@ -1,0 +1,205 @@
+//! Exercises on viewing, with answers that are checked and wrong answers that are named.
+//!
+//! ```text
+//! answer ─► answer_text: entries ─► expression: numbers, for several values of the letters
+//!                                     └─► entries: the crates' answer? else a mistake's? else where?
+//! ```
+//! Exercises 1 to 11 are those of the textbook's chapter, 12 to 24 the project's own. Right answers
+//! are computed by the crates. A formula is compared by its values, so that every way to write it is
+//! right.
+//!
+//! ```
+//! use explorer::Language;
+//! use explorer::exercise::find_exercise;
+//! let exercise = find_exercise(3).expect("the third row of P");
+//! assert!(exercise.check("A = n + f; B = -n f")?.is_right());
+//! let verdict = exercise.check("A = n + f; B = n f")?;
+//! assert!(verdict.sentence().text(Language::English).starts_with("wrong: the sign of B"));
+//! # Ok::<(), explorer::exercise::AnswerError>(())
+//! ```
+
+mod answer_error;
+mod answer_text;
+mod entries;
+mod expression;
+mod mistake;
+mod questions;
+mod verdict;
+
+pub use answer_error::AnswerError;
+pub use mistake::Mistake;
+pub use verdict::{Difference, Verdict};
+
+use crate::words::{Sentence, Words, sentence};
+use answer_text::{AnswerShape, split_answer};
+use entries::{EXACT, Entries, Multiples, ROUNDED, differing_places, is_negated, same_shape};
+use expression::{Letters, evaluate};
+
+/// An exercise.
+#[derive(Debug)]
+pub struct Exercise {
+    /// Its number, from 1.
+    pub number: u32,
+    /// Its title.
+    pub title: Words,
+    /// The question, which can be answered from itself alone.
+    pub question: Words,
+    /// Hints, the first of which says least.
+    pub hints: &'static [Words],
+    /// The letters that the answer may have.
+    pub letters: &'static [&'static str],
+    /// The wrong answers that have a name.
+    pub mistakes: &'static [Mistake],
+    shape: AnswerShape,
+    multiples: Multiples,
+    /// Values of the letters, for each of which an answer is compared.
+    samples: &'static [&'static [f64]],
+    /// The right answer for values of the letters; `None` where there is none.
+    answer: fn(&[f64]) -> Option<Entries>,
+}
+
+/// All exercises, in the order of their numbers.
+#[must_use]
+pub fn exercises() -> &'static [&'static Exercise] {
+    &questions::EXERCISES
+}
+
+/// The exercise of a number.
+#[must_use]
+pub fn find_exercise(number: u32) -> Option<&'static Exercise> {
+    exercises().iter().copied().find(|exercise| exercise.number == number)
+}
+
+/// Numbers without letters: one comparison.
+const NUMBERS: &[&[f64]] = &[&[]];
+
+impl Exercise {
+    /// What an answer looks like, without a full stop.
+    #[must_use]
+    pub fn form(&self) -> Sentence {
+        let (mut en, mut zh) = match self.shape {
+            AnswerShape::Matrix(rows, columns) => (
+                format!("a {rows} × {columns} matrix, its rows separated by `;`"),
+                format!("{rows} × {columns} 矩阵，各行用 `;` 分隔"),
+            ),
+            AnswerShape::Parts(&[&[name]]) => (format!("`{name}`"), format!("`{name}`")),
+            AnswerShape::Parts(parts) => {
+                let parts: Vec<String> = parts.iter().map(|names| names.join(", ")).collect();
+                let parts = parts.join("; ");
+                (format!("`{parts}`"), format!("`{parts}`"))
+            }
+        };
+        if self.letters.is_empty() {
+            en += ", in numbers such as `2/3` or `sqrt(2)`";
+            zh += "，用 `2/3` 或 `sqrt(2)` 这样的数";
+        } else {
+            let letters = self.letters.join(", ");
+            en += &format!(", in the letters {letters}");
+            zh += &format!("，可用字母 {letters}");
+        }
+        match self.multiples {
+            Multiples::None => {}
+            Multiples::All => {
+                en += "; any multiple is right";
+                zh += "；任意倍数都对";
+            }
+            Multiples::Positive => {
+                en += "; any positive multiple is right";
+                zh += "；任意正倍数都对";
+            }
+        }
+        sentence(en, zh)
+    }
+
+    /// Compares an answer with the right one and with those that are often given in its place.
+    ///
+    /// Numbers may differ by 1e-9 of an entry.
+    ///
+    /// # Errors
+    /// If the text is no answer: it has other letters, or not as many entries as are asked for.
+    pub fn check(&'static self, answer: &str) -> Result<Verdict, AnswerError> {
+        let rows = split_answer(answer, self.shape)?;
+        let given: Vec<Entries> = self.evaluate_rows(&rows)?;
+        let right: Vec<Entries> =
+            self.samples.iter().filter_map(|values| (self.answer)(values)).collect();
+        if self.all_equal(&given, &right, EXACT) {
+            return Ok(Verdict::Right);
+        }
+        let named = self.mistakes.iter().find(|mistake| {
+            let wrong = self.samples.iter().filter_map(|values| mistake.entries(self, values));
+            self.all_equal(&given, &wrong.collect::<Vec<_>>(), EXACT)
+        });
+        if let Some(mistake) = named {
+            return Ok(Verdict::Mistaken(mistake));
+        }
+        self.check_shape(&rows)?;
+        if self.all_equal(&given, &right, ROUNDED) {
+            return Ok(Verdict::Rounded);
+        }
+        Ok(self.differences(&given, &right))
+    }
+
+    /// The numbers of an answer for each sample of the letters.
+    fn evaluate_rows(&self, rows: &[Vec<String>]) -> Result<Vec<Entries>, AnswerError> {
+        let evaluate_sample = |values: &&[f64]| {
+            let letters = Letters { names: self.letters, values };
+            let row =
+                |row: &Vec<String>| row.iter().map(|entry| evaluate(entry, letters)).collect();
+            rows.iter().map(row).collect()
+        };
+        self.samples.iter().map(evaluate_sample).collect()
+    }
+
+    /// Whether an answer equals another in every sample.
+    fn all_equal(&self, given: &[Entries], other: &[Entries], tolerance: f64) -> bool {
+        given.len() == other.len()
+            && given.iter().zip(other).all(|(given, other)| {
+                same_shape(given, other)
+                    && differing_places(given, other, self.multiples, tolerance).is_empty()
+            })
+    }
+
+    fn check_shape(&self, rows: &[Vec<String>]) -> Result<(), AnswerError> {
+        let (found, expected) =
+            (rows.iter().map(Vec::len).collect::<Vec<_>>(), self.shape.row_lengths());
+        if found == expected {
+            return Ok(());
+        }
+        let form = self.form();
+        let count = |lengths: &[usize]| {
+            lengths.iter().map(ToString::to_string).collect::<Vec<_>>().join(" + ")
+        };
+        let (found, expected) = (count(&found), count(&expected));
+        Err(AnswerError::new(
+            format!("the answer has {found} entries instead of {expected}: give {}", form.en),
+            format!("答案有 {found} 个元素，应有 {expected} 个：请给出 {}", form.zh),
+        ))
+    }
+
+    /// The entries that differ, in the first sample in which any does.
+    fn differences(&self, given: &[Entries], right: &[Entries]) -> Verdict {
+        let places = |(given, right): (&Entries, &Entries)| {
+            differing_places(given, right, self.multiples, EXACT)
+        };
+        let samples = given.iter().zip(right).zip(self.samples);
+        let found = samples.map(|(pair, values)| (pair, values, places(pair)));
+        let Some(((given, right), values, found)) =
+            found.into_iter().find(|(.., at)| !at.is_empty())
+        else {
+            return Verdict::Rounded;
+        };
+        let difference = |(row, column): (usize, usize)| Difference {
+            row,
+            column,
+            name: verdict::entry_name(self.shape, row, column),
+            value: given[row][column],
+            is_negated: self.multiples == Multiples::None
+                && is_negated(given[row][column], right[row][column]),
+        };
+        Verdict::Different {
+            differences: found.into_iter().map(difference).collect(),
+            count: right.iter().map(Vec::len).sum(),
+            letters: self.letters.iter().copied().zip(values.iter().copied()).collect(),
+        }
+    }
+}

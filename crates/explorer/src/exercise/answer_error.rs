@@ -1,0 +1,62 @@
+//! Answers that cannot be read.
+
+use crate::words::{Sentence, sentence};
+use std::error::Error;
+use std::fmt;
+
+/// The reason why an answer cannot be compared: it is no list of numbers and formulas, or not of
+/// the size that is asked for.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct AnswerError {
+    /// What is wrong and what to write, without a full stop.
+    pub message: Sentence,
+}
+
+impl AnswerError {
+    pub(super) fn new(en: impl Into<String>, zh: impl Into<String>) -> Self {
+        Self { message: sentence(en, zh) }
+    }
+
+    /// A part of an entry that cannot be there.
+    pub(super) fn unexpected(found: &str, entry: &str) -> Self {
+        Self::new(
+            format!("`{found}` is not expected there in `{entry}`"),
+            format!("`{entry}` 中的 `{found}` 无法理解"),
+        )
+    }
+
+    /// An entry that ends too early.
+    pub(super) fn incomplete(entry: &str) -> Self {
+        Self::new(format!("`{entry}` is not complete"), format!("`{entry}` 不完整"))
+    }
+
+    /// A name that is no letter of the exercise.
+    pub(super) fn unknown_name(name: &str, letters: &[&str]) -> Self {
+        let known = letters.join(", ");
+        let (en, zh) = if known.is_empty() {
+            ("the answer has numbers only".to_owned(), "答案只含数字".to_owned())
+        } else {
+            (format!("the letters are {known}"), format!("可用的字母是 {known}"))
+        };
+        Self::new(
+            format!("`{name}` is no letter of this exercise; {en}"),
+            format!("`{name}` 不是本题的字母；{zh}"),
+        )
+    }
+
+    /// A product behind a quotient, which readers take for a factor or for a divisor.
+    pub(super) fn ambiguous_quotient(entry: &str) -> Self {
+        Self::new(
+            format!("`{entry}` can be read in two ways: write `a/(b*c)` or `a/b*c`"),
+            format!("`{entry}` 有两种读法：请写成 `a/(b*c)` 或 `a/b*c`"),
+        )
+    }
+}
+
+impl fmt::Display for AnswerError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message.en)
+    }
+}
+
+impl Error for AnswerError {}

@@ -1,0 +1,351 @@
+//! Numbers and formulas as people type them: `80/21`, `3z - 2`, `-n*f`, `(n_x-1)/2`, `1+sqrt(3)`.
+//!
+//! ```text
+//! sum     = product { (+ | -) product }
+//! product = { - } power { (* | /) { - } power | power }       n f = n*f, but no product behind /
+//! power   = value [ ^ { - } power ]
+//! value   = number [°] | letters | function ( sum ) | √ value | ( sum )
+//! ```
+
+use super::answer_error::AnswerError;
+use std::f64::consts::PI;
+
+/// How deep brackets, roots and powers may be nested.
+const MAX_DEPTH: usize = 64;
+/// The longest name that is taken for letters in a row.
+const MAX_NAME_BYTES: usize = 24;
+
+/// The letters of an exercise, with a value for each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Letters<'a> {
+    pub(super) names: &'a [&'a str],
+    pub(super) values: &'a [f64],
+}
+
+impl Letters<'_> {
+    /// The value of a letter, or of letters in a row: `nf` is n times f.
+    fn value(self, name: &str) -> Option<f64> {
+        if name.is_empty() {
+            return Some(1.0);
+        }
+        if let Some(at) = self.names.iter().position(|known| *known == name) {
+            return self.values.get(at).copied();
+        }
+        if name.len() > MAX_NAME_BYTES {
+            return None;
+        }
+        let mut ends: Vec<usize> = name.char_indices().map(|(at, _)| at).skip(1).collect();
+        ends.reverse();
+        ends.into_iter().find_map(|end| {
+            let (first, rest) = name.split_at(end);
+            let at = self.names.iter().position(|known| *known == first)?;
+            Some(self.values.get(at)? * self.value(rest)?)
+        })
+    }
+}
+
+/// The value of an expression for these values of its letters.
+///
+/// # Errors
+/// If it is no expression, or has no finite value.
+pub(super) fn evaluate(entry: &str, letters: Letters<'_>) -> Result<f64, AnswerError> {
+    let characters: Vec<char> = entry.chars().collect();
+    let mut parser = Parser { entry, characters: &characters, at: 0, depth: 0, letters };
+    let value = parser.sum()?;
+    if let Some(rest) = parser.peek() {
+        return Err(AnswerError::unexpected(&rest.to_string(), entry));
+    }
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let each = letters.names.iter().zip(letters.values);
+    let at: Vec<String> = each.map(|(name, value)| format!("{name} = {value}")).collect();
+    let at = at.join(", ");
+    Err(AnswerError::new(
+        format!("`{entry}` is no finite number for {at}").trim_end().to_owned(),
+        format!("`{entry}` 不是有限数 {at}").trim_end().to_owned(),
+    ))
+}
+
+/// The position in an expression, of which the value is found on the way.
+struct Parser<'a> {
+    entry: &'a str,
+    characters: &'a [char],
+    at: usize,
+    depth: usize,
+    letters: Letters<'a>,
+}
+
+impl Parser<'_> {
+    /// The next character that is not blank.
+    fn peek(&mut self) -> Option<char> {
+        while self.characters.get(self.at).is_some_and(|c| c.is_whitespace()) {
+            self.at += 1;
+        }
+        self.characters.get(self.at).copied()
+    }
+
+    /// Passes the character, if it is the next one.
+    fn pass(&mut self, expected: char) -> bool {
+        let found = self.peek() == Some(expected);
+        self.at += usize::from(found);
+        found
+    }
+
+    /// The characters from here on that belong together.
+    fn word(&mut self, belongs: fn(char) -> bool) -> String {
+        let rest = self.characters.get(self.at..).unwrap_or_default();
+        let word: String = rest.iter().copied().take_while(|c| belongs(*c)).collect();
+        self.at += word.chars().count();
+        word
+    }
+
+    fn sum(&mut self) -> Result<f64, AnswerError> {
+        let mut value = self.product()?;
+        loop {
+            if self.pass('+') {
+                value += self.product()?;
+            } else if self.pass('-') {
+                value -= self.product()?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn product(&mut self) -> Result<f64, AnswerError> {
+        let mut value = self.signed_power()?;
+        let mut divided = false;
+        loop {
+            if self.pass('*') {
+                value *= self.signed_power()?;
+                divided = false;
+            } else if self.pass('/') {
+                value /= self.signed_power()?;
+                divided = true;
+            } else if self.peek().is_some_and(|c| c.is_alphabetic() || c == '(' || c == '√') {
+                if divided {
+                    return Err(AnswerError::ambiguous_quotient(self.entry));
+                }
+                value *= self.power()?;
+            } else {
+                return Ok(value);
+            }
+        }
+    }
+
+    fn signed_power(&mut self) -> Result<f64, AnswerError> {
+        let mut sign = 1.0;
+        loop {
+            if self.pass('-') {
+                sign = -sign;
+            } else if !self.pass('+') {
+                return Ok(sign * self.power()?);
+            }
+        }
+    }
+
+    fn power(&mut self) -> Result<f64, AnswerError> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return Err(AnswerError::new(
+                format!("`{}` is nested too deeply", self.entry),
+                format!("`{}` 嵌套过深", self.entry),
+            ));
+        }
+        let base = self.value()?;
+        let value = if self.pass('^') { libm::pow(base, self.signed_power()?) } else { base };
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn value(&mut self) -> Result<f64, AnswerError> {
+        match self.peek() {
+            None => Err(AnswerError::incomplete(self.entry)),
+            Some('(') => self.bracket(),
+            Some('√') => {
+                self.at += 1;
+                Ok(libm::sqrt(self.power()?))
+            }
+            Some(c) if c.is_ascii_digit() || c == '.' => self.number(),
+            Some(c) if vulgar_fraction(c).is_some() => {
+                self.at += 1;
+                vulgar_fraction(c).ok_or_else(|| AnswerError::incomplete(self.entry))
+            }
+            Some(c) if c.is_alphabetic() => self.named(),
+            Some(c) => Err(AnswerError::unexpected(&c.to_string(), self.entry)),
+        }
+    }
+
+    fn bracket(&mut self) -> Result<f64, AnswerError> {
+        self.at += 1;
+        let value = self.sum()?;
+        if self.pass(')') { Ok(value) } else { Err(AnswerError::incomplete(self.entry)) }
+    }
+
+    /// A decimal number, perhaps with an exponent, perhaps in degrees.
+    fn number(&mut self) -> Result<f64, AnswerError> {
+        let mut digits = self.word(|c| c.is_ascii_digit() || c == '.');
+        if let Some(exponent) = self.exponent() {
+            digits += &exponent;
+        }
+        let wrong = || AnswerError::unexpected(&digits, self.entry);
+        let value = digits.parse::<f64>().map_err(|_| wrong())?;
+        Ok(if self.pass('°') { value * (PI / 180.0) } else { value })
+    }
+
+    /// The exponent of a decimal number, where a digit follows the e.
+    fn exponent(&mut self) -> Option<String> {
+        let rest = self.characters.get(self.at..)?;
+        let sign = usize::from(matches!(rest.get(1), Some('-' | '+')));
+        if !matches!(rest.first(), Some('e' | 'E')) || !rest.get(1 + sign)?.is_ascii_digit() {
+            return None;
+        }
+        let begin: String = rest.iter().take(1 + sign).collect();
+        self.at += 1 + sign;
+        Some(begin + &self.word(|c| c.is_ascii_digit()))
+    }
+
+    /// A letter, letters in a row, or a function.
+    fn named(&mut self) -> Result<f64, AnswerError> {
+        let written = self.word(|c| c.is_alphanumeric() || c == '_');
+        let name = written.replace('_', "");
+        if let Some(value) = self.letters.value(&name) {
+            return Ok(value);
+        }
+        if matches!(name.as_str(), "pi" | "π") {
+            return Ok(PI);
+        }
+        let Some(function) = function_named(&name) else {
+            return Err(AnswerError::unknown_name(&written, self.letters.names));
+        };
+        match self.peek() {
+            Some('(') => Ok(function(self.bracket()?)),
+            _ => Err(AnswerError::new(
+                format!("`{name}` needs brackets: `{name}(…)`"),
+                format!("`{name}` 需要括号：`{name}(…)`"),
+            )),
+        }
+    }
+}
+
+fn function_named(name: &str) -> Option<fn(f64) -> f64> {
+    Some(match name {
+        "sqrt" => libm::sqrt,
+        "sin" => libm::sin,
+        "cos" => libm::cos,
+        "tan" => libm::tan,
+        "cot" => |angle| 1.0 / libm::tan(angle),
+        "atan" | "arctan" => libm::atan,
+        "abs" => f64::abs,
+        _ => return None,
+    })
+}
+
+const fn vulgar_fraction(c: char) -> Option<f64> {
+    Some(match c {
+        '½' => 0.5,
+        '⅓' => 1.0 / 3.0,
+        '⅔' => 2.0 / 3.0,
+        '¼' => 0.25,
+        '¾' => 0.75,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LETTERS: Letters<'_> = Letters {
+        names: &["n", "f", "nx", "z1", "z2", "wR"],
+        values: &[-2.0, -6.0, 7.0, 3.0, 5.0, 4.0],
+    };
+
+    fn value(text: &str) -> f64 {
+        evaluate(text, LETTERS).expect(text)
+    }
+
+    #[test]
+    fn expressions_have_the_usual_precedence() {
+        for (text, expected) in [
+            ("80/21", 80.0 / 21.0),
+            ("-n*f", -12.0),
+            ("n + f", -8.0),
+            ("1 - 2 - 3", -4.0),
+            ("2*3^2", 18.0),
+            ("-2^2", -4.0),
+            ("2^-1", 0.5),
+            ("2^3^2", 512.0),
+            ("8/4/2", 1.0),
+            ("8/-4", -2.0),
+            ("(n_x - 1)/2", 3.0),
+            ("2n", -4.0),
+            ("nf", 12.0),
+            ("n f (z_1 - z2)/(z1 z2)", 12.0 * -2.0 / 15.0),
+            ("z1z2", 15.0),
+            ("2(n+f)(n-f)", 2.0 * -8.0 * 4.0),
+            ("w_R", 4.0),
+            ("1.5e-3", 0.0015),
+            (".5", 0.5),
+            ("½ + ¾", 1.25),
+            ("√3", 3.0_f64.sqrt()),
+            ("2√(1+3)", 4.0),
+            ("sqrt(3)^2", 3.0),
+            ("pi", PI),
+            ("--3", 3.0),
+        ] {
+            assert!((value(text) - expected).abs() <= 1e-12 * expected.abs(), "{text}");
+        }
+    }
+
+    #[test]
+    fn angles_are_radians_unless_the_degree_sign_is_written() {
+        for (text, expected) in [
+            ("cos(60°)", 0.5),
+            ("sin(pi/6)", 0.5),
+            ("tan(45 °)", 1.0),
+            ("cot(45°)", 1.0),
+            ("4 atan(1)", PI),
+            ("cos(60)", -0.952_412_980_415_156_3),
+            ("abs(-3)", 3.0),
+        ] {
+            assert!((value(text) - expected).abs() < 1e-12, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_expression_is_named() {
+        for (text, part) in [
+            ("", "not complete"),
+            ("n+", "not complete"),
+            ("(n", "not complete"),
+            ("n)", "`)`"),
+            ("2 3", "`3`"),
+            ("n 2", "`2`"),
+            ("q", "the letters are n, f, nx"),
+            ("nq", "`nq`"),
+            ("1/n f", "two ways"),
+            ("1/2(n)", "two ways"),
+            ("sqrt 3", "sqrt(…)"),
+            ("1/(n-n)", "no finite number"),
+            ("sqrt(n)", "no finite number"),
+            ("1.2.3", "`1.2.3`"),
+            ("n$f", "`$`"),
+        ] {
+            let error = evaluate(text, LETTERS).expect_err(text);
+            assert!(error.to_string().contains(part), "{text}: {error}");
+            assert!(!error.message.zh.is_empty());
+        }
+    }
+
+    #[test]
+    fn deep_and_long_expressions_end() {
+        let deep = "(".repeat(5000);
+        assert!(evaluate(&deep, LETTERS).is_err_and(|error| error.to_string().contains("deeply")));
+        assert!(evaluate(&"2^".repeat(5000), LETTERS).is_err());
+        assert!(evaluate(&"√".repeat(5000), LETTERS).is_err());
+        assert!((value(&format!("{}1", "1+".repeat(1000))) - 1001.0).abs() < 1e-9);
+        assert!(evaluate(&"-".repeat(5000), LETTERS).is_err());
+    }
+}

@@ -1,0 +1,170 @@
+//! Exercises on segments and their images: 11, 23 and 24.
+
+use crate::exercise::answer_text::AnswerShape;
+use crate::exercise::entries::Multiples;
+use crate::exercise::mistake::{Wrong, mistake};
+use crate::exercise::{Exercise, NUMBERS};
+use crate::words::words;
+use homog::Foreshortening;
+
+pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
+    number: 11,
+    title: words("f(t)", "f(t)"),
+    question: words(
+        "After M_per the ends of a segment are the homogeneous points r (with w_r) and R (with w_R), both w of the same sign. The point r + t (R − r) has its image at the fraction f(t) of the image segment. Find f(t).",
+        "经过 M_per 后，线段两端是齐次点 r（w 为 w_r）和 R（w 为 w_R），两个 w 同号。点 r + t (R − r) 的像位于像线段的比例 f(t) 处。求 f(t)。",
+    ),
+    hints: &[
+        words(
+            "The image is (r + t (R − r))/(w_r + t (w_R − w_r)); compare it with (1 − s) r/w_r + s R/w_R.",
+            "像是 (r + t (R − r))/(w_r + t (w_R − w_r))；把它与 (1 − s) r/w_r + s R/w_R 比较。",
+        ),
+        words(
+            "Compare the factors of R alone: s/w_R on one side.",
+            "只比较 R 的系数：一边是 s/w_R。",
+        ),
+    ],
+    letters: &["wr", "wR", "t"],
+    mistakes: &[
+        mistake(
+            "linear",
+            Wrong::Answer("t"),
+            "this is right only where w is the same at both ends: perspective moves the middle",
+            "只有两端 w 相同时才对：透视会移动中点",
+        ),
+        mistake(
+            "inverse",
+            Wrong::Answer("wr*t/(wR+t*(wr-wR))"),
+            "this is the way back, from the image to the segment: the ends are exchanged",
+            "这是从像回到线段的反函数：两端互换了",
+        ),
+        mistake(
+            "other-weight",
+            Wrong::Answer("wr*t/(wr+t*(wR-wr))"),
+            "w_r stands above in the place of w_R: f(1) must be 1",
+            "分子上应为 w_R 而不是 w_r：f(1) 应等于 1",
+        ),
+        mistake(
+            "weight-alone",
+            Wrong::Answer("wr+t*(wR-wr)"),
+            "this is w at t: it is the divisor only",
+            "这是 t 处的 w：它只是分母",
+        ),
+        mistake(
+            "weight-forgotten",
+            Wrong::Answer("t/(wr+t*(wR-wr))"),
+            "the factor w_R is forgotten: f(1) must be 1",
+            "忘了因子 w_R：f(1) 应等于 1",
+        ),
+        mistake(
+            "from-the-other-end",
+            Wrong::Answer("wr*(1-t)/(wr+t*(wR-wr))"),
+            "this is 1 − f(t), the fraction from R on",
+            "这是 1 − f(t)，即从 R 算起的比例",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["f"]]),
+    multiples: Multiples::None,
+    samples: &[&[1.0, 3.0, 0.4], &[2.7, 0.4, 0.3], &[-1.5, -2.5, 0.8]],
+    answer: |letters| {
+        let [start, end, t] = letters.try_into().ok()?;
+        Some(vec![vec![Foreshortening::new(start, end).ok()?.image_parameter(t)?]])
+    },
+};
+
+pub(super) static ATTRIBUTE: Exercise = Exercise {
+    number: 23,
+    title: words("A perspective-correct attribute", "透视校正的属性"),
+    question: words(
+        "An edge has the attribute a = 2 at one end, where w = 1, and a = 10 at the other, where w = 4. What is the attribute where a quarter of the edge's image has been passed, counted from the first end?",
+        "一条边的一端属性 a = 2、w = 1，另一端 a = 10、w = 4。从第一端算起，在边的像的四分之一处，属性是多少？",
+    ),
+    hints: &[
+        words(
+            "a/w and 1/w are linear on the screen; a is not.",
+            "a/w 和 1/w 在屏幕上是线性的；a 不是。",
+        ),
+        words(
+            "Interpolate a/w and 1/w at s = 1/4, then divide the first by the second.",
+            "在 s = 1/4 处对 a/w 和 1/w 插值，再用前者除以后者。",
+        ),
+    ],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "linear",
+            Wrong::Answer("3/4*2+1/4*10"),
+            "a was interpolated on the screen: it is linear in space, not on the screen",
+            "直接在屏幕上对 a 插值了：它在空间中是线性的，在屏幕上不是",
+        ),
+        mistake(
+            "weights-by-w",
+            Wrong::Answer("(3/4*2*1+1/4*10*4)/(3/4*1+1/4*4)"),
+            "weighted by w in the place of 1/w: the far end counts less, not more",
+            "权重用了 w 而不是 1/w：远端的权重应更小，而不是更大",
+        ),
+        mistake(
+            "not-divided",
+            Wrong::Answer("3/4*2/1+1/4*10/4"),
+            "this is a/w: divide it by the interpolated 1/w",
+            "这是 a/w：还要除以插值得到的 1/w",
+        ),
+        mistake(
+            "from-the-other-end",
+            Wrong::Answer("(1/4*2/1+3/4*10/4)/(1/4/1+3/4/4)"),
+            "counted from the other end: the first end has the weight 3/4",
+            "从另一端算起了：第一端的权重是 3/4",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["a"]]),
+    multiples: Multiples::None,
+    samples: NUMBERS,
+    answer: |_| {
+        let edge = Foreshortening::new(1.0, 4.0).ok()?;
+        Some(vec![vec![edge.interpolate_attribute(0.25, 2.0, 10.0)?]])
+    },
+};
+
+pub(super) static MIDDLE_OF_THE_IMAGE: Exercise = Exercise {
+    number: 24,
+    title: words("The middle of the image", "像的中点"),
+    question: words(
+        "A segment has w = 1 at its first end and w = 4 at its second. Which of its points, as the fraction t from the first end, is seen in the middle of its image?",
+        "线段第一端 w = 1，第二端 w = 4。它的哪一点（用从第一端算起的比例 t 表示）出现在像的中点？",
+    ),
+    hints: &[
+        words(
+            "f(t) = w_R t/(w_r + t (w_R − w_r)) goes from the segment to its image. Here f(t) = 1/2 is given.",
+            "f(t) = w_R t/(w_r + t (w_R − w_r)) 从线段到像。这里已知 f(t) = 1/2。",
+        ),
+        words(
+            "The near half of the segment fills more than half of the image: t is below 1/2.",
+            "线段近的一半在像上占一半以上：t 小于 1/2。",
+        ),
+    ],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "linear",
+            Wrong::Answer("1/2"),
+            "the middle of the segment is not seen in the middle: the near half looks larger",
+            "线段的中点并不出现在像的中点：近的一半看起来更大",
+        ),
+        mistake(
+            "forwards",
+            Wrong::Answer("4/5"),
+            "this is f(1/2), where the middle of the segment is seen; the other way round is asked",
+            "这是 f(1/2)，即线段中点的像的位置；题目问的是反过来",
+        ),
+        mistake(
+            "ratio-of-weights",
+            Wrong::Answer("1/4"),
+            "this is w_r/w_R: solve f(t) = 1/2, which gives w_r/(w_r + w_R)",
+            "这是 w_r/w_R：解 f(t) = 1/2，得 w_r/(w_r + w_R)",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["t"]]),
+    multiples: Multiples::None,
+    samples: NUMBERS,
+    answer: |_| Some(vec![vec![Foreshortening::new(1.0, 4.0).ok()?.source_parameter(0.5)?]]),
+};

@@ -1,0 +1,171 @@
+//! Exercises on homogeneous points: 5, 12 and 15.
+
+use crate::exercise::answer_text::AnswerShape;
+use crate::exercise::entries::Multiples;
+use crate::exercise::mistake::{Wrong, mistake};
+use crate::exercise::{Exercise, NUMBERS};
+use crate::words::words;
+use homog::{Affine, HPoint, Normal, Plane, Point, Projective, Vector, View};
+use projection::Projector;
+
+pub(super) static MULTIPLES_OF_A_POINT: Exercise = Exercise {
+    number: 5,
+    title: words("Multiples of a point", "点的倍数"),
+    question: words(
+        "An affine matrix M (bottom row 0 0 0 1) takes (x, y, z, 1) to (a, b, c, 1). To what does it take (h x, h y, h z, h), another name of the same point?",
+        "仿射矩阵 M（最后一行为 0 0 0 1）把 (x, y, z, 1) 变到 (a, b, c, 1)。它把同一点的另一写法 (h x, h y, h z, h) 变到什么？",
+    ),
+    hints: &[
+        words(
+            "M is linear on 4-vectors: M (h p) = h (M p).",
+            "M 对四维向量是线性的：M (h p) = h (M p)。",
+        ),
+        words(
+            "Both images are the same point after the divide by w.",
+            "除以 w 之后，两个像是同一点。",
+        ),
+    ],
+    letters: &["a", "b", "c", "h"],
+    mistakes: &[
+        mistake(
+            "divided-too-early",
+            Wrong::Answer("a, b, c, 1"),
+            "this is divided already: the same point, but the matrix gives h times this",
+            "这已经除过了：点是同一个，但矩阵给出的是它的 h 倍",
+        ),
+        mistake(
+            "w-lost",
+            Wrong::Places(&[(0, 3, "1")]),
+            "w is lost: the last row (0 0 0 1) keeps w = h",
+            "w 丢失了：最后一行 (0 0 0 1) 保持 w = h",
+        ),
+        mistake(
+            "only-w-multiplied",
+            Wrong::Answer("a, b, c, h"),
+            "only w was multiplied: all four coordinates have the factor h",
+            "只有 w 乘了 h：四个坐标都有因子 h",
+        ),
+        mistake(
+            "divided-by-h",
+            Wrong::Answer("a/h, b/h, c/h, 1"),
+            "this is divided by h once too often: after the divide the point is (a, b, c) again",
+            "多除了一次 h：除法之后的点仍是 (a, b, c)",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["x", "y", "z", "w"]]),
+    multiples: Multiples::None,
+    samples: &[&[3.0, 5.0, -2.0, 4.0], &[0.7, -1.3, 2.1, -0.6], &[-4.0, 2.5, 1.5, 1.25]],
+    answer: |letters| {
+        let [a, b, c, h] = letters.try_into().ok()?;
+        // Any affine map and point will do: here a translation of the origin.
+        let map: Projective<View, View> = Affine::translation(Vector::new(a, b, c)).into();
+        let image: [f64; 4] = map.transform_hpoint(HPoint::new(0.0, 0.0, 0.0, h)).into();
+        Some(vec![image.to_vec()])
+    },
+};
+
+pub(super) static PLACE_OF_A_POINT: Exercise = Exercise {
+    number: 12,
+    title: words("A homogeneous point", "齐次点"),
+    question: words(
+        "Which place (x, y, z) does the homogeneous point (−2, 6, 4, −2) stand for?",
+        "齐次点 (−2, 6, 4, −2) 表示哪个位置 (x, y, z)？",
+    ),
+    hints: &[words(
+        "Any multiple stands for the same place: take the one whose w is 1.",
+        "任意倍数都表示同一位置：取 w 为 1 的那一个。",
+    )],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "w-lost",
+            Wrong::Answer("-2, 6, 4"),
+            "w is lost: x, y and z are divided by it",
+            "w 丢失了：x、y、z 都要除以它",
+        ),
+        mistake(
+            "multiplied",
+            Wrong::Answer("4, -12, -8"),
+            "multiplied by w in the place of divided",
+            "应除以 w，却乘上了它",
+        ),
+        mistake(
+            "sign-of-w-lost",
+            Wrong::Negated,
+            "the sign of w is lost: −2/−2 is 1",
+            "w 的符号丢了：−2/−2 等于 1",
+        ),
+        mistake(
+            "z-not-divided",
+            Wrong::Places(&[(0, 2, "4")]),
+            "z is not divided: the divide takes all three coordinates",
+            "z 没有除：三个坐标都要做除法",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["x", "y", "z"]]),
+    multiples: Multiples::None,
+    samples: NUMBERS,
+    answer: |_| {
+        let place = HPoint::<View>::new(-2.0, 6.0, 4.0, -2.0).divide()?;
+        Some(vec![vec![place.x(), place.y(), place.z()]])
+    },
+};
+
+pub(super) static VANISHING_POINT: Exercise = Exercise {
+    number: 15,
+    title: words("A vanishing point", "灭点"),
+    question: words(
+        "The eye is at the origin, the picture plane is z = −2. Where on it, as (x, y), is the vanishing point of all lines along (1, −2, −4)?",
+        "视点在原点，画面是平面 z = −2。沿方向 (1, −2, −4) 的所有直线，其灭点 (x, y) 在画面何处？",
+    ),
+    hints: &[
+        words(
+            "The vanishing point is the image of the direction: the line through the eye along it meets the plane there.",
+            "灭点是方向的像：过视点、沿该方向的直线与画面的交点。",
+        ),
+        words("Which multiple of (1, −2, −4) has z = −2?", "(1, −2, −4) 的哪个倍数满足 z = −2？"),
+    ],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "sign-of-z",
+            Wrong::Negated,
+            "the sign of z is lost: both the plane and the direction have a negative z, and the quotient is positive",
+            "z 的符号丢了：画面与方向的 z 都为负，商为正",
+        ),
+        mistake(
+            "distance-forgotten",
+            Wrong::Answer("1/4, -1/2"),
+            "the distance 2 of the picture plane is forgotten",
+            "忘了画面的距离 2",
+        ),
+        mistake(
+            "sign-and-distance",
+            Wrong::Answer("-1/4, 1/2"),
+            "x/z and y/z alone: they are multiplied by the plane's z = −2",
+            "只求了 x/z 和 y/z：还要乘以画面的 z = −2",
+        ),
+        mistake(
+            "direction-itself",
+            Wrong::Answer("1, -2"),
+            "this is the direction itself: scale it until its z is that of the plane",
+            "这是方向本身：要把它缩放到 z 等于画面的 z",
+        ),
+        mistake(
+            "distance-divided",
+            Wrong::Answer("1/8, -1/4"),
+            "divided by the distance of the plane in the place of multiplied",
+            "应乘以画面的距离，却除以了它",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["x", "y"]]),
+    multiples: Multiples::None,
+    samples: NUMBERS,
+    answer: |_| {
+        let plane = Plane::through(Point::new(0.0, 0.0, -2.0), Normal::new(0.0, 0.0, 1.0));
+        let projector = Projector::<View>::from_eye(Point::ORIGIN, plane).ok()?;
+        let image = projector.onto_plane().transform_direction(Vector::new(1.0, -2.0, -4.0));
+        let place = image.divide()?;
+        Some(vec![vec![place.x(), place.y()]])
+    },
+};

@@ -1,0 +1,395 @@
+//! Exercises on the matrix P and what it does: 3, 4, 6, 7, 8 and 9.
+
+use crate::exercise::answer_text::AnswerShape;
+use crate::exercise::entries::{Multiples, rows_of};
+use crate::exercise::mistake::{TRANSPOSED, Wrong, mistake};
+use crate::exercise::{Exercise, NUMBERS};
+use crate::words::words;
+use homog::{HPoint, Point, View};
+use projection::chapter::{m_per, p, p_inverse_scaled};
+
+pub(super) static THIRD_ROW_OF_P: Exercise = Exercise {
+    number: 3,
+    title: words("The third row of P", "P 的第三行"),
+    question: words(
+        "The bottom row of P is (0 0 1 0), so that w = z, and its third row is (0 0 A B). After the divide, points with z = n must keep their z, and so must points with z = f; 0 > n > f. Find A and B.",
+        "P 的最后一行是 (0 0 1 0)，所以 w = z；第三行是 (0 0 A B)。除法之后，z = n 的点和 z = f 的点都应保持各自的 z；0 > n > f。求 A 和 B。",
+    ),
+    hints: &[
+        words(
+            "After the divide z' = (A z + B)/z = A + B/z.",
+            "除法之后 z' = (A z + B)/z = A + B/z。",
+        ),
+        words(
+            "A + B/n = n and A + B/f = f: subtract them, and A falls out.",
+            "A + B/n = n，A + B/f = f：两式相减可消去 A。",
+        ),
+    ],
+    letters: &["n", "f"],
+    mistakes: &[
+        mistake(
+            "sign-of-b",
+            Wrong::Places(&[(0, 1, "n*f")]),
+            "the sign of B is wrong: from A = n + f and A + B/n = n follows B/n = −f",
+            "B 的符号不对：由 A = n + f 和 A + B/n = n 得 B/n = −f",
+        ),
+        mistake(
+            "sign-of-a",
+            Wrong::Places(&[(0, 0, "-(n+f)")]),
+            "the sign of A is wrong: put z = n into A + B/z",
+            "A 的符号不对：把 z = n 代入 A + B/z 验证",
+        ),
+        mistake(
+            "both-signs",
+            Wrong::Negated,
+            "both signs are turned: this third row belongs to the bottom row (0 0 −1 0)",
+            "两个符号都反了：这样的第三行要配最后一行 (0 0 −1 0)",
+        ),
+        mistake(
+            "a-and-b-exchanged",
+            Wrong::Answer("-n*f, n+f"),
+            "A and B are exchanged: A multiplies z, B multiplies w",
+            "A 与 B 互换了：A 乘 z，B 乘 w",
+        ),
+        mistake(
+            "difference-for-sum",
+            Wrong::Places(&[(0, 0, "n-f")]),
+            "A is a sum: A + B/n = n with B = −n f gives A = n + f",
+            "A 应是和：由 A + B/n = n 与 B = −n f 得 A = n + f",
+        ),
+        mistake(
+            "not-divided",
+            Wrong::Answer("1, 0"),
+            "the divide is forgotten: this row keeps z, but z is divided by w = z afterwards and becomes 1",
+            "忘了除法：这一行保持 z，但随后 z 要除以 w = z，结果成为 1",
+        ),
+        mistake(
+            "m-orth",
+            Wrong::Answer("2/(n-f), -(n+f)/(n-f)"),
+            "this is the third row of M_orth: it takes n and f to +1 and −1, without a divide",
+            "这是 M_orth 的第三行：它不经除法就把 n 和 f 变到 +1 和 −1",
+        ),
+        mistake(
+            "m-per",
+            Wrong::Answer("(n+f)/(n-f), -2*n*f/(n-f)"),
+            "this is the third row of M_per = M_orth P: it takes n and f to +1 and −1, and P keeps them",
+            "这是 M_per = M_orth P 的第三行：它把 n 和 f 变到 +1 和 −1，而 P 保持它们不变",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["A", "B"]]),
+    multiples: Multiples::None,
+    samples: &[&[-1.0, -5.0], &[-0.3, -2.2], &[-2.5, -2.9]],
+    answer: |letters| {
+        let [n, f] = letters.try_into().ok()?;
+        let third_row = p(n, f).ok()?.raw().row(2);
+        Some(vec![vec![third_row.z, third_row.w]])
+    },
+};
+
+pub(super) static ORDER_OF_DEPTHS: Exercise = Exercise {
+    number: 4,
+    title: words("The order of depths", "深度的次序"),
+    question: words(
+        "P takes z to z' = n + f − f n/z. To see that it keeps the order of depths, write the difference z1' − z2' with the factor (z1 − z2).",
+        "P 把 z 变到 z' = n + f − f n/z。为说明它保持深度的次序，把差 z1' − z2' 写成含因子 (z1 − z2) 的形式。",
+    ),
+    hints: &[
+        words("n + f falls out of the difference.", "相减时 n + f 消去。"),
+        words(
+            "1/z2 − 1/z1 = (z1 − z2)/(z1 z2). What is the sign of the factor if all four numbers are negative?",
+            "1/z2 − 1/z1 = (z1 − z2)/(z1 z2)。四个数都为负时，这个因子是正还是负？",
+        ),
+    ],
+    letters: &["n", "f", "z1", "z2"],
+    mistakes: &[
+        mistake(
+            "sign",
+            Wrong::Negated,
+            "the sign is turned: −f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2), and the order is kept",
+            "符号反了：−f n/z1 + f n/z2 = f n (z1 − z2)/(z1 z2)，次序保持不变",
+        ),
+        mistake(
+            "divisor-forgotten",
+            Wrong::Answer("n*f*(z1-z2)"),
+            "the divisor z1 z2 is missing: 1/z2 − 1/z1 = (z1 − z2)/(z1 z2)",
+            "缺少分母 z1 z2：1/z2 − 1/z1 = (z1 − z2)/(z1 z2)",
+        ),
+        mistake(
+            "factor-forgotten",
+            Wrong::Answer("(z1-z2)/(z1*z2)"),
+            "the factor f n is missing (it is a product, not a subscript: M5)",
+            "缺少因子 f n（它是乘积，不是下标：M5）",
+        ),
+        mistake(
+            "linear",
+            Wrong::Answer("z1-z2"),
+            "this is the difference before P: P keeps only the planes z = n and z = f",
+            "这是 P 之前的差：P 只保持 z = n 和 z = f 两个平面",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["z1'-z2'"]]),
+    multiples: Multiples::None,
+    samples: &[&[-1.0, -5.0, -2.0, -3.0], &[-0.3, -2.2, -1.1, -0.7], &[-2.5, -2.9, -2.6, -2.75]],
+    answer: |letters| {
+        let [n, f, z1, z2] = letters.try_into().ok()?;
+        let p = p(n, f).ok()?;
+        let depth = |z: f64| Some(p.transform_point(Point::new(0.0, 0.0, z)).divide()?.z());
+        Some(vec![vec![depth(z1)? - depth(z2)?]])
+    },
+};
+
+pub(super) static INVERSE_OF_P: Exercise = Exercise {
+    number: 6,
+    title: words("The inverse of P", "P 的逆矩阵"),
+    question: words(
+        "P has the rows (n 0 0 0), (0 n 0 0), (0 0 n+f −f n), (0 0 1 0). Write its inverse; as a map of homogeneous points it is right up to a factor.",
+        "P 的各行是 (n 0 0 0)、(0 n 0 0)、(0 0 n+f −f n)、(0 0 1 0)。写出它的逆矩阵；作为齐次点的变换，它可以差一个因子。",
+    ),
+    hints: &[
+        words(
+            "P takes (x, y, z, 1) to (n x, n y, (n + f) z − f n, z): the last number is the old z.",
+            "P 把 (x, y, z, 1) 变到 (n x, n y, (n + f) z − f n, z)：最后一个数就是原来的 z。",
+        ),
+        words(
+            "With z = w' and z' = (n + f) w' − f n, the old w = 1 is ((n + f) w' − z')/(f n).",
+            "由 z = w' 和 z' = (n + f) w' − f n，原来的 w = 1 等于 ((n + f) w' − z')/(f n)。",
+        ),
+    ],
+    letters: &["n", "f"],
+    mistakes: &[
+        mistake(
+            "not-inverted",
+            Wrong::Computed(|letters| Some(rows_of(p(letters[0], letters[1]).ok()?.raw()))),
+            "this is P itself",
+            "这就是 P 本身",
+        ),
+        mistake(
+            "near-and-far-exchanged",
+            Wrong::Places(&[(0, 0, "n"), (1, 1, "n")]),
+            "near and far are exchanged: with n f in the third row, x and y have the factor f",
+            "近平面与远平面互换了：第三行为 n f 时，x 和 y 的因子是 f",
+        ),
+        mistake(
+            "last-row-sign",
+            Wrong::Places(&[(3, 2, "1")]),
+            "the −1 of the last row has lost its sign: multiply by P and look at the last row",
+            "最后一行的 −1 丢了负号：与 P 相乘，看最后一行",
+        ),
+        mistake(
+            "entries-inverted",
+            Wrong::Answer("1/n 0 0 0; 0 1/n 0 0; 0 0 1/(n+f) -1/(n*f); 0 0 1 0"),
+            "each entry was inverted by itself: only diagonal matrices are inverted so",
+            "逐个元素取了倒数：只有对角矩阵才能这样求逆",
+        ),
+        mistake(
+            "factor-lost",
+            Wrong::Places(&[(2, 3, "1")]),
+            "the rows have different factors: with f in the first two, the third needs n f",
+            "各行的因子不一致：前两行为 f 时，第三行应为 n f",
+        ),
+        TRANSPOSED,
+    ],
+    shape: AnswerShape::Matrix(4, 4),
+    multiples: Multiples::All,
+    samples: &[&[-1.0, -5.0], &[-0.3, -2.2], &[-2.5, -2.9]],
+    answer: |letters| {
+        let [n, f] = letters.try_into().ok()?;
+        Some(rows_of(p_inverse_scaled(n, f).ok()?.raw()))
+    },
+};
+
+pub(super) static NEAR_CORNER: Exercise = Exercise {
+    number: 7,
+    title: words("The corner (r, t, n)", "角点 (r, t, n)"),
+    question: words(
+        "M_per = M_orth P takes the view volume with the window [l, r] × [b, t] on z = n to [−1, 1]³; 0 > n > f, and w = z. To which homogeneous point (x, y, z, w) does M_per take (r, t, n, 1), before the divide?",
+        "M_per = M_orth P 把 z = n 上以 [l, r] × [b, t] 为窗口的视见体变到 [−1, 1]³；0 > n > f，且 w = z。除法之前，M_per 把 (r, t, n, 1) 变到哪个齐次点 (x, y, z, w)？",
+    ),
+    hints: &[
+        words(
+            "P leaves points on z = n where they are; as homogeneous points they are multiplied by n.",
+            "P 使 z = n 上的点保持原位；作为齐次点，它们乘上了 n。",
+        ),
+        words(
+            "M_orth takes (r, t, n) to (1, 1, 1), and it is affine.",
+            "M_orth 把 (r, t, n) 变到 (1, 1, 1)，而它是仿射变换。",
+        ),
+    ],
+    letters: &["r", "t", "n"],
+    mistakes: &[
+        mistake(
+            "divided-too-early",
+            Wrong::Answer("1, 1, 1, 1"),
+            "this is divided already: before the divide w = z = n",
+            "这已经除过了：除法之前 w = z = n",
+        ),
+        mistake(
+            "divided-too-early",
+            Wrong::Answer("1, 1, 1"),
+            "this is the point after the divide: before it there are four numbers, and w = z = n",
+            "这是除法之后的点：除法之前有四个数，且 w = z = n",
+        ),
+        mistake(
+            "w-lost",
+            Wrong::Places(&[(0, 3, "1")]),
+            "w is lost: the bottom row of M_per is (0 0 1 0), so w = z = n",
+            "w 丢失了：M_per 的最后一行是 (0 0 1 0)，所以 w = z = n",
+        ),
+        mistake(
+            "sign-of-w",
+            Wrong::Negated,
+            "this is the image by −M_per, whose w is positive ahead of the eye: the same place, but M_per has w = z",
+            "这是 −M_per 的像，它使眼前的 w 为正：位置相同，但 M_per 的 w = z",
+        ),
+        mistake(
+            "m8-depth-reversed",
+            Wrong::Places(&[(0, 2, "-n")]),
+            "near and far are exchanged as in OpenGL (M8): here z = n goes to +1",
+            "近与远按 OpenGL 的方式互换了（M8）：这里 z = n 变到 +1",
+        ),
+        mistake(
+            "p-only",
+            Wrong::Answer("n*r, n*t, n*n, n"),
+            "this is the image by P alone: M_orth is missing",
+            "这只是 P 的像：还缺 M_orth",
+        ),
+        mistake(
+            "not-mapped",
+            Wrong::Answer("r, t, n, 1"),
+            "this is the point itself: P keeps it, but M_orth takes it to the corner of the cube",
+            "这是点本身：P 保持它不动，但 M_orth 要把它变到立方体的角点",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["x", "y", "z", "w"]]),
+    multiples: Multiples::None,
+    samples: &[&[4.0, 2.0, -1.0], &[1.7, -0.9, -0.4], &[-3.5, 6.0, -2.5]],
+    answer: |letters| {
+        let [r, t, n] = letters.try_into().ok()?;
+        // The other sides fall out: any that make a volume.
+        let map = m_per(r - 3.0, r, t - 2.0, t, n, 3.0 * n).ok()?;
+        let image: [f64; 4] = map.transform_point(Point::new(r, t, n)).into();
+        Some(vec![image.to_vec()])
+    },
+};
+
+pub(super) static P_OF_ONE_AND_TWO: Exercise = Exercise {
+    number: 8,
+    title: words("P for n = 1 and f = 2", "n = 1、f = 2 时的 P"),
+    question: words(
+        "Write the matrix P for n = 1 and f = 2. (Both are positive here: P is valid on either side of the eye.)",
+        "写出 n = 1、f = 2 时的矩阵 P。（这里两者都为正：P 在视点的任一侧都有效。）",
+    ),
+    hints: &[words(
+        "The rows of P are (n 0 0 0), (0 n 0 0), (0 0 n+f −f n), (0 0 1 0).",
+        "P 的各行是 (n 0 0 0)、(0 n 0 0)、(0 0 n+f −f n)、(0 0 1 0)。",
+    )],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "sign-of-the-product",
+            Wrong::Places(&[(2, 3, "2")]),
+            "the sign of f n is wrong: the third row ends with −f n",
+            "f n 的符号不对：第三行末尾是 −f n",
+        ),
+        mistake(
+            "near-and-far-exchanged",
+            Wrong::Places(&[(0, 0, "2"), (1, 1, "2")]),
+            "near and far are exchanged: x and y have the factor n",
+            "近与远互换了：x 和 y 的因子是 n",
+        ),
+        mistake(
+            "difference-for-sum",
+            Wrong::Places(&[(2, 2, "1-2")]),
+            "n − f stands in the place of n + f",
+            "n + f 处写成了 n − f",
+        ),
+        mistake(
+            "w-lost",
+            Wrong::Places(&[(3, 2, "0"), (3, 3, "1")]),
+            "w is lost: with the last row (0 0 0 1) w stays 1, and nothing gets smaller with distance",
+            "w 丢失了：最后一行为 (0 0 0 1) 时 w 恒为 1，远处的物体不会变小",
+        ),
+        mistake(
+            "m14-bottom-row",
+            Wrong::Places(&[(3, 3, "1")]),
+            "the bottom row ends with 1, as the lesson prints it (M14): w would be z + 1",
+            "最后一行以 1 结尾，与教程的印刷相同（M14）：w 会成为 z + 1",
+        ),
+        mistake(
+            "last-row-negated",
+            Wrong::Places(&[(3, 2, "-1")]),
+            "the last row is negated: w = −z goes with a negated third row only",
+            "最后一行变了号：w = −z 时第三行也要变号",
+        ),
+        mistake(
+            "negated",
+            Wrong::Negated,
+            "this is −P: the same map, but w has the other sign, and clipping would keep what is behind the eye",
+            "这是 −P：变换相同，但 w 的符号相反，裁剪会保留视点背后的部分",
+        ),
+        TRANSPOSED,
+    ],
+    shape: AnswerShape::Matrix(4, 4),
+    multiples: Multiples::Positive,
+    samples: NUMBERS,
+    answer: |_| Some(rows_of(p(1.0, 2.0).ok()?.raw())),
+};
+
+pub(super) static IMAGE_OF_A_POINT: Exercise = Exercise {
+    number: 9,
+    title: words("The image of a point", "点的像"),
+    question: words(
+        "P for n = 1 and f = 2 has the rows (1 0 0 0), (0 1 0 0), (0 0 3 −2), (0 0 1 0). Give the image of (x, y, z, 1): first the homogeneous point, then, behind a `;`, the point after the divide.",
+        "n = 1、f = 2 时 P 的各行是 (1 0 0 0)、(0 1 0 0)、(0 0 3 −2)、(0 0 1 0)。给出 (x, y, z, 1) 的像：先写齐次点，再在 `;` 之后写除法之后的点。",
+    ),
+    hints: &[
+        words(
+            "Each row times (x, y, z, 1) is one coordinate; the last one is w.",
+            "每一行乘以 (x, y, z, 1) 得到一个坐标；最后一个是 w。",
+        ),
+        words("Divide the first three by w.", "前三个坐标除以 w。"),
+    ],
+    letters: &["x", "y", "z"],
+    mistakes: &[
+        mistake(
+            "not-divided",
+            Wrong::Answer("x, y, 3*z-2, z; x, y, 3*z-2"),
+            "the second point is not divided: all three coordinates are divided by w = z",
+            "第二个点没有除：三个坐标都要除以 w = z",
+        ),
+        mistake(
+            "z-not-divided",
+            Wrong::Places(&[(1, 2, "3*z-2")]),
+            "z is not divided: the divide takes all three coordinates",
+            "z 没有除：三个坐标都要做除法",
+        ),
+        mistake(
+            "m1-coordinate-lost",
+            Wrong::Places(&[(1, 0, "1/z"), (1, 1, "1/z")]),
+            "the point's own x and y are lost, as in the printed y_s = d/z (M1): they are x/z and y/z",
+            "点自身的 x 和 y 丢失了，与印刷的 y_s = d/z 同错（M1）：应为 x/z 和 y/z",
+        ),
+        mistake(
+            "w-lost",
+            Wrong::Places(&[(0, 3, "1")]),
+            "w is lost: the bottom row (0 0 1 0) makes w = z",
+            "w 丢失了：最后一行 (0 0 1 0) 使 w = z",
+        ),
+        mistake(
+            "sign-of-the-product",
+            Wrong::Places(&[(0, 2, "3*z+2"), (1, 2, "3+2/z")]),
+            "the sign of f n is wrong: the third row is (0 0 3 −2)",
+            "f n 的符号不对：第三行是 (0 0 3 −2)",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["x", "y", "z", "w"], &["x", "y", "z"]]),
+    multiples: Multiples::None,
+    samples: &[&[1.0, 2.0, 4.0], &[3.0, -1.0, 0.5], &[0.7, 0.25, -2.3]],
+    answer: |letters| {
+        let [x, y, z] = letters.try_into().ok()?;
+        let image: HPoint<View> = p(1.0, 2.0).ok()?.transform_point(Point::new(x, y, z));
+        let divided = image.divide()?;
+        let homogeneous: [f64; 4] = image.into();
+        Some(vec![homogeneous.to_vec(), vec![divided.x(), divided.y(), divided.z()]])
+    },
+};

@@ -1,0 +1,143 @@
+//! Exercises on pixels: 20 and 22.
+
+use crate::exercise::answer_text::AnswerShape;
+use crate::exercise::entries::{Entries, Multiples};
+use crate::exercise::mistake::{Wrong, mistake};
+use crate::exercise::{Exercise, NUMBERS};
+use crate::words::words;
+use homog::{PixelCenters, PixelConvention, Point, YAxis};
+use raster::{Frame, Opacity, Samples, ScreenVertex};
+use viewport::Viewport;
+
+/// The position of (1/4, 3/10) in an image of 200 × 100 pixels.
+fn position(y: YAxis, centers: PixelCenters) -> Option<Entries> {
+    let viewport = Viewport::image(200, 100).ok()?.with_convention(PixelConvention { y, centers });
+    let place = viewport.ndc_to_screen().transform_point(Point::new(0.25, 0.3, 0.0));
+    Some(vec![vec![place.x(), place.y()]])
+}
+
+pub(super) static PIXEL_POSITION: Exercise = Exercise {
+    number: 20,
+    title: words("A position in the image", "图像中的位置"),
+    question: words(
+        "In an image of 200 × 100 pixels, pixel (i, j) covers [i, i + 1) × [j, j + 1), and rows are counted from the top. At which position, in pixels, is the point (x, y) = (1/4, 3/10) of normalized device coordinates, y up?",
+        "200 × 100 像素的图像中，像素 (i, j) 覆盖 [i, i + 1) × [j, j + 1)，行自上而下计数。归一化设备坐标（y 向上）的点 (x, y) = (1/4, 3/10) 位于图像的什么位置（以像素计）？",
+    ),
+    hints: &[
+        words(
+            "x = −1 is the left border, 0; x = +1 is the right border, 200.",
+            "x = −1 是左边界 0；x = +1 是右边界 200。",
+        ),
+        words(
+            "y = +1 is the top border, 0; y = −1 is the bottom border, 100.",
+            "y = +1 是上边界 0；y = −1 是下边界 100。",
+        ),
+    ],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "rows-from-the-bottom",
+            Wrong::Computed(|_| position(YAxis::Up, PixelCenters::Half)),
+            "the rows are counted from the bottom: turn y",
+            "行是自下而上计数的：y 要反向",
+        ),
+        mistake(
+            "centers-at-whole-numbers",
+            Wrong::Computed(|_| position(YAxis::Down, PixelCenters::Integer)),
+            "the centers are at whole numbers, as in the chapter: here pixel 0 begins at 0, and its center is at ½",
+            "像素中心取在了整数处，如教材那样：这里像素 0 从 0 开始，中心在 ½",
+        ),
+        mistake(
+            "chapter-viewport",
+            Wrong::Computed(|_| position(YAxis::Up, PixelCenters::Integer)),
+            "this is the chapter's viewport: rows from the bottom, centers at whole numbers",
+            "这是教材的视口：行自下而上，像素中心在整数处",
+        ),
+        mistake(
+            "range-forgotten",
+            Wrong::Answer("25, 15"),
+            "multiplied by half of the size, but the middle of the image is missing: x = 0 is at 100",
+            "只乘了尺寸的一半，没有加图像的中心：x = 0 位于 100",
+        ),
+        mistake(
+            "zero-to-one",
+            Wrong::Answer("50, 30"),
+            "taken for coordinates from 0 to 1: they go from −1 to 1",
+            "当成了 0 到 1 的坐标：范围是 −1 到 1",
+        ),
+        mistake(
+            "size-less-one",
+            Wrong::Answer("5/4*199/2, 7/10*99/2"),
+            "the scale has the size less one: borders go to borders, 200 pixels from −1 to 1",
+            "比例用了尺寸减一：边界对应边界，−1 到 1 共 200 像素",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["x", "y"]]),
+    multiples: Multiples::None,
+    samples: NUMBERS,
+    answer: |_| position(YAxis::Down, PixelCenters::Half),
+};
+
+pub(super) static TOP_LEFT_RULE: Exercise = Exercise {
+    number: 22,
+    title: words("The top-left rule", "左上规则"),
+    question: words(
+        "Pixel (i, j) has its center at (i + ½, j + ½), and y runs down. The triangle with the corners (½, ½), (9/2, ½), (½, 9/2) has centers on all of its edges. By the top-left rule, how many pixels are its own?",
+        "像素 (i, j) 的中心在 (i + ½, j + ½)，y 向下。三角形的顶点为 (½, ½)、(9/2, ½)、(½, 9/2)，它的每条边上都有像素中心。按左上规则，它拥有多少个像素？",
+    ),
+    hints: &[
+        words(
+            "A center on an edge belongs to the triangle if the edge is a left one, or a horizontal one at the top.",
+            "边上的中心属于该三角形，当且仅当该边是左边，或是位于上方的水平边。",
+        ),
+        words(
+            "The third edge is on the right: count the centers with i + j < 4.",
+            "第三条边在右侧：数出 i + j < 4 的中心。",
+        ),
+    ],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "closed",
+            Wrong::Answer("15"),
+            "all three edges were counted: the neighbor at the right edge would draw these pixels again",
+            "三条边都算上了：右侧边上的相邻三角形会重复绘制这些像素",
+        ),
+        mistake(
+            "open",
+            Wrong::Answer("3"),
+            "no edge was counted: left and top edges are the triangle's own",
+            "一条边也没有算：左边和上边属于该三角形",
+        ),
+        mistake(
+            "bottom-right",
+            Wrong::Answer("6"),
+            "the right edge was counted and the top and left ones were not: it is the other way round",
+            "算了右边，没有算上边和左边：应当相反",
+        ),
+        mistake(
+            "area",
+            Wrong::Answer("8"),
+            "this is the area: pixels are counted by their centers",
+            "这是面积：像素要按中心来数",
+        ),
+        mistake(
+            "corner-lost",
+            Wrong::Answer("9"),
+            "the corner (½, ½) is on the top and on the left edge, and the triangle's own",
+            "顶点 (½, ½) 同时在上边和左边上，属于该三角形",
+        ),
+    ],
+    shape: AnswerShape::Parts(&[&["pixels"]]),
+    multiples: Multiples::None,
+    samples: NUMBERS,
+    answer: |_| {
+        let corners = [(0.5, 0.5), (4.5, 0.5), (0.5, 4.5)];
+        let corner = |(x, y)| ScreenVertex::snap(Point::new(x, y, 0.5), 1.0);
+        let [a, b, c] = corners.map(corner);
+        let mut frame = Frame::new(8, 8, Samples::One).ok()?;
+        frame.add_triangle([a?, b?, c?], 0, Opacity::Opaque);
+        let covered = frame.visibility_buffer().ids.into_iter().flatten().count();
+        Some(vec![vec![covered as f64]])
+    },
+};

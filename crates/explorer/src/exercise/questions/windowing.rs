@@ -1,0 +1,215 @@
+//! Exercises on viewports: 1, 2 and 21.
+
+use crate::exercise::answer_text::AnswerShape;
+use crate::exercise::entries::{Entries, Multiples, planar_rows_of, rows_of};
+use crate::exercise::mistake::{TRANSPOSED, Wrong, mistake};
+use crate::exercise::{Exercise, NUMBERS};
+use crate::words::words;
+use homog::PixelConvention;
+use projection::chapter::m_orth;
+use viewport::{Limits, Viewport, WindowToViewport};
+
+/// The viewport matrix for an image of `size[0]` by `size[1]` pixels.
+fn viewport_matrix(size: &[f64], convention: PixelConvention) -> Option<glam::DMat4> {
+    let (width, height) = (*size.first()? as u32, *size.get(1)? as u32);
+    let viewport = Viewport::chapter(width, height).ok()?.with_convention(convention);
+    Some(viewport.ndc_to_screen().raw())
+}
+
+pub(super) static ROWS_FROM_THE_TOP: Exercise = Exercise {
+    number: 1,
+    title: words("Rows from the top", "自上而下的像素行"),
+    question: words(
+        "An image has nx × ny pixels with their centers at whole numbers, and its rows are counted from the top. Write the viewport matrix: x = −1 goes to −½, x = +1 to nx − ½, y = +1 to −½, y = −1 to ny − ½, and z stays as it is.",
+        "图像有 nx × ny 个像素，像素中心位于整数处，行自上而下计数。写出视口矩阵：x = −1 变到 −½，x = +1 变到 nx − ½，y = +1 变到 −½，y = −1 变到 ny − ½，z 保持不变。",
+    ),
+    hints: &[
+        words(
+            "Each axis is a linear map: find a scale and an offset from its two pairs of values.",
+            "每个轴都是一次函数：由两对数值求比例和偏移。",
+        ),
+        words(
+            "Upwards the row is y_s = ny/2 · y + (ny − 1)/2; counted from the top it is ny − 1 − y_s.",
+            "自下而上的行号是 y_s = ny/2 · y + (ny − 1)/2；自上而下则是 ny − 1 − y_s。",
+        ),
+    ],
+    letters: &["nx", "ny"],
+    mistakes: &[
+        mistake(
+            "rows-from-the-bottom",
+            Wrong::Computed(|size| Some(rows_of(viewport_matrix(size, PixelConvention::CHAPTER)?))),
+            "the rows are counted from the bottom: the scale of y must be negative",
+            "行是自下而上计数的：y 的比例应为负",
+        ),
+        mistake(
+            "centers-at-halves",
+            Wrong::Computed(|size| Some(rows_of(viewport_matrix(size, PixelConvention::IMAGE)?))),
+            "the centers are at halves: where they are at whole numbers, the offsets are (nx − 1)/2 and (ny − 1)/2",
+            "像素中心取在了半整数处：中心在整数处时，偏移是 (nx − 1)/2 和 (ny − 1)/2",
+        ),
+        mistake(
+            "offset-of-y-negated",
+            Wrong::Places(&[(1, 3, "-(ny-1)/2")]),
+            "the offset of y was turned with its scale: the middle of the image stays at (ny − 1)/2",
+            "y 的偏移随比例一起变了号：图像的中央仍在 (ny − 1)/2",
+        ),
+        mistake(
+            "sizes-exchanged",
+            Wrong::Exchanged(0, 1),
+            "width and height are exchanged: nx belongs to x, ny to y",
+            "宽与高互换了：nx 属于 x，ny 属于 y",
+        ),
+        mistake(
+            "z-lost",
+            Wrong::Places(&[(2, 2, "0")]),
+            "z is lost: the third row must keep it for the depth test",
+            "z 丢失了：第三行要保留它，供深度测试使用",
+        ),
+        TRANSPOSED,
+    ],
+    shape: AnswerShape::Matrix(4, 4),
+    multiples: Multiples::None,
+    samples: &[&[640.0, 480.0], &[7.0, 3.0], &[11.0, 30.0]],
+    answer: |size| Some(rows_of(viewport_matrix(size, PixelConvention::CHAPTER_Y_DOWN)?)),
+};
+
+/// M_vp and M_orth for nx, ny, l, r, b, t, n, f.
+fn viewport_and_box(letters: &[f64]) -> Option<[glam::DMat4; 2]> {
+    let [_, _, l, r, b, t, n, f] = letters.try_into().ok()?;
+    let to_screen = viewport_matrix(letters, PixelConvention::CHAPTER)?;
+    Some([to_screen, m_orth(l, r, b, t, n, f).ok()?.raw()])
+}
+
+pub(super) static ONE_WINDOWING: Exercise = Exercise {
+    number: 2,
+    title: words("One windowing", "一次窗口变换"),
+    question: words(
+        "M_orth takes the box [l, r] × [b, t] × [f, n] to [−1, 1]³, with 0 > n > f, z = n to +1 and z = f to −1. M_vp takes [−1, 1]² to the image [−½, nx − ½] × [−½, ny − ½], rows counted from the bottom, and keeps z. Write their product M_vp M_orth as one matrix.",
+        "M_orth 把长方体 [l, r] × [b, t] × [f, n] 变到 [−1, 1]³，其中 0 > n > f，z = n 变到 +1，z = f 变到 −1。M_vp 把 [−1, 1]² 变到图像 [−½, nx − ½] × [−½, ny − ½]，行自下而上计数，z 不变。把乘积 M_vp M_orth 写成一个矩阵。",
+    ),
+    hints: &[
+        words(
+            "The product is one windowing: l goes to −½ and r to nx − ½, b to −½ and t to ny − ½.",
+            "乘积就是一次窗口变换：l 变到 −½，r 变到 nx − ½，b 变到 −½，t 变到 ny − ½。",
+        ),
+        words(
+            "A map of [l, r] to [L, R] has the scale (R − L)/(r − l), and takes l to L.",
+            "把 [l, r] 变到 [L, R] 的映射，比例是 (R − L)/(r − l)，并把 l 变到 L。",
+        ),
+    ],
+    letters: &["nx", "ny", "l", "r", "b", "t", "n", "f"],
+    mistakes: &[
+        mistake(
+            "centers-at-halves",
+            Wrong::Places(&[(0, 3, "-l*nx/(r-l)"), (1, 3, "-b*ny/(t-b)")]),
+            "the −½ is missing: the image begins half a pixel before the center of its first pixel",
+            "缺少 −½：图像从第一个像素中心之前半个像素处开始",
+        ),
+        mistake(
+            "order-exchanged",
+            Wrong::Computed(|letters| {
+                let [to_screen, to_cube] = viewport_and_box(letters)?;
+                Some(rows_of(to_cube * to_screen))
+            }),
+            "this is M_orth M_vp: points pass the matrix on the right first",
+            "这是 M_orth M_vp：点先经过右边的矩阵",
+        ),
+        mistake(
+            "viewport-forgotten",
+            Wrong::Computed(|letters| Some(rows_of(viewport_and_box(letters)?[1]))),
+            "this is M_orth alone: the pixels are missing",
+            "这只是 M_orth：还没有变到像素",
+        ),
+        mistake(
+            "near-and-far-exchanged",
+            Wrong::Places(&[(2, 2, "2/(f-n)"), (2, 3, "-(n+f)/(f-n)")]),
+            "near and far are exchanged: z = n goes to +1 here, and OpenGL's −1 belongs to distances",
+            "近平面与远平面互换了：这里 z = n 变到 +1，而 OpenGL 的 −1 用的是距离",
+        ),
+        mistake(
+            "m15-depth-offset-sign",
+            Wrong::Places(&[(2, 3, "(n+f)/(n-f)")]),
+            "the depth offset has the wrong sign, as in the slides' matrix Ortho (M15): z = n must go to +1",
+            "深度偏移的符号不对，与讲义的 Ortho 矩阵同错（M15）：z = n 应变到 +1",
+        ),
+        TRANSPOSED,
+    ],
+    shape: AnswerShape::Matrix(4, 4),
+    multiples: Multiples::None,
+    samples: &[
+        &[640.0, 480.0, -2.0, 4.0, -1.0, 2.0, -1.0, -5.0],
+        &[7.0, 3.0, 0.3, 1.7, -2.2, -0.9, -0.4, -3.1],
+        &[90.0, 200.0, -5.0, -3.5, 1.25, 6.0, -2.5, -2.9],
+    ],
+    answer: |letters| {
+        let [to_screen, to_cube] = viewport_and_box(letters)?;
+        Some(rows_of(to_screen * to_cube))
+    },
+};
+
+fn window_map(viewport_corner: [f64; 2]) -> Option<WindowToViewport> {
+    let [x, y] = viewport_corner;
+    let window = Limits { x: [2.0, 6.0], y: [1.0, 3.0] };
+    WindowToViewport::new(window, Limits { x: [x, x + 400.0], y: [y, y + 100.0] }).ok()
+}
+
+fn window_rows(map: WindowToViewport) -> Entries {
+    planar_rows_of(map.homography().raw())
+}
+
+pub(super) static WINDOW_TO_VIEWPORT: Exercise = Exercise {
+    number: 21,
+    title: words("Window to viewport", "窗口到视口"),
+    question: words(
+        "Write the 3 × 3 matrix that takes the window [2, 6] × [1, 3] to the viewport [10, 410] × [20, 120], for points (x, y, 1) in a column.",
+        "写出把窗口 [2, 6] × [1, 3] 变到视口 [10, 410] × [20, 120] 的 3 × 3 矩阵，点写成列 (x, y, 1)。",
+    ),
+    hints: &[
+        words(
+            "Three steps: move the window's lower left corner to the origin, scale, move to the viewport's corner.",
+            "分三步：把窗口左下角移到原点，缩放，再移到视口的左下角。",
+        ),
+        words(
+            "The offset of x is 10 − 2 s_x, with the scale s_x = 400/4.",
+            "x 的偏移是 10 − 2 s_x，比例 s_x = 400/4。",
+        ),
+    ],
+    letters: &[],
+    mistakes: &[
+        mistake(
+            "m18-sign",
+            Wrong::Places(&[(1, 2, "20+50*1")]),
+            "the window was moved by +1 in y, as the slides print it (M18): its corner goes to the origin by −1",
+            "窗口在 y 方向移动了 +1，与讲义的印刷相同（M18）：要移动 −1 才能把角点移到原点",
+        ),
+        mistake(
+            "viewport-corner-forgotten",
+            Wrong::Computed(|_| Some(window_rows(window_map([0.0, 0.0])?))),
+            "the viewport's corner is missing: add 10 and 20 at the end",
+            "缺少视口的角点：最后要加上 10 和 20",
+        ),
+        mistake(
+            "window-corner-forgotten",
+            Wrong::Places(&[(0, 2, "10"), (1, 2, "20")]),
+            "the window's corner is missing: (2, 1) must go to (10, 20)",
+            "缺少窗口的角点：(2, 1) 应变到 (10, 20)",
+        ),
+        mistake(
+            "window-corner-not-scaled",
+            Wrong::Places(&[(0, 2, "10-2"), (1, 2, "20-1")]),
+            "the window was moved after the scale: its corner must be moved to the origin first",
+            "窗口在缩放之后才移动：应先把它的角点移到原点",
+        ),
+        mistake(
+            "inverse",
+            Wrong::Computed(|_| Some(window_rows(window_map([10.0, 20.0])?.inverse()))),
+            "this takes the viewport to the window: the way back",
+            "这是从视口回到窗口的变换，方向反了",
+        ),
+        TRANSPOSED,
+    ],
+    shape: AnswerShape::Matrix(3, 3),
+    multiples: Multiples::Positive,
+    samples: NUMBERS,
+    answer: |_| Some(window_rows(window_map([10.0, 20.0])?)),
+};
