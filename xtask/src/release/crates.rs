@@ -16,7 +16,7 @@ use crate::workspace::{list_files, read_text, target_folder};
 use std::fs;
 
 /// Members of the workspace that stay at home.
-const UNPUBLISHED: [&str; 3] = ["alberti-tests", "scene-models", "xtask"];
+const UNPUBLISHED: [&str; 4] = ["alberti-tests", "book-doctests", "scene-models", "xtask"];
 
 /// Packs all crates; with `is_built` each is also built from its archive.
 pub fn package_crates(is_built: bool) -> Outcome {
