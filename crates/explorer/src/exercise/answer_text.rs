@@ -154,8 +154,8 @@ fn split_at_blanks(row: &str) -> Vec<&str> {
         let joins = match next.next() {
             // A sign belongs to the entry that it touches.
             Some('+' | '-') => next.next().is_none_or(char::is_whitespace),
-            Some('°') | None => true,
-            Some(c) => operator(c),
+            Some(c) => c == '°' || operator(c),
+            None => true,
         };
         if !joins && !before.ends_with(operator) && begin < before.len() {
             entries.push(row[begin..at].trim());

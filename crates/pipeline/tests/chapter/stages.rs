@@ -17,13 +17,12 @@ pub(super) fn chain_of(scene: &Scene, conventions: ApiConventions) -> TransformC
 
 /// The numbers of an item.
 pub(super) fn numbers(explanation: &Explanation, id: &str) -> Vec<f64> {
-    let items = explanation.steps.iter().flat_map(|step| &step.items);
-    let found = items.clone().find(|item| item.id == id);
-    match &found.unwrap_or_else(|| panic!("no {id} in {explanation}")).value {
+    let mut items = explanation.steps.iter().flat_map(|step| &step.items);
+    match &items.find(|item| item.id == id).expect(id).value {
         ItemValue::Matrix(rows) => rows.as_flattened().to_vec(),
         ItemValue::Numbers(list) => list.clone(),
         ItemValue::Number(number) => vec![*number],
-        other => panic!("{id} is {other:?}"),
+        ItemValue::PlanarMatrix(_) | ItemValue::Text(_) => Vec::new(),
     }
 }
 
