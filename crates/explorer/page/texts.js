@@ -108,7 +108,7 @@ const TERMS = {
   view: '观察坐标',
   'distance ahead': '前方距离',
   'it is': '类型',
-  'shear, the centre line onto the line of sight': '错切，中心线对准视线',
+  'shear, the center line onto the line of sight': '错切，中心线对准视线',
   'scale, sides to x, y = ±distance': '缩放，侧面变为 x, y = ±距离',
   'depth, and w = distance': '深度，且 w = 距离',
   'the whole projection': '完整的投影',

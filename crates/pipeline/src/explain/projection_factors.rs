@@ -43,7 +43,7 @@ pub(super) fn add_projection_factors(
             let factors = frustum.factors(volume);
             step.add_item(
                 "shear",
-                "shear, the centre line onto the line of sight",
+                "shear, the center line onto the line of sight",
                 factors.shear.rows(),
             );
             step.add_item("scale", "scale, sides to x, y = ±distance", factors.scale.rows());
