@@ -67,5 +67,12 @@
   for (const [selector, [name, value]] of Object.entries(TEXTS)) {
     document.querySelector(selector)?.closest('a, button, label, input')?.setAttribute(name, value);
   }
+  const header = document.querySelector('#mdbook-searchresults-header');
+  // mdBook says it in English, and has no other words.
+  const countInChinese = () => {
+    const count = header.innerText.match(/^(\d+|No) search results?/);
+    if (count) header.innerText = count[1] === 'No' ? '没有找到。' : `找到 ${count[1]} 处：`;
+  };
+  if (header) new MutationObserver(countInChinese).observe(header, { childList: true });
   if (typeof elasticlunr !== 'undefined') install(elasticlunr);
 })();

@@ -81,6 +81,8 @@ async function testSearch(browser, address, language) {
   assert(links.some((link) => link.includes(expected)), `“${words}” finds ${links.join(', ')}`);
   const teaser = await page.locator('#mdbook-searchresults .teaser em').first().textContent();
   assert(teaser.length > 0, `“${words}”: no word is emphasized`);
+  const header = await page.locator('#mdbook-searchresults-header').innerText();
+  assert(language === 'en' || header.startsWith('找到'), `the number of results is given as “${header}”`);
   await page.close();
 }
 

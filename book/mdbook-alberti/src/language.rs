@@ -19,6 +19,8 @@ pub struct Texts {
     pub contents: &'static str,
     /// Columns of the table of topics.
     pub topics: [&'static str; 3],
+    /// Between a page and its section.
+    pub colon: &'static str,
     /// What a mark of a topic is, for its tooltip.
     pub topic: &'static str,
     /// The label of the links to other languages.
@@ -51,6 +53,7 @@ impl Language {
                 name: "English",
                 contents: "Contents",
                 topics: ["id", "topic", "where"],
+                colon: ": ",
                 topic: "Topic",
                 languages: "Languages",
             },
@@ -59,6 +62,7 @@ impl Language {
                 name: "中文",
                 contents: "目录",
                 topics: ["编号", "主题", "位置"],
+                colon: "：",
                 topic: "主题",
                 languages: "语言",
             },

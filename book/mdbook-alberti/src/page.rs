@@ -186,9 +186,9 @@ impl Renderer<'_> {
         let anchor =
             if seen.insert(code.to_owned()) { format!(" id=\"{code}\"") } else { String::new() };
         let title = escape_attribute(&plain_text(self.topics.title(code)));
-        let word = self.language.texts().topic;
+        let (word, colon) = (self.language.texts().topic, self.language.texts().colon);
         Ok(Some(format!(
-            "<a class=\"topic\"{anchor} href=\"topics.html#{code}\" title=\"{word} {code}: {title}\">{code}</a>"
+            "<a class=\"topic\"{anchor} href=\"topics.html#{code}\" title=\"{word} {code}{colon}{title}\">{code}</a>"
         )))
     }
 

