@@ -62,17 +62,31 @@
     '.print-button': ['title', '打印'],
   };
 
-  if (typeof module !== 'undefined') module.exports = { install, tokenize };
-  if (typeof document === 'undefined' || !document.documentElement.lang.startsWith('zh')) return;
-  for (const [selector, [name, value]] of Object.entries(TEXTS)) {
-    document.querySelector(selector)?.closest('a, button, label, input')?.setAttribute(name, value);
+  /** Says in Chinese what mdBook says in English alone. */
+  function translateInterface() {
+    for (const [selector, [name, value]] of Object.entries(TEXTS)) {
+      document.querySelector(selector)?.closest('a, button, label, input')?.setAttribute(name, value);
+    }
+    const header = document.querySelector('#mdbook-searchresults-header');
+    const countInChinese = () => {
+      const count = header.innerText.match(/^(\d+|No) search results?/);
+      if (count) header.innerText = count[1] === 'No' ? '没有找到。' : `找到 ${count[1]} 处：`;
+    };
+    if (header) new MutationObserver(countInChinese).observe(header, { childList: true });
   }
-  const header = document.querySelector('#mdbook-searchresults-header');
-  // mdBook says it in English, and has no other words.
-  const countInChinese = () => {
-    const count = header.innerText.match(/^(\d+|No) search results?/);
-    if (count) header.innerText = count[1] === 'No' ? '没有找到。' : `找到 ${count[1]} 处：`;
-  };
-  if (header) new MutationObserver(countInChinese).observe(header, { childList: true });
-  if (typeof elasticlunr !== 'undefined') install(elasticlunr);
+
+  if (!document.documentElement.lang.startsWith('zh')) return;
+  // The page loads this twice: in its head, since the search begins to load its index as soon as it is there, and at its end.
+  if (document.body) {
+    translateInterface();
+    return;
+  }
+  let library;
+  Object.defineProperty(window, 'elasticlunr', {
+    get: () => library,
+    set: (value) => {
+      library = value;
+      install(value);
+    },
+  });
 })();
