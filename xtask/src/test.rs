@@ -101,12 +101,14 @@ fn all_steps() -> Result<Vec<Step>, String> {
         ),
     ];
     steps.extend(integration_tests(&metadata)?);
-    steps.extend(last_steps());
+    steps.extend(build_steps());
+    steps.extend(document_and_package_steps());
+    steps.extend(interface_steps());
     Ok(steps)
 }
 
-/// The steps after the integration tests.
-fn last_steps() -> [Step; 11] {
+/// The steps of builds for others: documentation, browsers, other machines.
+fn build_steps() -> [Step; 4] {
     [
         Step {
             name: "docs".into(),
@@ -129,7 +131,13 @@ fn last_steps() -> [Step; 11] {
             "debug, release, WebAssembly and AArch64 give the same bytes, with every number of threads",
             &["xtask determinism", "xtask determinism --targets=aarch64"],
         ),
-        // After the step that builds the release program, with which it renders.
+    ]
+}
+
+/// The steps of what is handed out: after those that build the release program, with which they
+/// render.
+fn document_and_package_steps() -> [Step; 4] {
+    [
         Step::built_in(
             "site",
             "the documentation becomes pages: the guides' commands work, and links lead somewhere",
@@ -150,6 +158,12 @@ fn last_steps() -> [Step; 11] {
             "the Debian package works in an empty Debian, and its removal leaves nothing there",
             &["xtask release --deb"],
         ),
+    ]
+}
+
+/// The steps of the interfaces that have tool chains of their own, and what everything costs.
+fn interface_steps() -> [Step; 3] {
+    [
         Step::cargo(
             "browser",
             "the explorer's lessons hold in a browser, by mouse and by keyboard",
