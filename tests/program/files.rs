@@ -29,12 +29,40 @@ fn a_failed_run_leaves_the_old_picture_and_nothing_else() {
 }
 
 #[test]
+fn a_misspelt_model_is_suggested_and_a_folder_is_for_batch() {
+    let sandbox = Sandbox::new("misspelt_model");
+    sandbox.copy_model("crate.glb");
+    let run = sandbox.run(&["render", "crat.glb", "-o", "out.png"]);
+    assert_eq!(run.code, 1);
+    let expected =
+        "error: crat.glb: the file does not exist\n  = help: did you mean `crate.glb`?\n";
+    assert_eq!(run.stderr, expected);
+    let run = sandbox.run(&["render", ".", "-o", "out.png"]);
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("alberti batch ."), "{}", run.stderr);
+    assert_eq!(sandbox.file_names(), ["crate.glb"]);
+}
+
+#[test]
+fn values_of_flags_may_be_capital() {
+    let sandbox = Sandbox::new("capital_values");
+    sandbox.copy_model("crate.glb");
+    let sheet = |paper: &str, out: &str| {
+        sandbox.run(&["sheet", "crate.glb", "--paper", paper, "-o", out]).code
+    };
+    assert_eq!((sheet("A4", "capital.svg"), sheet("a4", "small.svg")), (0, 0));
+    let read = |name| std::fs::read(sandbox.path_of(name)).expect("the sheet");
+    assert!(read("capital.svg") == read("small.svg"));
+}
+
+#[test]
 fn an_output_that_cannot_be_written_is_named() {
     let sandbox = Sandbox::new("bad_output");
     sandbox.copy_model("crate.glb");
     let run = sandbox.run(&["render", "crate.glb", "-o", "no/such/folder/out.png"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("no/such/folder/out.png"), "{}", run.stderr);
+    assert!(run.stderr.contains("help: create the folder no/such/folder first"), "{}", run.stderr);
     let run = sandbox.run(&["render", "crate.glb", "-o", "out.jpg"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("out.jpg") && run.stderr.contains(".png"), "{}", run.stderr);

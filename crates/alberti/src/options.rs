@@ -46,10 +46,14 @@ where
     T: NamedOption + Send + Sync,
 {
     let value = |value: &T| {
-        PossibleValue::new(flag_name(*value)).help(value.summary().trim_end_matches('.'))
+        let name = flag_name(*value);
+        // As drawings print it: A4, MM.
+        let capitals = name.to_uppercase();
+        PossibleValue::new(name).alias(capitals).help(value.summary().trim_end_matches('.'))
     };
     PossibleValuesParser::new(T::ALL.iter().map(value).collect::<Vec<_>>()).try_map(|name| {
-        let found = T::ALL.iter().copied().find(|value| flag_name(*value) == name);
+        let is_named = |value: &T| flag_name(*value).eq_ignore_ascii_case(&name);
+        let found = T::ALL.iter().copied().find(is_named);
         found.ok_or_else(|| format!("unknown value `{name}`"))
     })
 }

@@ -17,7 +17,7 @@ use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::{FileFormat, ImportOptions};
 use pipeline::scene::file::SceneFile;
-use pipeline::scene::{Outputs, ResolveOptions};
+use pipeline::scene::{Outputs, ResolveOptions, closest_name};
 use pipeline::{Origin, Scene, Timings};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -188,10 +188,37 @@ pub(super) fn open_input(
     if input.as_os_str() == "-" {
         return open_stdin(options);
     }
+    check_is_file(input)?;
     if is_scene_file(input) {
         Ok(Origin::read_scene_allowing(input, &options.allow_outside)?)
     } else {
         Ok(Origin::from_model_path(input))
+    }
+}
+
+/// Refuses a folder, and names the file that was probably meant where there is none of this name.
+///
+/// Other reasons for which a file cannot be read are found, and explained, where it is read.
+fn check_is_file(input: &Path) -> Result<(), CliError> {
+    let name = input.display();
+    if input.is_dir() {
+        return Err(CliError::Usage(format!(
+            "{name} is a folder\n  = help: `alberti batch {name} --out-dir DIR` renders every model in it"
+        )));
+    }
+    let Some(wanted) = input.file_name().filter(|_| !input.exists()) else { return Ok(()) };
+    let folder = input.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten();
+    let mut names: Vec<String> =
+        entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    match closest_name(&wanted.to_string_lossy(), &names) {
+        Some(similar) => Err(CliError::Usage(format!(
+            "{name}: the file does not exist\n  = help: did you mean `{}`?",
+            input.with_file_name(similar).display()
+        ))),
+        None => Ok(()),
     }
 }
 

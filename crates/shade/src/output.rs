@@ -8,17 +8,30 @@ pub use png_rows::{PngRows, encode_png};
 
 use crate::{Channel, Picture};
 use std::fs::File;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The error of an output file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {cause}", path.display())]
+#[error("cannot write {}: {cause}{}", path.display(), self.remedy())]
 pub struct OutputError {
     /// The target file.
     pub path: PathBuf,
     /// The error of the operating system.
     pub cause: std::io::Error,
+}
+
+impl OutputError {
+    /// A line of help where the folder is missing.
+    fn remedy(&self) -> String {
+        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        match folder {
+            Some(folder) if self.cause.kind() == ErrorKind::NotFound => {
+                format!("\n  = help: create the folder {} first", folder.display())
+            }
+            _ => String::new(),
+        }
+    }
 }
 
 impl<C: Channel> Picture<C> {
