@@ -72,7 +72,10 @@
       const count = header.innerText.match(/^(\d+|No) search results?/);
       if (count) header.innerText = count[1] === 'No' ? '没有找到。' : `找到 ${count[1]} 处：`;
     };
-    if (header) new MutationObserver(countInChinese).observe(header, { childList: true });
+    if (!header) return;
+    // A link with `?search=` may have its results before this script runs.
+    countInChinese();
+    new MutationObserver(countInChinese).observe(header, { childList: true });
   }
 
   if (!document.documentElement.lang.startsWith('zh')) return;

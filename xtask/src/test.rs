@@ -101,10 +101,13 @@ fn all_steps() -> Result<Vec<Step>, String> {
         ),
     ];
     steps.extend(integration_tests(&metadata)?);
-    steps.extend(build_steps());
-    steps.extend(document_and_package_steps());
-    steps.extend(interface_steps());
+    steps.extend(later_steps());
     Ok(steps)
+}
+
+/// The steps after the integration tests.
+fn later_steps() -> impl Iterator<Item = Step> {
+    build_steps().into_iter().chain(document_and_package_steps()).chain(interface_steps())
 }
 
 /// The steps of builds for others: documentation, browsers, other machines.
