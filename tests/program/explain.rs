@@ -42,7 +42,7 @@ fn assert_near(ours: &Value, theirs: &[f64]) {
 #[test]
 fn a_point_is_followed_to_its_pixel() {
     let sandbox = sandbox_with_scene("explain_point", |_| {});
-    // Half-way up from the centre at distance 5, where the picture is 10 high: 25 of 100 rows.
+    // Half-way up from the center at distance 5, where the picture is 10 high: 25 of 100 rows.
     let found = explanation_json(&sandbox, &["--point", "0,2.5,0"]);
     assert_eq!(found["schema"], json!({"name": "alberti-explain", "version": 1}));
     assert_near(&find_item(&found, "view"), &[0.0, 2.5, -5.0]);
@@ -133,7 +133,7 @@ fn without_a_subject_the_transforms_are_explained() {
 #[test]
 fn a_pixel_is_traced_to_its_triangle() {
     let sandbox = sandbox_with_scene("explain_pixel", |_| {});
-    // The square is 20 × 20 pixels around the centre; its lower right half is its first triangle.
+    // The square is 20 × 20 pixels around the center; its lower right half is its first triangle.
     let found = explanation_json(&sandbox, &["--pixel", "104,52", "--samples", "1"]);
     assert_eq!(find_item(&found, "hex"), "#ff0000, alpha 255");
     assert_near(&find_item(&found, "srgb"), &[255.0, 0.0, 0.0, 255.0]);

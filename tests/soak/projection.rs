@@ -15,7 +15,7 @@ use projection::{
 
 pub const SUBJECTS: &[Subject] = &[
     ("projection::Window::new", |r| Some(any_window(r)?.finite())),
-    ("projection::Window::centred", |r| Some(Window::centered(r.size(), r.size()).ok()?.finite())),
+    ("projection::Window::centered", |r| Some(Window::centered(r.size(), r.size()).ok()?.finite())),
     ("projection::Frustum::new", |r| {
         let ([l, rt, b, t], [near, far]) = (r.numbers(), r.near_and_any_far());
         frustum_is_finite(Frustum::new(l, rt, b, t, near, far).ok()?, r)
@@ -45,8 +45,8 @@ pub const SUBJECTS: &[Subject] = &[
     }),
     ("projection::Perspective::try_from", |r| {
         let (window, [near, far]) = (Window::centered(r.size(), r.size()), r.near_and_any_far());
-        let centred = Frustum::from_window(window.ok()?, near, far).ok()?;
-        Some(Perspective::try_from(centred).ok()?.view_to_clip(convention(r)).finite())
+        let centered = Frustum::from_window(window.ok()?, near, far).ok()?;
+        Some(Perspective::try_from(centered).ok()?.view_to_clip(convention(r)).finite())
     }),
     ("projection::Orthographic::new", |r| {
         let (volume, c) = (any_box(r)?, convention(r));

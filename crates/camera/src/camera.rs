@@ -112,7 +112,7 @@ impl Camera {
         Self::look_to(local_to_world.transform_point(Point::ORIGIN), gaze, up)
     }
 
-    /// Where the camera stands; the centre of projection if the projection is a perspective.
+    /// Where the camera stands; the center of projection if the projection is a perspective.
     #[must_use]
     pub const fn eye(self) -> Point<World> {
         self.eye

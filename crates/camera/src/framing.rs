@@ -16,7 +16,7 @@
 //! (ez − z), that is if ex + r ez ≥ x + r z: one number per side and point, and of these only the
 //! greatest, R, counts. With the least, L, for the left side we have ex + r ez ≥ R and ex + l ez ≤
 //! L, hence ez ≥ (R − L)/(r − l): the least distance at which the width fits. The height gives
-//! another; the greater one counts, and in the other direction the picture is centred. There is no
+//! another; the greater one counts, and in the other direction the picture is centered. There is no
 //! sphere around the points, no trial and no margin, and no point is cropped.
 
 use crate::point_coordinates::PointCoordinates;
@@ -110,7 +110,7 @@ pub struct Framing {
 /// Places a camera of the given orientation so that the image of `points` just fills the frame.
 ///
 /// In the direction that [`FramingConstraint`] names the image touches both sides of the padded
-/// frame; in the other it is centred, with the same margin on both sides. `padding` is the part of
+/// frame; in the other it is centered, with the same margin on both sides. `padding` is the part of
 /// the frame's width and height to be left free on every side: 0.05 is 5 per cent. For bounds pass
 /// [`homog::Bounds::corners`]; the points themselves give a closer fit.
 ///

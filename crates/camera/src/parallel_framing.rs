@@ -45,7 +45,7 @@ pub struct ParallelFraming {
 /// Chooses camera and window of an orthographic projection so that the image of `points` just fills
 /// the frame.
 ///
-/// The image touches two opposite sides of the padded frame and is centred between the other two.
+/// The image touches two opposite sides of the padded frame and is centered between the other two.
 /// `aspect` is width/height of the frame; `padding` the part of it to be left free on every side:
 /// 0.05 is 5 per cent. Points whose images are all one, on a line along the projectors, get a frame
 /// of the height of their diagonal. A single point is framed as a cube of side 1 around it (or of a

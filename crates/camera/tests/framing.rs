@@ -1,4 +1,4 @@
-//! Framing is tight: the image touches the padded frame, nothing is cropped, the rest is centred.
+//! Framing is tight: the image touches the padded frame, nothing is cropped, the rest is centered.
 
 use camera::{
     Basis, FramingConstraint, FramingError, Slopes, frame_oblique, frame_parallel,
@@ -46,7 +46,7 @@ fn assert_tight(x: [f64; 2], y: [f64; 2], fit: FramingConstraint, padding: f64) 
     let near = |a: f64, b: f64| (a - b).abs() < 1e-11;
     assert!(near(tight[0], -rim) && near(tight[1], rim), "{fit:?}: {tight:?} is not ±{rim}");
     assert!(other[1] <= rim + 1e-11, "{fit:?}: {other:?} is cropped at {rim}");
-    assert!(near(other[0], -other[1]), "{fit:?}: {other:?} is not centred");
+    assert!(near(other[0], -other[1]), "{fit:?}: {other:?} is not centered");
 }
 
 proptest! {

@@ -104,7 +104,7 @@ impl Volume {
     ///
     /// Triangles that leave the image but not the band need no cutting there: the rasteriser's
     /// bounding box does it. A band of k lets screen coordinates reach k times half the image's
-    /// size from its centre.
+    /// size from its center.
     ///
     /// # Errors
     /// [`VolumeError::GuardBand`] unless both factors are from 1 to [`Self::MAX_GUARD_BAND`].

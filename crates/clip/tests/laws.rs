@@ -258,11 +258,11 @@ proptest! {
     }
 
     #[test]
-    fn convex_polygons_are_their_fans(centre in place(), radius in 0.1..4.0, sides in 3..12_usize) {
+    fn convex_polygons_are_their_fans(center in place(), radius in 0.1..4.0, sides in 3..12_usize) {
         let corner = |i: usize| libm::sincos(i as f64 * core::f64::consts::TAU / sides as f64);
         let ring: Vec<HPoint<Clip>> = (0..sides)
             .map(corner)
-            .map(|(s, c)| HPoint::from_raw(centre.raw() + DVec4::new(radius * c, radius * s, 0.0, 0.0)))
+            .map(|(s, c)| HPoint::from_raw(center.raw() + DVec4::new(radius * c, radius * s, 0.0, 0.0)))
             .collect();
         let area = |points: &[HPoint<Clip>]| -> f64 {
             let next = points.iter().cycle().skip(1);

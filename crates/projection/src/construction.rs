@@ -2,7 +2,7 @@
 //! follows.
 //!
 //! ```text
-//!   three points:  the principal point is the orthocentre of their triangle,
+//!   three points:  the principal point is the orthocenter of their triangle,
 //!                  the eye's distance from it the height of the box corner above the triangle
 //!   two points:    the principal point lies on the horizon between them,
 //!                  the eye on the half circle over them

@@ -57,8 +57,8 @@ pub enum ProjectionError {
     /// Projectors that never meet the plane they should meet in one point.
     #[error("the projectors are parallel to the projection plane and never meet it")]
     ParallelToPlane,
-    /// The centre of projection lies on the projection plane.
-    #[error("the centre of projection lies on the projection plane")]
+    /// The center of projection lies on the projection plane.
+    #[error("the center of projection lies on the projection plane")]
     CenterOnPlane,
     /// No vanishing point was asked for (p = q = r = 0), which is no perspective.
     #[error("p, q and r are all 0: that is a parallel projection, it has no vanishing point")]
@@ -81,9 +81,9 @@ pub enum ProjectionError {
         /// The law it breaks.
         reason: &'static str,
     },
-    /// The frustum's window is not centred on the line of sight, so that no field of view describes
+    /// The frustum's window is not centered on the line of sight, so that no field of view describes
     /// it.
-    #[error("the window is off centre; a perspective by field of view cannot show it")]
+    #[error("the window is off center; a perspective by field of view cannot show it")]
     OffCenter,
     /// All parameters are fine by themselves, but the matrix would overflow or underflow.
     #[error("the {what} is too large, too small or too extreme to compute with")]

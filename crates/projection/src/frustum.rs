@@ -1,4 +1,4 @@
-//! Perspective through any window: the off-centre frustum.
+//! Perspective through any window: the off-center frustum.
 
 use crate::error::{check_finite, check_positive};
 use crate::matrix::{self, DepthRow, WindowFit};

@@ -40,7 +40,7 @@
 //! | to get | use |
 //! | --- | --- |
 //! | a camera's perspective, by angle or focal length | [`Perspective`], [`Fov`] |
-//! | an off-centre one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
+//! | an off-center one: stereo, walls, headsets | [`Frustum`], [`FourAngles`] |
 //! | a calibrated camera, by its matrix K | [`Intrinsics`] |
 //! | a box without foreshortening | [`Orthographic`] |
 //! | part of a picture | `view_offset` of the three above, by a [`ViewOffset`] |
@@ -51,7 +51,7 @@
 //! | cavalier, cabinet; military | [`Oblique`]; [`Planometric`] |
 //! | one-, two-, three-point perspective | [`NPoint`], [`ConstructedPerspective`] |
 //! | any of those five as a renderable matrix | [`Classical`] |
-//! | any centre and any plane | [`Projector`] |
+//! | any center and any plane | [`Projector`] |
 //! | the textbook's P, M_orth, M_per | [`chapter`] |
 //! | glFrustum, gluPerspective, D3DX… by name | [`api`] |
 //! | the lesson's createFrustum | [`ApexMovedFrustum`] |

@@ -111,7 +111,7 @@ impl Misprint {
                 "the third row ignores z: every point gets the same depth, and there is no inverse"
             }
             Self::ApexMoved => {
-                "the offsets stand in the last column: the apex moves behind the window's centre"
+                "the offsets stand in the last column: the apex moves behind the window's center"
             }
             Self::BottomRowOne => {
                 "the bottom row is (0, 0, −1, 1), so that w is the distance plus 1"

@@ -63,7 +63,7 @@ impl Oblique {
 /// The factors of a frustum, in the order a point passes them (VV-2, C87, C88).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct FrustumFactors {
-    /// Puts the centre line of the volume on the line of sight.
+    /// Puts the center line of the volume on the line of sight.
     pub shear: Affine<View, View>,
     /// Makes the sides x = ±D and y = ±D.
     pub scale: Affine<View, View>,

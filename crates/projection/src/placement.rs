@@ -106,7 +106,7 @@ pub(crate) struct Placement {
     /// Right, up and back of the camera, in the coordinates the matrix takes.
     axes: [DVec3; 3],
     pub(crate) eye: DVec3,
-    /// x' = scale.x x − centre.x D in the camera's own coordinates; y' alike.
+    /// x' = scale.x x − center.x D in the camera's own coordinates; y' alike.
     pub(crate) scale: DVec2,
     pub(crate) center: DVec2,
     /// The depth row in the camera's own coordinates.

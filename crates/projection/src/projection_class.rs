@@ -30,7 +30,7 @@ use crate::{
 pub enum ProjectionClass {
     /// The root: straight projectors and a plane.
     Planar,
-    /// The centre of projection is at infinity.
+    /// The center of projection is at infinity.
     Parallel,
     /// Parallel projectors perpendicular to the plane.
     Orthographic,
@@ -54,7 +54,7 @@ pub enum ProjectionClass {
     Military,
     /// Depth drawn with any other length.
     GeneralOblique,
-    /// The centre of projection is at a finite place.
+    /// The center of projection is at a finite place.
     Perspective,
     /// One axis meets the plane.
     OnePoint,

@@ -1,7 +1,7 @@
-//! Projection from first principles: a centre, a plane, and straight projectors between them (C72).
+//! Projection from first principles: a center, a plane, and straight projectors between them (C72).
 //!
 //! ```text
-//!        ● centre (a point, or a direction if the projectors are parallel)
+//!        ● center (a point, or a direction if the projectors are parallel)
 //!        │╲
 //!        │ ╲ projector
 //!   ─────●──●────── plane        M = (π·c) I − c πᵀ
@@ -9,8 +9,8 @@
 //!        ●    ●  object
 //! ```
 //!
-//! With the centre c as a homogeneous point and the plane π as four numbers, every point x goes to
-//! the one point of its projector that lies in the plane, (π·c) x − (π·x) c. A centre with w = 0 is
+//! With the center c as a homogeneous point and the plane π as four numbers, every point x goes to
+//! the one point of its projector that lies in the plane, (π·c) x − (π·x) c. A center with w = 0 is
 //! the limit of an eye that goes to infinity: parallel projection is not a case of its own (PR-1).
 
 use crate::ProjectionError;
@@ -19,10 +19,10 @@ use crate::matrix::check_representable;
 use glam::{DMat4, DVec4};
 use homog::{HPoint, Plane, Point, Projective, Space, Vector};
 
-/// A centre and a plane of projection in space `S`.
+/// A center and a plane of projection in space `S`.
 ///
 /// # Guarantees
-/// The centre is finite and not in the plane, the plane has a unit normal.
+/// The center is finite and not in the plane, the plane has a unit normal.
 ///
 /// ```
 /// use homog::{Normal, Plane, Point, View};
@@ -93,7 +93,7 @@ impl<S: Space> Projector<S> {
         Ok(projector)
     }
 
-    /// The centre of projection; w = 0 if the projectors are parallel.
+    /// The center of projection; w = 0 if the projectors are parallel.
     #[must_use]
     pub const fn center(self) -> HPoint<S> {
         self.center

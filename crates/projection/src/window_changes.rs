@@ -30,20 +30,20 @@ pub struct ViewOffset {
     pub size: (f64, f64),
 }
 
-/// A sample position beside the pixel centre, in pixels, x right and y down, for accumulated
+/// A sample position beside the pixel center, in pixels, x right and y down, for accumulated
 /// antialiasing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Jitter {
     /// Width and height of the picture in pixels.
     pub image: (f64, f64),
-    /// The sample's distance from the pixel centre, usually within ±½.
+    /// The sample's distance from the pixel center, usually within ±½.
     pub offset: (f64, f64),
 }
 
 /// The angles from the line of sight to the four edges, in radians, right and up positive (as
 /// OpenXR has them).
 ///
-/// A centred lens of 90° has left = down = −π/4 and right = up = π/4.
+/// A centered lens of 90° has left = down = −π/4 and right = up = π/4.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct FourAngles {
     /// To the left edge, negative if it lies left of the line of sight.
@@ -110,7 +110,7 @@ impl Window {
         Self::new(self.left() + dx, self.right() + dx, self.bottom() + dy, self.top() + dy)
     }
 
-    /// The window moved so that pixel centres see what lay at the jitter's offset beside them.
+    /// The window moved so that pixel centers see what lay at the jitter's offset beside them.
     ///
     /// # Errors
     /// If a size is not above 0 or a number not finite.
@@ -141,7 +141,7 @@ macro_rules! window_methods {
                 $with(self, &|window: Window| window.shifted(x, y))
             }
 
-            /// The projection whose pixel centres see what lay at the jitter's offset beside them.
+            /// The projection whose pixel centers see what lay at the jitter's offset beside them.
             ///
             /// # Errors
             /// If a size is not above 0 or a number not finite.

@@ -104,7 +104,7 @@ fn c49_the_angle_of_view_is_that_between_the_middles_of_the_edges() {
     assert!((window.right() / window.top() - 640.0 / 480.0).abs() < 1e-15);
 }
 
-/// Two eyes at ±e look through one window at distance d: each sees it off centre by e, and a point
+/// Two eyes at ±e look through one window at distance d: each sees it off center by e, and a point
 /// of the window's plane has the same image for both.
 #[test]
 fn c65_two_eyes_share_a_window_and_shift_it_to_opposite_sides() {
@@ -216,7 +216,7 @@ fn misprint_m14b_a_window_has_two_different_corners() {
 }
 
 /// Ortho is a scale after a translation, whose z entry is −((−near) + (−far))/2. Read with the
-/// parenthesis closed early, −(−near) + (−far)/2, the box is not centred.
+/// parenthesis closed early, −(−near) + (−far)/2, the box is not centered.
 #[test]
 fn misprint_m15b_the_box_is_moved_by_the_mean_of_near_and_far() {
     let (near, far) = (2.0, 6.0);

@@ -31,7 +31,7 @@ fn covered(triangle: [ScreenVertex; 3]) -> Vec<bool> {
     frame.visibility_buffer().ids.iter().map(Option::is_some).collect()
 }
 
-/// Coordinates that meet pixel centres, half pixels and arbitrary grid steps alike, inside and
+/// Coordinates that meet pixel centers, half pixels and arbitrary grid steps alike, inside and
 /// outside the picture.
 fn coordinate() -> impl Strategy<Value = i32> {
     let far = SIDE as i32 * 256;
@@ -63,7 +63,7 @@ proptest! {
         center in corner(),
         rim in prop::collection::vec((-6000_i32..6000, 1_i32..6000), 3..9),
     ) {
-        // A rim sorted by angle around the centre, without two corners in one direction: a fan
+        // A rim sorted by angle around the center, without two corners in one direction: a fan
         // without overlap.
         let mut rim: Vec<(i32, i32)> = rim.into_iter().flat_map(|(x, y)| [(x, y), (-x, -y)]).collect();
         let upper = |&(x, y): &(i32, i32)| y < 0 || (y == 0 && x < 0);
@@ -81,7 +81,7 @@ proptest! {
             }
         }
         prop_assert!(hits.iter().all(|&hits| hits <= 1), "{:?}", hits);
-        // Samples nearer to the centre than every rim edge are inside the fan.
+        // Samples nearer to the center than every rim edge are inside the fan.
         let reach = (0..rim.len()).map(|k| {
             let (a, b) = (rim[k], rim[(k + 1) % rim.len()]);
             let length = f64::from(b.0 - a.0).hypot_exact(f64::from(b.1 - a.1));
@@ -174,7 +174,7 @@ fn c31_depth_is_that_of_the_plane_and_weights_that_of_the_projection() {
     assert_eq!(
         checked,
         64 * 63 / 2,
-        "the centres on the long side belong to the other half of the square"
+        "the centers on the long side belong to the other half of the square"
     );
 }
 

@@ -43,7 +43,7 @@ fn cover_of(id: u32) -> Opacity {
     [Opacity::Opaque, Opacity::Masked, Opacity::Translucent][id as usize % 3]
 }
 
-/// For each pixel the primitives that cover its centre, with their depths, each drawn alone.
+/// For each pixel the primitives that cover its center, with their depths, each drawn alone.
 fn covering() -> Vec<Vec<(u32, f32)>> {
     let mut all = vec![Vec::new(); (SIZE[0] * SIZE[1]) as usize];
     for (id, corners) in (0..).zip(triangles()) {

@@ -38,7 +38,7 @@ impl FitPolicy {
     /// The rectangle to draw a picture of this size (only its shape counts) on, so that it fits
     /// `place`.
     ///
-    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centres,
+    /// `align` says where the spare room goes, as fractions of it on x and y: `[0.5, 0.5]` centers,
     /// `[0.0, 0.0]` puts the picture at the corner of least coordinates. What [`FitPolicy::Cover`]
     /// cuts off is shared out in the same way.
     ///

@@ -1,7 +1,7 @@
 //! Viewports: from the canonical volume to pixels on an image or millimetres on paper, and back.
 //!
 //! ```text
-//!    canonical square                          image: 6 by 4 pixels, y down, centres at halves
+//!    canonical square                          image: 6 by 4 pixels, y down, centers at halves
 //!
 //!  (−1, 1) ┌────────────┐ (1, 1)               0   1   2   3   4   5   6 ► x
 //!          │            │                    0 ┌───┬───┬───┬───┬───┬───┐

@@ -60,9 +60,9 @@ impl Viewport {
     /// [`Self::pick_matrix`].
     #[must_use]
     pub fn tile_area(&self, tile: PixelRect) -> Rectangle {
-        let PixelConvention { centers: centres, .. } = self.convention();
+        let PixelConvention { centers, .. } = self.convention();
         let area = Rectangle::from(tile);
-        let (x, y) = (area.x() + centres.image_border(), area.y() + centres.image_border());
+        let (x, y) = (area.x() + centers.image_border(), area.y() + centers.image_border());
         Rectangle::new_unchecked(x, y, area.width(), area.height())
     }
 }

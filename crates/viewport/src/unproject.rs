@@ -3,8 +3,8 @@
 //! ```text
 //!                     near          far
 //!                      │             │         All depths of a pixel are one line. Between the
-//!   centre ●───────────┼─────────────┼──►      near and the far plane it is the pixel's ray;
-//!                    pixel           │         beyond all depths it runs through the centre of
+//!   center ●───────────┼─────────────┼──►      near and the far plane it is the pixel's ray;
+//!                    pixel           │         beyond all depths it runs through the center of
 //!                      │             │         projection, or is parallel if there is none.
 //! ```
 
@@ -104,7 +104,7 @@ impl<S: Space> Unprojector<S> {
         divide_point(self.screen_to_source.transform_point(screen))
     }
 
-    /// The centre of projection. With w = 0 it is at infinity: the projection is parallel, and this
+    /// The center of projection. With w = 0 it is at infinity: the projection is parallel, and this
     /// is its direction.
     #[must_use]
     pub fn center_of_projection(&self) -> HPoint<S> {

@@ -9,7 +9,7 @@ use homog::{Affine, Ndc, PixelConvention, Point, Screen, Vector, YAxis};
 ///
 /// The rectangle is counted in whole pixels from the image's corner: `x = 10, width = 5` are pixels
 /// 10 to 14, whatever the convention. The convention decides the coordinates: those five pixels
-/// cover [10, 15] with half-integer centres and [9½, 14½] with integer ones. y counts from the
+/// cover [10, 15] with half-integer centers and [9½, 14½] with integer ones. y counts from the
 /// lowest row if it runs up, from the topmost if it runs down; in both cases y = +1 of the
 /// canonical square is at the upper border of the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -26,7 +26,7 @@ impl Viewport {
         Self { area, convention, depth }
     }
 
-    /// The whole of an image as the pipeline counts it: half-integer centres, y down, and depth 1
+    /// The whole of an image as the pipeline counts it: half-integer centers, y down, and depth 1
     /// at the near, 0 at the far plane of the chapter's canonical volume (near at z = +1).
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl Viewport {
         Ok(Self::new(area, PixelConvention::IMAGE, DepthRange::ZERO_ONE))
     }
 
-    /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centres, y
+    /// The whole of an image of `nx` by `ny` pixels as the chapter counts it: integer centers, y
     /// up, z kept (VP-1).
     ///
     /// # Errors
@@ -84,7 +84,7 @@ impl Viewport {
     /// The map M_vp (VP-1 to VP-3, DP-1).
     ///
     /// ```text
-    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centres, 0 for half-integer ones;
+    /// [ w/2   0   0  x + w/2 + c ]      c = −½ for integer centers, 0 for half-integer ones;
     /// [  0  ±h/2  0  y + h/2 + c ]      + for y up, − for y down;
     /// [  0    0   s       o      ]      s, o of the depth range
     /// [  0    0   0       1      ]
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_square_fills_the_image_in_every_convention() {
-        // (y, centres, image of the lower left corner of the square, of the upper right one) for
+        // (y, centers, image of the lower left corner of the square, of the upper right one) for
         // 640 by 480
         let table = [
             (YAxis::Up, PixelCenters::Integer, [-0.5, -0.5], [639.5, 479.5]),
@@ -145,9 +145,9 @@ mod tests {
             (YAxis::Down, PixelCenters::Half, [0.0, 480.0], [640.0, 0.0]),
         ];
         let image = Viewport::chapter(640, 480).expect("has pixels");
-        for (y, centres, low, high) in table {
+        for (y, centers, low, high) in table {
             let map =
-                image.with_convention(PixelConvention { y, centers: centres }).ndc_to_screen();
+                image.with_convention(PixelConvention { y, centers: centers }).ndc_to_screen();
             assert_eq!(
                 map.transform_point(Point::new(-1.0, -1.0, 0.5)),
                 Point::new(low[0], low[1], 0.5)

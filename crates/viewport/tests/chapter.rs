@@ -128,7 +128,7 @@ fn several_viewports_on_one_image() {
     );
 }
 
-/// A parallel projection has its centre at infinity: rays start on the near plane and all run the
+/// A parallel projection has its center at infinity: rays start on the near plane and all run the
 /// same way.
 #[test]
 fn rays_of_a_parallel_projection_are_parallel() {

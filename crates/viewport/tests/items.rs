@@ -4,7 +4,7 @@ use glam::DMat4;
 use homog::{Ndc, PixelConvention, Point};
 use viewport::{DepthRange, Rectangle, Viewport};
 
-/// VP-1, entry by entry: scale by n/2, centre at (n − 1)/2, z as it is.
+/// VP-1, entry by entry: scale by n/2, center at (n − 1)/2, z as it is.
 #[test]
 fn c6_the_viewport_matrix_keeps_z() {
     let (nx, ny) = (640.0, 480.0);
@@ -18,10 +18,10 @@ fn c6_the_viewport_matrix_keeps_z() {
     assert_eq!(ours, DMat4::from_cols_array_2d(&rows).transpose());
 }
 
-/// The square is nx pixels wide and the first and last of them have their centres at 0 and nx − 1,
+/// The square is nx pixels wide and the first and last of them have their centers at 0 and nx − 1,
 /// half a pixel from the image's borders.
 #[test]
-fn c5_pixels_have_their_centres_at_integers() {
+fn c5_pixels_have_their_centers_at_integers() {
     for nx in [1_u32, 2, 7, 1920] {
         let map = Viewport::chapter(nx, 3).expect("has pixels").ndc_to_screen();
         let x = |ndc: f64| map.transform_point(Point::<Ndc>::new(ndc, 0.0, 0.0)).x();

@@ -233,7 +233,7 @@ impl<'a> CameraResolver<'a> {
         lens.map_err(|error| self.projection_error(&error))
     }
 
-    /// The height of the window, centred on the line of sight, into which the whole scene fits.
+    /// The height of the window, centered on the line of sight, into which the whole scene fits.
     fn fitting_window_height(&self, camera: Camera) -> f64 {
         let world_to_view = camera.world_to_view();
         let reach = self.points.iter().map(|&point| {

@@ -34,7 +34,7 @@ fn places_are_the_unprojections_of_pixels_and_depths() {
         for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (x, y))) {
             let at = |n: usize| buffers[n].float_values(x, y).expect("a pixel");
             let &[depth] = at(1) else { panic!("one number") };
-            // At borders of triangles the centre may lie outside by the 1/256 pixel that corners
+            // At borders of triangles the center may lie outside by the 1/256 pixel that corners
             // are moved; lines and points are wider than they are.
             if depth.is_infinite() || at(3).iter().any(|weight| *weight <= 1e-6) {
                 continue;

@@ -95,12 +95,12 @@ proptest! {
         }
     }
 
-    /// C69, C92, M14c: a window off centre is an error, not nothing.
+    /// C69, C92, M14c: a window off center is an error, not nothing.
     #[test]
     fn a_perspective_is_the_frustum_through_its_window(p in perspective(), c in convention()) {
         let through = p.to_frustum();
         prop_assert!(distance(through.view_to_clip(c).raw(), p.view_to_clip(c).raw()) < 1e-13);
-        let back = Perspective::try_from(through).expect("centred");
+        let back = Perspective::try_from(through).expect("centered");
         prop_assert!((back.fov_y() - p.fov_y()).abs() < 1e-12);
         let moved = Frustum::new(-1.0, 2.0, -1.0, 1.0, 1.0, 2.0).expect("valid");
         prop_assert!(Perspective::try_from(moved).is_err());

@@ -162,7 +162,7 @@ proptest! {
         prop_assert!((moved.onto_plane().transform_point(on_plane) - on_plane).length() < 1e-14);
     }
 
-    /// C72, C75, C78, C82: centre or direction and a plane are enough.
+    /// C72, C75, C78, C82: center or direction and a plane are enough.
     #[test]
     fn first_principles_give_the_textbook_matrices(d in 0.5..9.0, o in oblique()) {
         let picture = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));

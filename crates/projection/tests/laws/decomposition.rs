@@ -59,7 +59,7 @@ proptest! {
         let Decomposed::Frustum(back) = kind(p.view_to_clip(c).raw(), c) else {
             panic!("a frustum")
         };
-        let back = Perspective::try_from(back).expect("centred");
+        let back = Perspective::try_from(back).expect("centered");
         prop_assert!(
             (back.fov_y() - p.fov_y()).abs() < 1e-12
                 && (back.aspect() / p.aspect() - 1.0).abs() < 1e-12

@@ -175,7 +175,7 @@ fn c57_the_derivation_reaches_m_opengl_step_by_step() {
 #[test]
 fn c69_perspective_from_frustum_and_back() {
     let frustum = Frustum::new(-2.0, 2.0, -1.0, 1.0, 1.0, 10.0).expect("valid");
-    let lens = projection::Perspective::try_from(frustum).expect("centred");
+    let lens = projection::Perspective::try_from(frustum).expect("centered");
     assert_eq!(lens.to_frustum(), frustum);
     assert_eq!(lens.aspect(), 2.0);
 }

@@ -2,7 +2,7 @@
 //!
 //! Two of glam 0.34's builders are compared for centered windows only: its left-handed `frustum`
 //! keeps the sign of the right-handed offset and its Vulkan `orthographic` does not turn the y
-//! offset, so that corners of off-centre windows miss the corners of the canonical volume. That
+//! offset, so that corners of off-center windows miss the corners of the canonical volume. That
 //! ours meet them is checked in `builders`.
 
 use crate::samples::{self, distance, frustum, orthographic, perspective};

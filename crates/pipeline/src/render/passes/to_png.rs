@@ -140,7 +140,7 @@ const fn unit_description(pass: Pass) -> &'static str {
         Pass::Node => "node of the model, from 1; 0 is nothing",
         Pass::Mesh => "mesh of the model, from 1; 0 is nothing",
         Pass::Material => "material of the model, from 1; 0 is nothing or the default",
-        Pass::Overdraw => "fragments that cover the pixel's centre",
+        Pass::Overdraw => "fragments that cover the pixel's center",
         Pass::Coverage => "share of the pixel's samples covered, 65535 is 1",
     }
 }
