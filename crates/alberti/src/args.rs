@@ -61,7 +61,7 @@ Examples:
   alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
   alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
   alberti explore model.glb                       the same live, in a browser on this machine
-  alberti exercise 3 --answer 'A=n+f; B=-n*f'     an answer to an exercise, checked
+  alberti exercise 3 --answer 'A=1; B=0'          an answer to an exercise, checked
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12
   alberti curve depth --near 0.1 --far 1000 -o depth.svg

@@ -19,9 +19,8 @@ const EXAMPLES: &str = "\
 Examples:
   alberti exercise                                the list
   alberti exercise 3                              a question
-  alberti exercise 3 --answer 'A=n+f; B=-n*f'     right
-  alberti exercise 8 --answer '1 0 0 0; 0 1 0 0; 0 0 3 2; 0 0 1 0'
-                                                  wrong: the sign of f n …
+  alberti exercise 3 --hint                       how to begin
+  alberti exercise 3 --answer 'A=1; B=0'          not right: the divide is forgotten …
 
 Exits with 0 if the answer is right, with 1 if it is wrong.";
 
@@ -33,9 +32,9 @@ pub(crate) struct ExerciseArgs {
     number: Option<u32>,
     /// Check an answer
     ///
-    /// Rows of a matrix are separated by `;`, numbers by blanks or commas. Fractions such as 80/21,
+    /// Rows of a matrix are separated by `;`, numbers by blanks or commas. Fractions such as 7/3,
     /// the letters of the exercise, + - * / ^ ( ), sqrt, sin, cos, tan, cot, atan, abs, pi and
-    /// degrees as 30° may stand in it; several values may be named, as in A=n+f; B=-n*f.
+    /// degrees as 30° may stand in it; several values may be named, as in x=a+b; y=-a*b.
     #[arg(long, value_name = "ANSWER", allow_hyphen_values = true, requires = "number")]
     answer: Option<String>,
     /// Print the hints
@@ -74,7 +73,7 @@ impl From<TextLanguage> for Language {
 /// If there is no such exercise, or the answer cannot be read.
 pub(crate) fn run(args: &ExerciseArgs) -> Result<ExitCode, CliError> {
     let language = args.language.map_or_else(language_of_environment, Language::from);
-    let chosen = args.number.map(numbered_exercise).transpose()?;
+    let chosen = args.number.map(|number| numbered_exercise(number, language)).transpose()?;
     let shown = chosen.as_ref().map_or(exercises(), std::slice::from_ref);
     let verdict = match (chosen, &args.answer) {
         (Some(exercise), Some(answer)) => Some(
@@ -110,12 +109,17 @@ fn language_of_environment() -> Language {
     }
 }
 
-fn numbered_exercise(number: u32) -> Result<&'static Exercise, CliError> {
+fn numbered_exercise(number: u32, language: Language) -> Result<&'static Exercise, CliError> {
     find_exercise(number).ok_or_else(|| {
         let count = exercises().len();
-        CliError::Usage(format!(
-            "there is no exercise {number}\n  = help: the exercises are 1 to {count}; `alberti exercise` lists them"
-        ))
+        CliError::Usage(match language {
+            Language::English => format!(
+                "there is no exercise {number}\n  = help: the exercises are 1 to {count}; `alberti exercise` lists them"
+            ),
+            Language::Chinese => format!(
+                "没有习题 {number}\n  = help: 习题编号为 1 到 {count}；`alberti exercise` 列出全部习题"
+            ),
+        })
     })
 }
 
