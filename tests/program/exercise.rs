@@ -35,6 +35,11 @@ fn exercises_are_listed_asked_and_hinted_at() {
         assert_eq!((run.code, run.stdout.as_str()), (1, ""));
         assert!(run.stderr.contains("there is no exercise") && run.stderr.contains("1 to 24"));
     }
+    let help = run(&sandbox, &["--help"]).stdout;
+    assert!(help.contains("--answer 'A=1; B=0'"), "{help}");
+    for answer in ["80/21", "1+sqrt(3)", "-n*f", "3 -2", "3 2;"] {
+        assert!(!help.contains(answer), "the help gives away {answer}: {help}");
+    }
     for wrong in [&["--answer", "1"][..], &["3", "--hint", "--answer", "1"], &["three"]] {
         assert_eq!(run(&sandbox, wrong).code, 2, "{wrong:?}");
     }
@@ -45,20 +50,19 @@ fn answers_are_right_or_wrong_by_exit_code_and_name() {
     let sandbox = Sandbox::new("exercise_answers");
     for (number, answer, code, said) in [
         ("3", "A=n+f; B=-n*f", 0, "right\n"),
-        ("3", "n+f, n*f", 1, "wrong: the sign of B"),
+        ("3", "n+f, n*f", 1, "not right: the sign of B"),
         ("4", "-n*f*(z2-z1)/(z1*z2)", 0, "right\n"),
         ("16", "80/21", 0, "right\n"),
-        ("16", "-80/21", 1, "wrong: the sign is that of a z-coordinate"),
-        ("16", "3.8", 1, "wrong: this is the lesson's rounded value"),
-        ("16", "3.81", 1, "rounded: "),
+        ("16", "-80/21", 1, "not right: the sign is that of a z-coordinate"),
+        ("16", "3.8", 1, "not right: this is the lesson's rounded value"),
+        ("16", "3.81", 1, "not right: rounded: "),
         ("8", "1 0 0 0\n0 1 0 0\n0 0 3 -2\n0 0 1 0", 0, "right\n"),
-        (
-            "8",
-            "1 0 0 0; 0 1 0 0; 0 0 3 -2; 0 0 1 5",
-            1,
-            "wrong: 1 of 16 entries is not right: row 4, column 4 is 5",
-        ),
+        ("8", "1 0 0 0; 0 1 0 0; 0 0 3 -2; 0 0 1 5", 1, "not right: your row 4, column 4 gives 5"),
         ("21", "100 0 -190; 0 50 70; 0 0 1", 1, "M18"),
+        ("4", "f*n*[z1-z2]/(z1*z2)", 0, "right\n"),
+        ("3", "n+f, -f_n", 1, "not right: f_n is a subscript"),
+        ("7", "n*(1,1,1,1)", 0, "right\n"),
+        ("17", "1/3", 1, "not right: your d gives 0.333333\n"),
     ] {
         let run = run(&sandbox, &[number, "--answer", answer]);
         assert_eq!((run.code, run.stderr.as_str()), (code, ""), "{number}, {answer}");
@@ -90,11 +94,15 @@ fn texts_are_chinese_where_the_flag_or_the_environment_asks_for_it() {
     let english = in_locale("LC_ALL", "zh_CN.UTF-8", &["--language", "en"]).stdout;
     assert!(english.starts_with("Exercise 3"), "{english}");
     let wrong = in_locale("LC_ALL", "zh_TW", &["--answer", "n+f, n*f"]);
-    assert!(wrong.code == 1 && wrong.stdout.starts_with("错误：B 的符号不对"), "{}", wrong.stdout);
+    assert!(wrong.code == 1 && wrong.stdout.starts_with("不对：B 的符号不对"), "{}", wrong.stdout);
     let right = in_locale("LC_ALL", "zh", &["--answer", "A＝n＋f；B＝−n·f"]);
     assert_eq!((right.code, right.stdout.as_str()), (0, "正确\n"));
     let error = in_locale("LC_ALL", "zh", &["--answer", "q, 1"]);
     assert!(error.code == 1 && error.stderr.contains("不是本题的字母"), "{}", error.stderr);
+    let missing = run(&sandbox, &["99", "--language", "zh"]);
+    assert_eq!((missing.code, missing.stdout.as_str()), (1, ""));
+    assert!(missing.stderr.starts_with("error: 没有习题 99\n"), "{}", missing.stderr);
+    assert!(missing.stderr.contains("习题编号为 1 到 24"), "{}", missing.stderr);
 }
 
 #[test]

@@ -14,11 +14,12 @@
 //! let exercise = find_exercise(3).expect("the third row of P");
 //! assert!(exercise.check("A = n + f; B = -n f")?.is_right());
 //! let verdict = exercise.check("A = n + f; B = n f")?;
-//! assert!(verdict.sentence().text(Language::English).starts_with("wrong: the sign of B"));
+//! assert!(verdict.sentence().text(Language::English).starts_with("not right: the sign of B"));
 //! # Ok::<(), explorer::exercise::AnswerError>(())
 //! ```
 
 mod answer_error;
+mod answer_list;
 mod answer_text;
 mod entries;
 mod expression;
@@ -82,11 +83,14 @@ impl Exercise {
                 format!("a {rows} × {columns} matrix, its rows separated by `;`"),
                 format!("{rows} × {columns} 矩阵，各行用 `;` 分隔"),
             ),
-            AnswerShape::Parts(&[&[name]]) => (format!("`{name}`"), format!("`{name}`")),
             AnswerShape::Parts(parts) => {
-                let parts: Vec<String> = parts.iter().map(|names| names.join(", ")).collect();
-                let parts = parts.join("; ");
-                (format!("`{parts}`"), format!("`{parts}`"))
+                let list = |name: fn(&'static str) -> &'static str| {
+                    let names = |names: &&[&'static str]| {
+                        names.iter().copied().map(name).collect::<Vec<_>>().join(", ")
+                    };
+                    parts.iter().map(names).collect::<Vec<_>>().join("; ")
+                };
+                (format!("`{}`", list(|name| name)), format!("`{}`", list(verdict::chinese_name)))
             }
         };
         if self.letters.is_empty() {
@@ -119,6 +123,9 @@ impl Exercise {
     /// If the text is no answer: it has other letters, or not as many entries as are asked for.
     pub fn check(&'static self, answer: &str) -> Result<Verdict, AnswerError> {
         let rows = split_answer(answer, self.shape)?;
+        if let Some(mistake) = self.mistakes.iter().find(|mistake| mistake.is_written_in(&rows)) {
+            return Ok(Verdict::Mistaken(mistake));
+        }
         let given: Vec<Entries> = self.evaluate_rows(&rows)?;
         let right: Vec<Entries> =
             self.samples.iter().filter_map(|values| (self.answer)(values)).collect();
@@ -126,13 +133,16 @@ impl Exercise {
             return Ok(Verdict::Right);
         }
         let named = self.mistakes.iter().find(|mistake| {
-            let wrong = self.samples.iter().filter_map(|values| mistake.entries(self, values));
-            self.all_equal(&given, &wrong.collect::<Vec<_>>(), EXACT)
+            (0..mistake.variants()).any(|variant| {
+                let wrong = |values: &&[f64]| mistake.entries(variant, self, values);
+                let wrong: Vec<Entries> = self.samples.iter().filter_map(wrong).collect();
+                self.all_equal(&given, &wrong, EXACT)
+            })
         });
         if let Some(mistake) = named {
             return Ok(Verdict::Mistaken(mistake));
         }
-        self.check_shape(&rows)?;
+        self.check_shape(&rows, answer)?;
         if self.all_equal(&given, &right, ROUNDED) {
             return Ok(Verdict::Rounded);
         }
@@ -159,7 +169,7 @@ impl Exercise {
             })
     }
 
-    fn check_shape(&self, rows: &[Vec<String>]) -> Result<(), AnswerError> {
+    fn check_shape(&self, rows: &[Vec<String>], answer: &str) -> Result<(), AnswerError> {
         let (found, expected) =
             (rows.iter().map(Vec::len).collect::<Vec<_>>(), self.shape.row_lengths());
         if found == expected {
@@ -169,11 +179,42 @@ impl Exercise {
         let count = |lengths: &[usize]| {
             lengths.iter().map(ToString::to_string).collect::<Vec<_>>().join(" + ")
         };
+        let blanks = self.product_between_blanks(rows, answer);
+        let (en, zh) = blanks.map_or_else(Default::default, |product| {
+            (
+                format!(
+                    "; a blank separates entries: write `{product}`, or commas between entries"
+                ),
+                format!("；空格用来分隔元素：请写成 `{product}`，或在元素之间用逗号"),
+            )
+        });
         let (found, expected) = (count(&found), count(&expected));
+        let entries = if found == "1" { "entry" } else { "entries" };
         Err(AnswerError::new(
-            format!("the answer has {found} entries instead of {expected}: give {}", form.en),
-            format!("答案有 {found} 个元素，应有 {expected} 个：请给出 {}", form.zh),
+            format!("the answer has {found} {entries} instead of {expected}: give {}{en}", form.en),
+            format!("答案有 {found} 个元素，应有 {expected} 个：请给出 {}{zh}", form.zh),
         ))
+    }
+
+    /// `l*nx` where an answer with too many entries in a row has `l nx`, without commas.
+    fn product_between_blanks(&self, rows: &[Vec<String>], answer: &str) -> Option<String> {
+        if answer.contains([',', '，', '、']) {
+            return None;
+        }
+        let belongs = |c: char| c.is_alphanumeric() || c == '_';
+        let too_long = |(row, length): &(&Vec<String>, usize)| row.len() > *length;
+        let lengths = self.shape.row_lengths();
+        let (row, _) = rows.iter().zip(lengths).find(too_long)?;
+        let written = row.windows(2).find_map(|pair| {
+            let left = pair[0].rsplit(|c| !belongs(c)).next()?;
+            let right = pair[1].split(|c| !belongs(c)).next()?;
+            let is_letter = |word: &str| word.starts_with(char::is_alphabetic);
+            (is_letter(left) && is_letter(right)).then(|| format!("{left}*{right}"))
+        });
+        match self.letters {
+            [first, second, ..] => Some(written.unwrap_or_else(|| format!("{first}*{second}"))),
+            _ => None,
+        }
     }
 
     /// The entries that differ, in the first sample in which any does.

@@ -44,6 +44,23 @@ impl AnswerError {
         )
     }
 
+    /// Two letters of which one stands as the subscript of the other.
+    pub(super) fn subscript(written: &str, product: &str) -> Self {
+        Self::new(
+            format!("`{written}` has a subscript: if it is a product, write `{product}`"),
+            format!("`{written}` 是下标写法：若表示乘积，请写成 `{product}`"),
+        )
+    }
+
+    /// A function whose argument is not in brackets.
+    pub(super) fn missing_brackets(name: &str, argument: &str) -> Self {
+        let argument = if argument.is_empty() { "…" } else { argument };
+        Self::new(
+            format!("`{name}` needs brackets: write `{name}({argument})`"),
+            format!("`{name}` 需要括号：请写成 `{name}({argument})`"),
+        )
+    }
+
     /// A product behind a quotient, which readers take for a factor or for a divisor.
     pub(super) fn ambiguous_quotient(entry: &str) -> Self {
         Self::new(

@@ -1,6 +1,7 @@
 //! Answers as people type them, split into entries: matrices, points, lists and named formulas.
 
 use super::answer_error::AnswerError;
+use super::answer_list::{FactoredList, split_rows, without_outer_parentheses};
 
 /// The longest answer that is read, in characters.
 const MAX_CHARACTERS: usize = 4000;
@@ -22,14 +23,6 @@ impl AnswerShape {
             Self::Parts(parts) => parts.iter().map(|names| names.len()).collect(),
         }
     }
-
-    /// The names of entries that may be given by name.
-    const fn names(self) -> &'static [&'static str] {
-        match self {
-            Self::Parts([names]) => names,
-            _ => &[],
-        }
-    }
 }
 
 /// The entries of an answer, row by row. Their number is not checked.
@@ -46,17 +39,11 @@ pub(super) fn split_answer(
             format!("答案超过 {MAX_CHARACTERS} 个字符"),
         ));
     }
-    let text = without_brackets(&text.chars().map(plain_character).collect::<String>());
-    let text = without_outer_parentheses(text.trim());
+    let text = plain_text(text);
+    let text = without_outer_parentheses(&text);
     let rows = match shape {
-        AnswerShape::Parts([names]) => {
-            let mut entries = split_at_top(text, |c| c == ';' || c == ',');
-            if let ([only], true) = (entries.as_slice(), names.len() > 1) {
-                entries = split_at_blanks(only);
-            }
-            vec![order_by_name(entries, shape.names())?]
-        }
-        _ => split_at_top(text, |c| c == ';').into_iter().map(split_row).collect(),
+        AnswerShape::Parts([names]) => vec![split_values(text, names)?],
+        _ => split_rows(text, shape)?,
     };
     let rows: Vec<Vec<String>> = rows.into_iter().filter(|row: &Vec<_>| !row.is_empty()).collect();
     if rows.is_empty() {
@@ -72,9 +59,23 @@ pub(super) fn split_answer(
     })
 }
 
+/// The text with plain signs, and with parentheses for all brackets but those of `n_{x}`.
+fn plain_text(text: &str) -> String {
+    let (mut plain, mut open_subscripts) = (String::new(), 0);
+    for c in text.chars() {
+        match c {
+            '{' if plain.ends_with('_') => open_subscripts += 1,
+            '}' if open_subscripts > 0 => open_subscripts -= 1,
+            'ₙ' => plain.push_str("_n"),
+            c => plain.push(plain_character(c)),
+        }
+    }
+    plain
+}
+
 /// The character that stands for it in expressions: signs of typeset formulas, of full width, and
 /// line breaks.
-const fn plain_character(c: char) -> char {
+fn plain_character(c: char) -> char {
     match c {
         '−' | '－' => '-',
         '·' | '×' | '⋅' | '＊' => '*',
@@ -83,48 +84,15 @@ const fn plain_character(c: char) -> char {
         '＝' => '=',
         '，' | '、' => ',',
         '；' | '\n' => ';',
-        '（' => '(',
-        '）' => ')',
+        '（' | '[' | '{' | '［' | '【' => '(',
+        '）' | ']' | '}' | '］' | '】' => ')',
+        '₀'..='₉' => char::from_digit(u32::from(c) - u32::from('₀'), 10).unwrap_or(c),
         other => other,
     }
 }
 
-/// The text without square and curly brackets; between two of them begins a row.
-fn without_brackets(text: &str) -> String {
-    let mut plain = String::new();
-    let mut closed = false;
-    for c in text.chars() {
-        match c {
-            '[' | '{' if closed => {
-                plain.push(';');
-                closed = false;
-            }
-            ']' | '}' => closed = true,
-            '[' | '{' => {}
-            ',' if closed => {}
-            c => {
-                closed &= c.is_whitespace();
-                plain.push(c);
-            }
-        }
-    }
-    plain
-}
-
-/// The inside of parentheses around the whole, as of the point `(1, 2, 3)`.
-fn without_outer_parentheses(text: &str) -> &str {
-    let inner = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
-    let Some(inner) = inner else { return text };
-    let mut depth = 0_i32;
-    let balanced = inner.chars().all(|c| {
-        depth += i32::from(c == '(') - i32::from(c == ')');
-        depth >= 0
-    });
-    if balanced { inner } else { text }
-}
-
 /// The pieces between separators outside of parentheses, without those that are blank.
-fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str> {
+pub(super) fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str> {
     let mut depth = 0_i32;
     let pieces = text.split(move |c| {
         depth += i32::from(c == '(') - i32::from(c == ')');
@@ -134,14 +102,14 @@ fn split_at_top(text: &str, separates: fn(char) -> bool) -> Vec<&str> {
 }
 
 /// The entries of a row: between commas, or else between blanks.
-fn split_row(row: &str) -> Vec<String> {
+pub(super) fn split_row(row: &str) -> Vec<String> {
     let entries = split_at_top(row, |c| c == ',');
     let entries = if let [only] = entries.as_slice() { split_at_blanks(only) } else { entries };
     entries.into_iter().map(str::to_owned).collect()
 }
 
 /// The entries between blanks, but not at the blanks of `a - b`, `a * b` and `(a + b)`.
-fn split_at_blanks(row: &str) -> Vec<&str> {
+pub(super) fn split_at_blanks(row: &str) -> Vec<&str> {
     let operator = |c: char| matches!(c, '+' | '-' | '*' | '/' | '^' | '=');
     let (mut entries, mut begin, mut depth) = (Vec::new(), 0, 0_i32);
     for (at, c) in row.char_indices() {
@@ -165,6 +133,24 @@ fn split_at_blanks(row: &str) -> Vec<&str> {
     entries.push(row[begin..].trim());
     entries.retain(|entry| !entry.is_empty());
     entries
+}
+
+/// Values in a row: a list, perhaps times a factor, or values with names.
+fn split_values(text: &str, names: &[&str]) -> Result<Vec<String>, AnswerError> {
+    let is_separator = |c: char| c == ';' || c == ',';
+    let is_one = split_at_top(text, is_separator).len() <= 1 && text.matches('=').count() <= 1;
+    if names.len() > 1 && is_one {
+        // `(x, y) = (1, 2)` and `p = h (a, b, c, 1)`, but not `x = 1, y = 2`.
+        let list = text.rsplit_once('=').map_or(text, |(_, list)| list.trim());
+        if let Some(factored) = FactoredList::find(list, names.len()) {
+            return factored.entries(names.len());
+        }
+    }
+    let mut entries = split_at_top(text, is_separator);
+    if let ([only], true) = (entries.as_slice(), names.len() > 1) {
+        entries = split_at_blanks(only);
+    }
+    order_by_name(entries, names)
 }
 
 /// Entries such as `A = n + f` without their names, in the order of the names.
@@ -221,6 +207,15 @@ mod tests {
             "[1 2/3 -3] [4 5 n-1]",
             "1 2/3 -3 4 5 n-1",
             "{1,2/3,-3},{4,5,n-1}",
+            "(1 2/3 -3); (4 5 n-1)",
+            "(1, 2/3, -3), (4, 5, n-1)",
+            "((1,2/3,-3),(4,5,n-1))",
+            "[1,2/3,-3][4,5,n-1]",
+            "[[1, 2/3, -3],\n [4, 5, n-1]]",
+            "Q = 1 2/3 -3; 4 5 n-1",
+            "M_cam=[1 2/3 -3; 4 5 n-1]",
+            "u = (1, 2/3, -3); v = (4, 5, n-1)",
+            "u=(1,2/3,-3), v=(4,5,n-1)",
             "1，2/3，-3；4，5，n-1",
         ] {
             assert_eq!(split(text, MATRIX), "1|2/3|-3;4|5|n-1", "{text}");
@@ -242,12 +237,48 @@ mod tests {
             "1; -2; 3",
             "z=3, x = 1; y=-2",
             "[1,-2,3]",
+            "[[1],[-2],[3]]",
+            "(x, y, z) = (1, -2, 3)",
         ] {
-            assert_eq!(split(text, POINT), "1|-2|3", "{text}");
+            assert_eq!(split(text, POINT).replace(['(', ')'], ""), "1|-2|3", "{text}");
         }
         assert_eq!(split("n f (a - b)/(a b)", FORMULA), "n f (a - b)/(a b)");
         assert_eq!(split("f(t) = (a)(b)", FORMULA), "(a)(b)");
+        assert_eq!(split("f*n*[z1-z2]/{z1*z2}", FORMULA), "f*n*(z1-z2)/(z1*z2)");
+        assert_eq!(split("[a]/[b]", FORMULA), "(a)/(b)");
+        assert_eq!(split("z_{1} − z₂ fₙ", FORMULA), "z_1 - z2 f_n");
         assert_eq!(split("(1)/(2), (3), (4)", POINT), "(1)/(2)|(3)|(4)");
+    }
+
+    #[test]
+    fn a_factor_before_or_behind_a_list_multiplies_its_entries() {
+        for (text, entries) in [
+            ("h(a,b,c)", "(h)*(a)|(h)*(b)|(h)*(c)"),
+            ("h [a b c]", "(h)*(a)|(h)*(b)|(h)*(c)"),
+            ("n*(1,1,1)", "(n)*(1)|(n)*(1)|(n)*(1)"),
+            ("(1, 2, 3)/(n f)", "(1)/(n f)|(2)/(n f)|(3)/(n f)"),
+            ("-(1, 2, 3)", "(-1)*(1)|(-1)*(2)|(-1)*(3)"),
+            ("p = 1/2 (a, b, c)", "(1/2)*(a)|(1/2)*(b)|(1/2)*(c)"),
+        ] {
+            assert_eq!(split(text, POINT), entries, "{text}");
+        }
+        assert_eq!(split("2(1 2 3; 4 5 6)", MATRIX).matches("(2)*(").count(), 6);
+        assert_eq!(split("(1,2,3); 1/z (x,y,z)", MATRIX), "1|2|3;(1/z)*(x)|(1/z)*(y)|(1/z)*(z)");
+        let error = split_answer("1 + (a, b, c)", POINT).expect_err("a sum");
+        assert!(error.to_string().contains("each entry"), "{error}");
+    }
+
+    #[test]
+    fn values_beside_a_matrix_are_refused_by_name() {
+        for text in [
+            "Q = [1, 2, 3; 4, 5, 6], c = n*f",
+            "1 2 3; 4 5 6; c = n*f",
+            "c = n*f; Q = [1 2 3; 4 5 6]",
+            "1 2 3; c=n*f; 4 5 6",
+        ] {
+            let error = split_answer(text, MATRIX).expect_err(text);
+            assert!(error.to_string().contains("leave out `c"), "{text}: {error}");
+        }
     }
 
     #[test]

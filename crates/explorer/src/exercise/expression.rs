@@ -3,7 +3,7 @@
 //! ```text
 //! sum     = product { (+ | -) product }
 //! product = { - } power { (* | /) { - } power | power }       n f = n*f, but no product behind /
-//! power   = value [ ^ { - } power ]
+//! power   = value [ ^ { - } power | ² | ³ ]
 //! value   = number [°] | letters | function ( sum ) | √ value | ( sum )
 //! ```
 
@@ -23,25 +23,35 @@ pub(super) struct Letters<'a> {
 }
 
 impl Letters<'_> {
-    /// The value of a letter, or of letters in a row: `nf` is n times f.
-    fn value(self, name: &str) -> Option<f64> {
-        if name.is_empty() {
+    /// The value of a letter, or of letters in a row: `nf` is n times f. An underscore may stand
+    /// inside of the name of a letter, as in `n_x`, but not between two: `f_n` is no product.
+    fn value(self, written: &str) -> Option<f64> {
+        if written.is_empty() {
             return Some(1.0);
         }
-        if let Some(at) = self.names.iter().position(|known| *known == name) {
-            return self.values.get(at).copied();
-        }
-        if name.len() > MAX_NAME_BYTES {
+        if written.len() > MAX_NAME_BYTES {
             return None;
         }
-        let mut ends: Vec<usize> = name.char_indices().map(|(at, _)| at).skip(1).collect();
-        ends.reverse();
-        ends.into_iter().find_map(|end| {
-            let (first, rest) = name.split_at(end);
-            let at = self.names.iter().position(|known| *known == first)?;
-            Some(self.values.get(at)? * self.value(rest)?)
-        })
+        let begins = self.names.iter().zip(self.values);
+        let mut begins: Vec<(&str, f64)> = begins
+            .filter_map(|(name, value)| Some((without_name(written, name)?, *value)))
+            .collect();
+        // The longest name first: z1z2 has no z.
+        begins.sort_by_key(|(rest, _)| rest.len());
+        begins.into_iter().find_map(|(rest, value)| Some(value * self.value(rest)?))
     }
+}
+
+/// What follows the name of a letter, in which underscores do not count.
+fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
+    let mut rest = written;
+    for (at, c) in name.char_indices() {
+        if at > 0 {
+            rest = rest.strip_prefix('_').unwrap_or(rest);
+        }
+        rest = rest.strip_prefix(c)?;
+    }
+    Some(rest)
 }
 
 /// The value of an expression for these values of its letters.
@@ -154,7 +164,15 @@ impl Parser<'_> {
             ));
         }
         let base = self.value()?;
-        let value = if self.pass('^') { libm::pow(base, self.signed_power()?) } else { base };
+        let value = if self.pass('^') {
+            libm::pow(base, self.signed_power()?)
+        } else if self.pass('²') {
+            base * base
+        } else if self.pass('³') {
+            base * base * base
+        } else {
+            base
+        };
         self.depth -= 1;
         Ok(value)
     }
@@ -208,24 +226,33 @@ impl Parser<'_> {
 
     /// A letter, letters in a row, or a function.
     fn named(&mut self) -> Result<f64, AnswerError> {
-        let written = self.word(|c| c.is_alphanumeric() || c == '_');
-        let name = written.replace('_', "");
-        if let Some(value) = self.letters.value(&name) {
+        let written = self.word(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_');
+        if let Some(value) = self.letters.value(&written) {
             return Ok(value);
         }
-        if matches!(name.as_str(), "pi" | "π") {
+        if matches!(written.as_str(), "pi" | "π") {
             return Ok(PI);
         }
-        let Some(function) = function_named(&name) else {
-            return Err(AnswerError::unknown_name(&written, self.letters.names));
+        let name = written.trim_end_matches(|c: char| c.is_ascii_digit());
+        let Some(function) = function_named(name) else {
+            let product = written.replace('_', "*");
+            let letters = written.replace('_', "");
+            let is_subscript = letters.len() < written.trim_matches('_').len()
+                && self.letters.value(&letters).is_some();
+            return Err(if is_subscript {
+                AnswerError::subscript(&written, &product)
+            } else {
+                AnswerError::unknown_name(&written, self.letters.names)
+            });
         };
-        match self.peek() {
-            Some('(') => Ok(function(self.bracket()?)),
-            _ => Err(AnswerError::new(
-                format!("`{name}` needs brackets: `{name}(…)`"),
-                format!("`{name}` 需要括号：`{name}(…)`"),
-            )),
+        if name == written && self.peek() == Some('(') {
+            return Ok(function(self.bracket()?));
         }
+        self.peek();
+        let rest = self.word(|c| c.is_alphanumeric() || matches!(c, '.' | '_'));
+        let degrees = if self.pass('°') { "°" } else { "" };
+        let argument = format!("{}{rest}{degrees}", &written[name.len()..]);
+        Err(AnswerError::missing_brackets(name, &argument))
     }
 }
 
@@ -294,6 +321,11 @@ mod tests {
             ("sqrt(3)^2", 3.0),
             ("pi", PI),
             ("--3", 3.0),
+            ("n²", 4.0),
+            ("2n² z1³", 216.0),
+            ("z1²/2", 4.5),
+            ("-n²", -4.0),
+            ("z_1z_2", 15.0),
         ] {
             assert!((value(text) - expected).abs() <= 1e-12 * expected.abs(), "{text}");
         }
@@ -327,7 +359,14 @@ mod tests {
             ("nq", "`nq`"),
             ("1/n f", "two ways"),
             ("1/2(n)", "two ways"),
-            ("sqrt 3", "sqrt(…)"),
+            ("sqrt 3", "write `sqrt(3)`"),
+            ("cos30°", "write `cos(30°)`"),
+            ("cos 30 °", "write `cos(30°)`"),
+            ("2cos30", "write `cos(30)`"),
+            ("sin", "write `sin(…)`"),
+            ("f_n", "write `f*n`"),
+            ("n+f_n", "`f_n`"),
+            ("n_", "`n_`"),
             ("1/(n-n)", "no finite number"),
             ("sqrt(n)", "no finite number"),
             ("1.2.3", "`1.2.3`"),

@@ -29,6 +29,10 @@ pub(super) enum Wrong {
     Places(&'static [(usize, usize, &'static str)]),
     /// It is written down as a whole.
     Answer(&'static str),
+    /// It is one of several, each written down as a whole.
+    AnyOf(&'static [&'static str]),
+    /// These letters stand in it, whatever else: `f_n` is printed for f n.
+    Written(&'static [&'static str]),
     /// It is computed from the letters.
     Computed(fn(&[f64]) -> Option<Entries>),
 }
@@ -52,10 +56,37 @@ pub(super) const TRANSPOSED: Mistake = mistake(
 );
 
 impl Mistake {
-    /// The wrong answer for these values of the letters; `None` where it has none.
-    pub(super) fn entries(&self, exercise: &Exercise, values: &[f64]) -> Option<Entries> {
+    /// Whether the answer has letters that make this mistake.
+    pub(super) fn is_written_in(&self, rows: &[Vec<String>]) -> bool {
+        let Wrong::Written(all) = self.wrong else { return false };
+        let belongs = |c: char| c.is_alphanumeric() || c == '_';
+        let mut written = rows.iter().flatten().flat_map(|entry| entry.split(|c| !belongs(c)));
+        written.any(|word| all.contains(&word.trim_start_matches(|c: char| c.is_ascii_digit())))
+    }
+
+    /// The number of wrong answers that are this mistake.
+    pub(super) const fn variants(&self) -> usize {
+        match self.wrong {
+            Wrong::AnyOf(answers) => answers.len(),
+            Wrong::Written(_) => 0,
+            _ => 1,
+        }
+    }
+
+    /// A wrong answer for these values of the letters; `None` where it has none.
+    pub(super) fn entries(
+        &self,
+        variant: usize,
+        exercise: &Exercise,
+        values: &[f64],
+    ) -> Option<Entries> {
         let letters = Letters { names: exercise.letters, values };
         let right = || (exercise.answer)(values);
+        let evaluate_answer = |text: &str| {
+            let rows = split_answer(text, exercise.shape).ok()?;
+            let number = |entry: String| evaluate(&entry, letters).ok();
+            rows.into_iter().map(|row| row.into_iter().map(number).collect()).collect()
+        };
         match self.wrong {
             Wrong::Transposed => Some(transposed(&right()?)),
             Wrong::Negated => Some(
@@ -73,11 +104,9 @@ impl Mistake {
                 }
                 Some(entries)
             }
-            Wrong::Answer(text) => {
-                let rows = split_answer(text, exercise.shape).ok()?;
-                let number = |entry: String| evaluate(&entry, letters).ok();
-                rows.into_iter().map(|row| row.into_iter().map(number).collect()).collect()
-            }
+            Wrong::Answer(text) => evaluate_answer(text),
+            Wrong::AnyOf(texts) => evaluate_answer(texts.get(variant)?),
+            Wrong::Written(_) => None,
             Wrong::Computed(compute) => compute(values),
         }
     }

@@ -40,6 +40,15 @@ pub struct Difference {
     pub is_negated: bool,
 }
 
+/// What a named entry is called in Chinese: letters stay as they are.
+pub(super) fn chinese_name(name: &'static str) -> &'static str {
+    match name {
+        "pixels" => "像素数",
+        "outcode" => "外码",
+        letters => letters,
+    }
+}
+
 /// What an entry is called: by its name, or by its place.
 pub(super) fn entry_name(shape: AnswerShape, row: usize, column: usize) -> Sentence {
     let (i, j) = (row + 1, column + 1);
@@ -50,7 +59,7 @@ pub(super) fn entry_name(shape: AnswerShape, row: usize, column: usize) -> Sente
         AnswerShape::Parts(parts) => {
             let name = parts.get(row).and_then(|names| names.get(column)).unwrap_or(&"");
             match parts.len() {
-                1 => sentence(*name, *name),
+                1 => sentence(*name, chinese_name(name)),
                 _ => sentence(format!("{name} of part {i}"), format!("第 {i} 部分的 {name}")),
             }
         }
@@ -71,51 +80,57 @@ impl Verdict {
             Self::Right => sentence("right", "正确"),
             Self::Mistaken(mistake) => {
                 let words = mistake.sentence;
-                sentence(format!("wrong: {}", words.en), format!("错误：{}", words.zh))
+                sentence(format!("not right: {}", words.en), format!("不对：{}", words.zh))
             }
             Self::Rounded => sentence(
-                "rounded: give a fraction, a root, or at least ten digits",
-                "舍入过多：请写成分数、根式，或至少十位数字",
+                "not right: rounded: give a fraction, a root, or at least ten digits",
+                "不对：舍入过多：请写成分数、根式，或至少十位数字",
             ),
             Self::Different { differences, count, letters } => {
-                let said = |difference: &Difference| difference.to_sentence();
-                let said: Vec<Sentence> = differences.iter().map(said).collect();
-                let list = |text: fn(&Sentence) -> &str, comma| {
-                    said.iter().map(text).collect::<Vec<_>>().join(comma)
-                };
-                let at = letters
-                    .iter()
-                    .map(|(name, value)| format!("{name} = {}", decimals(*value, 6)))
-                    .collect::<Vec<_>>()
-                    .join(", ");
-                let wrong = differences.len();
-                let (en, zh) = (list(|said| &said.en, "; "), list(|said| &said.zh, "；"));
-                let entries = if *count == 1 { "entry" } else { "entries" };
-                let is = if wrong == 1 { "is" } else { "are" };
-                let (en_at, zh_at) = if at.is_empty() {
-                    (String::new(), String::new())
-                } else {
-                    (format!(" for {at}"), format!("取 {at} 时，"))
-                };
-                sentence(
-                    format!("wrong: {wrong} of {count} {entries} {is} not right{en_at}: {en}"),
-                    format!("错误：{zh_at}{count} 个元素中有 {wrong} 个不对：{zh}"),
-                )
+                different(differences, *count, letters)
             }
         }
     }
+}
+
+/// What is said about entries of which some are wrong.
+fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) -> Sentence {
+    let said: Vec<Sentence> = differences.iter().map(Difference::to_sentence).collect();
+    let list =
+        |text: fn(&Sentence) -> &str, comma| said.iter().map(text).collect::<Vec<_>>().join(comma);
+    let (mut en, mut zh) = (list(|said| &said.en, "; "), list(|said| &said.zh, "；"));
+    let at = |comma| {
+        let letter = |(name, value): &(&str, f64)| format!("{name} = {}", decimals(*value, 6));
+        letters.iter().map(letter).collect::<Vec<_>>().join(comma)
+    };
+    if !letters.is_empty() {
+        en = format!("for {} {en}", at(", "));
+        zh = format!("取 {} 时，{zh}", at("，"));
+    }
+    let wrong = differences.len();
+    if wrong > 1 {
+        en = format!("{wrong} of {count} entries: {en}");
+        zh = format!("{count} 个元素中错了 {wrong} 个：{zh}");
+    }
+    sentence(format!("not right: {en}"), format!("不对：{zh}"))
 }
 
 impl Difference {
     fn to_sentence(&self) -> Sentence {
         let value = decimals(self.value, 6);
         let Sentence { en, zh } = &self.name;
+        let (mut en, mut zh) =
+            (format!("your {en} gives {value}"), format!("你的{}等于 {value}", between_han(zh)));
         if self.is_negated {
-            return sentence(
-                format!("{en} is {value}, only its sign is wrong"),
-                format!("{zh} 为 {value}，只有符号不对"),
-            );
+            en += ", only its sign is wrong";
+            zh += "，只有符号不对";
         }
-        sentence(format!("{en} is {value}"), format!("{zh} 为 {value}"))
+        sentence(en, zh)
     }
+}
+
+/// A name in a Chinese sentence: blanks stand beside Latin letters only.
+fn between_han(name: &str) -> String {
+    let blank = |c: Option<char>| if c.is_some_and(|c| c.is_ascii()) { " " } else { "" };
+    format!("{}{name}{}", blank(name.chars().next()), blank(name.chars().next_back()))
 }

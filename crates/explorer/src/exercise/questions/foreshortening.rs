@@ -62,6 +62,18 @@ pub(super) static IMAGE_PARAMETER: Exercise = Exercise {
             "this is 1 − f(t), the fraction from R on",
             "这是 1 − f(t)，即从 R 算起的比例",
         ),
+        mistake(
+            "divisor-from-the-other-end",
+            Wrong::Answer("wR*t/(wR+t*(wr-wR))"),
+            "the divisor is w counted from R: at t it is w_r + t (w_R − w_r)",
+            "分母是从 R 算起的 w：在 t 处应为 w_r + t (w_R − w_r)",
+        ),
+        mistake(
+            "difference-of-weights",
+            Wrong::Answer("t*(wR-wr)/(wr+t*(wR-wr))"),
+            "w_R − w_r stands above in the place of one w: f(1) must be 1",
+            "分子上写成了 w_R − w_r，应只是一端的 w：f(1) 应等于 1",
+        ),
     ],
     shape: AnswerShape::Parts(&[&["f"]]),
     multiples: Multiples::None,
@@ -95,7 +107,7 @@ pub(super) static ATTRIBUTE: Exercise = Exercise {
             "linear",
             Wrong::Answer("3/4*2+1/4*10"),
             "a was interpolated on the screen: it is linear in space, not on the screen",
-            "直接在屏幕上对 a 插值了：它在空间中是线性的，在屏幕上不是",
+            "直接在屏幕上对 a 作线性插值了：它在空间中是线性的，在屏幕上不是",
         ),
         mistake(
             "weights-by-w",
