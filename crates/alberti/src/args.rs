@@ -216,7 +216,7 @@ pub(crate) struct InfoArgs {
 }
 
 /// The values of `--style`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(crate) enum StyleArg {
     /// Physically based shading with the normals of the file
     Shaded,
@@ -248,9 +248,10 @@ pub(crate) enum StyleArg {
     Lines,
     /// Line drawing with hidden lines dashed
     Dashed,
-    /// Silhouette lines only
+    /// The outline alone
     Silhouette,
-    /// Visible, hidden and tangent edges with the line types and widths of ISO 128
+    /// Visible, hidden and tangent edges with the line types and widths of ISO 128; sections have
+    /// no hidden edges
     Technical,
 }
 

@@ -7,6 +7,7 @@
 use super::options::option_parser;
 use model::import::{ImportOptions, Limits};
 use model::{LengthUnit, UpAxis};
+use pipeline::scene::file::{CreaseAngle, SceneFile, StyleFile};
 use std::path::PathBuf;
 
 /// How models are loaded; [`import_options`](Self::import_options) makes the library's options.
@@ -28,8 +29,8 @@ pub(crate) struct LoadArgs {
     /// mm for STL and 3MF, m for all others]
     #[arg(long, value_parser = option_parser::<LengthUnit>())]
     pub(crate) unit: Option<LengthUnit>,
-    /// Largest angle between faces that are shaded as one smooth surface, where a file has no
-    /// normals [default: 30]
+    /// Largest angle between faces of one smooth surface: for shading where a file has no normals,
+    /// and for the edges of line drawings, whatever normals it has [default: 30]
     #[arg(long, value_name = "DEGREES", value_parser = parse_crease_angle)]
     pub(crate) crease: Option<f64>,
     #[command(flatten)]
@@ -86,6 +87,16 @@ impl LoadArgs {
             length_unit: self.unit,
             crease_angle: self.crease,
             ..ImportOptions::default()
+        }
+    }
+}
+
+impl LoadArgs {
+    /// Gives the angle of `--crease` to the edges of a line drawing.
+    pub(crate) fn apply_crease_to(&self, file: &mut SceneFile) {
+        let Some(angle) = self.crease else { return };
+        if let StyleFile::Lines(lines) = &mut file.style {
+            lines.crease_degrees = CreaseAngle::new(angle);
         }
     }
 }

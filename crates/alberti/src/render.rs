@@ -79,6 +79,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     };
     let (origin, mut file) = open_input(&job.input, &import)?;
     job.overrides.apply_to(&mut file);
+    args.load_options.apply_crease_to(&mut file);
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;

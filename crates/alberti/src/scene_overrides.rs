@@ -101,6 +101,9 @@ impl SceneOverrideArgs {
             file.style = style.into();
         }
         self.section.append_to(file);
+        if self.style == Some(StyleArg::Technical) && !file.sections.is_empty() {
+            file.style = StyleFile::lines_technical_section();
+        }
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         self.model_state.apply_to_scene(file);
         self.light.apply_to(file);
@@ -148,6 +151,7 @@ impl SceneOverrideArgs {
         let import = self.import_options(load_options);
         let (origin, mut file) = open_input(input, &import)?;
         self.apply_to(&mut file);
+        load_options.apply_crease_to(&mut file);
         let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
         self.place_camera(&origin, &file, &mut scene)?;
         Ok((origin, file, scene))

@@ -12,10 +12,9 @@ use super::options::option_parser;
 use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
-use drawing::HiddenLines;
-use drawing::Page;
-use pipeline::scene::ResolveOptions;
+use drawing::{HiddenLines, Page, Warning};
 use pipeline::scene::file::{AxonometricView, PageOrientation, PaperSize, SheetFile};
+use pipeline::scene::{ResolveOptions, SheetContent, Style};
 use pipeline::{Picture, Scene};
 use projection::SheetAngle;
 use std::path::PathBuf;
@@ -37,7 +36,7 @@ pub(crate) struct SheetArgs {
     /// Paper size [default: a3]
     #[arg(long, value_name = "SIZE", value_parser = option_parser::<PaperSize>())]
     paper: Option<PaperSize>,
-    /// Page orientation [default: portrait for a4, a5 and letter, landscape for larger paper]
+    /// Page orientation [default: the one in which the views are larger]
     #[arg(long, value_parser = option_parser::<PageOrientation>())]
     orientation: Option<PageOrientation>,
     /// Arrangement of the views: first-angle or third-angle projection (ISO 5456-2)
@@ -50,7 +49,8 @@ pub(crate) struct SheetArgs {
     /// Axonometric view beside the three principal views [default: isometric]
     #[arg(long, value_name = "VIEW", value_parser = option_parser::<AxonometricView>())]
     axonometric: Option<AxonometricView>,
-    /// Hidden lines of the three principal views [default: dashed]
+    /// Hidden lines of views along the axes that are not cut [default: as in the scene's line
+    /// style, else dashed]
     #[arg(long, value_parser = option_parser::<HiddenLines>())]
     hidden_lines: Option<HiddenLines>,
     /// Omit the overall dimensions
@@ -99,12 +99,21 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     apply_overrides(&mut sheet_file, args);
     let options = ResolveOptions { import: args.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
-    let sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, &scene.models)
+    let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
+    let content = SheetContent { models: &scene.models, sections: &scene.sections, style };
+    let mut sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, content)
         .map_err(pipeline::ResolveError::from)?;
+    if let Some(degrees) = args.load_options.crease {
+        sheet.style.crease_angle = degrees.to_radians();
+        sheet.style.asks_normals = false;
+    }
     progress.enter_stage("drawing");
     let page = sheet.draw(&scene.models, &scene.sections, thread_count(args.threads))?;
     progress.enter_stage("writing");
-    let warnings = page.warnings.clone();
+    let mut warnings = page.warnings.clone();
+    if !matches!(scene.style, Style::Lines(_) | Style::Shaded) {
+        warnings.push(Warning::StyleIgnored);
+    }
     let bytes = match format {
         OutputFormat::Png => rasterize_page(&page)?.to_png(),
         OutputFormat::Svg | OutputFormat::Pdf => format.encode_pages(&[page]),
@@ -148,7 +157,7 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.projection_angle.into_iter().for_each(|angle| sheet.projection_angle = angle);
     sheet.unit = args.load_options.unit.or(sheet.unit);
     args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view);
-    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = hidden);
+    args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = Some(hidden));
     sheet.scale = args.scale.or(sheet.scale);
     sheet.dimensions &= !args.no_dimensions;
     let texts = [

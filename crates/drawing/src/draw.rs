@@ -23,6 +23,7 @@ use super::hidden_line::{Occluders, OcclusionScratch, ProjectedEdge};
 use super::options::{DrawOptions, HiddenEdges};
 use super::parallel::map_in_order;
 use super::projector::Projector;
+use super::retained_points::idle_section_warnings;
 use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
@@ -42,7 +43,11 @@ pub fn draw(
 ) -> Result<LineDrawing, DrawError> {
     subject.viewport()?;
     let surface = WeldedSurface::new(subject.models, subject.sections);
-    draw_surface(&surface, &subject.view_projection, subject.size, options, threads)
+    let mut drawing =
+        draw_surface(&surface, &subject.view_projection, subject.size, options, threads)?;
+    drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
+    drawing.warnings.sort_unstable();
+    Ok(drawing)
 }
 
 /// Draws a welded surface as one camera sees it, on an image of `size` pixels.
@@ -119,13 +124,18 @@ struct EdgeDivider {
 
 impl EdgeDivider {
     /// A divider with the faces of a surface as occluders, or none where visibility is ignored.
+    ///
+    /// For outlines faces hide what is before them as well: what is left has nothing beside it.
     fn new(surface: &WeldedSurface, projector: Projector, options: &DrawOptions) -> Self {
         let tolerance = surface.touch_tolerance();
         let occluders = match options.hidden_edges {
+            _ if options.outline_only => {
+                Occluders::new(surface.occluder_triangles(), projector, tolerance).at_any_depth()
+            }
             HiddenEdges::Ignored => Occluders::new([], projector, tolerance),
             _ => Occluders::new(surface.occluder_triangles(), projector, tolerance),
         };
-        let retains_hidden = options.hidden_edges == HiddenEdges::Retained;
+        let retains_hidden = options.hidden_edges == HiddenEdges::Retained && !options.outline_only;
         Self { projector, occluders, retains_hidden }
     }
 

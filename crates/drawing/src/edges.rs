@@ -19,8 +19,10 @@ mod intersections;
 mod seams;
 mod section_caps;
 mod section_cut;
+mod vertex_normal;
 mod weld;
 mod welded_surface;
 mod world_mesh;
 
 pub(super) use welded_surface::{CandidateEdge, WeldedSurface};
+pub(super) use world_mesh::WorldMesh;

@@ -24,6 +24,7 @@ use super::page::{
 };
 use super::palette::ink_on_paper;
 use super::polyline_chain::{PolylineChain, join_into_chains};
+use super::speckles::{LEAST_CHAIN_LENGTH, ShortChains, remove_speckles};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
 
@@ -42,10 +43,7 @@ impl Placement {
     pub const PICTURE: Self =
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
-    /// The drawing as a page of its own, 96 pixels to the inch.
-    ///
-    /// `title` is that of the document; `paper` fills the background, and decides between dark and
-    /// light ink if the style has none.
+    /// A point of the drawing in millimeters of the page.
     fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
@@ -76,6 +74,9 @@ struct LineKinds<'a> {
 
 impl LineDrawing {
     /// The drawing as a page of its own, 96 pixels to the inch.
+    ///
+    /// `title` is that of the document; `paper` fills the background, and decides between dark and
+    /// light ink if the style has none.
     #[must_use]
     pub fn to_page(&self, style: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
@@ -122,7 +123,8 @@ impl LineDrawing {
                 });
             });
         }
-        let chains = join_into_chains(&remove_overlaps(&segments));
+        let chains = join_into_chains(&remove_overlaps(&segments), |kind| kinds.joined_kind(kind));
+        let chains = remove_speckles(chains, |kind| kinds.short_chains(kind));
         let layers = chains.chunk_by(|a, b| a.layer == b.layer);
         let layer = |chains: &[PolylineChain]| self.layer_of_kind(&kinds, chains, prefix, ink);
         layers.rev().map(layer).collect()
@@ -226,13 +228,43 @@ impl<'a> LineKinds<'a> {
         cuts.windows(2).map(part).collect()
     }
 
+    /// The first kind with which lines of a kind make common chains: dashes continue where the
+    /// class of a hidden line changes.
+    fn joined_kind(&self, index: u32) -> u32 {
+        let kind = self.kinds[index as usize];
+        let continues = |other: &LineKind| {
+            other.hidden && other.band == kind.band && other.class != EdgeClass::Facet
+        };
+        if !continues(&kind) || kind.class == EdgeClass::Facet {
+            return index;
+        }
+        self.kinds.iter().position(continues).map_or(index, |first| first as u32)
+    }
+
+    /// Which short chains of a kind are left out: none of a wireframe, of lines that the model
+    /// draws itself and of hatchings.
+    fn short_chains(&self, index: u32) -> ShortChains {
+        let kind = self.kinds[index as usize];
+        let [wide, _] = self.style.line_widths.wide_and_narrow();
+        let least = wide.max(LEAST_CHAIN_LENGTH);
+        match kind.class {
+            _ if self.style.edges == EdgeSelection::Facets => ShortChains::Retained,
+            EdgeClass::Crease | EdgeClass::Intersection => ShortChains::Removed(least),
+            EdgeClass::Silhouette | EdgeClass::Boundary | EdgeClass::Tangent => {
+                ShortChains::RemovedAlone(least)
+            }
+            _ => ShortChains::Retained,
+        }
+    }
+
     /// The pen of a kind: narrow for hidden, tangent and hatch lines, dashed for hidden ones, faded
     /// by depth.
     fn pen_for_kind(&self, kind: LineKind, ink: Ink) -> Pen {
         let style = self.style;
         let [wide, narrow] = style.line_widths.wide_and_narrow();
-        let is_narrow =
-            kind.hidden || matches!(kind.class, EdgeClass::Tangent | EdgeClass::Hatching);
+        let is_narrow = kind.hidden
+            || kind.class == EdgeClass::Hatching
+            || kind.class == EdgeClass::Tangent && style.edges != EdgeSelection::Features;
         let width = if is_narrow { narrow } else { wide };
         let line_type = if kind.hidden { LineType::Dashed } else { LineType::Continuous };
         let Thinning { width: width_factor, contrast } = self.thinning[usize::from(kind.hidden)];
@@ -283,16 +315,14 @@ fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
     if hidden && style.hidden_lines == HiddenLines::Removed {
         return false;
     }
+    if !style.to_draw_options().classes.contains(class) {
+        return false;
+    }
     match class {
-        EdgeClass::Silhouette | EdgeClass::Boundary => true,
-        EdgeClass::Facet => style.edges == EdgeSelection::Facets,
-        EdgeClass::Hatching => !hidden && style.edges != EdgeSelection::Silhouette,
+        EdgeClass::Hatching => !hidden,
         // Tangent edges have no bend to show: hidden ones are left out.
-        EdgeClass::Tangent => {
-            style.edges == EdgeSelection::Tangents && !hidden
-                || style.edges == EdgeSelection::Facets
-        }
-        _ => style.edges != EdgeSelection::Silhouette,
+        EdgeClass::Tangent => !hidden || style.edges == EdgeSelection::Facets,
+        _ => true,
     }
 }
 

@@ -27,6 +27,8 @@ pub struct LineStyle {
     pub hidden_lines: HiddenLines,
     /// Two faces that meet at more than this angle, in radians, have an edge between them.
     pub crease_angle: f64,
+    /// Whether there is no such edge where the vertex normals of the file agree on both sides.
+    pub asks_normals: bool,
     /// The part of its contrast that the farthest line loses: 0 for none, 1 for all.
     pub depth_cue: f64,
     /// The widths of the lines.
@@ -48,11 +50,14 @@ pub struct LineStyle {
 pub enum EdgeSelection {
     /// The sides of all triangles: a wireframe.
     Facets,
-    /// Silhouettes, boundaries, creases, intersections, section outlines and marked edges.
+    /// Silhouettes, boundaries, creases, intersections, section outlines, marked edges, and
+    /// tangent edges, where two materials meet smoothly.
     Features,
-    /// Features, and tangent edges, where one smooth surface continues another.
+    /// As `Features`, with tangent edges as narrow lines.
     Tangents,
-    /// Silhouettes and boundaries only.
+    /// Silhouettes and boundaries only, also where they run before other surfaces.
+    Contours,
+    /// The outline alone: edges beside which there is nothing.
     Silhouette,
 }
 
@@ -95,6 +100,7 @@ impl LineStyle {
         edges: EdgeSelection::Features,
         hidden_lines: HiddenLines::Removed,
         crease_angle: 30.0 * core::f64::consts::PI / 180.0,
+        asks_normals: true,
         depth_cue: 0.0,
         line_widths: LineWidths::Pixels(1.25),
         ink: None,
@@ -114,6 +120,8 @@ impl LineStyle {
     };
     /// A wireframe whose lines fade with depth.
     pub const DEPTH_CUED: Self = Self { depth_cue: 0.8, ..Self::WIREFRAME };
+    /// Silhouettes and boundaries, also where they run before other surfaces.
+    pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
     /// The outline alone.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
@@ -135,9 +143,9 @@ impl LineStyle {
             classes: match self.edges {
                 // Intersection edges are not sides of triangles, so a wireframe omits them.
                 EdgeSelection::Facets => EdgeClasses::ALL.without(EdgeClass::Intersection),
-                EdgeSelection::Features => EdgeClasses::FEATURES.without(EdgeClass::Tangent),
-                EdgeSelection::Tangents => EdgeClasses::FEATURES,
-                EdgeSelection::Silhouette => DrawOptions::silhouettes().classes,
+                EdgeSelection::Features | EdgeSelection::Tangents => EdgeClasses::FEATURES,
+                EdgeSelection::Contours => DrawOptions::silhouettes().classes,
+                EdgeSelection::Silhouette => DrawOptions::outline().classes,
             },
             hidden_edges: match self.hidden_lines {
                 HiddenLines::Removed => HiddenEdges::Removed,
@@ -145,6 +153,8 @@ impl LineStyle {
                 HiddenLines::Drawn => HiddenEdges::Ignored,
             },
             crease_angle: self.crease_angle,
+            asks_normals: self.asks_normals,
+            outline_only: self.edges == EdgeSelection::Silhouette,
             hatch_spacing: self.hatch_spacing / MILLIMETERS_PER_PIXEL,
             face_fill: self.face_fill,
             ..DrawOptions::default()

@@ -18,6 +18,12 @@ pub struct DrawOptions {
     /// Two faces that meet at more than this angle make a crease: in radians, 0 between coplanar
     /// faces. Default: 30 degrees.
     pub crease_angle: f64,
+    /// Whether an edge with the same vertex normals on both sides is smooth, however sharp: scanned
+    /// and sculpted surfaces have such edges. Default: true.
+    pub asks_normals: bool,
+    /// Whether only the outline of everything is drawn: edges beside which there is no face, before
+    /// them or behind. Default: false.
+    pub outline_only: bool,
     /// The distance between hatch lines in pixels, greater than 0. Default: 2 mm at 96 pixels to
     /// the inch.
     pub hatch_spacing: f64,
@@ -55,6 +61,8 @@ impl DrawOptions {
             classes: EdgeClasses::FEATURES,
             hidden_edges: HiddenEdges::Removed,
             crease_angle: Self::DEFAULT_CREASE_ANGLE,
+            asks_normals: true,
+            outline_only: false,
             hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,
             face_fill: FaceFill::None,
             fill_scale: 3.0,
@@ -72,6 +80,16 @@ impl DrawOptions {
     pub const fn silhouettes() -> Self {
         let classes = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
         Self { classes, ..Self::hidden_edges_removed() }
+    }
+
+    /// The outline of everything.
+    #[must_use]
+    pub const fn outline() -> Self {
+        let classes = EdgeClasses::FEATURES
+            .without(EdgeClass::Intersection)
+            .without(EdgeClass::Line)
+            .without(EdgeClass::Hatching);
+        Self { classes, outline_only: true, ..Self::hidden_edges_removed() }
     }
 
     /// Every side of every face, as if surfaces were of wire.

@@ -33,24 +33,37 @@ const MAX_DROPPED_RUN: usize = 64;
 
 /// Joins segments into chains: by layer, by object, and in the order of their first segments.
 ///
+/// `pen_of_layer` is the same number for layers whose lines continue each other, as all dashed ones
+/// do: a dash pattern would begin anew where the class of a line changes. A chain of several layers
+/// belongs to the one of its greatest length.
+///
 /// Time is O(n log n) for the sort of ends, plus the run limit of [`remove_collinear`].
-pub(super) fn join_into_chains(segments: &[PageSegment]) -> Vec<PolylineChain> {
+pub(super) fn join_into_chains(
+    segments: &[PageSegment],
+    pen_of_layer: impl Fn(u32) -> u32,
+) -> Vec<PolylineChain> {
+    let key = |segment: &PageSegment| (pen_of_layer(segment.layer), segment.object);
     let mut order: Vec<&PageSegment> = segments.iter().collect();
-    order.sort_by_key(|segment| (segment.layer, segment.object));
-    let alike = order.chunk_by(|a, b| (a.layer, a.object) == (b.layer, b.object));
-    alike
+    order.sort_by_key(|segment| (key(segment), segment.layer));
+    let mut chains: Vec<PolylineChain> = order
+        .chunk_by(|a, b| key(a) == key(b))
         .flat_map(|group| {
-            let (layer, object) = (group[0].layer, group[0].object);
+            let object = group[0].object;
             let lines = SegmentGraph::new(group).into_polylines();
-            lines.into_iter().map(move |line| PolylineChain { layer, object, polyline: line })
+            let chain = move |(polyline, layer)| PolylineChain { layer, object, polyline };
+            lines.into_iter().map(chain)
         })
-        .collect()
+        .collect();
+    chains.sort_by_key(|chain| (chain.layer, chain.object));
+    chains
 }
 
 /// The segments of one layer and object on the grid, with their incidence at each point.
 struct SegmentGraph {
     /// The two ends of each segment.
     segments: Vec<[PagePoint; 2]>,
+    /// The layer of each segment.
+    layers: Vec<u32>,
     /// Each end as its point, its segment and which end it is; sorted, so that ends at one point
     /// are neighbors.
     ends: Vec<(PagePoint, u32, u8)>,
@@ -61,21 +74,23 @@ struct SegmentGraph {
 impl SegmentGraph {
     /// Snaps segments to the grid, and drops those without length and duplicates.
     fn new(segments: &[&PageSegment]) -> Self {
-        let on_grid = |segment: &&PageSegment| segment.ends.map(to_micrometers);
-        let on_page: Vec<_> = segments.iter().map(on_grid).filter(|[a, b]| a != b).collect();
-        let segments = drop_duplicate_segments(&on_page);
+        let on_grid = |segment: &&PageSegment| (segment.ends.map(to_micrometers), segment.layer);
+        let on_page = segments.iter().map(on_grid).filter(|([a, b], _)| a != b);
+        let on_page: Vec<([PagePoint; 2], u32)> = on_page.collect();
+        let (segments, layers): (Vec<_>, Vec<_>) =
+            drop_duplicate_segments(&on_page).into_iter().unzip();
         let mut ends: Vec<_> = (0_u32..)
             .zip(&segments)
             .flat_map(|(index, [a, b])| [(*a, index, 0), (*b, index, 1)])
             .collect();
         ends.sort_unstable();
         let is_used = vec![false; segments.len()];
-        Self { segments, ends, is_used }
+        Self { segments, layers, ends, is_used }
     }
 
-    /// Covers the graph with polylines: each unused segment is extended forward, then backward
-    /// unless it closed.
-    fn into_polylines(mut self) -> Vec<Polyline> {
+    /// Covers the graph with polylines, each with its layer: each unused segment is extended
+    /// forward, then backward unless it closed.
+    fn into_polylines(mut self) -> Vec<(Polyline, u32)> {
         let mut lines = Vec::new();
         for index in 0..self.segments.len() {
             if self.is_used[index] {
@@ -83,28 +98,48 @@ impl SegmentGraph {
             }
             self.is_used[index] = true;
             let mut points = self.segments[index].to_vec();
-            self.extend_chain(&mut points);
+            let mut chain = vec![index];
+            self.extend_chain(&mut points, &mut chain);
             let closed = points.len() > 3 && points.first() == points.last();
             if closed {
                 points.pop();
             } else {
                 points.reverse();
-                self.extend_chain(&mut points);
+                self.extend_chain(&mut points, &mut chain);
                 points.reverse();
             }
-            lines.push(Polyline { points: remove_collinear(points, closed), closed });
+            let layer = self.longest_layer(&chain);
+            lines.push((Polyline { points: remove_collinear(points, closed), closed }, layer));
         }
         lines
     }
 
-    /// Extends a chain from its last point until no segment continues it or it closes.
+    /// The layer with the greatest length among these segments; the first of equals.
+    fn longest_layer(&self, chain: &[usize]) -> u32 {
+        let mut lengths: Vec<(u32, f64)> = Vec::new();
+        for &index in chain {
+            let [a, b] = self.segments[index];
+            let [x, y] = grid_offset(a, b);
+            let (layer, length) = (self.layers[index], libm::hypot(x, y));
+            match lengths.iter_mut().find(|(other, _)| *other == layer) {
+                Some((_, total)) => *total += length,
+                None => lengths.push((layer, length)),
+            }
+        }
+        lengths.sort_by(|(a, x), (b, y)| y.total_cmp(x).then(a.cmp(b)));
+        lengths.first().map_or(0, |(layer, _)| *layer)
+    }
+
+    /// Extends a chain from its last point until no segment continues it or it closes; adds the
+    /// segments to `chain`.
     ///
     /// `points` has at least two points, whose segment is used already.
-    fn extend_chain(&mut self, points: &mut Vec<PagePoint>) {
+    fn extend_chain(&mut self, points: &mut Vec<PagePoint>, chain: &mut Vec<usize>) {
         while let Some((index, next)) =
             self.next_segment(points[points.len() - 2], points[points.len() - 1])
         {
             self.is_used[index] = true;
+            chain.push(index);
             points.push(next);
             if next == points[0] {
                 return;
@@ -141,8 +176,8 @@ impl SegmentGraph {
 }
 
 /// The segments without later duplicates, in either direction, in their order.
-fn drop_duplicate_segments(segments: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
-    let sorted = |[a, b]: [PagePoint; 2]| [a.min(b), a.max(b)];
+fn drop_duplicate_segments(segments: &[([PagePoint; 2], u32)]) -> Vec<([PagePoint; 2], u32)> {
+    let sorted = |([a, b], _): ([PagePoint; 2], u32)| [a.min(b), a.max(b)];
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
     order.sort_by_key(|&at| (sorted(segments[at as usize]), at));
     order.dedup_by_key(|at| sorted(segments[*at as usize]));
@@ -218,7 +253,7 @@ mod tests {
         let segments: Vec<PageSegment> = segments.iter().map(segment).collect();
         let in_millimeters =
             |line: Polyline| line.points.iter().map(|p| p.map(|c| c / 1000)).collect();
-        join_into_chains(&segments)
+        join_into_chains(&segments, |layer| layer)
             .into_iter()
             .map(|chain| (in_millimeters(chain.polyline.clone()), chain.polyline.closed))
             .collect()
@@ -269,6 +304,23 @@ mod tests {
     }
 
     #[test]
+    fn lines_of_one_pen_continue_over_a_change_of_layer() {
+        let segment = |from: f64, to: f64, layer: u32| PageSegment {
+            ends: [DVec2::new(from, 0.0), DVec2::new(to, 0.0)],
+            layer,
+            object: 0,
+        };
+        let segments = [segment(0.0, 1.0, 1), segment(1.0, 4.0, 2), segment(4.0, 5.0, 3)];
+        let layers = |chains: Vec<PolylineChain>| -> Vec<(u32, PagePoint, PagePoint)> {
+            let ends = |line: &Polyline| (line.points[0], line.points[line.points.len() - 1]);
+            chains.iter().map(|c| (c.layer, ends(&c.polyline).0, ends(&c.polyline).1)).collect()
+        };
+        let joined = layers(join_into_chains(&segments, |layer| u32::from(layer == 3)));
+        assert_eq!(joined, [(2, [0, 0], [4000, 0]), (3, [4000, 0], [5000, 0])]);
+        assert_eq!(layers(join_into_chains(&segments, |layer| layer)).len(), 3);
+    }
+
+    #[test]
     fn a_circle_of_many_sides_keeps_its_shape() {
         let point = |k: usize| {
             let (sin, cos) = libm::sincos(k as f64 / 1000.0 * core::f64::consts::TAU);
@@ -287,7 +339,7 @@ mod tests {
                 object: 7,
             })
             .collect();
-        let chains = join_into_chains(&segments);
+        let chains = join_into_chains(&segments, |layer| layer);
         assert_eq!(chains.len(), 1);
         let Polyline { points, closed } = &chains[0].polyline;
         assert!(*closed && points.len() > 400 && points.len() <= 1000, "{}", points.len());

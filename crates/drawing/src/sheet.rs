@@ -19,32 +19,36 @@
 //! (ISO 5456-2). The scale is one of the standard series (ISO 5455). Frame and title block follow
 //! ISO 5457 and ISO 7200, dimensions ISO 129-1.
 
+mod annotation;
 mod dimension;
 mod frame;
+mod free_area;
 mod projection_symbol;
 mod scale_bar;
 mod section_line;
 mod sheet_view;
 mod surface_cache;
 mod title_block;
+mod view_grid;
 mod view_layout;
+mod view_plan;
 
-use super::label::{Label, TextAlign};
 use super::layout::Placement;
 use super::line_style::{HiddenLines, LineStyle, LineWidths};
 use super::line_type::IsoLineGroup;
-use super::page::{Group, Ink, Layer, Page};
+use super::page::{Ink, Page};
 use super::palette::{BLACK, WHITE};
-use crate::{DrawError, LineDrawing};
+use crate::{DrawError, LineDrawing, Warning, missing_glyph_warning};
+use annotation::AnnotationLayer;
 use camera::NamedView;
 use glam::DVec2;
 use homog::{Plane, World};
-use model::{ModelInstance, model_names, world_points};
+use model::{ModelInstance, model_names};
 use projection::SheetAngle;
-use sheet_view::SheetView;
 use surface_cache::SurfaceCache;
 use view_layout::{PlacedView, ViewLayout};
-use viewport::{DrawingScale, Paper, Rectangle};
+use view_plan::ViewPlan;
+use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Rectangle};
 
 /// A drawing sheet: the views on it and their appearance.
 ///
@@ -73,9 +77,12 @@ pub struct Sheet {
     pub scale: Option<DrawingScale>,
     /// Millimeters in a unit of the scene.
     pub millimeters_per_unit: f64,
-    /// The view beside the front view.
-    pub side_view: NamedView,
-    /// The axonometric view in the free corner; `None` for no such view.
+    /// The unit of dimensions and scale bar.
+    pub dimension_unit: DimensionUnit,
+    /// The view beside the front view; `None` for that from the left in first angle and from the
+    /// right in third, or the opposite one if only that looks onto a section plane.
+    pub side_view: Option<NamedView>,
+    /// The axonometric view, which stands where the sheet is free; `None` for no such view.
     pub axonometric_view: Option<NamedView>,
     /// The line style of the views.
     pub style: LineStyle,
@@ -83,6 +90,36 @@ pub struct Sheet {
     pub dimensions: bool,
     /// The texts of the title block.
     pub title_block: TitleBlockText,
+}
+
+/// The unit in which lengths are written on a sheet; the paper is measured in millimeters always.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum DimensionUnit {
+    /// Millimeters.
+    #[default]
+    Millimeter,
+    /// Inches, as decimals.
+    Inch,
+}
+
+impl DimensionUnit {
+    /// The length of the unit in millimeters.
+    #[must_use]
+    pub const fn in_millimeters(self) -> f64 {
+        match self {
+            Self::Millimeter => 1.0,
+            Self::Inch => MILLIMETERS_PER_INCH,
+        }
+    }
+
+    /// The symbol of the unit.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimeter => "mm",
+            Self::Inch => "in",
+        }
+    }
 }
 
 /// The texts of a title block (ISO 7200).
@@ -111,8 +148,8 @@ pub enum SheetError {
     /// A view has no camera or no projection.
     #[error("the {view} view cannot be drawn: {reason}")]
     View {
-        /// The view.
-        view: NamedView,
+        /// The name of the view.
+        view: String,
         /// The reason.
         reason: String,
     },
@@ -153,7 +190,8 @@ impl Sheet {
             projection_angle: SheetAngle::First,
             scale: None,
             millimeters_per_unit: 1000.0,
-            side_view: NamedView::Left,
+            dimension_unit: DimensionUnit::Millimeter,
+            side_view: None,
             axonometric_view: Some(NamedView::Isometric),
             style: LineStyle { line_widths: LineWidths::Iso(group), ..LineStyle::TECHNICAL },
             dimensions: true,
@@ -172,8 +210,8 @@ impl Sheet {
         sections: &[Plane<World>],
         threads: usize,
     ) -> Result<Page, SheetError> {
-        let (principal, axonometric) = self.frame_views(models)?;
-        let layout = ViewLayout::arrange_views(self, principal.each_ref(), axonometric.as_ref())?;
+        let plan = ViewPlan::new(self, models, sections)?;
+        let layout = ViewLayout::arrange_views(self, &plan)?;
         let title = if self.title_block.title.is_empty() {
             model_names(models)
         } else {
@@ -182,47 +220,84 @@ impl Sheet {
         let size = DVec2::new(self.paper.width(), self.paper.height());
         let mut page = Page::new(size, title, Some(WHITE));
         let ink = self.style.ink.unwrap_or(BLACK);
+        page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
         let mut surfaces = SurfaceCache::new(models);
         for placed in &layout.views {
-            let shown = sections.iter().copied().filter(|plane| placed.shows_section(*plane));
-            let shown: Vec<Plane<World>> = shown.collect();
-            let style = self.style_of_view(placed, !shown.is_empty());
-            let drawing =
-                placed.view.draw(surfaces.cut_by(&shown), &style, placed.scale, threads)?;
+            let view = &placed.planned.view;
+            let style = self.style_of_view(placed);
+            let surface = surfaces.cut_by(&view.sections);
+            let drawing = view.draw(surface, &style, placed.scale, threads)?;
             self.add_view(&mut page, placed, drawing, &style);
         }
-        page.layers.extend(section_line::section_line_layers(self, sections, &layout, ink));
+        page.warnings.sort_unstable();
+        page.warnings.dedup();
         self.draw_annotations(&mut page, &layout, ink);
         Ok(page)
     }
 
-    /// Whether the views of models fit on the paper, without drawing them.
+    /// Whether the views of models, cut by section planes, fit on the paper, without drawing them.
     ///
     /// # Errors
     /// As for [`draw`](Self::draw).
-    pub fn check_layout(&self, models: &[ModelInstance]) -> Result<(), SheetError> {
-        let (principal, axonometric) = self.frame_views(models)?;
-        ViewLayout::arrange_views(self, principal.each_ref(), axonometric.as_ref()).map(drop)
-    }
-
-    /// The front, top and side view, and the axonometric one if there is one.
-    fn frame_views(
+    pub fn check_layout(
         &self,
         models: &[ModelInstance],
-    ) -> Result<([SheetView; 3], Option<SheetView>), SheetError> {
-        let points = world_points(models);
-        let view =
-            |name: NamedView| SheetView::frame_points(&points, name, self.millimeters_per_unit);
-        let principal = [view(NamedView::Front)?, view(NamedView::Top)?, view(self.side_view)?];
-        Ok((principal, self.axonometric_view.map(view).transpose()?))
+        sections: &[Plane<World>],
+    ) -> Result<(), SheetError> {
+        let plan = ViewPlan::new(self, models, sections)?;
+        ViewLayout::arrange_views(self, &plan).map(drop)
+    }
+
+    /// The sheet with its paper upright or on its long side: in the orientation in which models are
+    /// larger or more of the views fit, or as it is if both are equal.
+    #[must_use]
+    pub fn with_best_orientation(
+        self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+    ) -> Self {
+        let Ok(plan) = ViewPlan::new(&self, models, sections) else { return self };
+        let rotated = Self { paper: self.paper.rotated(), ..self.clone() };
+        let layouts = [&self, &rotated].map(|sheet| {
+            let at_any_scale = || {
+                let any = Self { scale: None, ..sheet.clone() };
+                ViewLayout::arrange_views(&any, &plan).ok().map(|layout| (false, layout))
+            };
+            let own = ViewLayout::arrange_views(sheet, &plan).ok().map(|layout| (true, layout));
+            own.or_else(at_any_scale)
+        });
+        let is_rotated_better = match &layouts {
+            [_, None] => false,
+            [None, Some(_)] => true,
+            [Some((fits, own)), Some((other_fits, other))] => {
+                fits < other_fits || fits == other_fits && other.is_better_than(own)
+            }
+        };
+        if is_rotated_better { rotated } else { self }
+    }
+
+    /// What the sheet does not show as it was asked for, and letters that its texts lack.
+    fn warnings_of_layout(
+        &self,
+        plan: &ViewPlan,
+        layout: &ViewLayout<'_>,
+        title: &str,
+    ) -> Vec<Warning> {
+        let mut warnings = plan.warnings.clone();
+        let left_out = layout.left_out.iter();
+        warnings.extend(left_out.map(|view| Warning::ViewLeftOut { view: view.title() }));
+        let block = &self.title_block;
+        let texts = [title, &block.author, &block.date, &block.number];
+        warnings.extend(texts.into_iter().filter_map(missing_glyph_warning));
+        warnings
     }
 
     /// The style of a view's lines.
     ///
     /// Hidden lines are removed from axonometric views and from sectional views, where they would
     /// only confuse (ISO 128-3).
-    fn style_of_view(&self, placed: &PlacedView<'_>, is_cut: bool) -> LineStyle {
-        let is_outside = NamedView::PRINCIPAL.contains(&placed.view.name) && !is_cut;
+    fn style_of_view(&self, placed: &PlacedView<'_>) -> LineStyle {
+        let is_outside = placed.planned.is_outside_view();
         let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
         LineStyle { hidden_lines, ..self.style }
     }
@@ -235,34 +310,24 @@ impl Sheet {
         drawing: LineDrawing,
         style: &LineStyle,
     ) {
-        let placement = placed.view.placement(&drawing, placed.scale, placed.center);
-        let (prefix, ink) = (format!("{}-", placed.view.name), self.style.ink.unwrap_or(BLACK));
+        let view = &placed.planned.view;
+        let placement: Placement = view.placement(&drawing, placed.scale, placed.center);
+        let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(BLACK));
         page.images.extend(drawing.face_fill_image(placement, &prefix));
         page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));
         page.warnings.extend(drawing.warnings);
-        page.warnings.sort_unstable();
-        page.warnings.dedup();
     }
 
-    /// The scale below a view whose scale is not that of the sheet.
-    fn scale_note_layer(&self, layout: &ViewLayout<'_>, ink: Ink) -> Option<Layer> {
-        let other = layout.views.iter().find(|placed| placed.scale != layout.scale)?;
-        let (area, height) = (other.object_area(), self.lettering_height());
-        let at = DVec2::new(other.center.x, area.y() + area.height() + 1.8 * height);
-        let text = other.scale.to_string();
-        let label = Label::new(&text, at, height).with_align(TextAlign::Middle);
-        let mut layer = Layer::new("other-scale", "scale of the last view", label.pen(ink));
-        layer.groups.push(Group { strokes: label.strokes(), ..Group::default() });
-        Some(layer)
-    }
-
-    /// Draws dimensions, scale bar, frame and title block.
+    /// Draws dimensions and the other annotations of views, scale bar, frame and title block.
     fn draw_annotations(&self, page: &mut Page, layout: &ViewLayout<'_>, ink: Ink) {
-        if self.dimensions {
-            page.layers.extend(dimension::overall_dimension_layers(self, layout, ink));
+        for kind in AnnotationLayer::ALL {
+            let mut layer = kind.to_layer(self.line_width_group(), self.lettering_height(), ink);
+            for placed in &layout.views {
+                layer.groups.extend(placed.annotations.groups(kind, placed.center));
+            }
+            page.layers.extend((!layer.groups.is_empty()).then_some(layer));
         }
-        page.layers.extend(self.scale_note_layer(layout, ink));
-        page.layers.push(scale_bar::scale_bar_layer(self, layout.scale, ink));
+        page.layers.extend(scale_bar::scale_bar_layers(self, layout.scale, ink));
         let block = self.title_block_area();
         page.layers.push(frame::frame_layer(self.paper, block, ink));
         let title = page.title.clone();

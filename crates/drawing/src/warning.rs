@@ -20,8 +20,30 @@ pub enum Warning {
         /// The name of the object.
         object: String,
     },
+    /// A section plane lies beside the models and removes nothing.
+    SectionMisses {
+        /// The number of the section, from 1.
+        number: usize,
+    },
+    /// A section plane lies beside the models, which are all on the side that is removed.
+    SectionRemovesAll {
+        /// The number of the section, from 1.
+        number: usize,
+    },
+    /// No principal view of a sheet sees a section plane from the front or edge-on.
+    SectionOblique {
+        /// The number of the section, from 1.
+        number: usize,
+    },
+    /// A view of a sheet finds no place beside the others.
+    ViewLeftOut {
+        /// The name of the view, such as `isometric view` or `section A-A`.
+        view: String,
+    },
     /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
+    /// The style of the scene shows surfaces, and a sheet is a line drawing.
+    StyleIgnored,
     /// The format has no anaglyphs; only PNG images have.
     AnaglyphIgnored,
     /// The point of a label is not in the picture.
@@ -57,9 +79,31 @@ impl fmt::Display for Warning {
                 "the cut through `{object}` has too many points: \
                  the section has no cap and no hatching"
             ),
+            Self::SectionMisses { number } => {
+                write!(f, "section {number} cuts nothing: its plane lies beside the models")
+            }
+            Self::SectionRemovesAll { number } => write!(
+                f,
+                "section {number} would remove everything: all models lie on the side of its plane \
+                 that is cut away"
+            ),
+            Self::SectionOblique { number } => write!(
+                f,
+                "section {number} has neither a cut line nor a view of its own on the sheet: its plane is \
+                 oblique to the front, the top and the side view, and only an axonometric view shows it"
+            ),
+            Self::ViewLeftOut { view } => write!(
+                f,
+                "there is no place for the {view} beside the other views, and it is left out: \
+                 use larger paper or a smaller scale"
+            ),
             Self::SectionsIgnored => f.write_str(
                 "sections cut line drawings only: this style shows whole models; \
                  choose another, such as `--style lines`",
+            ),
+            Self::StyleIgnored => f.write_str(
+                "sheets are line drawings, and do not show the style of the scene: \
+                 `style: Lines(…)` sets their lines",
             ),
             Self::AnaglyphIgnored => f.write_str(
                 "only PNG pictures have anaglyphs: \

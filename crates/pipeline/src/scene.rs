@@ -67,7 +67,7 @@ pub use origin::Origin;
 pub use outputs::Outputs;
 pub use parse::parse_scene;
 pub use resolve::{ResolveOptions, select_animation};
-pub use sheet::resolve_sheet;
+pub use sheet::{SheetContent, resolve_sheet};
 pub use suggest::closest_name;
 pub use validate::validate_scene;
 

@@ -52,7 +52,13 @@ pub(super) struct EdgeClassifier<'a> {
     normals: FaceNormals,
     /// The cosine of the crease angle.
     crease_cosine: f64,
+    /// Whether vertex normals that agree on both sides make an edge smooth.
+    asks_normals: bool,
 }
+
+/// The cosine of the greatest angle between faces that vertex normals make smooth: 85°. Beyond, as
+/// on a box with shared normals, they are a slip of the exporter.
+const MIN_SMOOTH_COSINE: f64 = 0.0872;
 
 impl<'a> EdgeClassifier<'a> {
     /// A classifier of a mesh's edges for a viewer and its crease angle.
@@ -63,6 +69,7 @@ impl<'a> EdgeClassifier<'a> {
             section_edges: &mesh.section_edges,
             normals,
             crease_cosine: libm::cos(options.crease_angle),
+            asks_normals: options.asks_normals,
         }
     }
 
@@ -128,6 +135,24 @@ impl<'a> EdgeClassifier<'a> {
         }
     }
 
+    /// Whether the vertex normals of the file are the same on both sides of an edge of one object.
+    ///
+    /// `cosine` is that of the angle between the faces.
+    fn is_smooth_by_normals(&self, one: HalfEdge, other: HalfEdge, cosine: f64) -> bool {
+        let faces = [one, other].map(|side| self.face_of_half_edge(side));
+        if !self.asks_normals || cosine < MIN_SMOOTH_COSINE || faces[0].object != faces[1].object {
+            return false;
+        }
+        // The ends of each side, the lower vertex first: those of parts of an edge may differ.
+        let ends = |face: &Face, side: HalfEdge| {
+            let (from, to) = (usize::from(side.side), usize::from(side.side + 1) % 3);
+            let ends = [from, to].map(|k| (face.vertices[k], face.normals[k]));
+            if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] }
+        };
+        let pairs = ends(faces[0], one).into_iter().zip(ends(faces[1], other));
+        pairs.into_iter().all(|((a, n), (b, m))| a == b && n.agrees_with(m))
+    }
+
     /// The class of the edge between two faces: silhouette, crease, tangent (materials differ) or
     /// facet.
     ///
@@ -137,9 +162,10 @@ impl<'a> EdgeClassifier<'a> {
         let ((n, is_front), (m, other_is_front)) =
             (self.normals.normal_along(one), self.normals.normal_along(other));
         // Both normals are taken along the rising edge: on a smooth surface they are opposite.
+        let cosine = n.dot(-m);
         if is_front == other_is_front {
             EdgeClass::Silhouette
-        } else if n.dot(-m) < self.crease_cosine {
+        } else if cosine < self.crease_cosine && !self.is_smooth_by_normals(one, other, cosine) {
             EdgeClass::Crease
         } else if self.face_of_half_edge(one).material != self.face_of_half_edge(other).material {
             EdgeClass::Tangent

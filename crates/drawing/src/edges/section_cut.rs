@@ -15,6 +15,7 @@
 //! itself open; it is drawn without a cap, and reported.
 
 use super::section_caps::{SectionLoop, triangulate_caps};
+use super::vertex_normal::VertexNormal;
 use super::world_mesh::{Face, LineEdge, WorldMesh};
 use crate::Warning;
 use clip::{CutTriangle, Outline, cut_triangle};
@@ -83,7 +84,14 @@ fn add_caps(
         };
         for triangle in triangles {
             let vertices = triangle.map(|vertex| add_point(mesh, vertex));
-            mesh.faces.push(Face { vertices, object, material, edge_visibility, cap_section });
+            mesh.faces.push(Face {
+                vertices,
+                object,
+                material,
+                normals: [VertexNormal::NONE; 3],
+                edge_visibility,
+                cap_section,
+            });
         }
     }
 }
@@ -122,8 +130,23 @@ fn cut_face(
             [[0, k - 1], [k - 1, k], [k, 0]]
                 .map(|side| part_edge_visibility(side, &remaining, visibility))
         });
-        retained.push(Face { vertices, edge_visibility, ..*face });
+        let normals =
+            [0, k - 1, k].map(|corner| cut_normal(face, remaining.vertices()[corner].weights));
+        retained.push(Face { vertices, normals, edge_visibility, ..*face });
     }
+}
+
+/// The normal at a point of a face by its barycentric weights.
+fn cut_normal(face: &Face, weights: [f64; 3]) -> VertexNormal {
+    if let Some(corner) = weights.iter().position(|weight| *weight == 1.0) {
+        return face.normals[corner];
+    }
+    let Some(normals) =
+        face.normals.map(VertexNormal::unpack).into_iter().collect::<Option<Vec<_>>>()
+    else {
+        return VertexNormal::NONE;
+    };
+    VertexNormal::pack(normals.iter().zip(weights).map(|(normal, weight)| *normal * weight).sum())
 }
 
 /// The visibility of a side of a part: that of the side of the face it lies on, or hidden if the
@@ -250,6 +273,7 @@ mod tests {
                         vertices,
                         object: 0,
                         material,
+                        normals: [VertexNormal::NONE; 3],
                         edge_visibility: marks,
                         cap_section: cap,
                     });

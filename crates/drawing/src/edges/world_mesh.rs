@@ -3,6 +3,7 @@
 //! Skinning, morph targets and node transforms are applied here. Every node with a mesh becomes one
 //! *object*: the unit in which drawings are grouped and hatched.
 
+use super::vertex_normal::VertexNormal;
 use glam::DVec3;
 use homog::{Affine, Model as ModelSpace, World};
 use model::{
@@ -19,6 +20,8 @@ pub(crate) struct Face {
     /// An index that faces of one material share, unique over all models: an index into
     /// [`WorldMesh::colors`], or one counted down from `u32::MAX` for the caps of section planes.
     pub(crate) material: u32,
+    /// The normals that the file gives its three vertices, in the space of the primitive.
+    pub(crate) normals: [VertexNormal; 3],
     /// The index of the section plane it closes, if it is part of a section cap.
     pub(crate) cap_section: Option<u16>,
     /// The visibility of its three sides in the file (`EXT_mesh_primitive_edge_visibility`), from
@@ -127,11 +130,16 @@ impl WorldMesh {
         let listed = |face: usize| Some(*edges?.visibility.as_ref()?.get(face)?);
         // A file that lists visible edges draws no others but silhouettes.
         let unlisted = edges.map(|_| [EdgeVisibility::Silhouette; 3]);
+        let normal = |vertex: u32| {
+            let given = primitive.normals.as_ref().and_then(|list| list.get(vertex as usize));
+            given.map_or(VertexNormal::NONE, |n| VertexNormal::pack(n.map(f64::from).into()))
+        };
         let (triangles, _) = primitive.indices.as_chunks::<3>();
         let faces = triangles.iter().enumerate().map(|(index, triangle)| Face {
             vertices: triangle.map(|vertex| vertex + first),
             object,
             material,
+            normals: triangle.map(normal),
             cap_section: None,
             edge_visibility: listed(index).or(unlisted),
         });

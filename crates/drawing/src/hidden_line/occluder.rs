@@ -56,11 +56,12 @@ impl Occluder {
     /// Three steps, the cheapest rejection first: a triangle side with the whole edge outside; the
     /// interval inside the triangle; the part of it behind the plane. A side that the edge runs
     /// along is left out of the second step, because rounding decides on which side of it the edge
-    /// lies.
+    /// lies. Without respect to depth there is no third step.
     pub(super) fn occlude_edge(
         &self,
         edge: &ProjectedEdge,
         tolerance: &Tolerance,
+        respects_depth: bool,
     ) -> Option<Occlusion> {
         let (sides, lengths) = self.side_functions(edge);
         let beyond = |k: usize| sides[k][0].max(sides[k][1]) < -tolerance.screen * lengths[k];
@@ -71,7 +72,11 @@ impl Occluder {
             (0..3).find(|&k| runs_along_side(k, &sides, lengths[k], edge, tolerance));
         let interval =
             positive_interval((0..3).filter(|&k| Some(k) != side_along_edge).map(|k| sides[k]))?;
-        let interval = self.interval_behind_plane(edge, interval, tolerance)?;
+        let interval = if respects_depth {
+            self.interval_behind_plane(edge, interval, tolerance)?
+        } else {
+            interval
+        };
         let Some(k) = side_along_edge else { return Some(Occlusion::Interior(interval)) };
         let side = self.vertices[(k + 1) % 3] - self.vertices[k];
         let runs_with = side.dot(edge.screen[1] - edge.screen[0]) > 0.0;

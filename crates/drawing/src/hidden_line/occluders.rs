@@ -83,6 +83,8 @@ pub struct Occluders {
     occluders: Vec<Occluder>,
     /// Over the boxes of the occluders: x and y in pixels, z the depth, with 1 nearest.
     bvh: Bvh,
+    /// Whether a face hides what is behind it only.
+    respects_depth: bool,
 }
 
 /// Memory of one query, reused for the next.
@@ -139,7 +141,14 @@ impl Occluders {
         // Long edges meet a box on the screen in proportion to half its perimeter.
         let bvh = Bvh::new(&boxes, |size| size.x + size.y);
         let occluders = bvh.order.iter().map(|&index| unsorted[index as usize]).collect();
-        Self { projector, tolerance, occluders, bvh }
+        Self { projector, tolerance, occluders, bvh, respects_depth: true }
+    }
+
+    /// The occluders as if each face hid all of the screen that it covers, at any depth: what they
+    /// do not hide is the outline.
+    #[must_use]
+    pub fn at_any_depth(self) -> Self {
+        Self { respects_depth: false, ..self }
     }
 
     /// The visible and the hidden parts of a segment of the world.
@@ -171,7 +180,10 @@ impl Occluders {
     ) -> &'a OcclusionIntervals {
         scratch.restart(self.bvh.root_node());
         while let Some(node) = scratch.node_stack.pop() {
-            let Some(interval) = interval_behind_box(edge, self.bvh.bounds(node)) else { continue };
+            let bounds = self.bvh.bounds(node);
+            let Some(interval) = interval_behind_box(edge, bounds, self.respects_depth) else {
+                continue;
+            };
             if scratch.hidden.contains_interval(interval) {
                 continue;
             }
@@ -181,7 +193,8 @@ impl Occluders {
                 }
                 NodeContents::Items(range) => {
                     for occluder in &self.occluders[range] {
-                        let occlusion = occluder.occlude_edge(edge, &self.tolerance);
+                        let occlusion =
+                            occluder.occlude_edge(edge, &self.tolerance, self.respects_depth);
                         occlusion.into_iter().for_each(|occlusion| scratch.insert(occlusion));
                     }
                 }
@@ -216,7 +229,11 @@ impl Occluders {
 /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: where even the
 /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box can
 /// hide it. Depth is linear in s, so its extremes are at the ends.
-fn interval_behind_box(edge: &ProjectedEdge, bounds: &Aabb) -> Option<[f64; 2]> {
+fn interval_behind_box(
+    edge: &ProjectedEdge,
+    bounds: &Aabb,
+    respects_depth: bool,
+) -> Option<[f64; 2]> {
     let [a, b] = edge.screen;
     let mut interval = [0.0_f64, 1.0];
     for axis in 0..2 {
@@ -234,7 +251,7 @@ fn interval_behind_box(edge: &ProjectedEdge, bounds: &Aabb) -> Option<[f64; 2]> 
         return None;
     }
     let farthest = edge.depth_at(interval[0]).min(edge.depth_at(interval[1]));
-    (farthest <= bounds.max.z).then_some(interval)
+    (!respects_depth || farthest <= bounds.max.z).then_some(interval)
 }
 
 /// Clips a face to the view volume and hands on each triangle that is left, with its box on the

@@ -13,11 +13,11 @@
 //!
 //! All distances are multiples of the height of letters.
 
-use super::Sheet;
-use super::view_layout::ViewLayout;
-use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
-use camera::NamedView;
+use super::DimensionUnit;
+use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText, ViewAnnotations};
+use crate::{Label, TextAlign};
 use glam::DVec2;
+use viewport::DrawingScale;
 
 /// From the outline to the dimension line.
 const LINE_DISTANCE: f64 = 2.4;
@@ -34,71 +34,84 @@ const ARROW_LENGTH: f64 = 0.9;
 /// From the dimension line to the text above it.
 const TEXT_GAP: f64 = 0.35;
 
+/// The side of a view on which a dimension of its whole extent stands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum DimensionSide {
+    Above,
+    Below,
+    Left,
+}
+
 /// A length between two points of an outline, dimensioned on the side `outward` of it.
 struct LinearDimension {
     ends: [DVec2; 2],
     /// The unit vector from the outline to the dimension line.
     outward: DVec2,
+    /// From the outline to the dimension line, in millimeters.
+    distance: f64,
     /// The length of the object in millimeters.
     length: f64,
 }
 
-/// The overall width, height and depth of the object: a layer of lines and one of texts.
-pub(super) fn overall_dimension_layers(
-    sheet: &Sheet,
-    layout: &ViewLayout<'_>,
-    ink: Ink,
-) -> Vec<Layer> {
-    let height = sheet.lettering_height();
-    let group = sheet.line_width_group();
-    let lines = Pen { cap: crate::Cap::Butt, ..Pen::solid(group.narrow_width(), ink) };
-    let mut lines = Layer::new("dimensions", "dimensions", lines);
-    let mut texts =
-        Layer::new("dimensions-text", "dimensions: text", Pen::solid(height * 0.1, ink));
-    for dimension in overall_dimensions(layout, sheet.side_view) {
-        let text = format_length(dimension.length);
-        lines.groups.push(dimension.line_group(height, &text));
-        texts
-            .groups
-            .push(Group { strokes: dimension.text_strokes(height, &text), ..Group::default() });
+/// Adds the overall dimensions of a view whose object takes `half` to each side of its center.
+///
+/// Where the object has no extent there is no dimension.
+pub(super) fn add_overall_dimensions(
+    annotations: &mut ViewAnnotations,
+    sides: &[DimensionSide],
+    half: DVec2,
+    settings: &DimensionSettings,
+) {
+    for side in sides {
+        let dimension = overall_dimension(*side, half, settings);
+        if dimension.length > 1e-3 {
+            dimension.annotate(annotations, settings);
+        }
     }
-    vec![lines, texts]
 }
 
-/// The dimensions of the front view in both directions, and of the side view's width; none where
-/// there is no extent.
-fn overall_dimensions(layout: &ViewLayout<'_>, side: NamedView) -> Vec<LinearDimension> {
-    let scale = layout.scale;
-    let horizontal = |name: NamedView| {
-        let area = layout.view_area(name)?;
-        let (left, right) = (area.x(), area.x() + area.width());
-        let (y, out) = if layout.is_top_below {
-            (area.y(), -DVec2::Y)
-        } else {
-            (area.y() + area.height(), DVec2::Y)
-        };
-        let ends = [DVec2::new(left, y), DVec2::new(right, y)];
-        Some(LinearDimension { ends, outward: out, length: scale.to_object_length(area.width()) })
-    };
-    let vertical = |name: NamedView| {
-        let area = layout.view_area(name)?;
-        let (x, bottom) = (area.x(), area.y() + area.height());
-        let ends = [DVec2::new(x, bottom), DVec2::new(x, area.y())];
-        Some(LinearDimension {
-            ends,
-            outward: -DVec2::X,
-            length: scale.to_object_length(area.height()),
-        })
-    };
-    // A flat object has no dimension across.
-    let all = [horizontal(NamedView::Front), vertical(NamedView::Front), horizontal(side)];
-    all.into_iter().flatten().filter(|dimension| dimension.length > 1e-3).collect()
+/// What the dimensions of a sheet have in common.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct DimensionSettings {
+    /// The height of letters in millimeters.
+    pub(super) letters: f64,
+    /// The scale of the view.
+    pub(super) scale: DrawingScale,
+    /// The unit of the lengths.
+    pub(super) unit: DimensionUnit,
+    /// What cut lines and their letters take around the outline, in millimeters: 0 without any.
+    pub(super) reserved: f64,
 }
 
-/// A length in millimeters: to a hundredth, from one meter on to a millimeter, without trailing
-/// zeros.
-fn format_length(length: f64) -> String {
-    let decimals = if length < 1000.0 { 2 } else { 0 };
+/// The dimension of the whole extent on one side.
+fn overall_dimension(
+    side: DimensionSide,
+    half: DVec2,
+    settings: &DimensionSettings,
+) -> LinearDimension {
+    let DimensionSettings { letters, scale, reserved, .. } = *settings;
+    let corner = |x: f64, y: f64| half * DVec2::new(x, y);
+    let (ends, outward) = match side {
+        DimensionSide::Above => ([corner(-1.0, -1.0), corner(1.0, -1.0)], -DVec2::Y),
+        DimensionSide::Below => ([corner(-1.0, 1.0), corner(1.0, 1.0)], DVec2::Y),
+        DimensionSide::Left => ([corner(-1.0, 1.0), corner(-1.0, -1.0)], -DVec2::X),
+    };
+    // A text above the line is between it and an outline that is above.
+    let text = if side == DimensionSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
+    let distance = (LINE_DISTANCE * letters).max(reserved + (text + 0.5) * letters);
+    let length = scale.to_object_length((ends[1] - ends[0]).length());
+    LinearDimension { ends, outward, distance, length }
+}
+
+/// A length without trailing zeros: in millimeters to a hundredth, from one meter on to a
+/// millimeter; in inches to a thousandth.
+pub(super) fn format_length(millimeters: f64, unit: DimensionUnit) -> String {
+    let length = millimeters / unit.in_millimeters();
+    let decimals = match unit {
+        DimensionUnit::Millimeter if length < 1000.0 => 2,
+        DimensionUnit::Millimeter => 0,
+        DimensionUnit::Inch => 3,
+    };
     let text = format!("{length:.decimals$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -115,8 +128,8 @@ impl LinearDimension {
     }
 
     /// The ends of the dimension line.
-    fn dimension_line(&self, height: f64) -> [DVec2; 2] {
-        self.ends.map(|end| end + self.outward * (LINE_DISTANCE * height))
+    fn dimension_line(&self) -> [DVec2; 2] {
+        self.ends.map(|end| end + self.outward * self.distance)
     }
 
     /// Whether arrows and text fit between the extension lines.
@@ -124,70 +137,49 @@ impl LinearDimension {
         (self.ends[1] - self.ends[0]).length() > 3.5 * ARROW_LENGTH * height
     }
 
-    /// Extension lines, dimension line and arrowheads.
+    /// Adds extension lines, dimension line, arrowheads and text.
     ///
     /// Arrows that do not fit between the extension lines point inward from outside, and the
     /// dimension line is extended to them, and on to a text that stands beside it.
-    fn line_group(&self, height: f64, text: &str) -> Group {
-        let [start, end] = self.dimension_line(height);
+    fn annotate(&self, annotations: &mut ViewAnnotations, settings: &DimensionSettings) {
+        let height = settings.letters;
+        let text = format_length(self.length, settings.unit);
+        let [start, end] = self.dimension_line();
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
         let outwards = if self.fits_arrows(height) { 0.0 } else { 2.0 * arrow };
-        let tail = if self.is_text_outside(height, text) {
-            outwards + self.unplaced_label(height, text).width()
-        } else {
-            outwards
-        };
-        let mut strokes: Vec<Polyline> = Vec::new();
-        for (end, line) in self.ends.iter().zip([start, end]) {
-            let from = *end + self.outward * (EXTENSION_GAP * height);
-            strokes.extend(Polyline::through_points(
-                &[from, line + self.outward * (EXTENSION_OVERHANG * height)],
-                false,
-            ));
+        let width = Label::new(&text, DVec2::ZERO, height).width();
+        let is_outside = width > (self.ends[1] - self.ends[0]).length() - 0.5 * height;
+        let tail = if is_outside { outwards + width } else { outwards };
+        let layer = AnnotationLayer::Dimensions;
+        for (outline, line) in self.ends.into_iter().zip([start, end]) {
+            let from = outline + self.outward * (EXTENSION_GAP * height);
+            let to = line + self.outward * (EXTENSION_OVERHANG * height);
+            annotations.push_line(layer, [from, to]);
         }
-        strokes.extend(Polyline::through_points(
-            &[start - along * outwards, end + along * tail.max(outwards)],
-            false,
-        ));
+        annotations.push_line(layer, [start - along * outwards, end + along * tail]);
         let inwards = if outwards > 0.0 { -1.0 } else { 1.0 };
-        let heads =
-            [arrowhead(start, along * inwards, arrow), arrowhead(end, -along * inwards, arrow)];
-        Group { strokes, fills: heads.into_iter().flatten().collect(), ..Group::default() }
-    }
-
-    /// Whether the text is wider than the dimension, so that it stands beside it.
-    fn is_text_outside(&self, height: f64, text: &str) -> bool {
-        let available = (self.ends[1] - self.ends[0]).length();
-        self.unplaced_label(height, text).width() > available - 0.5 * height
-    }
-
-    /// The text in its direction, at the origin: to measure it, or to move it.
-    fn unplaced_label<'a>(&self, height: f64, text: &'a str) -> Label<'a> {
-        Label::new(text, DVec2::ZERO, height).with_direction(self.line_direction())
-    }
-
-    /// The strokes of the text: centered above the dimension line, or beyond its end.
-    fn text_strokes(&self, height: f64, text: &str) -> Vec<Polyline> {
-        let [start, end] = self.dimension_line(height);
-        let along = self.line_direction();
+        for (tip, into) in [(start, along * inwards), (end, -along * inwards)] {
+            annotations.push(layer, AnnotationShape::Head(arrowhead(tip, into, arrow)));
+        }
         // Above the line in reading direction is to the left of it.
         let above = DVec2::new(along.y, -along.x) * (TEXT_GAP * height);
-        let label = self.unplaced_label(height, text);
-        let label = if self.is_text_outside(height, text) {
-            let outwards = if self.fits_arrows(height) { 0.5 } else { 2.0 * ARROW_LENGTH };
-            Label { anchor: end + along * (outwards * height) + above, ..label }
+        let (anchor, align) = if is_outside {
+            // Beyond the extension line, which rises above the dimension line.
+            let beyond = if outwards > 0.0 { outwards } else { 0.5 * height };
+            (end + along * beyond + above, TextAlign::Start)
         } else {
-            Label { anchor: (start + end) * 0.5 + above, align: TextAlign::Middle, ..label }
+            ((start + end) * 0.5 + above, TextAlign::Middle)
         };
-        label.strokes()
+        let text = AnnotationText { text, anchor, height, direction: along, align };
+        annotations.push(AnnotationLayer::DimensionTexts, AnnotationShape::Text(text));
     }
 }
 
 /// An arrowhead with this tip; `into` is the direction from the tip to the base.
-fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> Option<Polyline> {
+fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
-    Polyline::through_points(&[tip, base + across, base - across], true)
+    [tip, base + across, base - across]
 }
 
 #[cfg(test)]
@@ -207,24 +199,43 @@ mod tests {
             (123.45, "123.45"),
             (100.0, "100"),
         ] {
-            assert_eq!(format_length(length), text);
+            assert_eq!(format_length(length, DimensionUnit::Millimeter), text);
         }
+        for (inches, text) in [(1.0, "1"), (0.125, "0.125"), (2.5, "2.5"), (1200.0, "1200")] {
+            assert_eq!(format_length(inches * 25.4, DimensionUnit::Inch), text);
+        }
+    }
+
+    /// The annotations of an object of this half size at 1:1.
+    fn annotated(half: DVec2, side: DimensionSide, reserved: f64) -> ViewAnnotations {
+        let (scale, unit) = (DrawingScale::STANDARD[5], DimensionUnit::Millimeter);
+        let settings = DimensionSettings { letters: 3.5, scale, unit, reserved };
+        let mut annotations = ViewAnnotations::default();
+        add_overall_dimensions(&mut annotations, &[side], half, &settings);
+        annotations
     }
 
     #[test]
     fn narrow_dimensions_have_their_arrows_outside() {
-        let of = |width: f64| LinearDimension {
-            ends: [DVec2::new(50.0, 50.0), DVec2::new(50.0 + width, 50.0)],
-            outward: -DVec2::Y,
-            length: width,
+        let span = |half: f64| {
+            let object = [DVec2::ZERO; 2];
+            let annotations = annotated(DVec2::splat(half), DimensionSide::Above, 0.0);
+            annotations.extent_with(object).map(|corner| corner.x)
         };
-        let span = |dimension: &LinearDimension| {
-            let points =
-                dimension.line_group(3.5, "7").strokes.into_iter().flat_map(|line| line.points);
-            points.fold([i32::MAX, i32::MIN], |[low, high], [x, _]| [low.min(x), high.max(x)])
-        };
-        assert_eq!(span(&of(40.0)), [50_000, 90_000]);
-        let [low, high] = span(&of(4.0));
-        assert!(low < 45_000 && high > 59_000, "{low} {high}");
+        assert_eq!(span(20.0), [-20.0, 20.0]);
+        let [low, high] = span(2.0);
+        assert!(low < -7.0 && high > 11.0, "{low} {high}");
+    }
+
+    #[test]
+    fn dimension_lines_leave_room_for_cut_lines() {
+        let object = [DVec2::splat(-20.0), DVec2::splat(20.0)];
+        for (side, axis) in [(DimensionSide::Above, 1), (DimensionSide::Left, 0)] {
+            let low = |reserved| annotated(object[1], side, reserved).extent_with(object)[0][axis];
+            assert!(low(0.0) > -20.0 - 14.0, "{side:?}");
+            assert!(low(12.0) < -20.0 - 12.0 - 3.5, "{side:?}");
+        }
+        let below = annotated(object[1], DimensionSide::Below, 12.0).extent_with(object)[1].y;
+        assert!(below > 20.0 + 12.0 + 3.5, "{below}");
     }
 }

@@ -10,7 +10,7 @@
 //! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar that is
 //! printed along with the drawing scales with it.
 
-use super::{Sheet, rectangle_from_size};
+use super::{DimensionUnit, Sheet, rectangle_from_size};
 use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
@@ -38,12 +38,14 @@ pub(super) fn scale_bar_area(sheet: &Sheet) -> Rectangle {
     rectangle_from_size(frame.x(), bottom - height, width, height)
 }
 
-/// The bar in its area, for a scale.
-pub(super) fn scale_bar_layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> Layer {
+/// The bar in its area, for a scale, and the lengths below it.
+pub(super) fn scale_bar_layers(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> [Layer; 2] {
     let area = scale_bar_area(sheet);
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
-    let thing = round_length(scale.to_object_length(area.width() - 16.0));
-    let length = scale.to_paper_length(thing);
+    let unit = sheet.dimension_unit;
+    let most = scale.to_object_length(area.width() - 16.0);
+    let thing = round_length(most / unit.in_millimeters());
+    let length = scale.to_paper_length(thing * unit.in_millimeters());
     let corner = DVec2::new(area.x() + 6.0, area.y() + 1.0);
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(0.18, ink) };
     let mut layer = Layer::new("scale-bar", "scale bar", pen);
@@ -52,15 +54,14 @@ pub(super) fn scale_bar_layer(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> L
     let filled =
         (0..BAR_SEGMENTS).step_by(2).map(|at| bar_segment(corner, f64::from(at) * step, step));
     bar.fills.extend(filled);
-    let (unit, name) = length_unit(thing);
-    let marks = [("0".to_owned(), 0.0), (format!("{} {name}", thing / unit), length)];
-    for (text, x) in marks {
+    layer.groups.push(bar);
+    let mut texts = Layer::new("scale-bar-text", "scale bar: text", Pen::solid(0.18, ink));
+    for (text, x) in [("0".to_owned(), 0.0), (length_label(thing, unit), length)] {
         let at = corner + DVec2::new(x, BAR_HEIGHT + 1.2 + letters);
         let label = Label::new(&text, at, letters).with_align(TextAlign::Middle);
-        bar.strokes.extend(label.strokes());
+        texts.groups.push(Group { strokes: label.strokes(), ..Group::default() });
     }
-    layer.groups.push(bar);
-    layer
+    [layer, texts]
 }
 
 /// A part of the bar as a rectangle.
@@ -91,14 +92,12 @@ fn round_length(most: f64) -> f64 {
     if rounded < 1.0 { 1.0 / libm::round(1.0 / rounded) } else { libm::round(rounded) }
 }
 
-/// The unit in which a length is labeled: millimeters in it, and its name.
-fn length_unit(length: f64) -> (f64, &'static str) {
-    if length >= 1e6 {
-        (1e6, "km")
-    } else if length >= 1e3 {
-        (1e3, "m")
-    } else {
-        (1.0, "mm")
+/// The label of a length: in millimeters, meters or kilometers, or in inches.
+fn length_label(length: f64, unit: DimensionUnit) -> String {
+    match unit {
+        DimensionUnit::Millimeter if length >= 1e6 => format!("{} km", length / 1e6),
+        DimensionUnit::Millimeter if length >= 1e3 => format!("{} m", length / 1e3),
+        _ => format!("{length} {}", unit.symbol()),
     }
 }
 
@@ -113,6 +112,7 @@ mod tests {
         {
             assert_eq!(round_length(most), round);
         }
-        assert_eq!(length_unit(2000.0), (1e3, "m"));
+        assert_eq!(length_label(2000.0, DimensionUnit::Millimeter), "2 m");
+        assert_eq!(length_label(0.5, DimensionUnit::Inch), "0.5 in");
     }
 }

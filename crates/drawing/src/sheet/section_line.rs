@@ -8,19 +8,20 @@
 //! ```
 //!
 //! The line is chain narrow with wide ends; arrows show the viewing direction, and a letter names
-//! the section. The view that faces the plane is drawn cut, with A–A below it. All other principal
-//! views show the whole object.
+//! the section. The view that faces the plane is drawn cut, with A–A below it. Letters and names
+//! stand where nothing else is: beyond their arrows, beyond the line, or farther out.
 
-use super::{PlacedView, Sheet, ViewLayout};
-use crate::label::{Label, TextAlign};
-use crate::line_type::LineType;
-use crate::page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
-use camera::NamedView;
+use super::annotation::{
+    AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
+};
+use super::sheet_view::SheetView;
+use crate::TextAlign;
 use glam::DVec2;
 use homog::{Plane, Vector, World};
+use viewport::DrawingScale;
 
 /// Directions whose sine or cosine differs by no more than this are parallel or perpendicular.
-const PARALLEL_TOLERANCE: f64 = 1e-6;
+pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
 
 /// The length by which the line extends beyond the view, in millimeters; its wide ends are as long.
 const OVERHANG: f64 = 4.0;
@@ -28,131 +29,48 @@ const OVERHANG: f64 = 4.0;
 /// The length of arrows with their shafts, in millimeters.
 const ARROW_LENGTH: f64 = 6.0;
 
-impl PlacedView<'_> {
-    /// Whether the view is cut by a plane: an axonometric view by every one, a principal view by
-    /// those that it faces.
-    pub(super) fn shows_section(&self, plane: Plane<World>) -> bool {
-        let is_principal = NamedView::PRINCIPAL.contains(&self.view.name);
-        !is_principal || self.faces_section(plane)
-    }
+/// The number of places farther out that are tried for a letter or a name.
+const TEXT_STEPS: u32 = 40;
 
-    /// Whether the view looks straight onto the plane, from the side that is removed.
-    fn faces_section(&self, plane: Plane<World>) -> bool {
-        plane.normal().dot(self.view.camera.gaze()) > 1.0 - PARALLEL_TOLERANCE
-    }
-
-    /// The trace of a plane that is seen edge-on: a point on the sheet, and the unit vector to the
-    /// side that is retained.
-    fn section_trace(&self, plane: Plane<World>) -> Option<(DVec2, DVec2)> {
-        let camera = self.view.camera;
-        let retained_direction =
-            camera.rotation().transform_vector(Vector::from_raw(plane.normal().raw())).raw();
-        if retained_direction.z.abs() > PARALLEL_TOLERANCE {
-            return None;
-        }
-        let away = plane.evaluate(camera.eye());
-        let millimeters = self.scale.to_paper_length(self.view.millimeters_per_unit * away);
-        let retained = DVec2::new(retained_direction.x, -retained_direction.y).normalize_or_zero();
-        Some((self.center - retained * millimeters, retained))
-    }
+/// What a section line and a letter beyond its end take beside a view, in millimeters.
+pub(super) fn section_line_reserve(letters: f64) -> f64 {
+    OVERHANG + 1.8 * letters
 }
 
-/// The section lines and names for all sections that a principal view shows, lettered from A.
-///
-/// A plane that no principal view faces gets no name; only the axonometric view is cut by it.
-pub(super) fn section_line_layers(
-    sheet: &Sheet,
-    sections: &[Plane<World>],
-    layout: &ViewLayout<'_>,
-    ink: Ink,
-) -> Vec<Layer> {
-    let is_principal = |placed: &&PlacedView<'_>| NamedView::PRINCIPAL.contains(&placed.view.name);
-    let principal: Vec<&PlacedView<'_>> = layout.views.iter().filter(is_principal).collect();
-    let mut layers = SectionLayers::new(sheet, ink);
-    let shown = sections.iter().filter(|plane| principal.iter().any(|p| p.faces_section(**plane)));
-    for (plane, letter) in shown.zip('A'..='Z') {
-        for placed in &principal {
-            if placed.faces_section(*plane) {
-                layers.push_name(placed, letter);
-            } else if let Some(line) = SectionLine::in_view(placed, *plane) {
-                layers.push_line(&line, letter);
-            }
-        }
-    }
-    let SectionLayers { lines, ends, names, .. } = layers;
-    [lines, ends, names].into_iter().filter(|layer| !layer.groups.is_empty()).collect()
-}
-
-/// The layers of section lines, one for each of three pens.
-struct SectionLayers {
-    /// Chain lines.
-    lines: Layer,
-    /// The wide ends of the lines.
-    ends: Layer,
-    /// Arrows, letters and the names below sectional views.
-    names: Layer,
-    /// The height of letters in millimeters.
-    lettering: f64,
-}
-
-impl SectionLayers {
-    /// Empty layers with the pens of a sheet.
-    fn new(sheet: &Sheet, ink: Ink) -> Self {
-        let group = sheet.line_width_group();
-        let chain =
-            LineType::LongDashedDotted.to_pen(group.narrow_width(), ink, Cap::Butt, Join::Miter);
-        let wide = Pen { cap: Cap::Butt, ..Pen::solid(group.wide_width(), ink) };
-        let lettering = Pen::solid(group.lettering_width(), ink);
-        Self {
-            lines: Layer::new("cut-lines", "lines of cuts", chain),
-            ends: Layer::new("cut-ends", "ends of cuts", wide),
-            names: Layer::new("cut-names", "names of cuts", lettering),
-            lettering: sheet.lettering_height(),
-        }
-    }
-
-    /// Writes A–A below a view that shows section A.
-    fn push_name(&mut self, placed: &PlacedView<'_>, letter: char) {
-        let area = placed.object_area();
-        let below = area.y() + area.height() + 1.8 * self.lettering;
-        let name = format!("{letter}-{letter}");
-        let anchor = DVec2::new(placed.center.x, below);
-        self.names.groups.push(label_group(&name, anchor, self.lettering));
-    }
-
-    /// Draws a section line with its wide ends, and an arrow with the letter at each of them.
-    fn push_line(&mut self, line: &SectionLine, letter: char) {
-        let [a, b] = line.ends;
-        self.lines.groups.push(stroke_group([line.ends]));
-        let inner = |k: usize| line.ends[k].lerp(line.ends[1 - k], OVERHANG / line.line_length());
-        self.ends.groups.push(stroke_group([[a, inner(0)], [b, inner(1)]]));
-        self.names.groups.push(line.arrow_group());
-        for end in line.ends {
-            let anchor = end - line.retained_direction * (ARROW_LENGTH + self.lettering)
-                + DVec2::Y * (0.5 * self.lettering);
-            self.names.groups.push(label_group(&letter.to_string(), anchor, self.lettering));
-        }
-    }
-}
-
-/// A centered label as a group.
-fn label_group(text: &str, at: DVec2, height: f64) -> Group {
-    let strokes = Label::new(text, at, height).with_align(TextAlign::Middle).strokes();
-    Group { strokes, ..Group::default() }
-}
-
-/// Straight lines as a group.
-fn stroke_group<const N: usize>(lines: [[DVec2; 2]; N]) -> Group {
-    let strokes = lines.iter().filter_map(|ends| Polyline::through_points(ends, false)).collect();
-    Group { strokes, ..Group::default() }
-}
-
-/// The line of a section in a view that sees the plane edge-on.
-struct SectionLine {
+/// The line of a section in a view that sees the plane edge-on, about the center of the view.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SectionLine {
     ends: [DVec2; 2],
     /// The unit vector on the sheet to the side that is retained: the viewing direction of the
     /// section.
     retained_direction: DVec2,
+    letter: char,
+}
+
+impl SheetView {
+    /// Whether the view looks straight onto the plane, from the side that is removed.
+    pub(super) fn faces_section(&self, plane: Plane<World>) -> bool {
+        plane.normal().dot(self.camera.gaze()) > 1.0 - PARALLEL_TOLERANCE
+    }
+
+    /// Whether the view sees the plane edge-on.
+    pub(super) fn sees_edge_of(&self, plane: Plane<World>) -> bool {
+        plane.normal().dot(self.camera.gaze()).abs() <= PARALLEL_TOLERANCE
+    }
+
+    /// The trace of a plane that is seen edge-on: a point in millimeters from the center of the
+    /// view, and the unit vector to the side that is retained.
+    fn section_trace(&self, plane: Plane<World>, scale: DrawingScale) -> Option<(DVec2, DVec2)> {
+        let normal = Vector::from_raw(plane.normal().raw());
+        let direction = self.camera.rotation().transform_vector(normal).raw();
+        if !self.sees_edge_of(plane) {
+            return None;
+        }
+        let away = plane.evaluate(self.camera.eye());
+        let millimeters = scale.to_paper_length(self.millimeters_per_unit * away);
+        let retained = DVec2::new(direction.x, -direction.y).normalize_or_zero();
+        Some((-retained * millimeters, retained))
+    }
 }
 
 impl SectionLine {
@@ -160,15 +78,18 @@ impl SectionLine {
     ///
     /// A slab test over the area of the object gives the interval of the line, which is extended by
     /// [`OVERHANG`] at both ends.
-    fn in_view(placed: &PlacedView<'_>, plane: Plane<World>) -> Option<Self> {
-        let (point, retained) = placed.section_trace(plane)?;
-        let area = placed.object_area();
-        let half = DVec2::new(area.width(), area.height()) * 0.5;
+    pub(super) fn in_view(
+        view: &SheetView,
+        scale: DrawingScale,
+        (plane, letter): (Plane<World>, char),
+    ) -> Option<Self> {
+        let (point, retained) = view.section_trace(plane, scale)?;
+        let half = view.size * scale.ratio() * 0.5;
         let along = DVec2::new(-retained.y, retained.x);
         // Slab test: the interval of the line within the area of the view.
         let mut span = [f64::NEG_INFINITY, f64::INFINITY];
         for axis in 0..2 {
-            let from = point[axis] - placed.center[axis];
+            let from = point[axis];
             if along[axis].abs() < PARALLEL_TOLERANCE {
                 if from.abs() > half[axis] {
                     return None;
@@ -180,27 +101,66 @@ impl SectionLine {
         }
         let is_there = span[0] < span[1] && span[0].is_finite() && span[1].is_finite();
         let ends = [span[0] - OVERHANG, span[1] + OVERHANG].map(|t| point + along * t);
-        is_there.then_some(Self { ends, retained_direction: retained })
+        is_there.then_some(Self { ends, retained_direction: retained, letter })
     }
 
-    /// The length in millimeters.
-    fn line_length(&self) -> f64 {
-        (self.ends[1] - self.ends[0]).length()
+    /// Adds the line with its wide ends, and an arrow at each of them, its tip on the line.
+    pub(super) fn annotate(&self, annotations: &mut ViewAnnotations) {
+        let [a, b] = self.ends;
+        annotations.push_line(AnnotationLayer::CutLines, self.ends);
+        let along = (b - a).normalize_or_zero() * OVERHANG;
+        annotations.push_line(AnnotationLayer::CutEnds, [a, a + along]);
+        annotations.push_line(AnnotationLayer::CutEnds, [b, b - along]);
+        let retained = self.retained_direction;
+        for tip in self.ends {
+            let shaft = [tip - retained * ARROW_LENGTH, tip - retained];
+            annotations.push_line(AnnotationLayer::CutArrows, shaft);
+            let (back, side) = (tip - retained * 3.0, DVec2::new(-retained.y, retained.x) * 0.5);
+            let head = AnnotationShape::Head([tip, back + side, back - side]);
+            annotations.push(AnnotationLayer::CutArrows, head);
+        }
     }
 
-    /// An arrow at each end, its tip on the line.
-    fn arrow_group(&self) -> Group {
-        let shaft = self.ends.map(|end| {
-            [end - self.retained_direction * ARROW_LENGTH, end - self.retained_direction]
-        });
-        let head = |tip: DVec2| {
-            let (back, side) = (
-                tip - self.retained_direction * 3.0,
-                DVec2::new(-self.retained_direction.y, self.retained_direction.x) * 0.5,
-            );
-            Polyline::through_points(&[tip, back + side, back - side], true)
-        };
-        let fills = self.ends.into_iter().filter_map(head).collect();
-        Group { fills, ..stroke_group(shaft) }
+    /// Adds the letter at both ends, each at the first free place.
+    pub(super) fn add_letters(
+        &self,
+        annotations: &mut ViewAnnotations,
+        object: Extent,
+        letters: f64,
+    ) {
+        let [a, b] = self.ends;
+        for (end, other) in [(a, b), (b, a)] {
+            let (away, tail) = ((end - other).normalize_or_zero(), -self.retained_direction);
+            let near = [
+                end + tail * (ARROW_LENGTH + letters),
+                end + away * letters,
+                end + (away - tail) * letters,
+                end + tail * (ARROW_LENGTH + 0.5 * letters) + away * letters,
+            ];
+            let farther = (1..=TEXT_STEPS).flat_map(|step| {
+                let step = f64::from(step) * 0.5 * letters;
+                [near[0] + tail * step, near[1] + away * step, near[0] + (tail + away) * step]
+            });
+            let text = |middle| AnnotationText::centered(self.letter.to_string(), middle, letters);
+            let places = near.into_iter().chain(farther).map(text);
+            annotations.push_first_free_text(AnnotationLayer::CutNames, places, object);
+        }
     }
+}
+
+/// Adds a text below a view, as near to it as other annotations allow.
+pub(super) fn add_caption(
+    annotations: &mut ViewAnnotations,
+    layer: AnnotationLayer,
+    text: &str,
+    (object, letters): (Extent, f64),
+) {
+    let places = (0..=TEXT_STEPS).map(|step| AnnotationText {
+        text: text.to_owned(),
+        anchor: DVec2::new(0.0, object[1].y + (1.8 + 0.5 * f64::from(step)) * letters),
+        height: letters,
+        direction: DVec2::X,
+        align: TextAlign::Middle,
+    });
+    annotations.push_first_free_text(layer, places, object);
 }

@@ -13,9 +13,10 @@ use super::{Placement, SheetError};
 use crate::draw::draw_surface;
 use crate::edges::WeldedSurface;
 use crate::{DrawOptions, LineDrawing, LineStyle};
-use camera::{Camera, FramingError, NamedView, ViewProjection, frame_parallel};
+use camera::{Basis, Camera, CameraError, FramingError, NamedView, ViewProjection, frame_parallel};
+use core::fmt;
 use glam::DVec2;
-use homog::{Point, World};
+use homog::{Plane, Point, Vector, World};
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
 
@@ -28,11 +29,30 @@ const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 /// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
 
-/// A parallel view of the object in a named direction.
+/// What a view of a sheet shows: the object from a named direction, or a section by its letter.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum ViewName {
+    Named(NamedView),
+    Section(char),
+}
+
+impl fmt::Display for ViewName {
+    /// The name as it begins the ids of layers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named(view) => view.fmt(f),
+            Self::Section(letter) => write!(f, "section-{}", letter.to_ascii_lowercase()),
+        }
+    }
+}
+
+/// A parallel view of the object, in a named direction or onto a section plane.
 #[derive(Clone, Debug)]
 pub(super) struct SheetView {
-    pub(super) name: NamedView,
+    pub(super) name: ViewName,
     pub(super) camera: Camera,
+    /// The section planes that cut the object in this view.
+    pub(super) sections: Vec<Plane<World>>,
     /// The nearest and the farthest depth of the object along the view direction, in units of the
     /// scene.
     depths: [f64; 2],
@@ -43,7 +63,7 @@ pub(super) struct SheetView {
 }
 
 impl SheetView {
-    /// The view of these points in a named direction.
+    /// The view of these points in a named direction, not cut.
     ///
     /// # Errors
     /// [`SheetError::Empty`] without points, [`SheetError::View`] if the points cannot be framed.
@@ -52,18 +72,53 @@ impl SheetView {
         name: NamedView,
         unit: f64,
     ) -> Result<Self, SheetError> {
+        Self::frame_from(points, (ViewName::Named(name), name.basis()), unit)
+    }
+
+    /// The view onto a section plane, of the points that the plane retains.
+    ///
+    /// # Errors
+    /// As for [`frame_points`](Self::frame_points).
+    pub(super) fn frame_section(
+        points: &[Point<World>],
+        (plane, letter): (Plane<World>, char),
+        unit: f64,
+    ) -> Result<Self, SheetError> {
+        let name = ViewName::Section(letter);
+        let gaze = Vector::from_raw(plane.normal().raw());
+        let view_error = |error: CameraError| SheetError::View {
+            view: name.to_string(),
+            reason: error.to_string(),
+        };
+        let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).map_err(view_error)?;
+        let view = Self::frame_from(points, (name, basis), unit)?;
+        Ok(view.cut_by(vec![plane]))
+    }
+
+    /// The view with the object cut by these planes.
+    pub(super) fn cut_by(self, sections: Vec<Plane<World>>) -> Self {
+        Self { sections, ..self }
+    }
+
+    /// The view of these points with a camera of this orientation.
+    fn frame_from(
+        points: &[Point<World>],
+        (name, basis): (ViewName, Basis),
+        unit: f64,
+    ) -> Result<Self, SheetError> {
         let framing_error = |error: FramingError| match error {
             FramingError::NoPoints => SheetError::Empty,
-            error => SheetError::View { view: name, reason: error.to_string() },
+            error => SheetError::View { view: name.to_string(), reason: error.to_string() },
         };
-        let framed = frame_parallel(points.iter().copied(), name.basis(), 1.0, 0.0)
-            .map_err(framing_error)?;
+        let framed =
+            frame_parallel(points.iter().copied(), basis, 1.0, 0.0).map_err(framing_error)?;
         let world_to_view = framed.camera.world_to_view();
         let extents =
             points.iter().map(|&point| world_to_view.transform_point(point).raw().truncate());
         let half = extents.fold(DVec2::ZERO, |most, point| most.max(point.abs()));
-        let (camera, depths) = (framed.camera, [framed.near, framed.far]);
-        Ok(Self { name, camera, depths, size: half * 2.0 * unit, millimeters_per_unit: unit })
+        let (camera, depths, sections) = (framed.camera, [framed.near, framed.far], Vec::new());
+        let size = half * 2.0 * unit;
+        Ok(Self { name, camera, sections, depths, size, millimeters_per_unit: unit })
     }
 
     /// Width and height of the window in units of the scene; never zero, however flat the object.
@@ -86,8 +141,10 @@ impl SheetView {
         let margin = (self.depths[1] - self.depths[0]).max(window.max_element()) * 0.02;
         let (near, far) = (self.depths[0] - margin, self.depths[1] + margin);
         let volume = Orthographic::new(-half.x, half.x, -half.y, half.y, near, far);
-        let volume = volume
-            .map_err(|error| SheetError::View { view: self.name, reason: error.to_string() })?;
+        let volume = volume.map_err(|error| SheetError::View {
+            view: self.name.to_string(),
+            reason: error.to_string(),
+        })?;
         let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
         let pixels = (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE);
         let size = [pixels.x as u32, pixels.y as u32];

@@ -109,6 +109,10 @@ pub(super) fn title_block_layers(
     vec![borders, names, heading, values]
 }
 
+/// The width of the name of the field with the projection symbol, with what is around it, in
+/// millimeters.
+const PROJECTION_NAME_WIDTH: f64 = 14.5;
+
 /// The name of the field with the projection symbol.
 const PROJECTION_FIELD: &str = "Projection";
 
@@ -136,16 +140,19 @@ fn title_block_fields<'a>(
         field(1, 0.0, 1.0, "Title", title),
         field(2, 0.0, 0.17, "Scale", &scale.to_string()),
         field(2, 0.17, 0.31, "Paper", &sheet.paper_name),
-        field(2, 0.31, 0.52, "Dimensions in", "mm"),
+        field(2, 0.31, 0.52, "Dimensions in", sheet.dimension_unit.symbol()),
         field(2, 0.52, 0.74, PROJECTION_FIELD, ""),
         field(2, 0.74, 1.0, "Drawn with", "alberti"),
     ]
 }
 
-/// The projection symbol in its field.
+/// The projection symbol in its field, to the right of the field's name.
 fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
-    let height = (cell.height() * 0.62).min(cell.width() * 0.2);
-    let middle = DVec2::new(cell.x() + cell.width() * 0.6, cell.y() + cell.height() - height * 0.8);
+    // The symbol is three times as wide as it is high.
+    let room = cell.width() - PROJECTION_NAME_WIDTH - FIELD_INSET;
+    let height = (cell.height() * 0.62).min(room / 3.0).max(1.0);
+    let right = cell.x() + cell.width() - FIELD_INSET;
+    let middle = DVec2::new(right - 1.5 * height, cell.y() + cell.height() - height * 0.8);
     let strokes: Vec<Polyline> = projection_symbol(sheet.projection_angle, middle, height);
     Group { strokes, ..Group::default() }
 }

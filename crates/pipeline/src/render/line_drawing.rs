@@ -155,7 +155,7 @@ pub(super) fn surface_line_layers(
         Style::Toon => LineStyle {
             line_widths: LineWidths::Pixels(2.0),
             ink: Some(OVERLAY_INK),
-            ..LineStyle::SILHOUETTE
+            ..LineStyle::CONTOURS
         },
         _ => return Ok(Vec::new()),
     };

@@ -47,7 +47,7 @@ pub use self::sheet::{AxonometricView, PageOrientation, PaperSize, SheetFile, Si
 pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
 pub use super::color::{Color, LightColor};
 use super::number::Scale;
-pub use super::number::{FieldOfView, Finite, NonNegative, Positive, Triple};
+pub use super::number::{CreaseAngle, FieldOfView, Finite, NonNegative, Positive, Triple};
 use super::schema::{scene_enum, scene_struct};
 use crate::import;
 use model::{LengthUnit, UpAxis};

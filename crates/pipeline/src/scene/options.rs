@@ -99,9 +99,10 @@ named_values! {
     /// Which edges a line drawing draws.
     EdgeSelection as "EdgeSelection" {
         Facets = "The sides of all triangles.",
-        Features = "Silhouettes, boundaries, creases, and intersections of surfaces.",
-        Tangents = "Features, and edges where one smooth surface goes over into another.",
-        Silhouette = "Silhouettes and boundaries.",
+        Features = "Silhouettes, boundaries, creases, intersections of surfaces, and edges between materials.",
+        Tangents = "Features; edges between materials are narrow where widths are those of ISO 128.",
+        Contours = "Silhouettes and boundaries, also where they run before other surfaces.",
+        Silhouette = "The outline alone: nothing is beside it.",
     }
 }
 

@@ -20,9 +20,9 @@ use super::surrounding_light::{has_lights, resolve_environment};
 use super::syntax::PathStep::{Field, Index};
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
-use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
+use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile, Style};
 use camera::ViewProjection;
-use homog::Bounds;
+use homog::{Bounds, Plane, Point, World};
 use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes, load_from_memory};
 use model::world_points;
 use model::{LengthUnit, Model, ModelInstance, UpAxis};
@@ -126,7 +126,11 @@ impl Scene {
         let image = resolve_image(origin, file)?;
         let caption = resolve_caption(origin, file.caption.as_ref())?;
         let style = resolve_style(origin, &file.style)?;
-        let mut view_projection = resolve_view_projection(origin, &file.camera, &models, image)?;
+        let sections = resolve_sections(origin, &file.sections)?;
+        let camera = &file.camera;
+        let framed = (&*models, framed_points(&models, style, &sections));
+        let mut view_projection =
+            resolve_view_of_points(origin, camera, framed, image, Vec::new())?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
         let has_environment = file.effective_environment(origin, &models).is_some();
         let ground = resolve_ground(file, &models, &lights, has_environment);
@@ -134,8 +138,8 @@ impl Scene {
         if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
             // The key light stands by the direction of view, which framing keeps.
             let shadows = shadow_points(ground, &models, &lights);
-            let camera = &file.camera;
-            view_projection = resolve_view_of_points(origin, camera, &models, image, shadows)?;
+            let framed = (&*models, world_points(&models));
+            view_projection = resolve_view_of_points(origin, camera, framed, image, shadows)?;
         }
         let occlusion_radius = file.ambient_occlusion.map(|file| {
             let usual = || {
@@ -154,7 +158,6 @@ impl Scene {
         );
         let environment = resolve_environment(origin, file, &models, allowed, exposure_ev)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
-        let sections = resolve_sections(origin, &file.sections)?;
         let backdrop = resolve_backdrop(origin, file, allowed)?;
         Ok(Self {
             models,
@@ -173,6 +176,18 @@ impl Scene {
             sections,
         })
     }
+}
+
+/// The points that a view frames: in line drawings those of what section planes leave.
+fn framed_points(
+    models: &[ModelInstance],
+    style: Style,
+    sections: &[Plane<World>],
+) -> Vec<Point<World>> {
+    if sections.is_empty() || style.draws_surfaces() {
+        return world_points(models);
+    }
+    drawing::retained_points(models, sections)
 }
 
 /// The image that a scene renders.

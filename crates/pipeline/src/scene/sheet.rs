@@ -5,12 +5,27 @@ use super::style::resolve_iso_group;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
-use drawing::{LineStyle, LineWidths, Sheet, SheetError, TitleBlockText};
+use drawing::{DimensionUnit, LineStyle, LineWidths, Sheet, SheetError, TitleBlockText};
+use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
-use projection::SheetAngle;
 use viewport::{DrawingScale, Paper};
 
+/// What a drawing sheet shows, and what it takes from the scene around it.
+#[derive(Clone, Copy, Debug)]
+pub struct SheetContent<'a> {
+    /// The models.
+    pub models: &'a [ModelInstance],
+    /// The section planes.
+    pub sections: &'a [Plane<World>],
+    /// The line style of the scene, if it is a line drawing.
+    pub style: Option<LineStyle>,
+}
+
 /// Resolves the drawing sheet of a scene file for its models.
+///
+/// Edges, crease angle, hidden lines, fill, color and depth cue are those of the scene's line
+/// style, and so is a width in millimeters; what the sheet says itself goes before. Without an
+/// orientation the paper is turned so that the scale is greatest.
 ///
 /// # Errors
 /// If the scale has a 0, ISO 128 has no line group of the width, or the models have several units;
@@ -18,28 +33,36 @@ use viewport::{DrawingScale, Paper};
 pub fn resolve_sheet(
     origin: &Origin,
     file: &SheetFile,
-    models: &[ModelInstance],
+    content: SheetContent<'_>,
 ) -> Result<Sheet, SceneError> {
     let (paper, name) = resolve_paper(file);
     let default_sheet = Sheet::for_paper(paper, name);
-    let side_view = match (file.side_view, file.projection_angle) {
-        (Some(SideView::Left), _) | (None, SheetAngle::First) => NamedView::Left,
-        (Some(SideView::Right), _) | (None, SheetAngle::Third) => NamedView::Right,
-    };
-    let widths = match file.width {
-        Some(width) => {
+    let side_view = file.side_view.map(|side| match side {
+        SideView::Left => NamedView::Left,
+        SideView::Right => NamedView::Right,
+    });
+    let own = content.style.unwrap_or(default_sheet.style);
+    let widths = match (file.width, own.line_widths) {
+        (Some(width), _) => {
             let group = resolve_iso_group(origin, width, &[Field("sheet"), Field("width")])?;
             LineWidths::Iso(group)
         }
-        None => default_sheet.style.line_widths,
+        // Pixels say nothing about paper.
+        (None, LineWidths::Pixels(_)) => default_sheet.style.line_widths,
+        (None, widths) => widths,
     };
-    let style = LineStyle { hidden_lines: file.hidden, line_widths: widths, ..default_sheet.style };
-    Ok(Sheet {
+    let hidden_lines = file.hidden.unwrap_or(own.hidden_lines);
+    let unit = resolve_unit(origin, file, content.models)?;
+    let sheet = Sheet {
         projection_angle: file.projection_angle,
         side_view,
-        style,
+        style: LineStyle { hidden_lines, line_widths: widths, ..own },
         scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
-        millimeters_per_unit: resolve_unit(origin, file, models)?.in_millimeters(),
+        millimeters_per_unit: unit.in_millimeters(),
+        dimension_unit: match unit {
+            LengthUnit::Inch | LengthUnit::Foot => DimensionUnit::Inch,
+            _ => DimensionUnit::Millimeter,
+        },
         axonometric_view: axonometric_view(file.axonometric_view),
         dimensions: file.dimensions,
         title_block: TitleBlockText {
@@ -49,6 +72,10 @@ pub fn resolve_sheet(
             number: file.number.clone(),
         },
         ..default_sheet
+    };
+    Ok(match file.orientation {
+        Some(_) => sheet,
+        None => sheet.with_best_orientation(content.models, content.sections),
     })
 }
 
@@ -57,10 +84,11 @@ pub fn resolve_sheet(
 pub(super) fn check_sheet_layout(
     origin: &Origin,
     file: Option<&SheetFile>,
-    models: &[ModelInstance],
+    content: SheetContent<'_>,
 ) -> Option<SceneError> {
     let file = file?;
-    let error = resolve_sheet(origin, file, models).ok()?.check_layout(models).err()?;
+    let sheet = resolve_sheet(origin, file, content).ok()?;
+    let error = sheet.check_layout(content.models, content.sections).err()?;
     let place: &[PathStep<'_>] = match (&error, file.scale) {
         (SheetError::TooLarge { .. }, Some(_)) => &[Field("sheet"), Field("scale")],
         (SheetError::TooLarge { .. }, None) => &[Field("sheet")],

@@ -1,7 +1,7 @@
 //! Resolution of the style: how surfaces and lines are drawn.
 
 use super::file::{LinesFile, StyleFile, WidthFile};
-use super::number::Positive;
+use super::number::{CreaseAngle, Positive};
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError, Style};
 use drawing::{IsoLineGroup, LineStyle, LineWidths};
@@ -30,7 +30,8 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneEr
     Ok(LineStyle {
         edges: file.edges,
         hidden_lines: file.hidden,
-        crease_angle: file.crease_degrees.value().to_radians(),
+        crease_angle: file.crease_degrees.unwrap_or(CreaseAngle::DEFAULT).value().to_radians(),
+        asks_normals: file.crease_degrees.is_none(),
         depth_cue: file.depth_cue_percent.value() / 100.0,
         line_widths: resolve_widths(origin, file.width)?,
         ink: file.color.map(|color| color.0),

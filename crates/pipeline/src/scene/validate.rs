@@ -22,14 +22,14 @@ use super::resolve::{
     ModelError, load_model, missing_model_error, outside_folder_error, resolve_image,
     resolve_image_size, resolve_max_anisotropy, resolve_samples,
 };
-use super::section::{check_section_count, resolve_section};
+use super::section::{check_section_count, resolve_section, resolve_sections};
 use super::shadows::resolve_shadow;
-use super::sheet::{check_sheet_layout, resolve_sheet};
+use super::sheet::{SheetContent, check_sheet_layout, resolve_sheet};
 use super::style::resolve_style;
 use super::surrounding_light::resolve_environment;
 use super::syntax::PathStep::Field;
 use super::view_projection::{check_camera, resolve_view_projection};
-use super::{CameraPath, Outputs, ResolveError, ResolveOptions, Scene, instances};
+use super::{CameraPath, Outputs, ResolveError, ResolveOptions, Scene, Style, instances};
 use model::ModelInstance;
 use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
@@ -152,7 +152,7 @@ fn errors_of_scene(
 ) -> Vec<SceneError> {
     let mut errors = errors_of_description(origin, file, allowed);
     let Some(models) = models else { return errors };
-    errors.extend(check_sheet_layout(origin, file.sheet.as_ref(), &models));
+    errors.extend(sheet_error(origin, file, &models));
     let Ok(image) = resolve_image(origin, file) else { return errors };
     if check_camera(origin, &file.camera).is_empty() {
         let camera = resolve_view_projection(origin, &file.camera, &models, image);
@@ -168,6 +168,15 @@ fn errors_of_scene(
         }
     }
     errors
+}
+
+/// The error of a sheet that does not hold its views, if all else is right.
+fn sheet_error(origin: &Origin, file: &SceneFile, models: &[ModelInstance]) -> Option<SceneError> {
+    let sections = resolve_sections(origin, &file.sections).ok()?;
+    let style = resolve_style(origin, &file.style).ok()?;
+    let style = if let Style::Lines(style) = style { Some(style) } else { None };
+    let content = SheetContent { models, sections: &sections, style };
+    check_sheet_layout(origin, file.sheet.as_ref(), content)
 }
 
 /// The mistakes that can be found without the models.
@@ -196,7 +205,9 @@ fn errors_of_description(
         errors.extend(resolve_section(origin, index, section).err());
     }
     errors.extend(check_section_count(origin, &file.sections).err());
-    errors.extend(file.sheet.iter().filter_map(|sheet| resolve_sheet(origin, sheet, &[]).err()));
+    let nothing = SheetContent { models: &[], sections: &[], style: None };
+    let sheets = file.sheet.iter();
+    errors.extend(sheets.filter_map(|sheet| resolve_sheet(origin, sheet, nothing).err()));
     errors.extend(CameraPath::from_scene_file(origin, file).err());
     errors.extend(check_camera(origin, &file.camera));
     for (index, viewport) in file.viewports.iter().enumerate() {

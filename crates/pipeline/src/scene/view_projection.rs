@@ -53,22 +53,22 @@ pub(super) fn resolve_view_projection(
     models: &[ModelInstance],
     image: ImageSpec,
 ) -> Result<ViewProjection, SceneError> {
-    resolve_view_of_points(origin, file, models, image, Vec::new())
+    resolve_view_of_points(origin, file, (models, world_points(models)), image, Vec::new())
 }
 
-/// Camera and projection of a scene; a view that frames the models frames `shadow_points` too.
+/// Camera and projection of a scene; a view that frames its models frames these `points` of them,
+/// and `shadow_points` too.
 ///
 /// The direction of view does not depend on them, and neither do near and far plane.
 pub(super) fn resolve_view_of_points(
     origin: &Origin,
     file: &CameraFile,
-    models: &[ModelInstance],
+    (models, points): (&[ModelInstance], Vec<Point<World>>),
     image: ImageSpec,
     shadow_points: Vec<Point<World>>,
 ) -> Result<ViewProjection, SceneError> {
     let view_size = image.view_size();
     let aspect = view_size.x / view_size.y;
-    let points = world_points(models);
     let picture_size = [view_size.x as u32, view_size.y as u32];
     let resolver = CameraResolver { origin, models, points, shadow_points, aspect, picture_size };
     let projection = file.projection.as_ref();

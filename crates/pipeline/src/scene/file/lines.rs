@@ -12,8 +12,9 @@ scene_struct! {
         pub edges: EdgeSelection = EdgeSelection::Features,
         /// How hidden lines are drawn. Default: `Removed`.
         pub hidden: HiddenLines = HiddenLines::Removed,
-        /// Faces that meet at more than this angle have a crease edge between them. Default: 30.
-        pub crease_degrees: CreaseAngle = CreaseAngle::DEFAULT,
+        /// Faces that meet at more than this angle have a crease edge between them. Default: 30,
+        /// but none where the model's vertex normals are the same on both sides of the edge.
+        pub crease_degrees: Option<CreaseAngle> = None,
         /// How much of its contrast the farthest line loses. Default: 0.
         pub depth_cue_percent: Percent = Percent::ZERO,
         /// The width of the lines. Default: 1.25 pixels.

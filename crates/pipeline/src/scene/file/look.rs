@@ -85,7 +85,7 @@ impl StyleFile {
         Self::Lines(LinesFile { hidden: HiddenLines::Dashed, ..LinesFile::default() })
     }
 
-    /// A line drawing of silhouettes and boundaries alone.
+    /// A line drawing of the outline alone.
     #[must_use]
     pub fn lines_silhouette() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Silhouette, ..LinesFile::default() })
@@ -105,6 +105,14 @@ impl StyleFile {
         let (edges, hidden, width) =
             (EdgeSelection::Tangents, HiddenLines::Dashed, WidthFile::DEFAULT_ISO);
         Self::Lines(LinesFile { edges, hidden, width, ..LinesFile::default() })
+    }
+
+    /// As [`lines_technical`](Self::lines_technical), without hidden edges: a section shows what is
+    /// inside, and hidden edges would only confuse (ISO 128-3).
+    #[must_use]
+    pub fn lines_technical_section() -> Self {
+        let (edges, width) = (EdgeSelection::Tangents, WidthFile::DEFAULT_ISO);
+        Self::Lines(LinesFile { edges, width, ..LinesFile::default() })
     }
 }
 

@@ -11,8 +11,8 @@ scene_struct! {
     pub struct SheetFile as "Sheet" {
         /// The paper size. Default: A3.
         pub paper: PaperSize = PaperSize::A3,
-        /// The orientation of the paper. Default: portrait for A4, A5 and Letter, landscape for all
-        /// others.
+        /// The orientation of the paper. Default: the one in which the views are larger; if they
+        /// are equal, portrait for A4, A5 and Letter, landscape for all others.
         pub orientation: Option<PageOrientation> = None,
         /// The arrangement of the views. Default: first angle.
         pub projection_angle: SheetAngle = SheetAngle::First,
@@ -20,17 +20,18 @@ scene_struct! {
         /// that fits.
         pub scale: Option<(u32, u32)> = None,
         /// The unit of the models. Default: that of their files: meters in glTF, millimeters in
-        /// STL.
+        /// STL. With inches or feet the dimensions are in inches, else in millimeters.
         pub unit: Option<LengthUnit> = None,
         /// The view beside the front view. Default: from the left in first angle, from the right in
-        /// third.
+        /// third; the other one if only that looks onto a section.
         pub side_view: Option<SideView> = None,
         /// The fourth view. Default: isometric.
         pub axonometric_view: AxonometricView = AxonometricView::Isometric,
-        /// How hidden lines are drawn in the first three views. Default: dashed.
-        pub hidden: HiddenLines = HiddenLines::Dashed,
-        /// The width of wide lines in millimeters, a line group of ISO 128. Default: to suit the
-        /// paper.
+        /// How hidden lines are drawn in views that are not cut, along the axes. Default: as in the
+        /// scene's line style, else dashed.
+        pub hidden: Option<HiddenLines> = None,
+        /// The width of wide lines in millimeters, a line group of ISO 128. Default: that of the
+        /// scene's line style if it is in millimeters, else to suit the paper.
         pub width: Option<Positive> = None,
         /// Whether overall dimensions are drawn. Default: true.
         pub dimensions: bool = true,

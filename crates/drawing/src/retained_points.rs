@@ -1,0 +1,86 @@
+//! Retained points: what section planes leave of models, as points for framing.
+
+use crate::Warning;
+use crate::edges::WorldMesh;
+use clip::cut_triangle;
+use homog::{Bounds, Plane, Point, World};
+use model::ModelInstance;
+
+/// Distances up to this fraction of the models' diagonal count as touching.
+const TOUCHING: f64 = 1e-9;
+
+/// The points of models that section planes retain: corners of what is left of their triangles and
+/// lines. All points if nothing is left.
+///
+/// A view that frames them shows the cut models as large as possible.
+#[must_use]
+pub fn retained_points(models: &[ModelInstance], sections: &[Plane<World>]) -> Vec<Point<World>> {
+    let mesh = WorldMesh::from_models(models);
+    let position = |vertex: u32| Point::from_raw(mesh.points[vertex as usize]);
+    let mut retained = Vec::new();
+    let mut pieces: Vec<[Point<World>; 3]> = Vec::new();
+    for face in &mesh.faces {
+        pieces.clear();
+        pieces.push(face.vertices.map(position));
+        for plane in sections {
+            pieces = pieces.iter().flat_map(|piece| cut_pieces(*piece, *plane)).collect();
+        }
+        retained.extend(pieces.as_flattened());
+    }
+    for line in &mesh.line_edges {
+        let ends = sections.iter().try_fold(line.ends.map(position), cut_line);
+        retained.extend(ends.into_iter().flatten());
+    }
+    if retained.is_empty() { model::world_points(models) } else { retained }
+}
+
+/// The triangles that a plane leaves of a triangle.
+fn cut_pieces(triangle: [Point<World>; 3], plane: Plane<World>) -> Vec<[Point<World>; 3]> {
+    let cut = cut_triangle(triangle, plane);
+    let left = cut.vertices();
+    (2..left.len()).map(|k| [left[0], left[k - 1], left[k]].map(|vertex| vertex.point)).collect()
+}
+
+/// The part of a line on the positive side of a plane.
+fn cut_line([a, b]: [Point<World>; 2], plane: &Plane<World>) -> Option<[Point<World>; 2]> {
+    let [from, to] = [a, b].map(|end| plane.evaluate(end));
+    match [from >= 0.0, to >= 0.0] {
+        [true, true] => Some([a, b]),
+        [false, false] => None,
+        [first, _] => {
+            let middle = Point::from_raw(a.raw() + (b.raw() - a.raw()) * (from / (from - to)));
+            Some(if first { [a, middle] } else { [middle, b] })
+        }
+    }
+}
+
+/// The warnings of all sections that lie beside the models.
+pub(crate) fn idle_section_warnings(
+    models: &[ModelInstance],
+    sections: &[Plane<World>],
+) -> Vec<Warning> {
+    if sections.is_empty() {
+        return Vec::new();
+    }
+    let points = model::world_points(models);
+    let numbered = sections.iter().zip(1..);
+    numbered.filter_map(|(plane, number)| idle_section_warning(&points, *plane, number)).collect()
+}
+
+/// The warning of a section, by its number from 1, that lies beside all points: it removes nothing,
+/// or everything.
+pub(crate) fn idle_section_warning(
+    points: &[Point<World>],
+    plane: Plane<World>,
+    number: usize,
+) -> Option<Warning> {
+    let tolerance = TOUCHING * Bounds::from_points(points.iter().copied())?.diagonal();
+    let distances = points.iter().map(|point| plane.evaluate(*point));
+    let (least, most) = distances
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), d| (least.min(d), most.max(d)));
+    if most <= tolerance {
+        Some(Warning::SectionRemovesAll { number })
+    } else {
+        (least >= -tolerance).then_some(Warning::SectionMisses { number })
+    }
+}

@@ -1,0 +1,271 @@
+//! Annotations of a view: its dimensions, cut lines and captions, and the space they take.
+//!
+//! ```text
+//!   ┌ ─ ─ ─ ─ ─ ─ ─ ┐
+//!      ◄── 150 ──►         all coordinates are millimeters of paper from the center of the view;
+//!   │  ┌─────────┐  │      the extent of object and annotations is what a layout has to keep free
+//!      │    +    │
+//!   │  └─────────┘  │
+//!   └ ─ ─ ─ ─ ─ ─ ─ ┘
+//! ```
+//!
+//! They are made before the view has a place, since the place depends on their extent.
+
+use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
+use glam::DVec2;
+
+/// An axis-aligned rectangle: its least and its greatest corner.
+pub(super) type Extent = [DVec2; 2];
+
+/// The layers that annotations are drawn on, in drawing order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum AnnotationLayer {
+    /// Dimension lines, extension lines and arrowheads.
+    Dimensions,
+    /// The lengths above dimension lines.
+    DimensionTexts,
+    /// The chain lines of sections.
+    CutLines,
+    /// Their wide ends.
+    CutEnds,
+    /// Their arrows.
+    CutArrows,
+    /// Letters of sections and the names of sectional views.
+    CutNames,
+    /// The scales of views that have another than the sheet.
+    ScaleNotes,
+}
+
+/// A line of text beside a view.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct AnnotationText {
+    pub(super) text: String,
+    /// The anchor on the baseline.
+    pub(super) anchor: DVec2,
+    pub(super) height: f64,
+    /// The direction of the baseline: to the right or upward.
+    pub(super) direction: DVec2,
+    pub(super) align: TextAlign,
+}
+
+/// The geometry of an annotation.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum AnnotationShape {
+    /// A straight line.
+    Line([DVec2; 2]),
+    /// A filled triangle: an arrowhead.
+    Head([DVec2; 3]),
+    /// A text.
+    Text(AnnotationText),
+}
+
+/// The annotations of one view.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub(super) struct ViewAnnotations {
+    items: Vec<(AnnotationLayer, AnnotationShape)>,
+}
+
+impl AnnotationText {
+    /// A text whose middle is at a point.
+    pub(super) fn centered(text: impl Into<String>, middle: DVec2, height: f64) -> Self {
+        let anchor = middle + DVec2::Y * (0.5 * height);
+        let align = TextAlign::Middle;
+        Self { text: text.into(), anchor, height, direction: DVec2::X, align }
+    }
+
+    /// The text as a label, with the center of the view at `origin`.
+    fn label(&self, origin: DVec2) -> Label<'_> {
+        let label = Label::new(&self.text, origin + self.anchor, self.height);
+        label.with_direction(self.direction).with_align(self.align)
+    }
+}
+
+impl AnnotationShape {
+    /// What the shape covers, without the width of its lines.
+    fn extent(&self) -> Option<Extent> {
+        match self {
+            Self::Line(ends) => extent_of_points(ends.iter().copied()),
+            Self::Head(corners) => extent_of_points(corners.iter().copied()),
+            Self::Text(text) => {
+                let strokes = text.label(DVec2::ZERO).strokes();
+                extent_of_points(
+                    strokes.iter().flat_map(|line| &line.points).copied().map(to_millimeters),
+                )
+            }
+        }
+    }
+
+    /// Whether the shape comes into a rectangle.
+    fn touches(&self, area: Extent) -> bool {
+        match self {
+            Self::Line(ends) => segment_crosses(*ends, area),
+            _ => self.extent().is_some_and(|extent| overlap(extent, area)),
+        }
+    }
+}
+
+impl ViewAnnotations {
+    /// Adds a shape.
+    pub(super) fn push(&mut self, layer: AnnotationLayer, shape: AnnotationShape) {
+        self.items.push((layer, shape));
+    }
+
+    /// Adds a straight line.
+    pub(super) fn push_line(&mut self, layer: AnnotationLayer, ends: [DVec2; 2]) {
+        self.push(layer, AnnotationShape::Line(ends));
+    }
+
+    /// Adds the first of these texts that touches neither another annotation nor the object; the
+    /// first of all if there is none.
+    pub(super) fn push_first_free_text(
+        &mut self,
+        layer: AnnotationLayer,
+        candidates: impl IntoIterator<Item = AnnotationText>,
+        object: Extent,
+    ) {
+        let mut first = None;
+        for text in candidates {
+            let clearance = 0.25 * text.height;
+            let shape = AnnotationShape::Text(text);
+            let is_free = shape.extent().is_some_and(|[low, high]| {
+                let area = [low - clearance, high + clearance];
+                !overlap(object, area) && !self.items.iter().any(|(_, other)| other.touches(area))
+            });
+            if is_free {
+                return self.push(layer, shape);
+            }
+            first.get_or_insert(shape);
+        }
+        first.into_iter().for_each(|shape| self.push(layer, shape));
+    }
+
+    /// The rectangle around the object and all annotations.
+    pub(super) fn extent_with(&self, object: Extent) -> Extent {
+        let extents = self.items.iter().filter_map(|(_, shape)| shape.extent());
+        extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
+    }
+
+    /// The annotations of one layer as groups, with the center of the view at `origin`.
+    pub(super) fn groups(
+        &self,
+        layer: AnnotationLayer,
+        origin: DVec2,
+    ) -> impl Iterator<Item = Group> {
+        let of_layer = self.items.iter().filter(move |(other, _)| *other == layer);
+        of_layer.map(move |(_, shape)| match shape {
+            AnnotationShape::Line(ends) => {
+                let line = Polyline::through_points(&ends.map(|end| origin + end), false);
+                Group { strokes: line.into_iter().collect(), ..Group::default() }
+            }
+            AnnotationShape::Head(corners) => {
+                let head = Polyline::through_points(&corners.map(|corner| origin + corner), true);
+                Group { fills: head.into_iter().collect(), ..Group::default() }
+            }
+            AnnotationShape::Text(text) => {
+                Group { strokes: text.label(origin).strokes(), ..Group::default() }
+            }
+        })
+    }
+}
+
+impl AnnotationLayer {
+    /// All layers in drawing order.
+    pub(super) const ALL: [Self; 7] = [
+        Self::CutLines,
+        Self::CutEnds,
+        Self::CutArrows,
+        Self::CutNames,
+        Self::Dimensions,
+        Self::DimensionTexts,
+        Self::ScaleNotes,
+    ];
+
+    /// The empty layer, with the pens of a line group and letters of a height.
+    pub(super) fn to_layer(self, group: crate::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
+        let butt = |width| Pen { cap: crate::Cap::Butt, ..Pen::solid(width, ink) };
+        let chain = || {
+            crate::LineType::LongDashedDotted.to_pen(
+                group.narrow_width(),
+                ink,
+                crate::Cap::Butt,
+                crate::Join::Miter,
+            )
+        };
+        let lettering = || Pen::solid(letters * 0.1, ink);
+        let (id, title, pen) = match self {
+            Self::CutLines => ("cut-lines", "lines of cuts", chain()),
+            Self::CutEnds => ("cut-ends", "ends of cuts", butt(group.wide_width())),
+            Self::CutArrows => ("cut-arrows", "arrows of cuts", butt(group.lettering_width())),
+            Self::CutNames => {
+                ("cut-names", "names of cuts", Pen::solid(group.lettering_width(), ink))
+            }
+            Self::Dimensions => ("dimensions", "dimensions", butt(group.narrow_width())),
+            Self::DimensionTexts => ("dimensions-text", "dimensions: text", lettering()),
+            Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
+        };
+        Layer::new(id, title, pen)
+    }
+}
+
+/// The rectangle around points; `None` without any.
+fn extent_of_points(points: impl Iterator<Item = DVec2>) -> Option<Extent> {
+    points.fold(None, |extent: Option<Extent>, point| {
+        Some(extent.map_or([point; 2], |[low, high]| [low.min(point), high.max(point)]))
+    })
+}
+
+/// Whether two rectangles have more than a side in common.
+pub(super) fn overlap(a: Extent, b: Extent) -> bool {
+    a[0].x < b[1].x && b[0].x < a[1].x && a[0].y < b[1].y && b[0].y < a[1].y
+}
+
+/// Whether a straight line comes into a rectangle (Liang and Barsky's slab test).
+fn segment_crosses([a, b]: [DVec2; 2], [low, high]: Extent) -> bool {
+    let mut span = [0.0_f64, 1.0_f64];
+    for axis in 0..2 {
+        let (from, step) = (a[axis], b[axis] - a[axis]);
+        if step == 0.0 {
+            if from <= low[axis] || from >= high[axis] {
+                return false;
+            }
+            continue;
+        }
+        let (s, t) = ((low[axis] - from) / step, (high[axis] - from) / step);
+        span = [span[0].max(s.min(t)), span[1].min(s.max(t))];
+    }
+    span[0] < span[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_gives_way_to_lines_and_to_the_object() {
+        let object = [DVec2::splat(-10.0), DVec2::splat(10.0)];
+        let mut annotations = ViewAnnotations::default();
+        let below = DVec2::new(0.0, 14.0);
+        annotations.push_line(
+            AnnotationLayer::Dimensions,
+            [below - DVec2::X * 9.0, below + DVec2::X * 9.0],
+        );
+        let text = |y: f64| AnnotationText::centered("A-A", DVec2::new(0.0, y), 3.5);
+        annotations.push_first_free_text(
+            AnnotationLayer::CutNames,
+            [text(0.0), text(11.0), text(14.0), text(20.0), text(30.0)],
+            object,
+        );
+        let [low, high] = annotations.extent_with(object);
+        assert!(low == object[0] && (21.0..23.0).contains(&high.y), "{low} {high}");
+    }
+
+    #[test]
+    fn lines_cross_rectangles_that_their_boxes_only_overlap() {
+        let area = [DVec2::ZERO, DVec2::ONE];
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        assert!(segment_crosses([at(-1.0, 0.5), at(2.0, 0.5)], area));
+        assert!(segment_crosses([at(0.2, 0.2), at(0.3, 0.3)], area));
+        assert!(!segment_crosses([at(-1.0, 0.5), at(0.5, 2.5)], area));
+        assert!(!segment_crosses([at(1.0, -1.0), at(1.0, 2.0)], area));
+    }
+}

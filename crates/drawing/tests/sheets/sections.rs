@@ -1,0 +1,86 @@
+//! Sections on sheets: each has a line and a view, or a warning.
+
+use crate::boxes::{box_model, has_view, plane, sheet};
+use crate::lint::{faults, layer_extent};
+use drawing::{Sheet, Warning};
+use glam::DVec3;
+use projection::SheetAngle;
+use viewport::Paper;
+
+/// An A3 sheet in landscape.
+fn a3(angle: SheetAngle) -> Sheet {
+    sheet((Paper::A3.rotated(), "A3"), angle)
+}
+
+#[test]
+fn a_section_across_x_is_cut_in_the_side_view_that_looks_onto_it() {
+    let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
+    for (angle, retained, side) in [
+        (SheetAngle::First, -1.0, "right"),
+        (SheetAngle::First, 1.0, "left"),
+        (SheetAngle::Third, -1.0, "right"),
+        (SheetAngle::Third, 1.0, "left"),
+    ] {
+        let cut = plane(DVec3::X * 20.0, DVec3::X * retained);
+        let page = a3(angle).draw(&model, &[cut], 1).unwrap();
+        let ids: Vec<&str> = page.layers.iter().map(|layer| layer.id.as_str()).collect();
+        assert!(ids.contains(&format!("{side}-visible-hatching").as_str()), "{ids:?}");
+        assert!(ids.contains(&"cut-lines") && ids.contains(&"cut-names"), "{ids:?}");
+        assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
+    }
+}
+
+#[test]
+fn planes_that_no_view_faces_get_a_view_of_their_own() {
+    let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
+    for retained in [DVec3::Z, DVec3::Y, DVec3::new(-1.0, -1.0, 0.0), DVec3::new(0.0, 1.0, -2.0)] {
+        let page = a3(SheetAngle::First).draw(&model, &[plane(DVec3::ZERO, retained)], 1).unwrap();
+        assert!(has_view(&page, "section-a"), "{retained}: {:?}", page.warnings);
+        assert!(page.layers.iter().any(|layer| layer.id == "cut-lines"), "{retained}");
+        assert_eq!(faults(&page), [""; 0], "{retained}");
+    }
+    // Two planes with one viewing direction: a view can be cut by one of them only.
+    let planes = [5.0, -5.0].map(|z| plane(DVec3::Z * z, -DVec3::Z));
+    let page = a3(SheetAngle::First).draw(&model, &planes, 1).unwrap();
+    assert!(has_view(&page, "front") && has_view(&page, "section-b"));
+    assert_eq!(faults(&page), [""; 0]);
+}
+
+#[test]
+fn planes_oblique_to_all_views_are_named() {
+    let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
+    let oblique = plane(DVec3::ZERO, DVec3::new(-1.0, -1.0, -1.0));
+    let page = a3(SheetAngle::First).draw(&model, &[oblique], 1).unwrap();
+    assert_eq!(page.warnings, [Warning::SectionOblique { number: 1 }]);
+    assert!(page.layers.iter().any(|layer| layer.id == "isometric-visible-section"));
+    assert!(page.layers.iter().all(|layer| layer.id != "cut-names"));
+}
+
+#[test]
+fn planes_beside_the_part_cut_nothing_and_are_named() {
+    let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
+    for (z, retained, warning) in [
+        (16.0, -DVec3::Z, Warning::SectionMisses { number: 1 }),
+        (15.0, -DVec3::Z, Warning::SectionMisses { number: 1 }),
+        (16.0, DVec3::Z, Warning::SectionRemovesAll { number: 1 }),
+    ] {
+        let beside = plane(DVec3::Z * z, retained);
+        let page = a3(SheetAngle::Third).draw(&model, &[beside], 1).unwrap();
+        assert_eq!(page.warnings, [warning]);
+        assert!(page.layers.iter().all(|layer| !layer.id.starts_with("cut-")));
+        assert!(has_view(&page, "front") && has_view(&page, "isometric"));
+    }
+}
+
+#[test]
+fn the_axonometric_view_frames_what_a_section_leaves() {
+    let model = [box_model(DVec3::new(2000.0, 50.0, 50.0))];
+    let scale = |planes: &[_]| {
+        let page = a3(SheetAngle::First).draw(&model, planes, 1).unwrap();
+        let [low, high] = layer_extent(&page, |id| id.starts_with("isometric-")).expect("a view");
+        high.y - low.y
+    };
+    // A tenth of the length: at the scale of the sheet it is shorter, and never cut off.
+    let cut = plane(DVec3::X * -800.0, -DVec3::X);
+    assert!(scale(&[cut]) < 0.5 * scale(&[]), "{} {}", scale(&[cut]), scale(&[]));
+}
