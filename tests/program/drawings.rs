@@ -292,6 +292,49 @@ fn a_sheet_is_described_by_the_scene_and_flags_go_before_it() {
 }
 
 #[test]
+fn sheets_take_their_lines_from_the_style_of_the_scene() {
+    let sandbox = Sandbox::new("sheet_style");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let sheet = |fields: &str, flags: &[&str]| {
+        let scene = format!("Scene(models: [(path: \"box.gltf\")], {fields})");
+        sandbox.write_file("scene.ron", scene);
+        let run = sandbox.run(&[&["sheet", "scene.ron", "-o", "out.svg"][..], flags].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        (run.stderr, std::fs::read_to_string(sandbox.path_of("out.svg")).expect("an SVG"))
+    };
+    let (messages, plain) = sheet("", &[]);
+    assert!(messages.is_empty() && !plain.contains("<image"), "{messages}");
+    let style = "style: Lines(face_fill: Flat, hidden: Dashed, color: \"#e01020\", width: Mm(1.25))";
+    let (messages, styled) = sheet(style, &[]);
+    assert!(messages.is_empty(), "{messages}");
+    for part in ["<image id=\"front-tone\"", "#e01020", "stroke-width=\"1.25\""] {
+        assert!(styled.contains(part) && !plain.contains(part), "{part}");
+    }
+    // Edges at 90° are creases up to that angle only.
+    let (_, creases) = sheet("style: Lines()", &["--crease", "89"]);
+    let (_, smooth) = sheet("style: Lines()", &["--crease", "91"]);
+    assert!(creases.contains("isometric-visible-crease"));
+    assert!(!smooth.contains("isometric-visible-crease"));
+    let (messages, _) = sheet("style: Toon", &[]);
+    assert!(messages.contains("do not show the style of the scene"), "{messages}");
+    let (messages, _) = sheet("sheet: (title: \"轴承\")", &[]);
+    assert!(messages.contains("轴承"), "{messages}");
+}
+
+#[test]
+fn creases_follow_the_angle_of_the_flag() {
+    let sandbox = Sandbox::new("crease_flag");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let has_creases = |angle: &str| {
+        let flags = ["--style", "lines", "--crease", angle, "--view", "isometric"];
+        let render = ["render", "box.gltf", "-o", "out.svg"];
+        assert_succeeds(&sandbox, &[&render[..], &flags].concat());
+        read_drawing(&sandbox, "out.svg").1.contains_key("visible-crease")
+    };
+    assert!(has_creases("89") && !has_creases("91"));
+}
+
+#[test]
 fn drawings_are_verified() {
     let sandbox = Sandbox::new("verified");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);

@@ -32,9 +32,15 @@ fn sections_cut_drawings_open() {
         }
         assert!(layers["visible-hatching"].len() > 3, "{flags:?}");
     }
-    // A plane beside the box takes nothing, or everything.
-    assert!(layers(&["--section", "x=1"]).keys().all(|id| !id.contains("section")));
-    assert!(layers(&["--section", "-x=1"]).is_empty());
+    // A plane beside the box takes nothing, or everything, and is named.
+    for (plane, warning) in [("x=1", "cuts nothing"), ("-x=1", "would remove everything")] {
+        let flags = ["render", "box.gltf", "-o", "out.svg", "--style", "lines", "--section", plane];
+        let run = sandbox.run(&flags);
+        assert!(run.code == 0 && run.stderr.contains(warning), "{plane}: {}", run.stderr);
+        let (_, layers) = read_drawing(&sandbox, "out.svg");
+        assert!(layers.keys().all(|id| !id.contains("section")));
+        assert_eq!(layers.is_empty(), plane == "-x=1");
+    }
 }
 
 #[test]
@@ -75,6 +81,31 @@ fn open_surfaces_are_cut_without_a_cap_and_named() {
         run.stderr
     );
     assert!(read_drawing(&sandbox, "out.svg").1.contains_key("visible-section"));
+}
+
+/// What is left fills the picture, and in the technical style nothing is dashed behind the cut.
+#[test]
+fn cut_pictures_frame_what_is_left_and_dash_nothing_behind_the_cut() {
+    let sandbox = Sandbox::new("cut_frame");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let layers = |flags: &[&str]| {
+        let render = ["render", "box.gltf", "-o", "out.svg", "--projection", "isometric"];
+        assert_succeeds(&sandbox, &[&render[..], flags].concat());
+        read_drawing(&sandbox, "out.svg").1
+    };
+    let height = |layers: &Layers| {
+        let [low, high] = layer_bounds(layers, |_| true);
+        high[1] - low[1]
+    };
+    let whole = layers(&["--style", "technical"]);
+    assert!(whole.keys().any(|id| id.starts_with("hidden-")));
+    let cut = layers(&["--style", "technical", "--section", "x=0.02"]);
+    assert!(cut.keys().all(|id| !id.starts_with("hidden-")), "{:?}", cut.keys());
+    // Both are as high as the picture allows; in the frame of the whole the rest would be lower.
+    assert!(height(&cut) > 0.95 * height(&whole), "{} {}", height(&cut), height(&whole));
+    // Dashes that are asked for are drawn.
+    let dashed = layers(&["--style", "dashed", "--section", "x=0.02"]);
+    assert!(dashed.keys().any(|id| id.starts_with("hidden-")));
 }
 
 /// The front view of a sheet is cut and named, the others show the whole thing and where the cut

@@ -249,9 +249,11 @@ impl<'a> LineKinds<'a> {
         let least = wide.max(LEAST_CHAIN_LENGTH);
         match kind.class {
             _ if self.style.edges == EdgeSelection::Facets => ShortChains::Retained,
+            // An outline has to close.
+            _ if self.style.edges == EdgeSelection::Silhouette => ShortChains::RemovedAlone(least),
             EdgeClass::Crease | EdgeClass::Intersection => ShortChains::Removed(least),
             EdgeClass::Silhouette | EdgeClass::Boundary | EdgeClass::Tangent => {
-                ShortChains::RemovedAlone(least)
+                ShortChains::RemovedAtEnds(least)
             }
             _ => ShortChains::Retained,
         }

@@ -15,16 +15,27 @@ use super::polyline_chain::PolylineChain;
 /// The least length of chains on paper, in millimeters: about the width of a line on a screen.
 pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
 
-/// The treatment of short chains of a layer.
+/// The treatment of chains of a layer that are shorter than a length in millimeters.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum ShortChains {
     /// They are drawn.
     Retained,
-    /// They are left out where all lines connected with them are shorter than this together, in
-    /// millimeters.
+    /// They are left out where all lines connected with them are shorter together.
     RemovedAlone(f64),
+    /// So are those that end freely beside a longer line.
+    RemovedAtEnds(f64),
     /// They are left out unless both of their ends are on longer lines.
     Removed(f64),
+}
+
+impl ShortChains {
+    /// The length from which on chains are drawn.
+    fn least_length(self) -> f64 {
+        match self {
+            Self::Retained => 0.0,
+            Self::RemovedAlone(least) | Self::RemovedAtEnds(least) | Self::Removed(least) => least,
+        }
+    }
 }
 
 /// Removes speckles, by the rule of each layer.
@@ -32,33 +43,31 @@ pub(super) fn remove_speckles(
     chains: Vec<PolylineChain>,
     rule: impl Fn(u32) -> ShortChains,
 ) -> Vec<PolylineChain> {
-    let least = |chain: &PolylineChain| match rule(chain.layer) {
-        ShortChains::Retained => 0.0,
-        ShortChains::RemovedAlone(least) | ShortChains::Removed(least) => least,
-    };
     let lengths: Vec<f64> = chains.iter().map(|chain| chain.polyline.length()).collect();
-    if chains.iter().zip(&lengths).all(|(chain, length)| *length >= least(chain)) {
+    let is_long: Vec<bool> = chains
+        .iter()
+        .zip(&lengths)
+        .map(|(chain, length)| *length >= rule(chain.layer).least_length())
+        .collect();
+    if is_long.iter().all(|long| *long) {
         return chains;
     }
-    let together = connected_lengths(&chains, &lengths);
-    let mut long_points: Vec<PagePoint> = Vec::new();
-    for (chain, length) in chains.iter().zip(&lengths) {
-        if *length >= least(chain) {
-            long_points.extend(&chain.polyline.points);
-        }
-    }
-    long_points.sort_unstable();
-    let is_on_long = |point: Option<&PagePoint>| {
-        point.is_some_and(|point| long_points.binary_search(point).is_ok())
-    };
+    let contacts = Contacts::new(&chains);
+    let together = contacts.connected_lengths(&lengths);
     let is_kept = |(index, chain): (usize, &PolylineChain)| {
+        if is_long[index] {
+            return true;
+        }
         let points = &chain.polyline.points;
-        let bridges =
-            || !chain.polyline.closed && is_on_long(points.first()) && is_on_long(points.last());
+        let ends = [points[0], points[points.len() - 1]];
+        let on_long = ends.map(|end| contacts.others_at(end, index).any(|other| is_long[other]));
+        let is_free = ends.map(|end| contacts.others_at(end, index).next().is_none());
+        let is_stub = on_long[0] && is_free[1] || on_long[1] && is_free[0];
         match rule(chain.layer) {
             ShortChains::Retained => true,
             ShortChains::RemovedAlone(least) => together[index] >= least,
-            ShortChains::Removed(least) => lengths[index] >= least || bridges(),
+            ShortChains::RemovedAtEnds(least) => together[index] >= least && !is_stub,
+            ShortChains::Removed(_) => !chain.polyline.closed && on_long == [true; 2],
         }
     };
     let kept: Vec<bool> = chains.iter().enumerate().map(is_kept).collect();
@@ -66,24 +75,44 @@ pub(super) fn remove_speckles(
     chains.into_iter().filter(|_| kept.next() == Some(true)).collect()
 }
 
-/// For each chain the length of all chains that are connected with it by common points.
-fn connected_lengths(chains: &[PolylineChain], lengths: &[f64]) -> Vec<f64> {
-    let mut corners: Vec<(PagePoint, usize)> = Vec::new();
-    for (index, chain) in chains.iter().enumerate() {
-        corners.extend(chain.polyline.points.iter().map(|point| (*point, index)));
+/// Which chains have which points: sorted, so that those at one point are neighbors.
+struct Contacts {
+    corners: Vec<(PagePoint, usize)>,
+    count: usize,
+}
+
+impl Contacts {
+    /// The points of all chains.
+    fn new(chains: &[PolylineChain]) -> Self {
+        let mut corners: Vec<(PagePoint, usize)> = Vec::new();
+        for (index, chain) in chains.iter().enumerate() {
+            corners.extend(chain.polyline.points.iter().map(|point| (*point, index)));
+        }
+        corners.sort_unstable();
+        Self { corners, count: chains.len() }
     }
-    corners.sort_unstable();
-    // Union-find: each chain points to an earlier one that it is connected with, or to itself.
-    let mut parents: Vec<usize> = (0..chains.len()).collect();
-    for pair in corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-        let [a, b] = [pair[0].1, pair[1].1].map(|chain| root_of(&mut parents, chain));
-        parents[a.max(b)] = a.min(b);
+
+    /// The chains at a point but this one.
+    fn others_at(&self, point: PagePoint, chain: usize) -> impl Iterator<Item = usize> {
+        let first = self.corners.partition_point(|(other, _)| *other < point);
+        let here = self.corners[first..].iter().take_while(move |(other, _)| *other == point);
+        here.map(|(_, other)| *other).filter(move |other| *other != chain)
     }
-    let mut totals = vec![0.0; chains.len()];
-    for (index, length) in lengths.iter().enumerate() {
-        totals[root_of(&mut parents, index)] += length;
+
+    /// For each chain the length of all chains that are connected with it by common points.
+    fn connected_lengths(&self, lengths: &[f64]) -> Vec<f64> {
+        // Union-find: each chain points to an earlier one that it is connected with, or to itself.
+        let mut parents: Vec<usize> = (0..self.count).collect();
+        for pair in self.corners.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            let [a, b] = [pair[0].1, pair[1].1].map(|chain| root_of(&mut parents, chain));
+            parents[a.max(b)] = a.min(b);
+        }
+        let mut totals = vec![0.0; self.count];
+        for (index, length) in lengths.iter().enumerate() {
+            totals[root_of(&mut parents, index)] += length;
+        }
+        (0..self.count).map(|index| totals[root_of(&mut parents, index)]).collect()
     }
-    (0..chains.len()).map(|index| totals[root_of(&mut parents, index)]).collect()
 }
 
 /// The first chain of a connected set; the path to it is halved.
@@ -116,9 +145,10 @@ mod tests {
             chain(0, &[20_000, 20_100]),
             chain(0, &[20_100, 20_150]),
             chain(2, &[30_000, 30_010]),
+            chain(0, &[-100, 0]),
         ];
         let rule = |layer| match layer {
-            0 => ShortChains::RemovedAlone(0.3),
+            0 => ShortChains::RemovedAtEnds(0.3),
             1 => ShortChains::Removed(0.3),
             _ => ShortChains::Retained,
         };

@@ -56,8 +56,8 @@ pub(super) struct EdgeClassifier<'a> {
     asks_normals: bool,
 }
 
-/// The cosine of the greatest angle between faces that vertex normals make smooth: 85°. Beyond, as
-/// on a box with shared normals, they are a slip of the exporter.
+/// The cosine of the greatest angle between faces that vertex normals make smooth: 85°. Sharper
+/// edges show the form, whatever the normals: those of a box are shared by a slip of its exporter.
 const MIN_SMOOTH_COSINE: f64 = 0.0872;
 
 impl<'a> EdgeClassifier<'a> {

@@ -19,7 +19,7 @@ use super::{Sheet, SheetError};
 use crate::Warning;
 use crate::retained_points::{idle_section_warning, retained_points};
 use camera::NamedView;
-use homog::{Plane, World};
+use homog::{Bounds, Plane, World};
 use model::{ModelInstance, world_points};
 use projection::SheetAngle;
 use viewport::DrawingScale;
@@ -70,7 +70,10 @@ impl ViewPlan {
         let cutting: Vec<(Plane<World>, usize)> =
             numbered().filter(|(plane, number)| idle(*plane, *number).is_none()).collect();
         let planes: Vec<Plane<World>> = cutting.iter().map(|(plane, _)| *plane).collect();
-        let named = |name| SheetView::frame_points(&points, name, unit);
+        // Along the axes the corners of the bounding box have the extents of all points.
+        let corners = Bounds::from_points(points.iter().copied()).map(|bounds| bounds.corners());
+        let extreme = corners.as_ref().map_or(points.as_slice(), |corners| corners);
+        let named = |name| SheetView::frame_points(extreme, name, unit);
         let [front, top] = [named(NamedView::Front)?, named(NamedView::Top)?];
         let side = side_view(sheet, &planes, named)?;
         let mut principal = [front, top, side].map(PlannedView::plain);

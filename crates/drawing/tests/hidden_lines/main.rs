@@ -8,5 +8,6 @@
 
 mod edges;
 mod sections;
+mod smoothness;
 mod solids;
 mod stage;

@@ -170,11 +170,14 @@ fn errors_of_scene(
     errors
 }
 
-/// The error of a sheet that does not hold its views, if all else is right.
+/// The error of a sheet that does not hold its views; mistakes in sections and style are found
+/// elsewhere.
 fn sheet_error(origin: &Origin, file: &SceneFile, models: &[ModelInstance]) -> Option<SceneError> {
-    let sections = resolve_sections(origin, &file.sections).ok()?;
-    let style = resolve_style(origin, &file.style).ok()?;
-    let style = if let Style::Lines(style) = style { Some(style) } else { None };
+    let sections = resolve_sections(origin, &file.sections).unwrap_or_default();
+    let style = match resolve_style(origin, &file.style) {
+        Ok(Style::Lines(style)) => Some(style),
+        _ => None,
+    };
     let content = SheetContent { models, sections: &sections, style };
     check_sheet_layout(origin, file.sheet.as_ref(), content)
 }
