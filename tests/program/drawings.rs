@@ -304,7 +304,8 @@ fn sheets_take_their_lines_from_the_style_of_the_scene() {
     };
     let (messages, plain) = sheet("", &[]);
     assert!(messages.is_empty() && !plain.contains("<image"), "{messages}");
-    let style = "style: Lines(face_fill: Flat, hidden: Dashed, color: \"#e01020\", width: Mm(1.25))";
+    let style =
+        "style: Lines(face_fill: Flat, hidden: Dashed, color: \"#e01020\", width: Mm(1.25))";
     let (messages, styled) = sheet(style, &[]);
     assert!(messages.is_empty(), "{messages}");
     for part in ["<image id=\"front-tone\"", "#e01020", "stroke-width=\"1.25\""] {

@@ -97,18 +97,6 @@ impl fmt::Display for Warning {
                 "there is no place for the {view} beside the other views, and it is left out: \
                  use larger paper or a smaller scale"
             ),
-            Self::SectionsIgnored => f.write_str(
-                "sections cut line drawings only: this style shows whole models; \
-                 choose another, such as `--style lines`",
-            ),
-            Self::StyleIgnored => f.write_str(
-                "sheets are line drawings, and do not show the style of the scene: \
-                 `style: Lines(…)` sets their lines",
-            ),
-            Self::AnaglyphIgnored => f.write_str(
-                "only PNG pictures have anaglyphs: \
-                 this one shows the view of the scene's camera alone",
-            ),
             Self::LabelNotDrawn { text, fault } => write!(
                 f,
                 "the label \"{text}\" is not drawn: its point is {}",
@@ -121,13 +109,39 @@ impl fmt::Display for Warning {
                 f,
                 "the letters of drawings lack {characters} of \"{text}\": boxes are in their place"
             ),
-            Self::IntersectionsIncomplete => f.write_str(
+            Self::SectionsIgnored
+            | Self::StyleIgnored
+            | Self::AnaglyphIgnored
+            | Self::IntersectionsIncomplete
+            | Self::HatchingIncomplete => f.write_str(self.fixed_text()),
+        }
+    }
+}
+
+impl Warning {
+    /// The text of a warning without a value; empty for the others.
+    const fn fixed_text(&self) -> &'static str {
+        match self {
+            Self::SectionsIgnored => {
+                "sections cut line drawings only: this style shows whole models; \
+                 choose another, such as `--style lines`"
+            }
+            Self::StyleIgnored => {
+                "sheets are line drawings, and do not show the style of the scene: \
+                 `style: Lines(…)` sets their lines"
+            }
+            Self::AnaglyphIgnored => {
+                "only PNG pictures have anaglyphs: \
+                 this one shows the view of the scene's camera alone"
+            }
+            Self::IntersectionsIncomplete => {
                 "so many faces may intersect that not all were compared: \
-                 some intersection edges may be missing",
-            ),
-            Self::HatchingIncomplete => f.write_str(
-                "there are too many hatch lines, and some are missing: increase their spacing",
-            ),
+                 some intersection edges may be missing"
+            }
+            Self::HatchingIncomplete => {
+                "there are too many hatch lines, and some are missing: increase their spacing"
+            }
+            _ => "",
         }
     }
 }

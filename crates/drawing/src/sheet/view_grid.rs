@@ -21,7 +21,7 @@ use viewport::DrawingScale;
 
 /// What becomes of the room along an axis that the views leave.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Spacing {
+pub(super) enum GridSpacing {
     /// It is divided equally among the gaps.
     Equal,
     /// It is left at the end.
@@ -75,7 +75,7 @@ impl<'a> ViewGrid<'a> {
     pub(super) fn place_views(
         &self,
         [low, high]: Extent,
-        spacing: [Spacing; 2],
+        spacing: [GridSpacing; 2],
     ) -> Option<[DVec2; 3]> {
         let rest = high - low - self.total_size();
         if rest.min_element() < 0.0 {
@@ -83,8 +83,8 @@ impl<'a> ViewGrid<'a> {
         }
         let middles = [0, 1].map(|axis| {
             let gap = match spacing[axis] {
-                Spacing::Equal => rest[axis] / 3.0,
-                Spacing::Close => 0.0,
+                GridSpacing::Equal => rest[axis] / 3.0,
+                GridSpacing::Close => 0.0,
             };
             let [[before, after], [next_before, _]] = self.spans[axis];
             let first = low[axis] + gap + before;

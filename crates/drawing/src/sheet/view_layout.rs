@@ -19,7 +19,7 @@
 
 use super::annotation::{Extent, ViewAnnotations, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
-use super::view_grid::{Spacing, ViewGrid};
+use super::view_grid::{GridSpacing, ViewGrid};
 use super::view_plan::{PlannedView, ViewPlan};
 use super::{Sheet, SheetError};
 use glam::DVec2;
@@ -132,8 +132,7 @@ impl<'a> ViewLayout<'a> {
     /// The best arrangement at one scale; `None` if front, top and side view do not fit.
     fn arrange_at_scale(sheet: &Sheet, plan: &'a ViewPlan, scale: DrawingScale) -> Option<Self> {
         let grid = ViewGrid::new(sheet, &plan.principal, scale);
-        let taken = [sheet.title_block_area(), sheet.scale_bar_area()]
-            .map(|area| extent_of_rectangle(area));
+        let taken = [sheet.title_block_area(), sheet.scale_bar_area()].map(extent_of_rectangle);
         let mut best: Option<Self> = None;
         for (area, spacing) in arrangements(sheet) {
             let Some(centers) = grid.place_views(area, spacing) else { continue };
@@ -243,10 +242,10 @@ fn fit_into<'a>(
 }
 
 /// The areas and spacings that are tried, the most even first.
-fn arrangements(sheet: &Sheet) -> [(Extent, [Spacing; 2]); 5] {
+fn arrangements(sheet: &Sheet) -> [(Extent, [GridSpacing; 2]); 5] {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let whole = [low + HALF_GAP, high - HALF_GAP];
-    let (equal, close) = (Spacing::Equal, Spacing::Close);
+    let (equal, close) = (GridSpacing::Equal, GridSpacing::Close);
     [
         (whole, [equal, equal]),
         (area_above_blocks(sheet), [equal, equal]),

@@ -71,7 +71,7 @@ impl ViewPlan {
             numbered().filter(|(plane, number)| idle(*plane, *number).is_none()).collect();
         let planes: Vec<Plane<World>> = cutting.iter().map(|(plane, _)| *plane).collect();
         // Along the axes the corners of the bounding box have the extents of all points.
-        let corners = Bounds::from_points(points.iter().copied()).map(|bounds| bounds.corners());
+        let corners = Bounds::from_points(points.iter().copied()).map(Bounds::corners);
         let extreme = corners.as_ref().map_or(points.as_slice(), |corners| corners);
         let named = |name| SheetView::frame_points(extreme, name, unit);
         let [front, top] = [named(NamedView::Front)?, named(NamedView::Top)?];

@@ -130,7 +130,7 @@ fn edges_between_materials_are_drawn_in_all_styles_with_features() {
         let lines: Vec<f64> = between
             .flat_map(|layer| &layer.groups)
             .flat_map(|group| &group.strokes)
-            .map(|line| line.length())
+            .map(drawing::Polyline::length)
             .collect();
         // 100 pixels at 96 to the inch.
         assert_eq!(lines.len(), 1);
@@ -152,7 +152,7 @@ fn the_silhouette_style_draws_the_outline_alone() {
         let drawing = draw_front(build_model(boxes()), &style.to_draw_options());
         let page = drawing.to_page(&style, "", None);
         let strokes = page.layers.iter().flat_map(|layer| &layer.groups).flat_map(|g| &g.strokes);
-        strokes.map(|line| line.length()).sum()
+        strokes.map(drawing::Polyline::length).sum()
     };
     let length = length_in(LineStyle::SILHOUETTE);
     // The square of side 4, of which the third box covers 2 on the right and adds 1 + 2 + 1.
