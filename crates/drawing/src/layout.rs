@@ -251,7 +251,8 @@ impl<'a> LineKinds<'a> {
             _ if self.style.edges == EdgeSelection::Facets => ShortChains::Retained,
             // An outline has to close.
             _ if self.style.edges == EdgeSelection::Silhouette => ShortChains::RemovedAlone(least),
-            EdgeClass::Crease | EdgeClass::Intersection => ShortChains::Removed(least),
+            EdgeClass::Intersection => ShortChains::Removed(least),
+            EdgeClass::Crease => ShortChains::RemovedUnlessBridge(least),
             EdgeClass::Silhouette | EdgeClass::Boundary | EdgeClass::Tangent => {
                 ShortChains::RemovedAtEnds(least)
             }

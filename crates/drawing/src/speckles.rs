@@ -6,8 +6,8 @@
 //! ```
 //!
 //! On scanned surfaces single facets are silhouettes, and bodies that touch cross each other here
-//! and there by the width of a rounding. What bridges a gap between longer lines stays, however
-//! short.
+//! and there by the width of a rounding. Where an edge bridges a gap between longer lines it stays,
+//! however short.
 
 use super::page::PagePoint;
 use super::polyline_chain::PolylineChain;
@@ -25,6 +25,8 @@ pub(super) enum ShortChains {
     /// So are those that end freely beside a longer line.
     RemovedAtEnds(f64),
     /// They are left out unless both of their ends are on longer lines.
+    RemovedUnlessBridge(f64),
+    /// They are left out.
     Removed(f64),
 }
 
@@ -33,7 +35,10 @@ impl ShortChains {
     fn least_length(self) -> f64 {
         match self {
             Self::Retained => 0.0,
-            Self::RemovedAlone(least) | Self::RemovedAtEnds(least) | Self::Removed(least) => least,
+            Self::RemovedAlone(least)
+            | Self::RemovedAtEnds(least)
+            | Self::RemovedUnlessBridge(least)
+            | Self::Removed(least) => least,
         }
     }
 }
@@ -67,7 +72,8 @@ pub(super) fn remove_speckles(
             ShortChains::Retained => true,
             ShortChains::RemovedAlone(least) => together[index] >= least,
             ShortChains::RemovedAtEnds(least) => together[index] >= least && !is_stub,
-            ShortChains::Removed(_) => !chain.polyline.closed && on_long == [true; 2],
+            ShortChains::RemovedUnlessBridge(_) => !chain.polyline.closed && on_long == [true; 2],
+            ShortChains::Removed(_) => false,
         }
     };
     let kept: Vec<bool> = chains.iter().enumerate().map(is_kept).collect();
@@ -146,10 +152,12 @@ mod tests {
             chain(0, &[20_100, 20_150]),
             chain(2, &[30_000, 30_010]),
             chain(0, &[-100, 0]),
+            chain(3, &[5000, 5100]),
         ];
         let rule = |layer| match layer {
             0 => ShortChains::RemovedAtEnds(0.3),
-            1 => ShortChains::Removed(0.3),
+            1 => ShortChains::RemovedUnlessBridge(0.3),
+            3 => ShortChains::Removed(0.3),
             _ => ShortChains::Retained,
         };
         let kept = remove_speckles(chains.clone(), rule);
