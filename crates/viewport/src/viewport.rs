@@ -146,8 +146,7 @@ mod tests {
         ];
         let image = Viewport::chapter(640, 480).expect("has pixels");
         for (y, centers, low, high) in table {
-            let map =
-                image.with_convention(PixelConvention { y, centers: centers }).ndc_to_screen();
+            let map = image.with_convention(PixelConvention { y, centers }).ndc_to_screen();
             assert_eq!(
                 map.transform_point(Point::new(-1.0, -1.0, 0.5)),
                 Point::new(low[0], low[1], 0.5)
