@@ -326,13 +326,15 @@ fn sheets_take_their_lines_from_the_style_of_the_scene() {
 fn creases_follow_the_angle_of_the_flag() {
     let sandbox = Sandbox::new("crease_flag");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
-    let has_creases = |angle: &str| {
-        let flags = ["--style", "lines", "--crease", angle, "--view", "isometric"];
-        let render = ["render", "box.gltf", "-o", "out.svg"];
-        assert_succeeds(&sandbox, &[&render[..], &flags].concat());
+    let has_creases = |angle: &str, style: &[&str]| {
+        let render = ["render", "box.gltf", "-o", "out.svg", "--view", "isometric"];
+        assert_succeeds(&sandbox, &[&render[..], &["--crease", angle], style].concat());
         read_drawing(&sandbox, "out.svg").1.contains_key("visible-crease")
     };
-    assert!(has_creases("89") && !has_creases("91"));
+    // Without a style, too: a vector file shows lines.
+    for style in [&["--style", "lines"][..], &["--style", "technical"], &[]] {
+        assert!(has_creases("89", style) && !has_creases("91", style), "{style:?}");
+    }
 }
 
 #[test]

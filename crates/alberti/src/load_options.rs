@@ -93,8 +93,14 @@ impl LoadArgs {
 
 impl LoadArgs {
     /// Gives the angle of `--crease` to the edges of a line drawing.
-    pub(crate) fn apply_crease_to(&self, file: &mut SceneFile) {
+    ///
+    /// A vector file shows lines whatever the style of surfaces is, so `draws_lines` makes that
+    /// style one of lines.
+    pub(crate) fn apply_crease_to(&self, file: &mut SceneFile, draws_lines: bool) {
         let Some(angle) = self.crease else { return };
+        if draws_lines && !matches!(file.style, StyleFile::Lines(_) | StyleFile::Wireframe) {
+            file.style = StyleFile::lines_hidden_removed();
+        }
         if let StyleFile::Lines(lines) = &mut file.style {
             lines.crease_degrees = CreaseAngle::new(angle);
         }

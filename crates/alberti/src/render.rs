@@ -10,6 +10,7 @@ mod shared_scale;
 pub(super) mod tasks;
 
 use super::args::RenderArgs;
+use super::format::OutputFormat;
 use super::messages::{print_message, print_note, print_warnings};
 use super::progress::Progress;
 use super::render_job::RenderJob;
@@ -79,7 +80,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     };
     let (origin, mut file) = open_input(&job.input, &import)?;
     job.overrides.apply_to(&mut file);
-    args.load_options.apply_crease_to(&mut file);
+    args.load_options.apply_crease_to(&mut file, job.format != OutputFormat::Png);
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;

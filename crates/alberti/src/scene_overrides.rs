@@ -151,7 +151,7 @@ impl SceneOverrideArgs {
         let import = self.import_options(load_options);
         let (origin, mut file) = open_input(input, &import)?;
         self.apply_to(&mut file);
-        load_options.apply_crease_to(&mut file);
+        load_options.apply_crease_to(&mut file, false);
         let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
         self.place_camera(&origin, &file, &mut scene)?;
         Ok((origin, file, scene))

@@ -72,7 +72,7 @@ impl SceneLoader {
             None => open_input(input, &import)?,
         };
         flags.overrides.apply_to(&mut file);
-        flags.load_options.apply_crease_to(&mut file);
+        flags.load_options.apply_crease_to(&mut file, false);
         let key = LoadKey::of(&origin, &file, &import);
         let is_loaded = self.loaded.as_ref().is_some_and(|(known, _)| *known == key);
         let mut scene = match self.loaded.take().filter(|_| is_loaded) {
