@@ -9,8 +9,8 @@
 //!       └───────────┴───────────┘
 //! ```
 //!
-//! The front view and the side view share a row, the front view and the top view a column. The axonometric view
-//! and the views of sections have no fixed place: each goes to the best free
+//! The front view and the side view share a row, the front view and the top view a column. The
+//! axonometric view and the views of sections have no fixed place: each goes to the best free
 //! rectangle, at a smaller scale if it must.
 //!
 //! Several arrangements of the grid are tried at each scale: with equal gaps on the whole drawing

@@ -183,6 +183,34 @@ fn the_paper_is_turned_to_the_greater_scale() {
 }
 
 #[test]
+fn at_a_given_scale_a_view_without_room_is_named() {
+    let mut random = Random(7);
+    let (mut named, mut drawn) = (0, 0);
+    for number in 0..300 {
+        let size = DVec3::from([(); 3].map(|()| random.by_magnitude(10.0, 45.0)));
+        let mut sheet = sheet((Paper::A5.rotated(), "A5"), SheetAngle::First);
+        sheet.scale = DrawingScale::new(1, 1).ok();
+        let retained = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0]];
+        let planes = retained.map(|retained| plane(DVec3::ZERO, retained.into()));
+        // Larger than the paper is an error, which names a scale.
+        let Ok(page) = sheet.draw(&[box_model(size)], &planes, 1) else { continue };
+        for (prefix, title) in [
+            ("isometric", "isometric view"),
+            ("section-a", "section A-A"),
+            ("section-b", "section B-B"),
+            ("section-c", "section C-C"),
+            ("section-d", "section D-D"),
+        ] {
+            assert!(is_there_or_named(&page, prefix, title), "{number}: {size} {prefix}");
+        }
+        assert_eq!(faults(&page), [""; 0], "{number}: {size}");
+        drawn += 1;
+        named += page.warnings.len();
+    }
+    assert!(drawn > 20 && named > 0, "{named} of {drawn}");
+}
+
+#[test]
 fn what_fits_at_no_larger_scale_is_drawn_at_a_smaller_one() {
     for side in [0.5, 50.0, 1000.0, 100_000.0, 300_000.0] {
         for (paper, name) in PAPERS {
