@@ -4,7 +4,12 @@ use crate::boxes::{box_model, has_view, plane, sheet};
 use crate::lint::{faults, layer_extent};
 use drawing::{Sheet, Warning};
 use glam::DVec3;
+use homog::{Affine, Bounds};
+use model::ModelInstance;
+use model::import::{ImportOptions, load};
 use projection::SheetAngle;
+use std::path::Path;
+use std::sync::Arc;
 use viewport::Paper;
 
 /// An A3 sheet in landscape.
@@ -83,4 +88,24 @@ fn the_axonometric_view_frames_what_a_section_leaves() {
     // A tenth of the length: at the scale of the sheet it is shorter, and never cut off.
     let cut = plane(DVec3::X * -800.0, -DVec3::X);
     assert!(scale(&[cut]) < 0.5 * scale(&[]), "{} {}", scale(&[cut]), scale(&[]));
+}
+
+#[test]
+fn the_models_of_the_scenes_are_legible_with_three_sections() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models");
+    for name in ["bearing.glb", "house.glb", "lamp.glb", "table.glb", "tower.glb", "vase.glb"] {
+        let model = Arc::new(load(&folder.join(name), &ImportOptions::default()).unwrap());
+        let model_to_world = Affine::scale(1.0, 1.0, 1.0);
+        let models = [ModelInstance { model, model_to_world }];
+        let points = model::world_points(&models);
+        let middle = Bounds::from_points(points).expect("points").center().raw();
+        let planes = [-DVec3::X, -DVec3::Z, DVec3::new(1.0, 0.0, 1.0)];
+        let planes = planes.map(|retained| plane(middle, retained));
+        for angle in [SheetAngle::First, SheetAngle::Third] {
+            let mut sheet = a3(angle);
+            sheet.millimeters_per_unit = 1000.0;
+            let page = sheet.draw(&models, &planes, 1).unwrap();
+            assert_eq!(faults(&page), [""; 0], "{name} {angle:?}");
+        }
+    }
 }
