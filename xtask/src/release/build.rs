@@ -67,12 +67,9 @@ impl Compiler {
 
     /// The flags that replace paths of this machine in messages of panics.
     fn remapped_paths(&self, sources: &Path, target: &Path) -> String {
-        let home = std::env::var_os("CARGO_HOME").map(PathBuf::from).unwrap_or_else(|| {
-            PathBuf::from(std::env::var_os("HOME").unwrap_or_default()).join(".cargo")
-        });
         // Of several that fit, the last is taken.
         let pairs = [
-            (home, "cargo".to_owned()),
+            (cargo_home(), "cargo".to_owned()),
             (sources.to_owned(), "alberti".to_owned()),
             (target.to_owned(), "target".to_owned()),
             // As it is where the sources of the standard library are not installed.
@@ -84,6 +81,13 @@ impl Compiler {
         let flags = pairs.map(|(from, to)| format!("--remap-path-prefix={}={to}", from.display()));
         flags.join("\u{1f}")
     }
+}
+
+/// The folder in which Cargo keeps what it has fetched.
+pub fn cargo_home() -> PathBuf {
+    std::env::var_os("CARGO_HOME").map(PathBuf::from).unwrap_or_else(|| {
+        PathBuf::from(std::env::var_os("HOME").unwrap_or_default()).join(".cargo")
+    })
 }
 
 /// Copies what is under version control, as it lies there, to a folder.

@@ -8,7 +8,7 @@
 //! what manifests lack; with it, each crate is built from its archive alone, so that what the
 //! archive lacks is found too.
 
-use super::build::copy_sources;
+use super::build::{cargo_home, copy_sources};
 use super::write_file;
 use crate::Outcome;
 use crate::program::{cargo_command, run_command};
@@ -30,6 +30,9 @@ pub fn package_crates(is_built: bool) -> Outcome {
         return Err("Cargo.toml has no line `publish = false`: see RELEASING.md".to_owned());
     }
     write_file(&manifest, published.as_bytes())?;
+    if is_built {
+        forget_unpacked_crates()?;
+    }
     let mut cargo = cargo_command(&["package", "--quiet", "--workspace", "--allow-dirty"]);
     for name in UNPUBLISHED {
         cargo.args(["--exclude", name]);
@@ -43,6 +46,23 @@ pub fn package_crates(is_built: bool) -> Outcome {
         let bytes = fs::metadata(&archive).map_err(|error| error.to_string())?.len();
         let name = archive.file_name().unwrap_or_default().to_string_lossy().into_owned();
         println!("{name:40} {bytes:>8} bytes");
+    }
+    Ok(())
+}
+
+/// Removes the crates that an earlier run has unpacked: Cargo takes one of the same version for the
+/// same one, and would build a new crate against an old one.
+///
+/// They lie where crates of a registry without a host do.
+fn forget_unpacked_crates() -> Outcome {
+    let registries = fs::read_dir(cargo_home().join("registry/src")).into_iter().flatten();
+    let has_no_host = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with('-');
+    for registry in registries.flatten().filter(has_no_host) {
+        let crates = fs::read_dir(registry.path()).into_iter().flatten().flatten();
+        for unpacked in crates.filter(|e| e.file_name().to_string_lossy().starts_with("alberti")) {
+            let path = unpacked.path();
+            fs::remove_dir_all(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        }
     }
     Ok(())
 }
