@@ -46,7 +46,8 @@ pub fn run_release(arguments: &[String]) -> Outcome {
             if out.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
                 return Err(format!("{} is not empty", out.display()));
             }
-            write_release(project_root(), &target_folder().join("release-build"), &out).map(drop)
+            let folder = target_folder().join("release-build");
+            write_release(&Release::read()?, project_root(), &folder, &out).map(drop)
         }
         _ => Err("one of: OUT, --check, --crates, --deb [PROGRAM]".to_owned()),
     }
@@ -79,19 +80,23 @@ impl Release {
 }
 
 /// Builds the sources in a folder and writes everything that is handed out.
-fn write_release(sources: &Path, target: &Path, out: &Path) -> Result<Programs, String> {
-    let release = Release::read()?;
+fn write_release(
+    release: &Release,
+    sources: &Path,
+    target: &Path,
+    out: &Path,
+) -> Result<Programs, String> {
     create_folder(out)?;
     let programs = build::build_programs(sources, target)?;
     check_size(&programs.dynamic)?;
     let dependencies = third_party::shipped_dependencies()?;
     let notices = third_party::license_texts(&dependencies)?;
-    let bill = sbom::bill_of_materials(&release, &dependencies);
+    let bill = sbom::bill_of_materials(release, &dependencies);
     let staging = target.join("staging");
     let files = contents::packaged_files(&programs.dynamic, &notices)?;
-    archives::write_deb(&release, &files, &staging.join("deb"), out)?;
+    archives::write_deb(release, &files, &staging.join("deb"), out)?;
     let files = contents::packaged_files(&programs.standalone, &notices)?;
-    archives::write_tar(&release, &files, &staging.join("tar"), out)?;
+    archives::write_tar(release, &files, &staging.join("tar"), out)?;
     write_file(&out.join(format!("alberti-{}.cdx.json", release.version)), bill.as_bytes())?;
     write_file(&out.join("THIRD-PARTY-LICENSES.txt"), notices.as_bytes())?;
     archives::write_checksums(out)?;
@@ -104,12 +109,16 @@ fn check_release() -> Outcome {
     crates::package_crates(true)?;
     let folder = target_folder().join("release-check");
     let _ = fs::remove_dir_all(&folder);
+    let names = ["one", "the other folder"];
+    // At once, so that somebody may go on with the work and commit it.
+    let release = Release::read()?;
+    names.iter().try_for_each(|name| build::copy_sources(&folder.join(name).join("sources")))?;
     let mut builds = Vec::new();
-    for name in ["one", "the other folder"] {
+    for name in names {
         let sources = folder.join(name).join("sources");
-        build::copy_sources(&sources)?;
         let out = folder.join(name).join("out");
-        let programs = write_release(&sources, &folder.join(name).join("target"), &out)?;
+        let target = folder.join(name).join("target");
+        let programs = write_release(&release, &sources, &target, &out)?;
         builds.push((read_text(&out.join(archives::CHECKSUMS))?, out, programs));
     }
     let [(first, out, programs), (second, ..)] = builds.as_slice() else { return Ok(()) };
