@@ -4,7 +4,7 @@ use crate::edition::Edition;
 use anyhow::{Result, anyhow, bail};
 use std::path::PathBuf;
 
-/// What the command line says.
+/// The parsed command line.
 #[derive(Default)]
 pub struct Arguments {
     book: Option<PathBuf>,
@@ -18,7 +18,7 @@ pub struct Arguments {
     pub language: Option<String>,
     /// The least coverage in percent.
     pub least: Option<f64>,
-    /// What is no flag.
+    /// Words that are no flags.
     pub names: Vec<String>,
 }
 

@@ -72,7 +72,7 @@ fn source_faults(edition: &Edition) -> Result<Vec<String>> {
     Ok(faults)
 }
 
-/// What a page loses when it is taken apart into messages and put together again.
+/// Marks that a page loses when it is taken apart into messages and put together again.
 fn round_trip_fault(text: &str) -> Option<String> {
     let again = match translate_page(text, &Catalog::new(CatalogMetadata::new())) {
         Ok(again) => again,

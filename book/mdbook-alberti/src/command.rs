@@ -18,7 +18,7 @@ const THREADS: usize = 2;
 /// The deepest chain of files that name files: a scene, its model, the model's images.
 const DEPTH: usize = 3;
 
-/// What a command gives.
+/// The kind of a command's output.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Kind {
     /// A line drawing.
@@ -50,7 +50,7 @@ impl Kind {
 pub struct Job {
     /// The words after `alberti`.
     pub words: Vec<String>,
-    /// What it gives.
+    /// The kind of its output.
     pub kind: Kind,
 }
 

@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-/// What is built, from what.
+/// An edition: its sources, its language and its output.
 pub struct Edition {
     /// The folder of `book.toml`.
     pub book: PathBuf,

@@ -21,7 +21,7 @@ pub struct Texts {
     pub topics: [&'static str; 3],
     /// Between a page and its section.
     pub colon: &'static str,
-    /// What a mark of a topic is, for its tooltip.
+    /// The word for a topic in the tooltip of its mark.
     pub topic: &'static str,
     /// The label of the links to other languages.
     pub languages: &'static str,
@@ -45,7 +45,7 @@ impl Language {
         }
     }
 
-    /// What the tool writes in it.
+    /// The words that the tool writes in it.
     pub fn texts(self) -> Texts {
         match self {
             Self::English => Texts {

@@ -10,7 +10,7 @@ pub struct Fence {
     pub range: Range<usize>,
     /// Line of its opening, from 1.
     pub line: usize,
-    /// What follows the opening fence.
+    /// The words behind the opening fence.
     pub info: String,
     /// The lines between the fences.
     pub body: String,
@@ -24,7 +24,7 @@ impl Fence {
         self.info.split([' ', ',']).next().unwrap_or_default()
     }
 
-    /// What follows the first word.
+    /// The words behind the first one.
     pub fn arguments(&self) -> &str {
         self.info[self.kind().len()..].trim()
     }
@@ -46,7 +46,7 @@ pub struct CodeSpan {
     pub range: Range<usize>,
     /// Its line, from 1.
     pub line: usize,
-    /// What is between the backquotes.
+    /// The text between the backquotes.
     pub code: String,
     /// Number of the headings before or around it.
     pub section: usize,

@@ -28,13 +28,13 @@ pub struct Page {
     pub marks: Marks,
 }
 
-/// What pages share.
+/// Data that all pages share.
 pub struct Renderer<'a> {
     /// The language of the edition.
     pub language: Language,
     /// The converter of formulas.
     pub formulas: &'a Formulas,
-    /// What the commands gave.
+    /// The outputs of the commands.
     pub answers: &'a Answers,
     /// The topics of all pages.
     pub topics: &'a Topics,

@@ -3,7 +3,7 @@
 use crate::marks::{is_topic, parse};
 use pulldown_cmark::{Event, Tag};
 
-/// What is wrong with a translation.
+/// Faults of a translation.
 pub fn message_faults(msgid: &str, msgstr: &str) -> Vec<String> {
     let mut faults = Vec::new();
     let (source, translated) = (Parts::of(msgid), Parts::of(msgstr));

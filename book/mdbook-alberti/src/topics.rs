@@ -35,7 +35,7 @@ impl Topics {
         Self { list }
     }
 
-    /// The same topics with other titles.
+    /// Returns the topics with other titles.
     pub fn translated(&self, translate: impl Fn(&str) -> String) -> Self {
         let list = self.list.iter().map(|(id, title)| (id.clone(), translate(title))).collect();
         Self { list }

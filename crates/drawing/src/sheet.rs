@@ -276,7 +276,7 @@ impl Sheet {
         if is_rotated_better { rotated } else { self }
     }
 
-    /// What the sheet does not show as it was asked for, and letters that its texts lack.
+    /// Warnings: views not shown as they were asked for, and letters that its texts lack.
     fn warnings_of_layout(
         &self,
         plan: &ViewPlan,

@@ -75,7 +75,7 @@ pub fn find_exercise(number: u32) -> Option<&'static Exercise> {
 const NUMBERS: &[&[f64]] = &[&[]];
 
 impl Exercise {
-    /// What an answer looks like, without a full stop.
+    /// The form of an answer, without a full stop.
     #[must_use]
     pub fn form(&self) -> Sentence {
         let (mut en, mut zh) = match self.shape {

@@ -81,7 +81,7 @@ impl AnnotationText {
 }
 
 impl AnnotationShape {
-    /// What the shape covers, without the width of its lines.
+    /// The area that the shape covers, without the width of its lines.
     fn extent(&self) -> Option<Extent> {
         match self {
             Self::Line(ends) => extent_of_points(ends.iter().copied()),

@@ -70,7 +70,7 @@ pub(super) fn add_overall_dimensions(
     }
 }
 
-/// What the dimensions of a sheet have in common.
+/// Settings that the dimensions of a sheet have in common.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct DimensionSettings {
     /// The height of letters in millimeters.
@@ -79,7 +79,7 @@ pub(super) struct DimensionSettings {
     pub(super) scale: DrawingScale,
     /// The unit of the lengths.
     pub(super) unit: DimensionUnit,
-    /// What cut lines and their letters take around the outline, in millimeters: 0 without any.
+    /// The room that cut lines and their letters take around the outline, in millimeters: 0 without any.
     pub(super) reserved: f64,
 }
 

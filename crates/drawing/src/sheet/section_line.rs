@@ -32,7 +32,7 @@ const ARROW_LENGTH: f64 = 6.0;
 /// The number of places farther out that are tried for a letter or a name.
 const TEXT_STEPS: u32 = 40;
 
-/// What a section line and a letter beyond its end take beside a view, in millimeters.
+/// The room that a section line and a letter beyond its end take beside a view, in millimeters.
 pub(super) fn section_line_reserve(letters: f64) -> f64 {
     OVERHANG + 1.8 * letters
 }

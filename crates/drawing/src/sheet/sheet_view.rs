@@ -29,7 +29,7 @@ const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
 /// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
 
-/// What a view of a sheet shows: the object from a named direction, or a section by its letter.
+/// The content of a view of a sheet: the object from a named direction, or a section by its letter.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum ViewName {
     Named(NamedView),

@@ -19,7 +19,7 @@ use glam::DVec2;
 use projection::SheetAngle;
 use viewport::DrawingScale;
 
-/// What becomes of the room along an axis that the views leave.
+/// Distribution of the room that the views leave along an axis.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum GridSpacing {
     /// It is divided equally among the gaps.

@@ -153,7 +153,7 @@ impl PlannedView {
         }
     }
 
-    /// What is written beside the view at a scale.
+    /// The annotations beside the view at a scale.
     pub(super) fn annotate(&self, sheet: &Sheet, scale: DrawingScale) -> ViewAnnotations {
         let letters = sheet.lettering_height();
         let half = self.view.size * scale.ratio() * 0.5;

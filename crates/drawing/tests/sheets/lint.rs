@@ -58,7 +58,7 @@ fn crosses([a, b]: [DVec2; 2], [low, high]: Extent) -> bool {
     span[0] < span[1]
 }
 
-/// What is wrong on a sheet, in words; empty if nothing is.
+/// Faults of a sheet, in words; empty if nothing is.
 pub fn faults(page: &Page) -> Vec<String> {
     let mut faults = Vec::new();
     let mut texts: Vec<(&str, Extent)> = Vec::new();

@@ -8,7 +8,7 @@ use std::fmt;
 /// the size that is asked for.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct AnswerError {
-    /// What is wrong and what to write, without a full stop.
+    /// The fault and its remedy, without a full stop.
     pub message: Sentence,
 }
 

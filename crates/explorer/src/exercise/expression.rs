@@ -42,7 +42,7 @@ impl Letters<'_> {
     }
 }
 
-/// What follows the name of a letter, in which underscores do not count.
+/// The text behind the name of a letter, in which underscores do not count.
 fn without_name<'a>(written: &'a str, name: &str) -> Option<&'a str> {
     let mut rest = written;
     for (at, c) in name.char_indices() {

@@ -11,7 +11,7 @@ use crate::words::{Words, words};
 pub struct Mistake {
     /// Its name, which stays the same between releases: `transposed`, `m18-sign`.
     pub id: &'static str,
-    /// What was done, and what is to be done.
+    /// The mistake, and its remedy.
     pub sentence: Words,
     pub(super) wrong: Wrong,
 }

@@ -1,11 +1,11 @@
-//! What is said about an answer.
+//! Verdicts on answers.
 
 use super::answer_text::AnswerShape;
 use super::mistake::Mistake;
 use crate::number_text::decimals;
 use crate::words::{Sentence, sentence};
 
-/// What an answer is.
+/// The verdict on an answer.
 #[derive(Clone, Debug)]
 pub enum Verdict {
     /// It is right.
@@ -32,15 +32,15 @@ pub struct Difference {
     pub row: usize,
     /// Its place in the row, from 0.
     pub column: usize,
-    /// What it is called.
+    /// The name of the entry.
     pub name: Sentence,
-    /// What it is, for the letters of the verdict.
+    /// The value of the entry, for the letters of the verdict.
     pub value: f64,
     /// Whether only its sign is wrong.
     pub is_negated: bool,
 }
 
-/// What a named entry is called in Chinese: letters stay as they are.
+/// The Chinese name of a named entry: letters stay as they are.
 pub(super) fn chinese_name(name: &'static str) -> &'static str {
     match name {
         "pixels" => "像素数",
@@ -49,7 +49,7 @@ pub(super) fn chinese_name(name: &'static str) -> &'static str {
     }
 }
 
-/// What an entry is called: by its name, or by its place.
+/// The name of an entry: by its name, or by its place.
 pub(super) fn entry_name(shape: AnswerShape, row: usize, column: usize) -> Sentence {
     let (i, j) = (row + 1, column + 1);
     match shape {
@@ -93,7 +93,7 @@ impl Verdict {
     }
 }
 
-/// What is said about entries of which some are wrong.
+/// The sentence about entries of which some are wrong.
 fn different(differences: &[Difference], count: usize, letters: &[(&str, f64)]) -> Sentence {
     let said: Vec<Sentence> = differences.iter().map(Difference::to_sentence).collect();
     let list =

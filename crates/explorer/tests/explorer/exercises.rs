@@ -137,7 +137,7 @@ fn chinese_verdicts_name_the_entry_without_stray_blanks() {
     }
 }
 
-/// What OpenGL's row does to z-coordinates: copied as it stands, or for N = −n and F = −f.
+/// Effects of OpenGL's row on z-coordinates: copied as it stands, or for N = −n and F = −f.
 #[test]
 fn the_third_rows_of_exercise_2_take_near_and_far_where_the_verdicts_say() {
     let depths = |row: fn(f64, f64) -> [f64; 2]| {

@@ -10,7 +10,7 @@ use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
 use viewport::{DrawingScale, Paper};
 
-/// What a drawing sheet shows, and what it takes from the scene around it.
+/// The content of a drawing sheet, and what it takes from the scene around it.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetContent<'a> {
     /// The models.
