@@ -16,8 +16,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// The fewest scenes in a hundred that have to be drawn and not refused.
-const MIN_DRAWN_PERCENT: u64 = 20;
+/// The fewest scenes in a hundred that have to be drawn and not refused: one field that does not
+/// fit the others refuses a whole scene, and refusing is quick.
+const MIN_DRAWN_PERCENT: u64 = 2;
 
 /// Counts of scenes, and the texts of those that went wrong.
 #[derive(Default)]
