@@ -76,7 +76,7 @@ fn crate_name(path: &str) -> Option<&str> {
 pub fn add_linked_files(site: &mut Site) -> Outcome {
     while let Some(path) = site.wanted.pop_first() {
         let full = site.root.join(&path);
-        if path.ends_with(".md") {
+        if is_document(&path) {
             add_document(site, &path, None)?;
         } else if full.is_dir() {
             add_folder(site, &path)?;
@@ -112,15 +112,24 @@ fn add_source(site: &mut Site, path: &str, content: &str) {
 pub fn place_for(root: &Path, path: &str) -> String {
     match path {
         "README.md" => "index.html".into(),
-        _ if path.ends_with(".md") => format!("{}.html", path.trim_end_matches(".md")),
+        _ if is_document(path) => format!("{}.html", path.trim_end_matches(".md")),
         _ if root.join(path).is_dir() => format!("source/{path}/index.html"),
         _ if is_shown_as_text(path) => format!("source/{path}.html"),
         _ => format!("files/{path}"),
     }
 }
 
+/// Whether a file is a document of the site. Pages of the book have marks that only the book's own
+/// tool understands: they are shown as they are written.
+fn is_document(path: &str) -> bool {
+    path.ends_with(".md") && !path.starts_with("book/src/")
+}
+
 /// Whether a file is shown on a page; others are handed over as they are.
 fn is_shown_as_text(path: &str) -> bool {
+    if path.starts_with("book/src/") {
+        return true;
+    }
     let name = path.rsplit('/').next().unwrap_or(path);
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
     ["rs", "ron", "toml", "txt", "py", "mjs", "yml", "sh", "ipynb", ""].contains(&ending)
