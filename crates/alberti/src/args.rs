@@ -11,6 +11,7 @@ use super::compare_projections::CompareProjectionsArgs;
 use super::curve::CurveArgs;
 use super::deferred::Deferred;
 use super::demo::DemoArgs;
+use super::dxf::DxfArgs;
 use super::exercise::ExerciseArgs;
 use super::explain::ExplainArgs;
 use super::explore::ExploreArgs;
@@ -133,7 +134,7 @@ pub(crate) struct RenderArgs {
     /// Scenes (.ron) or models (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` is the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
-    /// Output file: .png, or .svg or .pdf for a line drawing; `-` is the standard output
+    /// Output file: .png, or .svg, .pdf or .dxf for a line drawing; `-` is the standard output
     /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
     ///
     /// The name may be a template. {stem}, {camera}, {view}, {style}, {projection} and {variant}
@@ -168,6 +169,8 @@ pub(crate) struct RenderArgs {
     pub(crate) passes: PassArgs,
     #[command(flatten)]
     pub(crate) compare: CompareArgs,
+    #[command(flatten)]
+    pub(crate) dxf: DxfArgs,
     /// Number of threads; the picture does not depend on it [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
@@ -250,6 +253,9 @@ pub(crate) enum StyleArg {
     Dashed,
     /// The outline alone
     Silhouette,
+    /// Closed loops around the whole and its holes, as for cutting; with --section, around what
+    /// is cut
+    Outline,
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128; sections have
     /// no hidden edges
     Technical,

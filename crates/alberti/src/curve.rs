@@ -43,7 +43,7 @@ struct DepthArgs {
     /// Spacing of the plot's axis of distances
     #[arg(long, value_name = "SPACING", default_value = "logarithmic")]
     axis: AxisArg,
-    /// Output file: .svg, .pdf or .png for the plot, .txt, .md, .csv or .json for the table alone
+    /// Output file: .svg, .pdf, .dxf or .png for the plot, .txt, .md, .csv or .json for the table alone
     /// [default: the table on the standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -131,7 +131,8 @@ fn write_output(
         return Ok(pipeline::write_file(output, written(table, rows).as_bytes())?);
     }
     OutputFormat::from_path(output).map_err(|_| {
-        let (name, extensions) = (output.display(), ".svg, .pdf, .png, .txt, .md, .csv or .json");
+        let (name, extensions) =
+            (output.display(), ".svg, .pdf, .dxf, .png, .txt, .md, .csv or .json");
         CliError::Usage(format!("the output {name} has no known extension: {extensions}"))
     })?;
     write_page(output, &table.to_page(rows, distances))

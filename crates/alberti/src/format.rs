@@ -4,7 +4,7 @@
 //! look for before they ask for an [`OutputFormat`].
 
 use super::error::CliError;
-use drawing::{Page, to_pdf};
+use drawing::{DxfOptions, Page, to_pdf};
 use std::path::Path;
 
 /// The format of an output file.
@@ -16,6 +16,8 @@ pub(crate) enum OutputFormat {
     Svg,
     /// Line drawing on a page
     Pdf,
+    /// Line drawing for programs that construct, cut or mill
+    Dxf,
 }
 
 impl OutputFormat {
@@ -32,11 +34,12 @@ impl OutputFormat {
             Some("png") => Ok(Self::Png),
             Some("svg") => Ok(Self::Svg),
             Some("pdf") => Ok(Self::Pdf),
+            Some("dxf") => Ok(Self::Dxf),
             _ => {
                 let name = output.display();
                 let help = "change the extension, or choose the format with --format";
                 Err(CliError::Usage(format!(
-                    "the output {name} has no known extension: .png, .svg or .pdf\n  = help: {help}"
+                    "the output {name} has no known extension: .png, .svg, .pdf or .dxf\n  = help: {help}"
                 )))
             }
         }
@@ -48,16 +51,21 @@ impl OutputFormat {
             Self::Png => "png",
             Self::Svg => "svg",
             Self::Pdf => "pdf",
+            Self::Dxf => "dxf",
         }
     }
 
-    /// Encodes pages in a vector format; an SVG holds the first one only.
+    /// Encodes pages in a vector format; an SVG or a DXF holds the first one only.
     ///
-    /// A PDF has one page for each; their sizes may differ. `Png` is not a vector format and is
+    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. `Png` is not a vector format and is
     /// treated as SVG here: callers rasterize the page before they come to this function.
     pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),
+            Self::Dxf => {
+                let encode = |page: &Page| page.to_dxf(&DxfOptions::on_paper(page));
+                pages.first().map(encode).unwrap_or_default()
+            }
             Self::Png | Self::Svg => {
                 pages.first().map(Page::to_svg).unwrap_or_default().into_bytes()
             }

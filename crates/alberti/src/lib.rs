@@ -18,7 +18,7 @@
 //! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
 //! | [`model`] | files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
-//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG and PDF |
+//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
 //! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
 
 mod animate;
@@ -33,6 +33,7 @@ mod content_digest;
 mod curve;
 mod deferred;
 mod demo;
+mod dxf;
 mod error;
 mod exercise;
 mod explain;

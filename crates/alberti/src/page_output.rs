@@ -1,6 +1,6 @@
-//! Output of pages and panels as SVG, PDF, PNG or HTML, by the extension of the output.
+//! Output of pages and panels as SVG, PDF, DXF, PNG or HTML, by the extension of the output.
 //!
-//! HTML holds the panels as inline SVG in a page that refers to no other file. SVG, PDF and PNG
+//! HTML holds the panels as inline SVG in a page that refers to no other file. The other formats
 //! have all panels on one page.
 
 use super::CliError;
@@ -31,7 +31,7 @@ pub(super) fn finish_panels(
     Ok(())
 }
 
-/// Writes panels as .svg, .pdf, .png or .html; no file is touched for any other extension.
+/// Writes panels as .svg, .pdf, .dxf, .png or .html; no file is touched for any other extension.
 pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliError> {
     if is_html(output) {
         return Ok(pipeline::write_file(output, panels.to_html().as_bytes())?);
@@ -39,12 +39,12 @@ pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliErro
     write_page(output, &panels.to_page())
 }
 
-/// Writes a page as .svg, .pdf or .png.
+/// Writes a page as .svg, .pdf, .dxf or .png.
 pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     let format = OutputFormat::from_path(output)?;
     let bytes = match format {
         OutputFormat::Png => sheet::rasterize_page(page)?.to_png(),
-        OutputFormat::Svg | OutputFormat::Pdf => format.encode_pages(std::slice::from_ref(page)),
+        _ => format.encode_pages(std::slice::from_ref(page)),
     };
     Ok(pipeline::write_file(output, &bytes)?)
 }
@@ -59,7 +59,7 @@ pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
     OutputFormat::from_path(output).map(|_| ()).map_err(|_| {
         let name = output.display();
         CliError::Usage(format!(
-            "the output {name} has no known extension: .svg, .pdf, .png or .html"
+            "the output {name} has no known extension: .svg, .pdf, .dxf, .png or .html"
         ))
     })
 }

@@ -1,4 +1,4 @@
-//! `alberti render`: renders scenes and models to PNG, or draws them as lines to SVG or PDF.
+//! `alberti render`: renders scenes and models to PNG, or draws them as lines to SVG, PDF or DXF.
 //!
 //! ```text
 //!  flags ─► tasks ─► for each: open ─► override ─► resolve ─► render ─► files ─► messages

@@ -14,6 +14,7 @@
 use super::CliError;
 use super::args::RenderArgs;
 use super::compare::PictureComparison;
+use super::dxf::image_warning;
 use super::format::OutputFormat;
 use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
@@ -24,7 +25,8 @@ use homog::PixelRect;
 use pipeline::render::{BitDepth, render_passes, rows_per_band};
 use pipeline::scene::Outputs;
 use pipeline::{
-    AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings, draw_lines,
+    AtomicFile, OutputError, Picture, RenderContext, Renderer, Scene, Textures, Timings,
+    draw_lines, dxf_options,
 };
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -132,7 +134,7 @@ impl RenderJob<'_> {
         let reference = self.args.compare.load_reference(region)?;
         let EncodedPicture { sink, picture, warnings } = match self.task.format {
             OutputFormat::Png => self.encode_picture(region)?,
-            OutputFormat::Svg | OutputFormat::Pdf => self.encode_drawing()?,
+            OutputFormat::Svg | OutputFormat::Pdf | OutputFormat::Dxf => self.encode_drawing()?,
         };
         let (mut drafts, mut comparison) = (Vec::new(), None);
         if let Some(output) = &self.task.output {
@@ -235,14 +237,21 @@ impl RenderJob<'_> {
         Ok(EncodedPicture { sink, picture, warnings: prepared.into_warnings() })
     }
 
-    /// Draws the scene as lines and encodes it as SVG or PDF.
+    /// Draws the scene as lines and encodes it as SVG, PDF or DXF.
     ///
     /// A drawing is small, so it is encoded in memory. Its warnings are moved out of the page and
     /// printed after the file is written.
     fn encode_drawing(&self) -> Result<EncodedPicture, CliError> {
         let mut page = draw_lines(self.scene, self.threads, self.timings)?;
-        let warnings = std::mem::take(&mut page.warnings);
-        let bytes = self.timings.measure("encode", || self.task.format.encode_pages(&[page]));
+        let format = self.task.format;
+        let mut warnings = std::mem::take(&mut page.warnings);
+        warnings.extend(image_warning(format, &page));
+        let bytes = self.timings.measure("encode", || match format {
+            OutputFormat::Dxf => {
+                page.to_dxf(&self.args.dxf.apply_to(dxf_options(self.scene, &page)))
+            }
+            _ => format.encode_pages(&[page]),
+        });
         let mut sink = self.open_sink()?;
         sink.write_all(&bytes).map_err(|cause| self.output_error(cause))?;
         Ok(EncodedPicture { sink, picture: None, warnings })

@@ -209,6 +209,7 @@ impl From<StyleArg> for StyleFile {
             StyleArg::Lines => Self::lines_hidden_removed(),
             StyleArg::Dashed => Self::lines_hidden_dashed(),
             StyleArg::Silhouette => Self::lines_silhouette(),
+            StyleArg::Outline => Self::lines_outline(),
             StyleArg::Technical => Self::lines_technical(),
         }
     }

@@ -4,6 +4,7 @@
 //! in the scene file, and for a bare model, all of its fields have defaults.
 
 use super::CliError;
+use super::dxf::{DxfArgs, image_warning};
 use super::format::OutputFormat;
 use super::load_options::LoadArgs;
 use super::messages::print_warnings;
@@ -12,7 +13,7 @@ use super::options::option_parser;
 use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
-use drawing::{HiddenLines, Page, Warning};
+use drawing::{DxfOptions, HiddenLines, Page, Warning};
 use pipeline::scene::file::{AxonometricView, PageOrientation, PaperSize, SheetFile};
 use pipeline::scene::{ResolveOptions, SheetContent, Style};
 use pipeline::{Picture, Scene};
@@ -30,7 +31,7 @@ const DOTS_PER_INCH: f64 = 150.0;
 pub(crate) struct SheetArgs {
     /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     input: PathBuf,
-    /// Output file: .pdf, .svg or .png [default: the input's name with .pdf, in the current folder]
+    /// Output file: .pdf, .svg, .dxf or .png [default: the input's name with .pdf, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Paper size [default: a3]
@@ -68,6 +69,8 @@ pub(crate) struct SheetArgs {
     /// Drawing number in the title block
     #[arg(long)]
     number: Option<String>,
+    #[command(flatten)]
+    dxf: DxfArgs,
     #[command(flatten)]
     section: SectionArgs,
     #[command(flatten)]
@@ -114,9 +117,11 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     if !matches!(scene.style, Style::Lines(_) | Style::Shaded) {
         warnings.push(Warning::StyleIgnored);
     }
+    warnings.extend(image_warning(format, &page));
     let bytes = match format {
         OutputFormat::Png => rasterize_page(&page)?.to_png(),
         OutputFormat::Svg | OutputFormat::Pdf => format.encode_pages(&[page]),
+        OutputFormat::Dxf => page.to_dxf(&args.dxf.apply_to(DxfOptions::on_paper(&page))),
     };
     pipeline::write_file(&output, &bytes)?;
     drop(progress);

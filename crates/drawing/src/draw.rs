@@ -16,18 +16,20 @@
 //! The surface depends on models and sections only, everything below it on the viewer too. Edges
 //! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
-use super::edges::{CandidateEdge, WeldedSurface};
+use super::edges::{CandidateEdge, SectionCap, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_flat_fill};
 use super::hatching::Hatching;
 use super::hidden_line::{Occluders, OcclusionScratch, ProjectedEdge};
 use super::options::{DrawOptions, HiddenEdges};
 use super::parallel::map_in_order;
 use super::projector::Projector;
+use super::region::{Region, region_edges};
 use super::retained_points::idle_section_warnings;
 use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
 use glam::DVec2;
+use homog::Point;
 use viewport::Viewport;
 
 /// Draws the edges of a subject with hidden-line removal, with up to `threads` threads.
@@ -65,7 +67,9 @@ pub(crate) fn draw_surface(
     let (mut edges, is_cut_off) = surface.candidate_edges(&projector, options, threads);
     let mut warnings = surface.warnings().to_vec();
     warnings.extend(is_cut_off.then_some(Warning::IntersectionsIncomplete));
+    let mut regions = outlines(surface, &projector, options);
     for hatching in hatch_surface(surface, &key_light, &projector, options) {
+        regions.extend(hatching.regions);
         warnings.extend(hatching.is_cut_off.then_some(Warning::HatchingIncomplete));
         let class = EdgeClass::Hatching;
         let segments = hatching.segments.into_iter();
@@ -85,9 +89,30 @@ pub(crate) fn draw_surface(
         size: DVec2::from(size.map(f64::from)),
         objects: surface.object_names().to_vec(),
         segments: EdgeDivider::new(surface, projector, options).divide_edges(&edges, threads),
+        regions,
         face_fill,
         warnings,
     })
+}
+
+/// The outlines that the options ask for: those of the cut faces that the viewer sees, object by
+/// object; where nothing is cut, the one around all faces.
+fn outlines(surface: &WeldedSurface, projector: &Projector, options: &DrawOptions) -> Vec<Region> {
+    if !options.outlines {
+        return Vec::new();
+    }
+    if !surface.is_cut() {
+        let triangles = surface.occluder_triangles().map(|vertices| vertices.map(Point::raw));
+        let edges = region_edges(triangles, projector);
+        return vec![Region { object: None, edges, hatching: None }];
+    }
+    let caps = surface.section_caps().into_iter().filter(|cap| cap.faces_viewer(projector));
+    let outline = |cap: SectionCap| Region {
+        object: Some(cap.object),
+        edges: region_edges(cap.triangles.into_iter(), projector),
+        hatching: None,
+    };
+    caps.map(outline).collect()
 }
 
 /// The hatching of section caps, and that of all other faces if the fill asks for it.

@@ -24,5 +24,5 @@ mod weld;
 mod welded_surface;
 mod world_mesh;
 
-pub(super) use welded_surface::{CandidateEdge, WeldedSurface};
+pub(super) use welded_surface::{CandidateEdge, SectionCap, WeldedSurface};
 pub(super) use world_mesh::WorldMesh;

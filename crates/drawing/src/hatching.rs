@@ -15,8 +15,10 @@
 //! wherever it is cut, so that neighbors differ. Faces under a
 //! [`FaceFill::Hatching`](crate::FaceFill) are hatched by luma: the darker, the denser.
 
+use super::edges::SectionCap;
 use super::hidden_line::Aabb;
 use super::projector::Projector;
+use super::region::{Region, RegionHatching, region_edges};
 use clip::{Volume, clip_triangle};
 use glam::{DVec2, DVec3, DVec4};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -56,6 +58,11 @@ impl HatchPattern {
         )
     }
 
+    /// The pattern in a region of the screen.
+    fn region_hatching(&self) -> RegionHatching {
+        RegionHatching { direction: -self.normal.perp(), spacing: self.spacing }
+    }
+
     /// The indices of the lines between two positions along the normal; line i is at i · spacing.
     fn line_range(&self, [from, to]: [f64; 2]) -> std::ops::RangeInclusive<i64> {
         // A float-to-int cast saturates.
@@ -75,6 +82,8 @@ impl HatchPattern {
 pub(super) struct Hatching {
     /// Segments in the world, each with the object it lies on.
     pub(super) segments: Vec<([DVec3; 2], u32)>,
+    /// The caps that the viewer sees, with their patterns.
+    pub(super) regions: Vec<Region>,
     /// Whether segments are missing because there were too many.
     pub(super) is_cut_off: bool,
 }
@@ -84,16 +93,23 @@ impl Hatching {
     ///
     /// Collinear segments of a cap's triangles are joined, so that the triangulation does not show.
     pub(super) fn hatch_caps(
-        caps: &[(u32, Vec<[DVec3; 3]>)],
+        caps: &[SectionCap],
         projector: &Projector,
         spacing: f64,
         touching: f64,
     ) -> Self {
         let mut hatching = Self::default();
-        for ((object, triangles), part) in caps.iter().zip(assign_cap_patterns(caps, touching)) {
+        for (cap, part) in caps.iter().zip(assign_cap_patterns(caps, touching)) {
             let pattern = HatchPattern::for_part(part, spacing);
             let mut by_line = Vec::new();
-            for triangle in triangles {
+            if cap.faces_viewer(projector) {
+                hatching.regions.push(Region {
+                    object: Some(cap.object),
+                    edges: region_edges(cap.triangles.iter().copied(), projector),
+                    hatching: Some(pattern.region_hatching()),
+                });
+            }
+            for triangle in &cap.triangles {
                 hatching.is_cut_off |= hatching.segments.len() + by_line.len() > MAX_SEGMENTS;
                 if hatching.is_cut_off {
                     return hatching;
@@ -102,7 +118,7 @@ impl Hatching {
                 hatch_triangle(*triangle, projector, &pattern, |_| true, push);
             }
             let segments = join_collinear_segments(by_line, touching);
-            hatching.segments.extend(segments.into_iter().map(|ends| (ends, *object)));
+            hatching.segments.extend(segments.into_iter().map(|ends| (ends, cap.object)));
         }
         hatching
     }
@@ -161,9 +177,9 @@ struct HatchedPart {
 /// A pattern index for each cap: greedy coloring such that objects whose caps may touch differ.
 ///
 /// Each object takes the least index that no earlier object near it has.
-fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<usize> {
+fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
     let mut parts: Vec<HatchedPart> = Vec::new();
-    for (object, triangles) in caps {
+    for SectionCap { object, triangles, .. } in caps {
         let bounds = Aabb::from_points(triangles.iter().flatten().copied());
         let bounds = bounds.expanded_by(DVec3::splat(touching));
         match parts.last_mut().filter(|part| part.object == *object) {
@@ -183,7 +199,7 @@ fn assign_cap_patterns(caps: &[(u32, Vec<[DVec3; 3]>)], touching: f64) -> Vec<us
         part.pattern = used.iter().zip(0..).take_while(|(used, free)| **used == *free).count();
     }
     let pattern_of = |object: u32| parts.iter().find(|part| part.object == object);
-    caps.iter().map(|(object, _)| pattern_of(*object).map_or(0, |part| part.pattern)).collect()
+    caps.iter().map(|cap| pattern_of(cap.object).map_or(0, |part| part.pattern)).collect()
 }
 
 /// Calls `push` with the index and the segment in the world of each line that crosses a triangle.

@@ -6,7 +6,7 @@
 //!    ●───────►   direction: of the baseline
 //! ```
 
-use super::page::{Ink, Pen, Polyline};
+use super::page::{Group, GroupContent, Ink, Pen, Polyline, TextLine, to_micrometers};
 use super::stroke_font::{CAP_HEIGHT, typeset_line};
 use glam::DVec2;
 
@@ -84,18 +84,37 @@ impl<'a> Label<'a> {
         Pen::solid(self.height / CAP_HEIGHT, ink)
     }
 
-    /// The strokes of the text on the page.
-    #[must_use]
-    pub fn strokes(&self) -> Vec<Polyline> {
-        let set = typeset_line(self.text);
-        let scale = self.height / CAP_HEIGHT;
+    /// The start of the baseline, for a text of this width.
+    fn start(&self, width: f64) -> DVec2 {
         let part = match self.align {
             TextAlign::Start => 0.0,
             TextAlign::Middle => 0.5,
             TextAlign::End => 1.0,
         };
+        self.anchor - self.direction * (width * part)
+    }
+
+    /// The text as a group of its own, which knows that its strokes are letters.
+    #[must_use]
+    pub fn group(&self) -> Group {
+        let width = self.width();
+        let start = self.start(width);
+        let line = TextLine {
+            text: self.text.to_owned(),
+            baseline: [start, start + self.direction * width].map(to_micrometers),
+            height: to_micrometers(DVec2::splat(self.height))[0],
+        };
+        let content = GroupContent::Text(line);
+        Group { strokes: self.strokes(), content, ..Group::default() }
+    }
+
+    /// The strokes of the text on the page.
+    #[must_use]
+    pub fn strokes(&self) -> Vec<Polyline> {
+        let set = typeset_line(self.text);
+        let scale = self.height / CAP_HEIGHT;
         let up = DVec2::new(self.direction.y, -self.direction.x);
-        let start = self.anchor - self.direction * (set.width * scale * part);
+        let start = self.start(set.width * scale);
         let on_page = |point: &DVec2| start + (self.direction * point.x + up * point.y) * scale;
         let line = |stroke: &Vec<DVec2>| {
             let points: Vec<DVec2> = stroke.iter().map(on_page).collect();

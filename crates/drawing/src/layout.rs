@@ -16,14 +16,17 @@
 //! have stable ids, such as `hidden-crease`, by which style sheets and scripts can address them.
 
 use super::line_density::Thinning;
-use super::line_style::{EdgeSelection, HiddenLines, LineStyle, LineWidths};
+use super::line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 use super::line_type::LineType;
 use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::page::{
-    Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage, to_micrometers,
+    Group, GroupContent, HatchArea, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage,
+    Polyline, to_micrometers,
 };
 use super::palette::ink_on_paper;
 use super::polyline_chain::{PolylineChain, join_into_chains};
+use super::region::{Region, RegionHatching};
+use super::region_outline::outline_loops;
 use super::speckles::{LEAST_CHAIN_LENGTH, ShortChains, remove_speckles};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
@@ -46,6 +49,22 @@ impl Placement {
     /// A point of the drawing in millimeters of the page.
     fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
+    }
+
+    /// The closed lines around a region on the page.
+    fn region_loops(&self, region: &Region) -> Vec<Polyline> {
+        let on_page = |end: DVec2| to_micrometers(self.pixels_to_page(end));
+        outline_loops(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
+    }
+
+    /// The area of a hatched region on the page; `None` if there is none.
+    fn hatch_area(&self, region: &Region) -> Option<HatchArea> {
+        let RegionHatching { direction, spacing } = region.hatching?;
+        let loops = self.region_loops(region);
+        let (origin, direction) =
+            (to_micrometers(self.corner), (direction * self.scale).normalize_or(DVec2::X));
+        let spacing = spacing * self.scale.x;
+        (!loops.is_empty()).then_some(HatchArea { loops, origin, direction, spacing })
     }
 }
 
@@ -126,8 +145,69 @@ impl LineDrawing {
         let chains = join_into_chains(&remove_overlaps(&segments), |kind| kinds.joined_kind(kind));
         let chains = remove_speckles(chains, |kind| kinds.short_chains(kind));
         let layers = chains.chunk_by(|a, b| a.layer == b.layer);
-        let layer = |chains: &[PolylineChain]| self.layer_of_kind(&kinds, chains, prefix, ink);
-        layers.rev().map(layer).collect()
+        let layer = |chains: &[PolylineChain]| {
+            let mut layer = self.layer_of_kind(&kinds, chains, prefix, ink);
+            if kinds.kinds[chains[0].layer as usize].class == EdgeClass::Hatching {
+                self.mark_hatchings(&mut layer, style, placement);
+            }
+            layer
+        };
+        let layers = layers.rev().map(layer);
+        layers.chain(self.outline_layer(&kinds, placement, prefix, ink)).collect()
+    }
+
+    /// The layer of the outlines: a group of the whole, or one for each object.
+    fn outline_layer(
+        &self,
+        kinds: &LineKinds<'_>,
+        placement: Placement,
+        prefix: &str,
+        ink: Ink,
+    ) -> Option<Layer> {
+        let style = kinds.style;
+        let [width, _] = style.line_widths.wide_and_narrow();
+        let pen = LineType::Continuous.to_pen(width, ink, style.cap, style.join);
+        let mut layer = Layer::new(format!("{prefix}outline"), "outline", pen);
+        let outlines: Vec<&Region> =
+            self.regions.iter().filter(|region| region.hatching.is_none()).collect();
+        for regions in outlines.chunk_by(|a, b| a.object == b.object) {
+            let strokes: Vec<Polyline> =
+                regions.iter().flat_map(|region| placement.region_loops(region)).collect();
+            let (id, title) = match regions[0].object {
+                Some(object) => (format!("{}", object + 1), self.object_name(object)),
+                None => (String::new(), String::new()),
+            };
+            layer.groups.push(Group { id, title, strokes, ..Group::default() });
+        }
+        layer.groups.retain(|group| !group.strokes.is_empty());
+        (!layer.groups.is_empty()).then_some(layer)
+    }
+
+    /// Says of the hatch lines in the groups of a layer which areas they hatch; not where faces are
+    /// hatched as well as cuts.
+    fn mark_hatchings(&self, layer: &mut Layer, style: &LineStyle, placement: Placement) {
+        if style.face_fill == FaceFill::Hatching {
+            return;
+        }
+        for group in &mut layer.groups {
+            let is_here = |region: &&Region| {
+                region.object.is_some_and(|object| group.id == format!("{}", object + 1))
+            };
+            let areas: Vec<HatchArea> = self
+                .regions
+                .iter()
+                .filter(is_here)
+                .filter_map(|region| placement.hatch_area(region))
+                .collect();
+            if !areas.is_empty() {
+                group.content = GroupContent::Hatching(areas);
+            }
+        }
+    }
+
+    /// The name of an object; empty if it has none.
+    fn object_name(&self, object: u32) -> String {
+        self.objects.get(object as usize).cloned().unwrap_or_default()
     }
 
     /// One layer from the chains of one kind.
@@ -143,10 +223,10 @@ impl LineDrawing {
         let mut layer = Layer::new(format!("{prefix}{id}"), title, kinds.pen_for_kind(kind, ink));
         for group in chains.chunk_by(|a, b| a.object == b.object) {
             let object = group[0].object;
-            let title = self.objects.get(object as usize).cloned().unwrap_or_default();
+            let title = self.object_name(object);
             let strokes = group.iter().map(|chain| chain.polyline.clone()).collect();
             let id = format!("{}", object + 1);
-            layer.groups.push(Group { id, title, strokes, fills: Vec::new() });
+            layer.groups.push(Group { id, title, strokes, ..Group::default() });
         }
         layer
     }

@@ -1,9 +1,9 @@
 //! Hidden-line drawings of meshes: feature edges, exact visibility, sections, drawing sheets; SVG,
-//! PDF and PNG.
+//! PDF, DXF and PNG.
 //!
 //! ```text
-//!   models ─► edges ─► visible and hidden segments ─► polylines by pen ─► SVG, PDF, PNG
-//!             edges       hidden_line                 layout            svg, pdf, canvas
+//!   models ─► edges ─► visible and hidden segments ─► polylines by pen ─► SVG, PDF, DXF, PNG
+//!             edges       hidden_line                 layout            svg, pdf, dxf, canvas
 //! ```
 //!
 //!  module | technique |
@@ -13,7 +13,8 @@
 //!  `hatching` | ISO 128-50 hatching of caps, hatching by luma of faces |
 //!  `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
 //!  `line_style`, `line_type`, `dash_pattern` | pens, line widths and dashes of ISO 128 |
-//!  `page`, `svg`, `pdf`, `canvas` | pages in micrometers, and their three formats |
+//!  `region`, `region_outline` | outlines of what faces cover, by winding numbers and snap rounding |
+//!  `page`, `svg`, `pdf`, `dxf`, `canvas` | pages in micrometers, and their four formats |
 //!  `page_clip` | lines clipped to the rectangles of views |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
 //!  `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
@@ -27,6 +28,7 @@ mod canvas;
 mod chart;
 mod dash_pattern;
 mod draw;
+mod dxf;
 mod edges;
 mod error;
 mod face_fill;
@@ -52,6 +54,8 @@ mod parallel;
 mod pdf;
 mod polyline_chain;
 mod projector;
+mod region;
+mod region_outline;
 mod retained_points;
 mod sheet;
 mod speckles;
@@ -64,6 +68,7 @@ mod z_buffer_check;
 pub use canvas::draw_layers_over;
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
 pub use draw::draw;
+pub use dxf::DxfOptions;
 pub use error::DrawError;
 pub use hidden_line::{EdgeParts, Occluders, Tolerance};
 pub use label::{Label, TextAlign};
@@ -77,12 +82,13 @@ pub use overlay::{
     LabelFault, Overlay, PointLabel, label_warnings, missing_glyph_warning, overlay_layers,
 };
 pub use page::{
-    Cap, Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint, Pen, PlacedImage,
-    Polyline, to_micrometers, to_millimeters,
+    Cap, Group, GroupContent, HatchArea, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint,
+    Pen, PlacedImage, Polyline, TextLine, to_micrometers, to_millimeters,
 };
 pub use panels::{Panel, Panels};
 pub use pdf::to_pdf;
 pub use projector::Projector;
+pub use region::{Region, RegionEdge, RegionHatching};
 pub use retained_points::retained_points;
 pub use sheet::{DimensionUnit, Sheet, SheetError, TitleBlockText};
 pub use subject::Subject;

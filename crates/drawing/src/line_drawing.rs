@@ -5,7 +5,7 @@
 //!            0         s₁      s₂       1     neighbors share their end points bit for bit
 //! ```
 
-use super::Warning;
+use super::{Region, Warning};
 use glam::DVec2;
 use shade::Picture;
 
@@ -60,6 +60,8 @@ pub struct LineDrawing {
     pub objects: Vec<String>,
     /// Visible segments, and hidden ones if the options retain them.
     pub segments: Vec<EdgeSegment>,
+    /// The cut faces with their hatch lines, and the outlines if the options ask for them.
+    pub regions: Vec<Region>,
     /// The flat fill under the lines, if the options ask for it: an image that fills the drawing.
     pub face_fill: Option<Picture>,
     /// Warnings of the drawing, each once.

@@ -59,6 +59,8 @@ pub enum EdgeSelection {
     Contours,
     /// The outline alone: edges beside which there is nothing.
     Silhouette,
+    /// Closed loops around the whole and its holes; with section planes, around what they cut.
+    Outline,
 }
 
 /// The treatment of hidden lines.
@@ -124,6 +126,8 @@ impl LineStyle {
     pub const CONTOURS: Self = Self { edges: EdgeSelection::Contours, ..Self::HIDDEN_REMOVED };
     /// The outline alone.
     pub const SILHOUETTE: Self = Self { edges: EdgeSelection::Silhouette, ..Self::HIDDEN_REMOVED };
+    /// The outline of the whole alone, as closed loops.
+    pub const OUTLINE: Self = Self { edges: EdgeSelection::Outline, ..Self::HIDDEN_REMOVED };
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128.
     pub const TECHNICAL: Self = Self {
         edges: EdgeSelection::Tangents,
@@ -146,8 +150,11 @@ impl LineStyle {
                 EdgeSelection::Features | EdgeSelection::Tangents => EdgeClasses::FEATURES,
                 EdgeSelection::Contours => DrawOptions::silhouettes().classes,
                 EdgeSelection::Silhouette => DrawOptions::outline().classes,
+                EdgeSelection::Outline => EdgeClasses::NONE,
             },
+            outlines: self.edges == EdgeSelection::Outline,
             hidden_edges: match self.hidden_lines {
+                _ if self.edges == EdgeSelection::Outline => HiddenEdges::Ignored,
                 HiddenLines::Removed => HiddenEdges::Removed,
                 HiddenLines::Dashed => HiddenEdges::Retained,
                 HiddenLines::Drawn => HiddenEdges::Ignored,

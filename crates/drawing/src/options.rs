@@ -27,6 +27,9 @@ pub struct DrawOptions {
     /// The distance between hatch lines in pixels, greater than 0. Default: 2 mm at 96 pixels to
     /// the inch.
     pub hatch_spacing: f64,
+    /// Whether the drawing has the outlines of the whole, or of what section planes cut, as regions.
+    /// Default: no.
+    pub outlines: bool,
     /// The fill of faces under the lines. Default: none.
     pub face_fill: FaceFill,
     /// Pixels of the fill image for each pixel of the drawing. Default: 3.
@@ -64,6 +67,7 @@ impl DrawOptions {
             asks_normals: true,
             outline_only: false,
             hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,
+            outlines: false,
             face_fill: FaceFill::None,
             fill_scale: 3.0,
         }

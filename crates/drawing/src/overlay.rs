@@ -216,7 +216,7 @@ impl PicturePlane {
             let at = tip + along * (0.9 * LETTER_HEIGHT) + DVec2::new(0.0, 0.35 * LETTER_HEIGHT);
             let label = Label::new(name, at, LETTER_HEIGHT).with_align(TextAlign::Middle);
             let fills = arrowhead(tip, along).into_iter().collect();
-            head.groups.push(Group { strokes: label.strokes(), fills, ..Group::default() });
+            head.groups.push(Group { fills, ..label.group() });
         }
         [visible, hidden, head]
     }

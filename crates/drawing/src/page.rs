@@ -1,4 +1,4 @@
-//! Page model: strokes and fills on paper, common to SVG, PDF and PNG.
+//! Page model: strokes and fills on paper, common to SVG, PDF, DXF and PNG.
 //!
 //! Coordinates are whole micrometers from the upper left corner, y down. Integers are the same in
 //! every format, and relative steps between them add up without error.
@@ -6,7 +6,8 @@
 //! ```text
 //!   Page ─┬─ PlacedImage …
 //!         └─ Layer (pen) ─── Group (object) ─┬─ strokes: Polyline …
-//!                                            └─ fills:   Polyline …
+//!                                            ├─ fills:   Polyline …
+//!                                            └─ content: the strokes are lines, a text, a hatching
 //! ```
 
 use super::Warning;
@@ -76,6 +77,65 @@ pub struct Group {
     pub strokes: Vec<Polyline>,
     /// Areas filled with the pen's ink, such as arrowheads, by the even-odd rule.
     pub fills: Vec<Polyline>,
+    /// What the strokes are, for formats with a name for it.
+    pub content: GroupContent,
+}
+
+/// What the strokes of a group are: all of them together.
+///
+/// Every format can draw the strokes. DXF has texts and hatches, which programs edit as such.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub enum GroupContent {
+    /// Lines.
+    #[default]
+    Lines,
+    /// The letters of a text.
+    Text(TextLine),
+    /// The hatch lines of areas.
+    Hatching(Vec<HatchArea>),
+}
+
+/// A line of text on a page.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct TextLine {
+    /// The text.
+    pub text: String,
+    /// The start and the end of its baseline in micrometers.
+    pub baseline: [PagePoint; 2],
+    /// The height of capitals in micrometers.
+    pub height: i32,
+}
+
+/// An area with parallel lines at equal distances.
+#[derive(Clone, PartialEq, Debug)]
+pub struct HatchArea {
+    /// Closed lines around it and around its holes: the even-odd rule.
+    pub loops: Vec<Polyline>,
+    /// A point through which a line goes, or would go, in micrometers.
+    pub origin: PagePoint,
+    /// The unit vector along the lines, y down.
+    pub direction: DVec2,
+    /// The distance between two lines in millimeters.
+    pub spacing: f64,
+}
+
+impl GroupContent {
+    /// Moves what the strokes are along with them, in micrometers.
+    pub(crate) fn move_by(&mut self, by: PagePoint) {
+        let move_point = |point: &mut PagePoint| {
+            *point = [point[0].saturating_add(by[0]), point[1].saturating_add(by[1])];
+        };
+        match self {
+            Self::Lines => {}
+            Self::Text(line) => line.baseline.iter_mut().for_each(move_point),
+            Self::Hatching(areas) => {
+                for area in areas {
+                    area.loops.iter_mut().flat_map(|line| &mut line.points).for_each(move_point);
+                    move_point(&mut area.origin);
+                }
+            }
+        }
+    }
 }
 
 /// Points joined by straight lines.

@@ -7,7 +7,7 @@
 //!
 //! Filled areas are small, such as arrowheads, and are kept or removed whole.
 
-use super::page::{Page, PagePoint, Polyline, to_micrometers};
+use super::page::{GroupContent, Page, PagePoint, Polyline, to_micrometers};
 use glam::DVec2;
 
 /// The lines of a page that are kept.
@@ -52,7 +52,13 @@ impl Page {
     /// Clips all layers, and removes those of which nothing is left.
     fn clip_layers(&mut self, rect: PageRect, keep: Keep) {
         for group in self.layers.iter_mut().flat_map(|layer| &mut layer.groups) {
-            group.strokes = group.strokes.iter().flat_map(|line| clip(line, rect, keep)).collect();
+            let strokes: Vec<Polyline> =
+                group.strokes.iter().flat_map(|line| clip(line, rect, keep)).collect();
+            if strokes != group.strokes {
+                // Half a text is no text, and half a hatching has another outline.
+                group.content = GroupContent::Lines;
+                group.strokes = strokes;
+            }
             group.fills.retain(|area| keeps_area(area, rect, keep));
         }
         for layer in &mut self.layers {

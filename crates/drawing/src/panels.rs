@@ -85,22 +85,18 @@ impl Panel {
         self.page.size + DVec2::new(0.0, text)
     }
 
-    /// Title and notes as strokes, with their upper left corner at `at`.
-    fn text_groups(&self, at: DVec2) -> [Group; 2] {
-        let group = |strokes: Vec<Polyline>| Group {
-            id: self.id.clone(),
-            title: self.title.clone(),
-            strokes,
-            fills: Vec::new(),
-        };
+    /// The title and the notes, with their upper left corner at `at`.
+    fn text_groups(&self, at: DVec2) -> (Group, Vec<Group>) {
+        let named = |id: String, group| Group { id, title: self.title.clone(), ..group };
         let width = self.page.size.x;
         let first = at + DVec2::new(0.0, TITLE_HEIGHT * LEADING * 0.85);
-        let title = Label::new(&self.title, first, TITLE_HEIGHT).fit_to_width(width).strokes();
-        let notes = self.notes.iter().enumerate().flat_map(|(line, note)| {
+        let title = Label::new(&self.title, first, TITLE_HEIGHT).fit_to_width(width).group();
+        let notes = self.notes.iter().enumerate().map(|(line, note)| {
             let below = first + DVec2::new(0.0, (line + 1) as f64 * NOTE_HEIGHT * LEADING);
-            Label::new(note, below, NOTE_HEIGHT).fit_to_width(width).strokes()
+            let label = Label::new(note, below, NOTE_HEIGHT).fit_to_width(width);
+            named(format!("{}.{}", self.id, line + 1), label.group())
         });
-        [group(title), group(notes.collect())]
+        (named(self.id.clone(), title), notes.collect())
     }
 }
 
@@ -159,19 +155,19 @@ impl Panels {
             let corner = DVec2::new(MARGIN + sum(&widths[..x]), top + sum(&heights[..y]));
             page.paste_page(&panel.page, corner, &format!("{}-", panel.id));
             frames.groups.push(frame_group(panel, corner));
-            let [name, note] = panel.text_groups(corner + DVec2::new(0.0, panel.page.size.y));
+            let (name, note) = panel.text_groups(corner + DVec2::new(0.0, panel.page.size.y));
             names.groups.push(name);
-            notes.groups.push(note);
+            notes.groups.extend(note);
         }
         let at = DVec2::new(MARGIN, MARGIN + HEADING_HEIGHT);
         let heading =
             Label::new(&self.title, at, HEADING_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
         let mut layer = Layer::new("heading", "what the page shows", heading.pen(INK));
-        layer.groups.push(Group { strokes: heading.strokes(), ..Group::default() });
+        layer.groups.push(heading.group());
         for (line, words) in self.introduction.iter().enumerate() {
             let below = at + DVec2::new(0.0, (line + 1) as f64 * NOTE_HEIGHT * LEADING);
             let label = Label::new(words, below, NOTE_HEIGHT).fit_to_width(size.x - 2.0 * MARGIN);
-            notes.groups.push(Group { strokes: label.strokes(), ..Group::default() });
+            notes.groups.push(label.group());
         }
         page.layers.extend([frames, names, notes, layer]);
         page.warnings = self.warnings();
@@ -189,7 +185,7 @@ fn frame_group(panel: &Panel, corner: DVec2) -> Group {
     let [w, h] = panel.page.size.to_array();
     let corners = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]].map(|c| corner + DVec2::from(c));
     let strokes = Polyline::through_points(&corners, true).into_iter().collect();
-    Group { id: panel.id.clone(), title: panel.title.clone(), strokes, fills: Vec::new() }
+    Group { id: panel.id.clone(), title: panel.title.clone(), strokes, ..Group::default() }
 }
 
 impl Page {
@@ -211,6 +207,7 @@ impl Page {
             for group in &mut layer.groups {
                 let lines = group.strokes.iter_mut().chain(&mut group.fills);
                 lines.flat_map(|line| &mut line.points).for_each(|point| *point = moved(*point));
+                group.content.move_by(by);
             }
             self.layers.push(layer);
         }

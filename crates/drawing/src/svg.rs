@@ -294,7 +294,12 @@ mod tests {
         let mut page = Page::new(DVec2::new(10.0, 10.0), nasty, Some([255; 3]));
         let mut layer = Layer::new("a\"b", nasty, Pen::solid(0.1, [1, 2, 3]));
         let strokes = vec![polyline(&[[0, 0], [1, 1]], false)];
-        layer.groups.push(Group { id: "1".into(), title: nasty.into(), strokes, fills: vec![] });
+        layer.groups.push(Group {
+            id: "1".into(),
+            title: nasty.into(),
+            strokes,
+            ..Group::default()
+        });
         page.layers.push(layer);
         let svg = page.to_svg();
         assert!(

@@ -46,6 +46,8 @@ pub enum Warning {
     StyleIgnored,
     /// The format has no anaglyphs; only PNG images have.
     AnaglyphIgnored,
+    /// The format has no images: DXF has lines, areas and texts.
+    ImagesNotInDxf,
     /// The point of a label is not in the picture.
     LabelNotDrawn {
         /// The text of the label.
@@ -96,6 +98,10 @@ impl fmt::Display for Warning {
                 f,
                 "there is no place for the {view} beside the other views, and it is left out: \
                  use larger paper or a smaller scale"
+            ),
+            Self::ImagesNotInDxf => f.write_str(
+                "DXF has lines, areas and texts, but no images: \
+                 backgrounds and fills of faces are left out",
             ),
             Self::LabelNotDrawn { text, fault } => write!(
                 f,

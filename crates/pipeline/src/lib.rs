@@ -18,7 +18,7 @@
 //! | for | begin with | an example |
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
-//! | lines as SVG, PDF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
+//! | lines as SVG, PDF, DXF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
 //! | a frame sequence of one scene | [`sequence::Sequence`] | `examples/turntable.rs` |
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |
@@ -49,7 +49,7 @@ pub use homog::PixelRect;
 pub use model::{self, Timings, import};
 pub use render::{
     MAX_IMAGE_SIDE, PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError,
-    draw_lines, render,
+    draw_lines, dxf_options, render,
 };
 pub use scene::options;
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};

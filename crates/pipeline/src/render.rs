@@ -63,6 +63,7 @@ mod background;
 mod captions;
 mod context;
 mod draw_call;
+mod dxf_scale;
 mod fragment_shading;
 mod ground;
 mod image_tiles;
@@ -86,6 +87,7 @@ mod vertex_processing;
 mod write_png;
 
 pub use context::RenderContext;
+pub use dxf_scale::dxf_options;
 pub use image_tiles::MAX_IMAGE_SIDE;
 pub use line_drawing::draw_lines;
 pub use mip_chains::Textures;

@@ -237,13 +237,17 @@ fn chain_segments(chains: &[Vec<Point<World>>]) -> impl Iterator<Item = [Point<W
 
 impl WorldMesh {
     /// The triangles of the section caps, by object and section plane.
-    pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
+    pub(crate) fn section_caps(&self) -> Vec<(u32, u16, Vec<[DVec3; 3]>)> {
         let mut capping: Vec<&Face> =
             self.faces.iter().filter(|face| face.cap_section.is_some()).collect();
         capping.sort_by_key(|face| (face.object, face.cap_section));
         let alike = capping.chunk_by(|a, b| (a.object, a.cap_section) == (b.object, b.cap_section));
         let vertices = |face: &&Face| face.vertices.map(|vertex| self.points[vertex as usize]);
-        alike.map(|faces| (faces[0].object, faces.iter().map(vertices).collect())).collect()
+        let cap = |faces: &[&Face]| {
+            let section = faces[0].cap_section.unwrap_or_default();
+            (faces[0].object, section, faces.iter().map(vertices).collect())
+        };
+        alike.map(cap).collect()
     }
 }
 
@@ -293,7 +297,7 @@ mod tests {
         weld_equal_vertices(&mut mesh);
         assert!(warnings.is_empty(), "{warnings:?}");
         let caps = mesh.section_caps();
-        let triangles = caps.iter().flat_map(|(_, triangles)| triangles);
+        let triangles = caps.iter().flat_map(|(.., triangles)| triangles);
         triangles.map(|[a, b, c]| (*b - *a).cross(*c - *a).length() / 2.0).sum()
     }
 

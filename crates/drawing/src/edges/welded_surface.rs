@@ -35,6 +35,25 @@ pub(crate) struct CandidateEdge {
     pub(crate) object: u32,
 }
 
+/// The faces that close one object where one plane cuts it.
+#[derive(Clone, Debug)]
+pub(crate) struct SectionCap {
+    pub(crate) object: u32,
+    /// Its normal points to what is retained.
+    pub(crate) plane: Plane<World>,
+    pub(crate) triangles: Vec<[DVec3; 3]>,
+}
+
+impl SectionCap {
+    /// Whether the viewer is at the side that was removed: such a cap is seen as a whole, for
+    /// nothing is left in front of it.
+    pub(crate) fn faces_viewer(&self, projector: &Projector) -> bool {
+        let normal = self.plane.normal().raw();
+        let point = self.triangles.first().map_or(DVec3::ZERO, |[point, ..]| *point);
+        normal.dot(projector.towards_viewer(point)) < 0.0
+    }
+}
+
 /// The mesh of a scene after welding and section cuts, with its half-edges.
 #[derive(Clone, Debug)]
 pub(crate) struct WeldedSurface {
@@ -51,6 +70,8 @@ pub(crate) struct WeldedSurface {
     /// The diagonal of the models' bounding box before sections, so that tolerances do not depend
     /// on them.
     diagonal: f64,
+    /// The planes that cut it.
+    sections: Vec<Plane<World>>,
     /// Sections that could not be capped.
     warnings: Vec<Warning>,
     /// Where faces intersect: found at the first request, for wireframes do not ask.
@@ -81,6 +102,7 @@ impl WeldedSurface {
             border_edges,
             fillings,
             weld_radii,
+            sections: sections.to_vec(),
             warnings: Vec::new(),
             intersections: OnceLock::new(),
         };
@@ -117,9 +139,20 @@ impl WeldedSurface {
         &self.warnings
     }
 
-    /// The triangles of the section caps, by object and section plane.
-    pub(crate) fn section_caps(&self) -> Vec<(u32, Vec<[DVec3; 3]>)> {
-        self.mesh.section_caps()
+    /// The section caps, by object and section plane.
+    pub(crate) fn section_caps(&self) -> Vec<SectionCap> {
+        let caps = self.mesh.section_caps().into_iter();
+        caps.map(|(object, section, triangles)| SectionCap {
+            object,
+            plane: self.sections[usize::from(section)],
+            triangles,
+        })
+        .collect()
+    }
+
+    /// Whether section planes cut it.
+    pub(crate) const fn is_cut(&self) -> bool {
+        !self.sections.is_empty()
     }
 
     /// The tolerances of hidden-line removal for the size of this scene.

@@ -36,8 +36,7 @@ impl PicturePlane {
         let (height, below) = (0.8 * LETTER_HEIGHT, DVec2::new(-along.y, along.x));
         let at = ends[0] + along * 2.0 + below * (height + 0.8);
         let label = Label::new("horizon", at, height);
-        let strokes = label.with_direction(along).strokes();
-        text.groups.push(Group { strokes, ..Group::default() });
+        text.groups.push(label.with_direction(along).group());
         vec![line, text]
     }
 

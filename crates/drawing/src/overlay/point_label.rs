@@ -122,8 +122,7 @@ impl PicturePlane {
         let mut text = overlay_layer("label", &format!("label: {}", label.text), label.ink);
         text.pen = line.pen(label.ink);
         let line = Label { anchor: corner + DVec2::new(0.0, height), ..line };
-        let strokes = line.with_align(TextAlign::Start).strokes();
-        text.groups.push(Group { strokes, ..Group::default() });
+        text.groups.push(line.with_align(TextAlign::Start).group());
         let leader = label.leader.then(|| leader_layer(label, [at, corner - back]));
         leader.into_iter().chain([text]).collect()
     }

@@ -161,9 +161,7 @@ impl ViewAnnotations {
                 let head = Polyline::through_points(&corners.map(|corner| origin + corner), true);
                 Group { fills: head.into_iter().collect(), ..Group::default() }
             }
-            AnnotationShape::Text(text) => {
-                Group { strokes: text.label(origin).strokes(), ..Group::default() }
-            }
+            AnnotationShape::Text(text) => text.label(origin).group(),
         })
     }
 }

@@ -59,7 +59,7 @@ pub(super) fn scale_bar_layers(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> 
     for (text, x) in [("0".to_owned(), 0.0), (length_label(thing, unit), length)] {
         let at = corner + DVec2::new(x, BAR_HEIGHT + 1.2 + letters);
         let label = Label::new(&text, at, letters).with_align(TextAlign::Middle);
-        texts.groups.push(Group { strokes: label.strokes(), ..Group::default() });
+        texts.groups.push(label.group());
     }
     [layer, texts]
 }

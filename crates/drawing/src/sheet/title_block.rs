@@ -97,11 +97,11 @@ pub(super) fn title_block_layers(
             corner + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small),
             small,
         );
-        names.groups.push(label_group(&name.fit_to_width(text_width)));
+        names.groups.push(name.fit_to_width(text_width).group());
         let foot = corner + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
         let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
         let layer = if field.height == TITLE_HEIGHT { &mut heading } else { &mut values };
-        layer.groups.push(label_group(&value.fit_to_width(text_width)));
+        layer.groups.push(value.fit_to_width(text_width).group());
         if field.name == PROJECTION_FIELD {
             names.groups.push(symbol_group(sheet, cell));
         }
@@ -155,9 +155,4 @@ fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
     let middle = DVec2::new(right - 1.5 * height, cell.y() + cell.height() - height * 0.8);
     let strokes: Vec<Polyline> = projection_symbol(sheet.projection_angle, middle, height);
     Group { strokes, ..Group::default() }
-}
-
-/// A label as a group.
-fn label_group(label: &Label<'_>) -> Group {
-    Group { strokes: label.strokes(), ..Group::default() }
 }

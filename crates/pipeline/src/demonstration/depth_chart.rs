@@ -211,7 +211,7 @@ fn table_layer(cells: &[[String; 5]]) -> Layer {
         });
         let strokes = strokes.collect();
         let id = format!("row-{number}");
-        layer.groups.push(Group { id, title: row[0].clone(), strokes, fills: Vec::new() });
+        layer.groups.push(Group { id, title: row[0].clone(), strokes, ..Group::default() });
     }
     layer
 }

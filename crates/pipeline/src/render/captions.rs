@@ -4,8 +4,8 @@ use crate::Picture;
 use crate::scene::{ImageSpec, Scene};
 use drawing::palette::ink_on_paper;
 use drawing::{
-    Group, Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, Warning, draw_layers_over,
-    label_warnings, missing_glyph_warning,
+    Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, Warning, draw_layers_over, label_warnings,
+    missing_glyph_warning,
 };
 use glam::DVec2;
 use homog::PixelRect;
@@ -29,7 +29,7 @@ pub(super) fn caption_layer(scene: &Scene) -> Option<Layer> {
     let label = Label { anchor: middle + DVec2::new(0.0, 0.5 * label.height), ..label };
     let pen = label.pen(ink_on_paper(paper_color(scene.image.background)));
     let mut layer = Layer::new("caption", format!("caption: {text}"), pen);
-    layer.groups.push(Group { strokes: label.strokes(), ..Group::default() });
+    layer.groups.push(label.group());
     Some(layer)
 }
 

@@ -103,6 +103,7 @@ named_values! {
         Tangents = "Features; edges between materials are narrow where widths are those of ISO 128.",
         Contours = "Silhouettes and boundaries, also where they run before other surfaces.",
         Silhouette = "The outline alone: nothing is beside it.",
+        Outline = "Closed loops around the whole and its holes, as for cutting; with `sections`, around what they cut.",
     }
 }
 

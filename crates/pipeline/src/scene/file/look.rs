@@ -47,7 +47,7 @@ type NamedStyle = (&'static str, fn() -> StyleFile);
 
 impl StyleFile {
     /// The styles by the names that flags have for them, each with the default of its fields.
-    pub const NAMED: [NamedStyle; 17] = [
+    pub const NAMED: [NamedStyle; 18] = [
         ("shaded", || Self::Shaded),
         ("flat", || Self::Flat),
         ("gouraud", || Self::Gouraud),
@@ -64,6 +64,7 @@ impl StyleFile {
         ("lines", Self::lines_hidden_removed),
         ("dashed", Self::lines_hidden_dashed),
         ("silhouette", Self::lines_silhouette),
+        ("outline", Self::lines_outline),
         ("technical", Self::lines_technical),
     ];
 
@@ -89,6 +90,12 @@ impl StyleFile {
     #[must_use]
     pub fn lines_silhouette() -> Self {
         Self::Lines(LinesFile { edges: EdgeSelection::Silhouette, ..LinesFile::default() })
+    }
+
+    /// A line drawing of the outline alone: closed loops around the whole and its holes.
+    #[must_use]
+    pub fn lines_outline() -> Self {
+        Self::Lines(LinesFile { edges: EdgeSelection::Outline, ..LinesFile::default() })
     }
 
     /// A wireframe whose lines fade with depth.

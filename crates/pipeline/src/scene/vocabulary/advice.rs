@@ -101,7 +101,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Image",
         "format filetype file output path name",
-        "remove it: the name of the output says it, as in `alberti render SCENE -o picture.png`, .svg or .pdf",
+        "remove it: the name of the output says it, as in `alberti render SCENE -o picture.png`, .svg, .pdf or .dxf",
     ),
     (
         "Instances",

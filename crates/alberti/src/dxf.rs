@@ -1,0 +1,35 @@
+//! DXF output: the flag for its arcs, and what the format leaves out.
+
+use super::format::OutputFormat;
+use drawing::{DxfOptions, Page, Warning};
+
+/// Arguments of DXF output.
+#[derive(Debug, clap::Args)]
+pub(crate) struct DxfArgs {
+    /// In a DXF, how far points may be from a circle to become an arc, in millimeters of the page;
+    /// 0 for straight lines only [default: 0.005]
+    ///
+    /// An arc takes eight points at least, at equal distances and less than 30 degrees apart, so
+    /// that polygons of up to twelve corners remain polygons.
+    #[arg(long, value_name = "MM", value_parser = parse_tolerance)]
+    arc_tolerance: Option<f64>,
+}
+
+impl DxfArgs {
+    /// The options with the tolerance of the flag.
+    pub(super) fn apply_to(&self, options: DxfOptions) -> DxfOptions {
+        DxfOptions { arc_tolerance: self.arc_tolerance.unwrap_or(options.arc_tolerance), ..options }
+    }
+}
+
+/// The warning that a format leaves out the images of a page.
+pub(super) fn image_warning(format: OutputFormat, page: &Page) -> Option<Warning> {
+    let leaves_out = format == OutputFormat::Dxf && !page.images.is_empty();
+    leaves_out.then_some(Warning::ImagesNotInDxf)
+}
+
+/// Parses a tolerance in millimeters.
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|mm: &f64| (0.0..=10.0).contains(mm));
+    number.ok_or_else(|| "expected millimeters from 0 to 10, such as 0.01".to_owned())
+}

@@ -1,0 +1,119 @@
+//! Arcs against circles that are known, and polygons that must stay as they are.
+
+use super::*;
+use crate::page::to_micrometers;
+use core::f64::consts::TAU;
+
+/// Five micrometers.
+const TOLERANCE: f64 = 5.0;
+
+/// Points of a circle in millimeters, from one angle to another in parts of a turn.
+fn on_circle(center: [f64; 2], radius: f64, [from, to]: [f64; 2], steps: u32) -> Vec<DVec2> {
+    let point = |k: u32| {
+        let (sin, cos) = libm::sincos(TAU * (from + (to - from) * f64::from(k) / f64::from(steps)));
+        DVec2::from(center) + DVec2::new(cos, sin) * radius
+    };
+    (0..=steps).map(point).collect()
+}
+
+fn line(points: &[DVec2], closed: bool) -> Polyline {
+    let points: Vec<PagePoint> = points.iter().copied().map(to_micrometers).collect();
+    Polyline { points, closed }
+}
+
+fn polygon(center: [f64; 2], radius: f64, sides: u32) -> Polyline {
+    let mut points = on_circle(center, radius, [0.01, 1.01], sides);
+    points.pop();
+    line(&points, true)
+}
+
+fn vertices(curve: Curve) -> Vec<ArcVertex> {
+    match curve {
+        Curve::Path(vertices, _) => vertices,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn circles_of_thirteen_sides_and_more_are_circles() {
+    for (sides, radius) in [(13, 3.0), (16, 0.4), (24, 40.0), (32, 1.5), (90, 0.9), (720, 95.0)] {
+        let Curve::Circle(circle) =
+            recognize_arcs(&polygon([20.5, -7.0], radius, sides), TOLERANCE)
+        else {
+            panic!("{sides} sides")
+        };
+        assert!(circle.center.distance(DVec2::new(20_500.0, -7000.0)) < 0.8, "{sides}: {circle:?}");
+        assert!((circle.radius - 1000.0 * radius).abs() < 0.8, "{sides}: {circle:?}");
+    }
+}
+
+#[test]
+fn polygons_of_few_corners_stay_polygons() {
+    for sides in 3..=12 {
+        let polygon = polygon([0.0, 0.0], 30.0, sides);
+        let vertices = vertices(recognize_arcs(&polygon, TOLERANCE));
+        assert_eq!(vertices.len(), sides as usize);
+        assert!(vertices.iter().all(|vertex| vertex.bulge == 0.0), "{sides}");
+    }
+    // Corners on a circle at unequal distances are no circle either.
+    let points: Vec<DVec2> = [0.0, 0.05, 0.11, 0.14, 0.22, 0.26, 0.33, 0.37, 0.45, 0.5]
+        .iter()
+        .flat_map(|&at| on_circle([0.0, 0.0], 50.0, [at, at], 1).into_iter().take(1))
+        .collect();
+    let vertices = vertices(recognize_arcs(&line(&points, false), TOLERANCE));
+    assert!(vertices.len() == 10 && vertices.iter().all(|vertex| vertex.bulge == 0.0));
+    // Without a tolerance nothing is an arc.
+    let circle = polygon([0.0, 0.0], 30.0, 90);
+    assert!(
+        matches!(recognize_arcs(&circle, 0.0), Curve::Path(points, true) if points.len() == 90)
+    );
+}
+
+#[test]
+fn an_arc_has_the_angles_of_its_ends() {
+    for [from, to] in [[0.1, 0.4], [0.7, 1.2], [0.4, 0.1], [0.05, 0.9]] {
+        let points = on_circle([5.0, 6.0], 12.0, [from, to], 40);
+        let Curve::Arc(circle, [start, end]) = recognize_arcs(&line(&points, false), TOLERANCE)
+        else {
+            panic!("{from} to {to}")
+        };
+        assert!(circle.center.distance(DVec2::new(5000.0, 6000.0)) < 3.0, "{circle:?}");
+        let (low, high): (f64, f64) = (from.min(to), from.max(to));
+        assert!((end - start - TAU * (high - low)).abs() < 2e-3, "{from} to {to}: {start} {end}");
+        let turns = (start / TAU - low) - libm::round(start / TAU - low);
+        assert!(turns.abs() < 1e-3, "{from} to {to}: {start}");
+    }
+}
+
+#[test]
+fn a_slot_is_two_lines_and_two_half_turns() {
+    let mut points = on_circle([10.0, 0.0], 4.0, [-0.25, 0.25], 16);
+    points.extend(on_circle([-10.0, 0.0], 4.0, [0.25, 0.75], 16));
+    for shift in [0, 3, 16, 20] {
+        points.rotate_left(shift);
+        let vertices = vertices(recognize_arcs(&line(&points, true), TOLERANCE));
+        assert_eq!(vertices.len(), 4, "{shift}: {vertices:?}");
+        let bulges: Vec<f64> =
+            vertices.iter().map(|vertex| vertex.bulge).filter(|bulge| *bulge != 0.0).collect();
+        assert!(bulges.len() == 2 && bulges.iter().all(|bulge| (bulge - 1.0).abs() < 1e-3));
+    }
+}
+
+#[test]
+fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
+    let mut points = on_circle([0.0, 0.0], 20.0, [0.0, 0.5], 24);
+    // The first step ends halfway, as where a line becomes hidden.
+    points[0] = points[0].lerp(points[1], 0.9);
+    assert!(
+        matches!(recognize_arcs(&line(&points, false), TOLERANCE), Curve::Path(v, _) if v.len() == 2 || v.len() == 3)
+    );
+    // Of many short steps some are left out.
+    let mut fine = on_circle([0.0, 0.0], 20.0, [0.0, 1.0], 600);
+    fine.pop();
+    let mut count = 0;
+    fine.retain(|_| {
+        count += 1;
+        count % 3 != 0
+    });
+    assert!(matches!(recognize_arcs(&line(&fine, true), TOLERANCE), Curve::Circle(_)));
+}

@@ -1,0 +1,100 @@
+//! AutoCAD color index: the 255 colors of R2000, and the one that is nearest to an ink.
+//!
+//! ```text
+//!   1 … 6      red, yellow, green, cyan, blue, magenta
+//!   7          black on white screens, white on black ones
+//!   10 … 249   24 hues, each in five values and two saturations
+//!   250 … 255  grays
+//! ```
+
+use crate::page::Ink;
+
+/// The color that contrasts with the screen.
+const CONTRAST: u8 = 7;
+
+/// Inks whose channels differ by less, and that are darker or lighter than these, are black or
+/// white.
+const MAX_GRAY_SPREAD: u8 = 32;
+const MAX_BLACK: u8 = 64;
+const MIN_WHITE: u8 = 224;
+
+/// The index of the color that is nearest to an ink.
+pub(super) fn color_index(ink: Ink) -> u8 {
+    let [least, most] = ink.iter().fold([255, 0], |[low, high], &c| [c.min(low), c.max(high)]);
+    if most - least < MAX_GRAY_SPREAD && (most < MAX_BLACK || least > MIN_WHITE) {
+        return CONTRAST;
+    }
+    let distance = |index: &u8| -> u32 {
+        let other = index_color(*index);
+        (0..3).map(|k| u32::from(ink[k].abs_diff(other[k])).pow(2)).sum()
+    };
+    (1..=6).chain(10..=255).min_by_key(distance).unwrap_or(CONTRAST)
+}
+
+/// The color of an index from 1 to 6, or from 10 on.
+fn index_color(index: u8) -> Ink {
+    match index {
+        0..=6 => {
+            let bits = [0, 0b001, 0b011, 0b010, 0b110, 0b100, 0b101][usize::from(index)];
+            [0, 1, 2].map(|channel| if bits >> channel & 1 == 1 { 255 } else { 0 })
+        }
+        250..=255 => {
+            [[51; 3], [80; 3], [105; 3], [130; 3], [190; 3], [255; 3]][usize::from(index - 250)]
+        }
+        _ => hue_color(u32::from(index) - 10),
+    }
+}
+
+/// The color of a hue: 15 degrees for each ten indices, five values, each in two saturations.
+fn hue_color(number: u32) -> Ink {
+    let value = [255, 189, 129, 104, 79][(number % 10 / 2) as usize];
+    let (sector, quarter) = (number / 10 / 4, number / 10 % 4);
+    // A pale color is two thirds of the way to gray.
+    let channel = |quarters: u32| {
+        let full = value * quarters / 4;
+        (if number % 2 == 1 { (2 * value + full) / 3 } else { full }) as u8
+    };
+    let (high, rising, falling, low) =
+        (channel(4), channel(quarter), channel(4 - quarter), channel(0));
+    match sector {
+        0 => [high, rising, low],
+        1 => [falling, high, low],
+        2 => [low, high, rising],
+        3 => [low, falling, high],
+        4 => [rising, low, high],
+        _ => [high, low, falling],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn named_colors_have_their_indices() {
+        let named = [
+            ([255, 0, 0], 1),
+            ([255, 255, 0], 2),
+            ([0, 255, 0], 3),
+            ([0, 255, 255], 4),
+            ([0, 0, 255], 5),
+            ([255, 0, 255], 6),
+            ([0, 0, 0], 7),
+            ([255, 255, 255], 7),
+            ([20, 24, 30], 7),
+            ([255, 127, 0], 30),
+            ([130, 130, 130], 253),
+        ];
+        for (ink, index) in named {
+            assert_eq!(color_index(ink), index, "{ink:?}");
+        }
+    }
+
+    #[test]
+    fn every_index_is_nearest_to_its_own_color() {
+        for index in (10..=249).step_by(2) {
+            let color = index_color(index);
+            assert_eq!(index_color(color_index(color)), color, "{index}");
+        }
+    }
+}

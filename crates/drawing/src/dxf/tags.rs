@@ -1,0 +1,104 @@
+//! Tags: pairs of a group code and a value, one to a line, of which DXF files consist.
+
+use glam::DVec2;
+use std::fmt::{Display, Write};
+
+/// A DXF file, or a part of it, under construction.
+#[derive(Debug, Default)]
+pub(super) struct TagWriter {
+    out: String,
+}
+
+impl TagWriter {
+    /// Appends a tag.
+    pub(super) fn tag(&mut self, code: u16, value: impl Display) {
+        // Writing to a text cannot fail.
+        let _ = writeln!(self.out, "{code}\n{value}");
+    }
+
+    /// Appends a tag with a handle, in hexadecimal digits.
+    pub(super) fn handle(&mut self, code: u16, handle: u32) {
+        self.tag(code, format_args!("{handle:X}"));
+    }
+
+    /// Appends a tag with a number: the shortest decimal that is read as the same number, with a
+    /// point and without an exponent.
+    pub(super) fn number(&mut self, code: u16, number: f64) {
+        // Adding 0 makes −0 to 0.
+        let number = number + 0.0;
+        if number == libm::trunc(number) {
+            self.tag(code, format_args!("{number}.0"));
+        } else {
+            self.tag(code, number);
+        }
+    }
+
+    /// Appends x and y: the codes are `code` and `code` + 10.
+    pub(super) fn point(&mut self, code: u16, point: DVec2) {
+        self.number(code, point.x);
+        self.number(code + 10, point.y);
+    }
+
+    /// Appends x, y and a z of 0.
+    pub(super) fn point_in_space(&mut self, code: u16, point: DVec2) {
+        self.point(code, point);
+        self.number(code + 20, 0.0);
+    }
+
+    /// Appends tags from a text in which they are separated by `|`, and code and value by `=`.
+    pub(super) fn tags(&mut self, text: &str) {
+        for pair in text.split('|').map(str::trim).filter(|pair| !pair.is_empty()) {
+            let (code, value) = pair.split_once('=').unwrap_or((pair, ""));
+            let _ = writeln!(self.out, "{code}\n{value}");
+        }
+    }
+
+    /// Appends what another writer has.
+    pub(super) fn append(&mut self, other: &Self) {
+        self.out += &other.out;
+    }
+
+    /// Begins a section of the file.
+    pub(super) fn begin_section(&mut self, name: &str) {
+        self.tag(0, "SECTION");
+        self.tag(2, name);
+    }
+
+    /// Ends a section.
+    pub(super) fn end_section(&mut self) {
+        self.tag(0, "ENDSEC");
+    }
+
+    /// The bytes of the file.
+    pub(super) fn finish(mut self) -> Vec<u8> {
+        self.tag(0, "EOF");
+        self.out.into_bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_point_and_no_exponent() {
+        for (number, written) in [
+            (0.0, "0.0"),
+            (-0.0, "0.0"),
+            (-12.5, "-12.5"),
+            (1e-7, "0.0000001"),
+            (3e9, "3000000000.0"),
+        ] {
+            let mut tags = TagWriter::default();
+            tags.number(10, number);
+            assert_eq!(tags.out, format!("10\n{written}\n"));
+        }
+    }
+
+    #[test]
+    fn a_text_of_tags_is_written_pair_by_pair() {
+        let mut tags = TagWriter::default();
+        tags.tags("0=LAYER|2=a=b| 70=0 |3=");
+        assert_eq!(tags.out, "0\nLAYER\n2\na=b\n70\n0\n3\n\n");
+    }
+}

@@ -1,0 +1,122 @@
+//! Regions: areas that faces cover on the screen, by the edges at their borders.
+//!
+//! ```text
+//!    ┌─────┐
+//!    │╲    │     the diagonal runs both ways and cancels; a side that remains
+//!    │  ╲  │     has more faces at its one side than at the other
+//!    └─────┘
+//! ```
+//!
+//! Every triangle is turned so that it is positively oriented on the screen, and the directed sides
+//! of all triangles are summed. The winding number of the sum about a point is the number of
+//! triangles that cover it, whatever the mesh is like: open, self-intersecting or inside out.
+//! Shared vertices have the same bits on the screen, and triangles are clipped at the same bits, so
+//! sides cancel exactly.
+
+use super::projector::Projector;
+use clip::{Volume, clip_triangle};
+use glam::{DVec2, DVec3};
+
+/// A directed side with its multiplicity: the faces at its left less those at its right, as seen
+/// with x to the right and y up.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct RegionEdge {
+    /// The ends on the screen: pixels, y down.
+    pub ends: [DVec2; 2],
+    /// How often it counts; never 0.
+    pub winding: i32,
+}
+
+/// An area on the screen, where one face or more are.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Region {
+    /// The object it belongs to; `None` for the whole of the scene.
+    pub object: Option<u32>,
+    /// Its sides; some of them may be covered by other faces.
+    pub edges: Vec<RegionEdge>,
+    /// The hatch lines in it.
+    pub hatching: Option<RegionHatching>,
+}
+
+/// Parallel lines at equal distances, one through the upper left corner of the screen.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct RegionHatching {
+    /// The unit vector along the lines, y down.
+    pub direction: DVec2,
+    /// The distance between two lines in pixels.
+    pub spacing: f64,
+}
+
+/// The sides of the area that triangles cover on the screen, sorted.
+///
+/// What is outside of the view volume is clipped, so the border of the picture may be a side.
+pub(super) fn region_edges(
+    triangles: impl Iterator<Item = [DVec3; 3]>,
+    projector: &Projector,
+) -> Vec<RegionEdge> {
+    let mut sides: Vec<([DVec2; 2], i32)> = Vec::new();
+    for vertices in triangles {
+        let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
+        let polygon: Option<Vec<DVec2>> = clip_triangle(clip, &Volume::CHAPTER)
+            .vertices()
+            .iter()
+            .map(|vertex| Some(projector.project_to_screen(vertex.point)?.truncate()))
+            .collect();
+        add_polygon(&polygon.unwrap_or_default(), &mut sides);
+    }
+    sides.sort_unstable_by(|(a, _), (b, _)| compare_ends(a, b));
+    let sums = sides.chunk_by(|(a, _), (b, _)| a == b).map(|same| RegionEdge {
+        ends: same[0].0,
+        winding: same.iter().map(|(_, sign)| sign).sum(),
+    });
+    sums.filter(|edge| edge.winding != 0).collect()
+}
+
+/// Adds the sides of a convex polygon, each from its lesser end to its greater one, with a sign.
+fn add_polygon(polygon: &[DVec2], sides: &mut Vec<([DVec2; 2], i32)>) {
+    let Some(&first) = polygon.first() else { return };
+    let fan = polygon.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
+    let area = fan.sum::<f64>();
+    if area == 0.0 {
+        return;
+    }
+    let turn = if area > 0.0 { 1 } else { -1 };
+    for (&from, &to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        // Adding 0 makes −0 to 0: equal points have equal bits.
+        let (from, to) = (from + DVec2::ZERO, to + DVec2::ZERO);
+        match compare_points(from, to) {
+            std::cmp::Ordering::Less => sides.push(([from, to], turn)),
+            std::cmp::Ordering::Greater => sides.push(([to, from], -turn)),
+            std::cmp::Ordering::Equal => {}
+        }
+    }
+}
+
+/// The order of points by x, then by y.
+fn compare_points(a: DVec2, b: DVec2) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+}
+
+/// The order of sides by their first ends, then by their second.
+fn compare_ends(a: &[DVec2; 2], b: &[DVec2; 2]) -> std::cmp::Ordering {
+    compare_points(a[0], b[0]).then(compare_points(a[1], b[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shared_sides_cancel_whatever_the_orientation() {
+        let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(|p| DVec2::from(p));
+        let mut sides = Vec::new();
+        add_polygon(&[a, b, c], &mut sides);
+        add_polygon(&[a, d, c], &mut sides);
+        let diagonal: i32 =
+            sides.iter().filter(|(ends, _)| *ends == [a, c]).map(|(_, sign)| sign).sum();
+        assert_eq!((sides.len(), diagonal), (6, 0));
+        let mut none = Vec::new();
+        add_polygon(&[a, b, a], &mut none);
+        assert_eq!(none, []);
+    }
+}

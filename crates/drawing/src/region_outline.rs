@@ -1,0 +1,372 @@
+//! Outlines of regions: simple closed loops around an area, each point of the border on one loop.
+//!
+//! ```text
+//!   ┌───────┐              ┌───────┐
+//!   │   ┌───┼───┐          │       └───┐
+//!   │   │   │   │    ─►    │           │      sides within the area vanish,
+//!   └───┼───┘   │          └───┐       │      and the rest joins to loops
+//!       └───────┘              └───────┘
+//! ```
+//!
+//! 1. Sides are put on the grid of the page and cut where they cross. Crossings are rounded to the
+//!    grid too, and every side that passes through the grid cell of a point runs through that
+//!    point: snap rounding (Hobby 1999), which makes no new crossings. It is repeated until there
+//!    are none.
+//! 2. The winding number at a side says how many faces are beside it, counted along a ray in
+//!    integers. A side is of the outline if there are some at its one side and none at the other.
+//! 3. At each point as many sides of the outline begin as end, so they join to loops. Each loop
+//!    keeps the area at its left and is divided where it touches itself.
+
+use super::page::{PagePoint, Polyline};
+use std::collections::BTreeMap;
+
+/// A point in micrometers.
+type Point = [i64; 2];
+
+/// A side from its lesser end to its greater one, and its multiplicity.
+type Side = ([Point; 2], i32);
+
+/// The most rounds of snap rounding; crossings are gone after one or two.
+const MAX_ROUNDS: usize = 8;
+
+/// Loops whose mean width is below this, in micrometers, are gaps between faces.
+const MIN_WIDTH: f64 = 2.0;
+
+/// The loops around the area of some sides, which must make closed curves: around matter
+/// positively, around holes negatively, in coordinates with x to the right and y up.
+pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> Vec<Polyline> {
+    let widen = |point: PagePoint| point.map(i64::from);
+    let mut sides = merge_sides(sides.map(|(ends, sign)| (ends.map(widen), sign)).collect());
+    for _ in 0..MAX_ROUNDS {
+        let crossings = find_crossings(&sides);
+        if crossings.is_empty() {
+            break;
+        }
+        sides = snap_to_points(&sides, crossings);
+    }
+    let loops = join_loops(&border_sides(&sides));
+    loops.into_iter().filter_map(finish_loop).collect()
+}
+
+/// Orients sides from the lesser to the greater end, sums equal ones, and drops those that cancel.
+fn merge_sides(mut sides: Vec<Side>) -> Vec<Side> {
+    for (ends, sign) in &mut sides {
+        if ends[0] > ends[1] {
+            ends.swap(0, 1);
+            *sign = -*sign;
+        }
+    }
+    sides.retain(|([a, b], _)| a != b);
+    sides.sort_unstable();
+    let sums = sides.chunk_by(|a, b| a.0 == b.0);
+    let sums = sums.map(|same| (same[0].0, same.iter().map(|(_, sign)| sign).sum::<i32>()));
+    sums.filter(|(_, sign)| *sign != 0).collect()
+}
+
+/// The cross product of the vectors from `from` to `a` and to `b`.
+fn cross(from: Point, a: Point, b: Point) -> i128 {
+    let [a, b] = [a, b].map(|to| [0, 1].map(|axis| i128::from(to[axis] - from[axis])));
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The points, rounded to the grid, where sides cross or touch other than at common ends; the ends
+/// of sides that lie on others are among them.
+///
+/// A sweep along x over the sides, which are sorted by their lesser ends.
+fn find_crossings(sides: &[Side]) -> Vec<Point> {
+    let mut crossings = Vec::new();
+    let mut active: Vec<usize> = Vec::new();
+    for (index, (ends, _)) in sides.iter().enumerate() {
+        active.retain(|&other| sides[other].0[1][0] >= ends[0][0]);
+        let (low, high) = (ends[0][1].min(ends[1][1]), ends[0][1].max(ends[1][1]));
+        for &other in &active {
+            let other = &sides[other].0;
+            if other[0][1].max(other[1][1]) >= low && other[0][1].min(other[1][1]) <= high {
+                add_crossings(*ends, *other, &mut crossings);
+            }
+        }
+        active.push(index);
+    }
+    crossings.sort_unstable();
+    crossings.dedup();
+    crossings
+}
+
+/// Adds where two sides meet, unless that is an end of both.
+fn add_crossings([a, b]: [Point; 2], [c, d]: [Point; 2], crossings: &mut Vec<Point>) {
+    let [from_c, from_d] = [cross(a, b, c), cross(a, b, d)];
+    let [from_a, from_b] = [cross(c, d, a), cross(c, d, b)];
+    let apart = |one: i128, other: i128| one > 0 && other > 0 || one < 0 && other < 0;
+    if apart(from_c, from_d) || apart(from_a, from_b) {
+        return;
+    }
+    if from_c == from_d {
+        // On one line: ends that lie on the other side.
+        let on = |point: Point, [low, high]: [Point; 2]| low < point && point < high;
+        crossings.extend([c, d].into_iter().filter(|&end| from_c == 0 && on(end, [a, b])));
+        crossings.extend([a, b].into_iter().filter(|&end| from_c == 0 && on(end, [c, d])));
+        return;
+    }
+    let (part, whole) = (from_a, from_a - from_b);
+    let at = [0, 1].map(|axis| {
+        let span = i128::from(b[axis] - a[axis]) * part;
+        let (doubled, whole) = if whole < 0 { (-2 * span, -whole) } else { (2 * span, whole) };
+        a[axis] + (doubled + whole).div_euclid(2 * whole) as i64
+    });
+    let is_end = |ends: [Point; 2]| ends.contains(&at);
+    if !(is_end([a, b]) && is_end([c, d])) {
+        crossings.push(at);
+    }
+}
+
+/// Lets every side run through all points, ends and crossings, whose grid cell it passes through.
+fn snap_to_points(sides: &[Side], crossings: Vec<Point>) -> Vec<Side> {
+    let mut points = crossings;
+    points.extend(sides.iter().flat_map(|(ends, _)| *ends));
+    let columns = PointColumns::new(points);
+    let mut pieces = Vec::with_capacity(sides.len());
+    for &(ends, sign) in sides {
+        let path = columns.points_on(ends);
+        pieces.extend(path.windows(2).map(|pair| ([pair[0], pair[1]], sign)));
+    }
+    merge_sides(pieces)
+}
+
+/// Points in columns of equal width, sorted by y in each.
+struct PointColumns {
+    columns: BTreeMap<i64, Vec<Point>>,
+    width: i64,
+}
+
+impl PointColumns {
+    fn new(mut points: Vec<Point>) -> Self {
+        points.sort_unstable();
+        points.dedup();
+        let span = points.last().zip(points.first()).map_or(0, |(last, first)| last[0] - first[0]);
+        let count = libm::sqrt(points.len() as f64) as i64 + 1;
+        let width = span / count + 1;
+        let mut columns: BTreeMap<i64, Vec<Point>> = BTreeMap::new();
+        for point in points {
+            columns.entry(point[0].div_euclid(width)).or_default().push(point);
+        }
+        columns.values_mut().for_each(|column| column.sort_unstable_by_key(|[x, y]| [*y, *x]));
+        Self { columns, width }
+    }
+
+    /// The points whose cell a side passes through, from its one end to its other.
+    fn points_on(&self, [a, b]: [Point; 2]) -> Vec<Point> {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let columns = (a[0] - 1).div_euclid(self.width)..=(b[0] + 1).div_euclid(self.width);
+        let mut found = Vec::new();
+        for (&column, points) in self.columns.range(columns) {
+            let [low, high] = self.heights_in_column([a, b], column);
+            let first = points.partition_point(|[_, y]| *y < low);
+            let near = points[first..].iter().take_while(|[_, y]| *y <= high);
+            found.extend(near.copied().filter(|&point| passes_cell([a, b], point)));
+        }
+        let position = |point: Point| -> i128 {
+            (0..2).map(|axis| i128::from(point[axis] - a[axis]) * i128::from(along[axis])).sum()
+        };
+        found.sort_by_key(|&point| (position(point), point));
+        // The ends are points themselves; others may be as far along within their cells.
+        found.retain(|point| *point != a && *point != b);
+        found.insert(0, a);
+        found.push(b);
+        found
+    }
+
+    /// The least and the greatest y of a side in a column, with a margin of a cell.
+    fn heights_in_column(&self, [a, b]: [Point; 2], column: i64) -> [i64; 2] {
+        if a[0] == b[0] {
+            return [a[1].min(b[1]) - 1, a[1].max(b[1]) + 1];
+        }
+        let at = |x: i64| {
+            let x = x.clamp(a[0], b[0]);
+            let rise = i128::from(b[1] - a[1]) * i128::from(x - a[0]);
+            a[1] + rise.div_euclid(i128::from(b[0] - a[0])) as i64
+        };
+        let ends = [at(column * self.width - 1), at((column + 1) * self.width + 1)];
+        [ends[0].min(ends[1]) - 2, ends[0].max(ends[1]) + 2]
+    }
+}
+
+/// Whether a side passes through the cell of a point: the square of one step around it.
+fn passes_cell([a, b]: [Point; 2], point: Point) -> bool {
+    let is_beside = |axis: usize| {
+        let (low, high) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+        point[axis] < low || point[axis] > high
+    };
+    if is_beside(0) || is_beside(1) {
+        return false;
+    }
+    let reach = i128::from((b[0] - a[0]).abs() + (b[1] - a[1]).abs());
+    2 * cross(a, b, point).abs() <= reach
+}
+
+/// The sides between the area and what is outside of it, with the area at their left.
+fn border_sides(sides: &[Side]) -> Vec<[Point; 2]> {
+    let rows = SideRows::new(sides);
+    let mut border = Vec::new();
+    for (index, &([a, b], sign)) in sides.iter().enumerate() {
+        // Of a horizontal side what is above it, of others what is at their right.
+        let beyond = rows.winding_beyond(sides, index);
+        let rises = b[1] > a[1];
+        let (left, right) = if a[1] == b[1] {
+            (beyond, beyond - sign)
+        } else if rises {
+            (beyond + sign, beyond)
+        } else {
+            (beyond, beyond - sign)
+        };
+        match (left > 0, right > 0) {
+            (true, false) => border.push([a, b]),
+            (false, true) => border.push([b, a]),
+            _ => {}
+        }
+    }
+    border
+}
+
+/// The sides that rise or fall, in rows of equal height.
+struct SideRows {
+    rows: Vec<Vec<usize>>,
+    low: i64,
+    height: i64,
+}
+
+impl SideRows {
+    fn new(sides: &[Side]) -> Self {
+        let heights = || sides.iter().flat_map(|(ends, _)| ends.map(|end| end[1]));
+        let (low, high) = (heights().min().unwrap_or(0), heights().max().unwrap_or(0));
+        let count = 4 * libm::sqrt(sides.len() as f64) as i64 + 1;
+        let height = (high - low) / count + 1;
+        let mut rows = vec![Vec::new(); count as usize + 1];
+        for (index, ([a, b], _)) in
+            sides.iter().enumerate().filter(|(_, (e, _))| e[0][1] != e[1][1])
+        {
+            let (from, to) = (a[1].min(b[1]), a[1].max(b[1]));
+            for row in (from - low) / height..=(to - low) / height {
+                rows[row as usize].push(index);
+            }
+        }
+        Self { rows, low, height }
+    }
+
+    /// The winding number beside the middle of a side: just beyond it in x, or in y if it is
+    /// horizontal.
+    ///
+    /// A ray from there to the right counts the sides that it crosses; a side has its lower end and
+    /// not its upper one. Coordinates are doubled, so that the middle is an integer.
+    fn winding_beyond(&self, sides: &[Side], index: usize) -> i32 {
+        let [a, b] = sides[index].0;
+        let middle = [a[0] + b[0], a[1] + b[1]];
+        let row = (middle[1].div_euclid(2) - self.low) / self.height;
+        // A middle between two steps may be in the row of either.
+        let next = ((middle[1] + 1).div_euclid(2) - self.low) / self.height;
+        let mut winding = 0;
+        let rows = &self.rows[row as usize..=next as usize];
+        for (at, in_row) in rows.iter().enumerate() {
+            for &other in in_row {
+                let (ends, sign) = sides[other];
+                let is_repeated = at > 0 && rows[0].contains(&other);
+                if other == index || is_repeated {
+                    continue;
+                }
+                winding += crossing_of_ray(middle, ends.map(|end| end.map(|c| 2 * c)), sign);
+            }
+        }
+        winding
+    }
+}
+
+/// What a side adds to the winding number about a point, by a ray to the right.
+fn crossing_of_ray(point: Point, [a, b]: [Point; 2], sign: i32) -> i32 {
+    let rises = b[1] > a[1];
+    let (low, high) = if rises { (a, b) } else { (b, a) };
+    if point[1] < low[1] || point[1] >= high[1] || cross(low, high, point) <= 0 {
+        return 0;
+    }
+    if rises { sign } else { -sign }
+}
+
+/// Joins directed sides to loops, each divided where it touches itself.
+fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
+    let mut sorted = sides.to_vec();
+    sorted.sort_unstable();
+    let mut used = vec![false; sorted.len()];
+    let mut loops = Vec::new();
+    for first in 0..sorted.len() {
+        if used[first] {
+            continue;
+        }
+        let mut path = vec![sorted[first][0]];
+        let mut at = first;
+        while !used[at] {
+            used[at] = true;
+            let [from, here] = sorted[at];
+            // A point that the loop has been at divides it.
+            match path.iter().rposition(|point| *point == here) {
+                Some(start) => {
+                    loops.push(path.split_off(start));
+                    path.push(here);
+                }
+                None => path.push(here),
+            }
+            let Some(next) = next_side(&sorted, &used, from, here) else { break };
+            at = next;
+        }
+    }
+    loops
+}
+
+/// The unused side from `here` that is the first clockwise from the way back to `from`: it bounds
+/// the same part of the area.
+fn next_side(sides: &[[Point; 2]], used: &[bool], from: Point, here: Point) -> Option<usize> {
+    let first = sides.partition_point(|[start, _]| *start < here);
+    let starting = (first..sides.len()).take_while(|&index| sides[index][0] == here);
+    let mut best: Option<usize> = None;
+    for index in starting.filter(|&index| !used[index]) {
+        let is_nearer =
+            |other: usize| is_clockwise_before(here, from, sides[index][1], sides[other][1]);
+        if best.is_none_or(is_nearer) {
+            best = Some(index);
+        }
+    }
+    best
+}
+
+/// Whether the direction to `a` comes before that to `b`, clockwise about `center` from `from`.
+fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
+    // The half turn after `from` clockwise comes first, then the other one.
+    let half = |to: Point| {
+        let turn = cross(center, from, to);
+        let ahead: i128 =
+            (0..2).map(|k| i128::from(from[k] - center[k]) * i128::from(to[k] - center[k])).sum();
+        match turn {
+            t if t < 0 => 0,
+            0 if ahead < 0 => 1,
+            t if t > 0 => 2,
+            _ => 3,
+        }
+    };
+    half(a).cmp(&half(b)).then_with(|| cross(center, a, b).cmp(&0)).is_lt()
+}
+
+/// A loop as a polyline, without points on straight lines; `None` if it is only a gap.
+fn finish_loop(points: Vec<Point>) -> Option<Polyline> {
+    let count = points.len();
+    let at = |index: usize| points[index % count];
+    let bends = |&index: &usize| cross(at(index + count - 1), at(index), at(index + 1)) != 0;
+    let kept: Vec<Point> = (0..count).filter(bends).map(at).collect();
+    let pairs = || kept.iter().zip(kept.iter().cycle().skip(1));
+    let doubled: i128 = pairs().map(|(a, b)| cross([0, 0], *a, *b)).sum();
+    let length = |(a, b): (&Point, &Point)| libm::hypot((b[0] - a[0]) as f64, (b[1] - a[1]) as f64);
+    let perimeter: f64 = pairs().map(length).sum();
+    let is_area = kept.len() >= 3 && doubled.unsigned_abs() as f64 > MIN_WIDTH * perimeter;
+    // The points of the page came as i32, and crossings are between them.
+    let narrow = |point: &Point| point.map(|c| c as i32);
+    is_area.then(|| Polyline { points: kept.iter().map(narrow).collect(), closed: true })
+}
+
+#[cfg(test)]
+mod tests;

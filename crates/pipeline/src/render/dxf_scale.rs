@@ -1,0 +1,48 @@
+//! The scale of a drawing of a scene in DXF: 1:1 in the units of the models where that exists.
+//!
+//! ```text
+//!   one parallel view     units of the models; (0, 0) is the image of the world's origin
+//!   perspective, insets   millimeters of the page, from its lower left corner
+//! ```
+//! In a parallel view lengths parallel to the picture plane are true, so that the front view of a
+//! plate is the plate. Others are shortened as the projection says; the file is not enlarged by that.
+
+use crate::Scene;
+use drawing::{DxfOptions, MILLIMETERS_PER_PIXEL, Page};
+use glam::DVec2;
+use homog::Point;
+use model::LengthUnit;
+
+/// The coordinates of a page of [`draw_lines`](super::draw_lines()) in a DXF file.
+#[must_use]
+pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
+    let on_paper = DxfOptions::on_paper(page);
+    let scale = scene.pixels_per_unit().filter(|_| scene.insets.is_empty());
+    let Some((pixels_per_unit, origin)) = scale.zip(origin_on_page(scene, page)) else {
+        return on_paper;
+    };
+    DxfOptions {
+        unit: common_unit(scene),
+        units_per_millimeter: 1.0 / (pixels_per_unit * MILLIMETERS_PER_PIXEL),
+        origin,
+        ..on_paper
+    }
+}
+
+/// The image of the world's origin in millimeters of the page; `None` if it is too far away for
+/// coordinates to have digits left.
+fn origin_on_page(scene: &Scene, page: &Page) -> Option<DVec2> {
+    /// The greatest distance in sides of the page.
+    const MAX_DISTANCE: f64 = 1e6;
+    let image = scene.view_projection.world_to_clip().transform_point(Point::ORIGIN).raw();
+    let ndc = image.truncate().truncate() / image.w;
+    let origin = DVec2::new(1.0 + ndc.x, 1.0 - ndc.y) * 0.5 * page.size;
+    (origin.abs().max_element() <= MAX_DISTANCE * page.size.max_element()).then_some(origin)
+}
+
+/// The unit that the files of all models have; `None` if they differ.
+fn common_unit(scene: &Scene) -> Option<LengthUnit> {
+    let mut units = scene.models.iter().map(|placed| placed.model.length_unit);
+    let first = units.next().unwrap_or_default();
+    units.all(|unit| unit == first).then_some(first)
+}
