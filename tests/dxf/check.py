@@ -1,6 +1,6 @@
 """DXF files of the program, read by ezdxf: check.py PROGRAM FOLDER INPUT…
 
-Every INPUT, a scene or a model, is drawn as DXF. The audit of ezdxf must find nothing, and lines must be as long as those of the SVG, to
+Every INPUT, a folder of scenes and models or one of these, is drawn as DXF. The audit of ezdxf must find nothing, and lines must be as long as those of the SVG, to
 1e-6 mm for each layer. Models become sheets too. Then parts with known cross sections are cut: their outlines must be closed, simple, and
 have the area of the section. Files are written to FOLDER. Prints a line `FAILED …` for each fault; the last line counts.
 """
@@ -16,6 +16,8 @@ import ezdxf
 PROGRAM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 # The longest that one drawing may take, in seconds.
 PATIENCE = 120
+# The models of folders, and the largest of them.
+MODELS, MOST_BYTES = {".glb", ".gltf", ".stl", ".obj", ".ply", ".3mf"}, 12_000_000
 checked, failures = 0, 0
 
 
@@ -118,6 +120,9 @@ def compare_lengths(document, svg):
 def check_drawing(name, command, *flags):
     """One drawing: the audit, with arcs and without, and the lengths without."""
     path = FOLDER / f"{name}.dxf"
+    fault = run(*command, *flags, "-o", path.with_suffix(".svg"))
+    if fault:
+        return [fault]
     for tolerance in ([], ["--arc-tolerance", "0"]):
         fault = run(*command, *flags, "-o", path, *tolerance)
         if fault:
@@ -125,8 +130,7 @@ def check_drawing(name, command, *flags):
         document, faults = audit(path)
         if faults:
             return faults
-    fault = run(*command, *flags, "-o", path.with_suffix(".svg"))
-    return [fault] if fault else compare_lengths(document, path.with_suffix(".svg").read_text("utf-8"))
+    return compare_lengths(document, path.with_suffix(".svg").read_text("utf-8"))
 
 
 # Parts: prisms of 10 mm with a cross section of polygons, some of them with a hole of as many corners.
@@ -252,9 +256,23 @@ def check_circles():
     return faults
 
 
+def inputs(path):
+    """A file, or the scenes of a folder, or else all models below it."""
+    if path.is_file():
+        return [path]
+    scenes = sorted(path.glob("*.ron"))
+    models = (file for file in path.rglob("*") if file.suffix in MODELS and file.stat().st_size <= MOST_BYTES)
+    return scenes or sorted(models)
+
+
 FOLDER.mkdir(parents=True, exist_ok=True)
-for number, item in enumerate(map(pathlib.Path, sys.argv[3:])):
+items = [item for argument in sys.argv[3:] for item in inputs(pathlib.Path(argument))]
+for number, item in enumerate(items):
     name = f"{number}_{item.stem}"
+    # Some models are broken or empty, which other tests are about.
+    if item.suffix != ".ron" and run("render", item, "--size", "16x16", "-o", FOLDER / f"{name}.png"):
+        print(f"left out: {item}")
+        continue
     report(item, check_drawing(name, ["render", item]))
     if item.suffix != ".ron":
         technical = ["--style", "technical", "--projection", "isometric"]

@@ -112,8 +112,8 @@ fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf
     Ok(folder)
 }
 
-/// The formats of each scene: a picture, and line drawings in both vector formats.
-const EXTENSIONS: [&str; 3] = ["png", "svg", "pdf"];
+/// The formats of each scene: a picture, and line drawings in all vector formats.
+const EXTENSIONS: [&str; 4] = ["png", "svg", "pdf", "dxf"];
 
 fn output_path(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
     folder.join(format!("{}.{ending}", scene.name))

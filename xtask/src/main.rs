@@ -13,6 +13,7 @@ mod conformance;
 mod deny;
 mod determinism;
 mod docs;
+mod dxf;
 mod farm;
 mod fuzz;
 mod gallery;
@@ -134,6 +135,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--release]",
         about: "Build the wheel of the package for Python, and run its tests",
         run: python::run_python,
+    },
+    Command {
+        name: "dxf",
+        arguments: "",
+        about: "Read DXF files of scenes, models and parts back by ezdxf",
+        run: dxf::run_dxf,
     },
     Command {
         name: "bench",

@@ -113,13 +113,13 @@ fn test_wheel(wheel: &Path) -> Outcome {
 }
 
 /// A virtual environment of Python.
-struct VirtualEnvironment {
+pub struct VirtualEnvironment {
     folder: PathBuf,
 }
 
 impl VirtualEnvironment {
     /// A new one in place of an old one; `None` if Python cannot make any.
-    fn create(folder: &Path) -> Option<Self> {
+    pub fn create(folder: &Path) -> Option<Self> {
         let mut python = Command::new("python3");
         python.args(["-m", "venv", "--clear"]).arg(folder);
         run_command(&mut python).ok()?;
@@ -132,14 +132,14 @@ impl VirtualEnvironment {
     }
 
     /// Its Python, which sees neither other packages nor the folder it runs in.
-    fn isolated_python(&self) -> Command {
+    pub fn isolated_python(&self) -> Command {
         let mut python = Command::new(self.program("python"));
         python.arg("-I");
         python
     }
 
     /// Installs packages.
-    fn install(&self, packages: &[&str]) -> Outcome {
+    pub fn install(&self, packages: &[&str]) -> Outcome {
         let mut pip = Command::new(self.program("python"));
         pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(packages);
         println!("{}", command_line(&pip));

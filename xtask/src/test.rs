@@ -165,7 +165,7 @@ fn document_and_package_steps() -> [Step; 4] {
 }
 
 /// The steps of the interfaces that have tool chains of their own, and what everything costs.
-fn interface_steps() -> [Step; 3] {
+fn interface_steps() -> [Step; 4] {
     [
         Step::cargo(
             "browser",
@@ -176,6 +176,11 @@ fn interface_steps() -> [Step; 3] {
             "python",
             "the wheel makes pictures in an empty environment, and its tests pass",
             &["xtask python"],
+        ),
+        Step::cargo(
+            "dxf",
+            "DXF files pass the audit of ezdxf, have the lengths of the SVGs and the areas of sections",
+            &["xtask dxf"],
         ),
         Step::cargo(
             "instructions",

@@ -131,12 +131,13 @@ fn step_angle(from: DVec2, to: DVec2, circle: Circle) -> f64 {
 fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
     let count = points.len();
     let is_arc = |first: usize| {
-        let four = [0, 1, 2, 3].map(|k| points[(first + k) % count]);
-        fit_circle([four[0], four[1], four[3]])
-            .is_some_and(|circle| has_arc_steps(&four, circle, tolerance))
+        // Four points of a trapezoid are on a circle too.
+        let five = [0, 1, 2, 3, 4].map(|k| points[(first + k) % count]);
+        fit_circle([five[0], five[2], five[4]])
+            .is_some_and(|circle| has_arc_steps(&five, circle, tolerance))
     };
     let is_corner = |index: &usize| {
-        let ends = is_arc(index + count - 3) && !is_arc(index + count - 2);
+        let ends = is_arc(index + count - 4) && !is_arc(index + count - 3);
         ends || is_arc(*index) && !is_arc(index + count - 1)
     };
     (0..count).find(is_corner).unwrap_or(0)

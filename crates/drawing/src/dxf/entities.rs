@@ -132,8 +132,7 @@ impl EntityWriter {
                 self.tags.tag(100, "AcDbArc");
                 // With y up, angles change their sign and arcs their direction.
                 for (code, angle) in [(50, -end), (51, -start)] {
-                    let degrees = angle.to_degrees();
-                    self.tags.number(code, degrees - 360.0 * libm::floor(degrees / 360.0));
+                    self.tags.number(code, degrees_within(angle, 360.0));
                 }
                 self.include(
                     line.points.iter().map(|point| self.place(*point)).collect::<Vec<_>>(),
@@ -246,13 +245,11 @@ impl EntityWriter {
     /// Writes the pattern of a hatch: one family of continuous lines.
     fn write_pattern(&mut self, area: &HatchArea) {
         let along = DVec2::new(area.direction.x, -area.direction.y);
-        let degrees = libm::atan2(along.y, along.x).to_degrees();
-        let angle = degrees - 180.0 * libm::floor(degrees / 180.0);
+        let angle = degrees_within(libm::atan2(along.y, along.x), 180.0);
         let spacing = area.spacing * self.options.units_per_millimeter;
         // A predefined pattern, turned and scaled: its lines rise by 45° at distances of 3.175 mm.
         self.tags.tag(76, 1);
-        let turn = angle - 45.0;
-        self.tags.number(52, turn - 180.0 * libm::floor(turn / 180.0));
+        self.tags.number(52, if angle < 45.0 { angle + 135.0 } else { angle - 45.0 });
         self.tags.number(41, spacing / 3.175);
         self.tags.tags("77=0|78=1");
         self.tags.number(53, angle);
@@ -264,6 +261,12 @@ impl EntityWriter {
         self.tags.number(46, offset.y);
         self.tags.tag(79, 0);
     }
+}
+
+/// An angle in degrees, to a billionth of one, from 0 to less than a period.
+fn degrees_within(radians: f64, period: f64) -> f64 {
+    let degrees = libm::round(radians.to_degrees() * 1e9) / 1e9;
+    degrees - period * libm::floor(degrees / period)
 }
 
 /// A text without what readers take for codes: `%%` and `^` begin some.

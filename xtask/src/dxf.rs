@@ -1,0 +1,42 @@
+//! `cargo xtask dxf`: DXF files of the program, read back by ezdxf.
+//!
+//! The checks are `tests/dxf/check.py`: every scene and model, and parts whose cross sections are
+//! known. ezdxf is installed in a virtual environment; without it the step is skipped, with a line
+//! that says so.
+
+use crate::Outcome;
+use crate::program::{Build, Program, run_visibly};
+use crate::python::VirtualEnvironment;
+use crate::workspace::{project_root, target_folder};
+use std::path::PathBuf;
+
+/// The reader of the files.
+const READER: &str = "ezdxf>=1.3,<2";
+
+/// Draws scenes and models as DXF and checks the files.
+pub fn run_dxf(_arguments: &[String]) -> Outcome {
+    let folder = target_folder().join("dxf");
+    let Some(environment) = VirtualEnvironment::create(&folder.join("environment"))
+        .filter(|environment| environment.install(&[READER]).is_ok())
+    else {
+        println!("SKIPPED dxf: there is no python3 with venv, or ezdxf cannot be installed");
+        return Ok(());
+    };
+    let program = Program::build(Build::Debug)?;
+    let root = project_root();
+    let mut check = environment.isolated_python();
+    check.arg(root.join("tests/dxf/check.py")).arg(program.path()).arg(folder.join("files"));
+    check.args([root.join("scenes"), root.join("scenes/models")]);
+    match asset_folder() {
+        Some(assets) => drop(check.arg(assets)),
+        None => println!("SKIPPED dxf: shared models: there is no folder ASSETS"),
+    }
+    run_visibly(&mut check)
+}
+
+/// The folder of further models, if there is one.
+fn asset_folder() -> Option<PathBuf> {
+    let folder = std::env::var_os("ASSETS").map(PathBuf::from);
+    let folder = folder.unwrap_or_else(|| project_root().join("../shared/assets"));
+    Some(folder.join("models")).filter(|models| models.is_dir())
+}
