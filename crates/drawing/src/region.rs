@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn shared_sides_cancel_whatever_the_orientation() {
-        let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(|p| DVec2::from(p));
+        let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(DVec2::from);
         let mut sides = Vec::new();
         add_polygon(&[a, b, c], &mut sides);
         add_polygon(&[a, d, c], &mut sides);

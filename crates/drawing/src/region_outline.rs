@@ -45,7 +45,7 @@ pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) 
         sides = snap_to_points(&sides, crossings);
     }
     let loops = join_loops(&border_sides(&sides));
-    loops.into_iter().filter_map(finish_loop).collect()
+    loops.iter().filter_map(|points| finish_loop(points)).collect()
 }
 
 /// Orients sides from the lesser to the greater end, sums equal ones, and drops those that cancel.
@@ -353,7 +353,7 @@ fn is_clockwise_before(center: Point, from: Point, a: Point, b: Point) -> bool {
 }
 
 /// A loop as a polyline, without points on straight lines; `None` if it is only a gap.
-fn finish_loop(points: Vec<Point>) -> Option<Polyline> {
+fn finish_loop(points: &[Point]) -> Option<Polyline> {
     let count = points.len();
     let at = |index: usize| points[index % count];
     let bends = |&index: &usize| cross(at(index + count - 1), at(index), at(index + 1)) != 0;
