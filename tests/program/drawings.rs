@@ -227,7 +227,7 @@ fn drawing_errors_are_reported_and_leave_no_file() {
     write_box(&sandbox, "box", [1.0, 1.0, 1.0]);
     let failing = [
         (
-            &["render", "box.gltf", "-o", "out.dxf"][..],
+            &["render", "box.gltf", "-o", "out.dwg"][..],
             "has no known extension: .png, .svg, .pdf or .dxf",
         ),
         (&["sheet", "box.gltf", "-o", "out"], "has no known extension: .png, .svg, .pdf or .dxf"),

@@ -16,6 +16,7 @@ mod check;
 mod compare_projections;
 mod curve;
 mod drawings;
+mod dxf;
 mod examples;
 mod exercise;
 mod exercises;

@@ -100,7 +100,7 @@ fn pictures_come_from_the_standard_input_and_go_to_the_standard_output() {
         sandbox.run_with_input(&["render", "-", "-o", "-"], scene) == (0, expected),
         "a scene in"
     );
-    for (format, magic) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF-")] {
+    for (format, magic) in [("svg", &b"<svg"[..]), ("pdf", b"%PDF-"), ("dxf", b"0\nSECTION\n")] {
         let (code, bytes) =
             sandbox.run_with_input(&["render", "-", "-o", "-", "--format", format], &model);
         assert!(code == 0 && bytes.starts_with(magic), "{format}");

@@ -1,0 +1,112 @@
+//! DXF and outlines: units, coordinates and layers as they are written; `tests/dxf` reads whole
+//! files.
+
+use crate::drawings::{assert_near, assert_succeeds, write_box};
+use crate::sandbox::Sandbox;
+
+/// The tags of a file.
+fn read_tags(sandbox: &Sandbox, name: &str) -> Vec<(u16, String)> {
+    let text = std::fs::read_to_string(sandbox.path_of(name)).expect("a DXF");
+    let lines: Vec<&str> = text.lines().collect();
+    let pair = |pair: &[&str]| (pair[0].parse().expect("a group code"), pair[1].to_owned());
+    lines.chunks(2).map(pair).collect()
+}
+
+/// The values of a code in the entities of a kind.
+fn numbers(tags: &[(u16, String)], kind: &str, code: u16) -> Vec<f64> {
+    let mut is_inside = false;
+    let mut found = Vec::new();
+    for (other, value) in tags {
+        is_inside = if *other == 0 { value == kind } else { is_inside };
+        if is_inside && *other == code {
+            found.push(value.parse().expect("a number"));
+        }
+    }
+    found
+}
+
+/// The value that follows a variable of the header.
+fn header<'a>(tags: &'a [(u16, String)], name: &str) -> &'a str {
+    let at = tags.iter().position(|(_, value)| value == name).expect("a variable");
+    &tags[at + 1].1
+}
+
+/// The least and the greatest of some numbers.
+fn extent(numbers: &[f64]) -> [f64; 2] {
+    let least = numbers.iter().fold(f64::INFINITY, |least, number| least.min(*number));
+    [least, numbers.iter().fold(-least, |most, number| most.max(*number))]
+}
+
+#[test]
+fn a_parallel_view_has_the_coordinates_of_the_model() {
+    let sandbox = Sandbox::new("dxf_units");
+    write_box(&sandbox, "box", [40.0, 25.0, 10.0]);
+    let view = ["--view", "front", "--projection", "orthographic", "--style", "outline"];
+    for (unit, code) in [("mm", "4"), ("m", "6"), ("in", "1")] {
+        let flags = ["render", "box.gltf", "--unit", unit, "-o", "box.dxf"];
+        assert_succeeds(&sandbox, &[&flags[..], &view].concat());
+        let tags = read_tags(&sandbox, "box.dxf");
+        assert_eq!((header(&tags, "$ACADVER"), header(&tags, "$INSUNITS")), ("AC1015", code));
+        // One closed polyline from corner to corner of the front.
+        assert_eq!(numbers(&tags, "LWPOLYLINE", 70), [129.0]);
+        let [x, y] = [10, 20].map(|code| extent(&numbers(&tags, "LWPOLYLINE", code)));
+        for (actual, expected) in x.into_iter().chain(y).zip([0.0, 40.0, 0.0, 25.0]) {
+            assert_near(actual, expected);
+        }
+    }
+}
+
+#[test]
+fn perspectives_and_sheets_are_in_millimeters_of_the_page() {
+    let sandbox = Sandbox::new("dxf_paper");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let flags = ["render", "box.gltf", "--projection", "perspective", "--style", "lines"];
+    assert_succeeds(&sandbox, &[&flags[..], &["-o", "eye.dxf"]].concat());
+    let tags = read_tags(&sandbox, "eye.dxf");
+    assert_eq!(header(&tags, "$INSUNITS"), "4");
+    let [_, high] = extent(&numbers(&tags, "LWPOLYLINE", 10));
+    assert!((100.0..254.0).contains(&high), "{high}");
+    assert_succeeds(&sandbox, &["sheet", "box.gltf", "--scale", "1:1", "-o", "sheet.dxf"]);
+    let tags = read_tags(&sandbox, "sheet.dxf");
+    let texts: Vec<&str> =
+        tags.windows(2).filter(|p| p[0].0 == 40 && p[1].0 == 1).map(|p| p[1].1.as_str()).collect();
+    assert!(
+        ["100", "50", "30", "1:1", "Scale"].iter().all(|text| texts.contains(text)),
+        "{texts:?}"
+    );
+    let layer = |name: &str| tags.iter().any(|(code, value)| *code == 8 && value.starts_with(name));
+    assert!(layer("front-visible-") && layer("dimensions") && layer("title-block"));
+}
+
+#[test]
+fn images_and_wrong_tolerances_are_told_of() {
+    let sandbox = Sandbox::new("dxf_images");
+    write_box(&sandbox, "box", [1.0, 1.0, 1.0]);
+    sandbox.write_file(
+        "flat.ron",
+        "Scene(models: [(path: \"box.gltf\")], style: Lines(face_fill: Flat))",
+    );
+    let run = sandbox.run(&["render", "flat.ron", "-o", "flat.dxf"]);
+    assert!(run.code == 0 && run.stderr.contains("but no images"), "{}", run.stderr);
+    for tolerance in ["-1", "11", "nan", "x"] {
+        let flag = format!("--arc-tolerance={tolerance}");
+        let run = sandbox.run(&["render", "box.gltf", "-o", "box.dxf", &flag]);
+        assert!(run.code == 2 && run.stderr.contains("from 0 to 10"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn outlines_are_closed_in_every_format() {
+    let sandbox = Sandbox::new("outlines");
+    write_box(&sandbox, "box", [2.0, 1.0, 1.0]);
+    let flags = ["render", "box.gltf", "--projection", "isometric", "--style", "outline"];
+    assert_succeeds(&sandbox, &[&flags[..], &["-o", "box.svg"]].concat());
+    let svg = std::fs::read_to_string(sandbox.path_of("box.svg")).expect("an SVG");
+    assert!(svg.contains("<g id=\"outline\"") && svg.matches("z\"/>").count() == 1, "{svg}");
+    assert_eq!(svg.matches("<path").count(), 1);
+    let cut = ["--view", "front", "--section", "z=0.5", "-o", "cut.svg"];
+    let flags = ["render", "box.gltf", "--projection", "orthographic", "--style", "outline"];
+    assert_succeeds(&sandbox, &[&flags[..], &cut].concat());
+    let svg = std::fs::read_to_string(sandbox.path_of("cut.svg")).expect("an SVG");
+    assert!(svg.contains("<g id=\"outline.1\">") && svg.contains("z\"/>"), "{svg}");
+}
