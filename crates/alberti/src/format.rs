@@ -3,6 +3,10 @@
 //! Commands with a plot or panels accept further extensions, such as `.html` or `.csv`, which they
 //! look for before they ask for an [`OutputFormat`].
 
+mod dxf;
+
+pub(crate) use dxf::{DxfArgs, image_warning};
+
 use super::error::CliError;
 use drawing::{DxfOptions, Page, to_pdf};
 use std::path::Path;

@@ -33,7 +33,6 @@ mod content_digest;
 mod curve;
 mod deferred;
 mod demo;
-mod dxf;
 mod error;
 mod exercise;
 mod explain;

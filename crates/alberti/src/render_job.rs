@@ -14,8 +14,7 @@
 use super::CliError;
 use super::args::RenderArgs;
 use super::compare::PictureComparison;
-use super::dxf::image_warning;
-use super::format::OutputFormat;
+use super::format::{OutputFormat, image_warning};
 use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
 use super::progress::Progress;

@@ -4,8 +4,7 @@
 //! in the scene file, and for a bare model, all of its fields have defaults.
 
 use super::CliError;
-use super::dxf::{DxfArgs, image_warning};
-use super::format::OutputFormat;
+use super::format::{DxfArgs, OutputFormat, image_warning};
 use super::load_options::LoadArgs;
 use super::messages::print_warnings;
 use super::model_state::ModelStateArgs;

@@ -54,7 +54,7 @@ pub(super) struct Circle {
 
 /// A line of the page as lines and arcs.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum Curve {
+pub(super) enum LineShape {
     /// A full circle.
     Circle(Circle),
     /// One arc from an angle to a greater one in radians, from x to y.
@@ -65,18 +65,18 @@ pub(super) enum Curve {
 
 /// The curve of a line, with arcs where its points lie on circles within a tolerance in micrometers;
 /// with a tolerance of 0 there are none.
-pub(super) fn recognize_arcs(line: &Polyline, tolerance: f64) -> Curve {
+pub(super) fn recognize_arcs(line: &Polyline, tolerance: f64) -> LineShape {
     let points: Vec<DVec2> = line.points.iter().copied().map(grid_point).collect();
     let straight = |points: &[DVec2]| -> Vec<ArcVertex> {
         points.iter().map(|&point| ArcVertex { point, bulge: 0.0 }).collect()
     };
     if tolerance <= 0.0 || points.len() < MIN_ARC_POINTS {
-        return Curve::Path(straight(&points), line.closed);
+        return LineShape::Path(straight(&points), line.closed);
     }
     if line.closed
         && let Some(circle) = full_circle(&points, tolerance)
     {
-        return Curve::Circle(circle);
+        return LineShape::Circle(circle);
     }
     // A closed line is begun at a corner, so that no arc is cut in two by its first point.
     let start = if line.closed { corner_index(&points, tolerance) } else { 0 };
@@ -90,13 +90,13 @@ pub(super) fn recognize_arcs(line: &Polyline, tolerance: f64) -> Curve {
         && !line.closed
         && let Some(circle) = circle_of(&ring, tolerance)
     {
-        return Curve::Arc(circle, arc_angles(circle, [from.point, to.point], from.bulge));
+        return LineShape::Arc(circle, arc_angles(circle, [from.point, to.point], from.bulge));
     }
     let mut vertices = vertices;
     if line.closed {
         vertices.pop();
     }
-    Curve::Path(vertices, line.closed)
+    LineShape::Path(vertices, line.closed)
 }
 
 /// A point of the grid as a vector.

@@ -1,7 +1,7 @@
 //! Entities of a DXF file: lines, arcs, texts and hatches in the coordinates of the drawing.
 
 use super::DxfOptions;
-use super::arcs::{ArcVertex, Circle, Curve, recognize_arcs};
+use super::arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use super::layers::escape_unicode;
 use super::skeleton::{FIRST_ENTITY, MODEL_SPACE};
 use super::tags::TagWriter;
@@ -122,11 +122,11 @@ impl EntityWriter {
     fn write_line(&mut self, layer: &str, line: &Polyline) {
         let tolerance = self.options.arc_tolerance / MICROMETER;
         match recognize_arcs(line, tolerance) {
-            Curve::Circle(circle) => {
+            LineShape::Circle(circle) => {
                 self.begin("CIRCLE", layer, "AcDbCircle");
                 self.write_circle(circle);
             }
-            Curve::Arc(circle, [start, end]) => {
+            LineShape::Arc(circle, [start, end]) => {
                 self.begin("ARC", layer, "AcDbCircle");
                 self.write_circle(circle);
                 self.tags.tag(100, "AcDbArc");
@@ -138,7 +138,7 @@ impl EntityWriter {
                     line.points.iter().map(|point| self.place(*point)).collect::<Vec<_>>(),
                 );
             }
-            Curve::Path(vertices, closed) => self.write_path(layer, &vertices, closed),
+            LineShape::Path(vertices, closed) => self.write_path(layer, &vertices, closed),
         }
     }
 
@@ -229,8 +229,8 @@ impl EntityWriter {
     /// Writes a loop around a hatch, the first of which is external.
     fn write_hatch_loop(&mut self, line: &Polyline, is_first: bool) {
         let vertices: Vec<ArcVertex> = match recognize_arcs(line, 0.0) {
-            Curve::Path(vertices, _) => vertices,
-            Curve::Circle(_) | Curve::Arc(..) => Vec::new(),
+            LineShape::Path(vertices, _) => vertices,
+            LineShape::Circle(_) | LineShape::Arc(..) => Vec::new(),
         };
         let placed: Vec<DVec2> =
             vertices.iter().map(|vertex| self.place_exactly(vertex.point)).collect();

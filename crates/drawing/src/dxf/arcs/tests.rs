@@ -27,9 +27,9 @@ fn polygon(center: [f64; 2], radius: f64, sides: u32) -> Polyline {
     line(&points, true)
 }
 
-fn vertices(curve: Curve) -> Vec<ArcVertex> {
+fn vertices(curve: LineShape) -> Vec<ArcVertex> {
     match curve {
-        Curve::Path(vertices, _) => vertices,
+        LineShape::Path(vertices, _) => vertices,
         other => panic!("{other:?}"),
     }
 }
@@ -37,7 +37,7 @@ fn vertices(curve: Curve) -> Vec<ArcVertex> {
 #[test]
 fn circles_of_thirteen_sides_and_more_are_circles() {
     for (sides, radius) in [(13, 3.0), (16, 0.4), (24, 40.0), (32, 1.5), (90, 0.9), (720, 95.0)] {
-        let Curve::Circle(circle) =
+        let LineShape::Circle(circle) =
             recognize_arcs(&polygon([20.5, -7.0], radius, sides), TOLERANCE)
         else {
             panic!("{sides} sides")
@@ -65,7 +65,7 @@ fn polygons_of_few_corners_stay_polygons() {
     // Without a tolerance nothing is an arc.
     let circle = polygon([0.0, 0.0], 30.0, 90);
     assert!(
-        matches!(recognize_arcs(&circle, 0.0), Curve::Path(points, true) if points.len() == 90)
+        matches!(recognize_arcs(&circle, 0.0), LineShape::Path(points, true) if points.len() == 90)
     );
 }
 
@@ -73,7 +73,7 @@ fn polygons_of_few_corners_stay_polygons() {
 fn an_arc_has_the_angles_of_its_ends() {
     for [from, to] in [[0.1, 0.4], [0.7, 1.2], [0.4, 0.1], [0.05, 0.9]] {
         let points = on_circle([5.0, 6.0], 12.0, [from, to], 40);
-        let Curve::Arc(circle, [start, end]) = recognize_arcs(&line(&points, false), TOLERANCE)
+        let LineShape::Arc(circle, [start, end]) = recognize_arcs(&line(&points, false), TOLERANCE)
         else {
             panic!("{from} to {to}")
         };
@@ -105,7 +105,7 @@ fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
     // The first step ends halfway, as where a line becomes hidden.
     points[0] = points[0].lerp(points[1], 0.9);
     assert!(
-        matches!(recognize_arcs(&line(&points, false), TOLERANCE), Curve::Path(v, _) if v.len() == 2 || v.len() == 3)
+        matches!(recognize_arcs(&line(&points, false), TOLERANCE), LineShape::Path(v, _) if v.len() == 2 || v.len() == 3)
     );
     // Of many short steps some are left out.
     let mut fine = on_circle([0.0, 0.0], 20.0, [0.0, 1.0], 600);
@@ -115,5 +115,5 @@ fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
         count += 1;
         count % 3 != 0
     });
-    assert!(matches!(recognize_arcs(&line(&fine, true), TOLERANCE), Curve::Circle(_)));
+    assert!(matches!(recognize_arcs(&line(&fine, true), TOLERANCE), LineShape::Circle(_)));
 }

@@ -1,6 +1,6 @@
 //! DXF output: the flag for its arcs, and what the format leaves out.
 
-use super::format::OutputFormat;
+use super::OutputFormat;
 use drawing::{DxfOptions, Page, Warning};
 
 /// Arguments of DXF output.
@@ -17,13 +17,13 @@ pub(crate) struct DxfArgs {
 
 impl DxfArgs {
     /// The options with the tolerance of the flag.
-    pub(super) fn apply_to(&self, options: DxfOptions) -> DxfOptions {
+    pub(crate) fn apply_to(&self, options: DxfOptions) -> DxfOptions {
         DxfOptions { arc_tolerance: self.arc_tolerance.unwrap_or(options.arc_tolerance), ..options }
     }
 }
 
 /// The warning that a format leaves out the images of a page.
-pub(super) fn image_warning(format: OutputFormat, page: &Page) -> Option<Warning> {
+pub(crate) fn image_warning(format: OutputFormat, page: &Page) -> Option<Warning> {
     let leaves_out = format == OutputFormat::Dxf && !page.images.is_empty();
     leaves_out.then_some(Warning::ImagesNotInDxf)
 }
