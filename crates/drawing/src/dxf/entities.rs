@@ -132,7 +132,7 @@ impl EntityWriter {
                 self.tags.tag(100, "AcDbArc");
                 // With y up, angles change their sign and arcs their direction.
                 for (code, angle) in [(50, -end), (51, -start)] {
-                    self.tags.number(code, degrees_within(angle, 360.0));
+                    self.tags.number(code, degrees_within(angle, 360.0, 1e9));
                 }
                 self.include(
                     line.points.iter().map(|point| self.place(*point)).collect::<Vec<_>>(),
@@ -245,7 +245,8 @@ impl EntityWriter {
     /// Writes the pattern of a hatch: one family of continuous lines.
     fn write_pattern(&mut self, area: &HatchArea) {
         let along = DVec2::new(area.direction.x, -area.direction.y);
-        let angle = degrees_within(libm::atan2(along.y, along.x), 180.0);
+        // Rounded, for the scales of a view differ in x and y by the rounding of its size in pixels.
+        let angle = degrees_within(libm::atan2(along.y, along.x), 180.0, 1e5);
         let spacing = area.spacing * self.options.units_per_millimeter;
         // A predefined pattern, turned and scaled: its lines rise by 45° at distances of 3.175 mm.
         self.tags.tag(76, 1);
@@ -263,9 +264,9 @@ impl EntityWriter {
     }
 }
 
-/// An angle in degrees, to a billionth of one, from 0 to less than a period.
-fn degrees_within(radians: f64, period: f64) -> f64 {
-    let degrees = libm::round(radians.to_degrees() * 1e9) / 1e9;
+/// An angle in degrees, rounded to one part of so many, from 0 to less than a period.
+fn degrees_within(radians: f64, period: f64, parts: f64) -> f64 {
+    let degrees = libm::round(radians.to_degrees() * parts) / parts;
     degrees - period * libm::floor(degrees / period)
 }
 
