@@ -25,6 +25,28 @@ fn numbers(tags: &[(u16, String)], kind: &str, code: u16) -> Vec<f64> {
     found
 }
 
+/// Whether an entity is of a kind, on a layer whose name begins so.
+fn has_entity(tags: &[(u16, String)], kind: &str, layer: &str) -> bool {
+    let is_such = |entity: &[(u16, String)]| {
+        entity[0].1 == kind
+            && entity.iter().any(|(code, name)| *code == 8 && name.starts_with(layer))
+    };
+    tags.chunk_by(|_, (code, _)| *code != 0).any(is_such)
+}
+
+/// The texts on a layer, sorted.
+fn texts_on<'a>(tags: &'a [(u16, String)], layer: &str) -> Vec<&'a str> {
+    let is_here = |entity: &&[(u16, String)]| {
+        entity[0].1 == "TEXT" && entity.iter().any(|(code, name)| *code == 8 && name == layer)
+    };
+    let entities = tags.chunk_by(|_, (code, _)| *code != 0).filter(is_here);
+    let mut texts: Vec<&str> = entities
+        .flat_map(|entity| entity.iter().filter(|(code, _)| *code == 1).map(|(_, text)| &**text))
+        .collect();
+    texts.sort_unstable();
+    texts
+}
+
 /// The value that follows a variable of the header.
 fn header<'a>(tags: &'a [(u16, String)], name: &str) -> &'a str {
     let at = tags.iter().position(|(_, value)| value == name).expect("a variable");
@@ -76,6 +98,44 @@ fn perspectives_and_sheets_are_in_millimeters_of_the_page() {
     );
     let layer = |name: &str| tags.iter().any(|(code, value)| *code == 8 && value.starts_with(name));
     assert!(layer("front-visible-") && layer("dimensions") && layer("title-block"));
+}
+
+#[test]
+fn annotations_of_a_sheet_have_their_texts_on_layers_of_their_own() {
+    let sandbox = Sandbox::new("dxf_annotations");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let flags = ["sheet", "box.gltf", "--scale", "1:1", "--section", "z=0.015", "-o", "cut.dxf"];
+    assert_succeeds(&sandbox, &flags);
+    let tags = read_tags(&sandbox, "cut.dxf");
+    let [dimensions, names] = ["dimensions-text", "cut-names"].map(|layer| texts_on(&tags, layer));
+    assert!(dimensions.contains(&"100") && dimensions.contains(&"50"), "{dimensions:?}");
+    // Above and beside the front view, which is cut, the line of the section.
+    assert_eq!(names, ["A", "A", "A", "A", "A-A"]);
+    for layer in ["dimensions", "cut-lines", "cut-arrows", "scale-bar"] {
+        assert_eq!(texts_on(&tags, layer), [""; 0], "{layer}");
+    }
+    for layer in ["dimensions-text", "cut-names", "scale-bar-text"] {
+        let kinds = ["LINE", "LWPOLYLINE", "HATCH"];
+        assert!(!kinds.iter().any(|kind| has_entity(&tags, kind, layer)), "{layer}");
+    }
+    assert!(has_entity(&tags, "HATCH", "front-visible-hatching"));
+    assert!(!has_entity(&tags, "LINE", "front-visible-hatching"));
+}
+
+#[test]
+fn sheets_have_the_outlines_that_a_scene_asks_for() {
+    let sandbox = Sandbox::new("dxf_outline_sheet");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    sandbox.write_file(
+        "box.ron",
+        "Scene(models: [(path: \"box.gltf\")], style: Lines(edges: Outline))",
+    );
+    assert_succeeds(&sandbox, &["sheet", "box.ron", "--no-dimensions", "-o", "box.dxf"]);
+    let tags = read_tags(&sandbox, "box.dxf");
+    for view in ["front", "top", "left", "isometric"] {
+        assert!(has_entity(&tags, "LWPOLYLINE", &format!("{view}-outline")), "{view}");
+        assert!(!has_entity(&tags, "LWPOLYLINE", &format!("{view}-visible")), "{view}");
+    }
 }
 
 #[test]

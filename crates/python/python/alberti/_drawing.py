@@ -34,8 +34,9 @@ def draw(
         model: As for :func:`alberti.render`.
         camera: As for :func:`alberti.render`.
         size: As for :func:`alberti.render`; 96 pixels are an inch on paper.
-        style: ``lines``, ``dashed`` (hidden lines dashed), ``silhouette``, ``technical`` (line
-            types of ISO 128), ``wireframe`` or ``depth-cued``; ``lines`` if not given.
+        style: ``lines``, ``dashed`` (hidden lines dashed), ``silhouette``, ``outline`` (the
+            silhouette as closed loops), ``technical`` (line types of ISO 128), ``wireframe`` or
+            ``depth-cued``; ``lines`` if not given.
         background: As for :func:`alberti.render`; the color of the paper.
         threads: As for :func:`alberti.render`.
 

@@ -46,7 +46,7 @@ def render(
             ``coverage``. All but the first are of the surface at the center of each pixel.
         style: ``shaded``, ``flat``, ``gouraud``, ``clay``, ``matcap``, ``normals``, ``depth``,
             ``uv``, ``ids``, ``toon``, ``x-ray``, ``wireframe``, ``lines``, ``dashed``,
-            ``silhouette``, ``technical`` or ``depth-cued``.
+            ``silhouette``, ``outline``, ``technical`` or ``depth-cued``.
         background: ``transparent``, ``#rrggbb``, or the name of a color of CSS.
         samples: Samples per pixel for anti-aliasing: 1, 4, 8 or 16; 4 if not given.
         threads: The most threads; one for each processor if not given.
