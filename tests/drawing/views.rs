@@ -94,6 +94,7 @@ pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Resu
             width,
             height,
             background: [0.0; 4],
+            is_blank_paper: false,
             environment_blur: None,
             samples,
             max_anisotropy: 1,

@@ -29,6 +29,7 @@ mod info;
 mod insets;
 mod light;
 mod light_leaks;
+mod line_styles;
 mod manual;
 mod matrix;
 mod matrix_answers;

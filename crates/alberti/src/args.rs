@@ -258,6 +258,12 @@ pub(crate) enum StyleArg {
     /// Visible, hidden and tangent edges with the line types and widths of ISO 128; sections have
     /// no hidden edges
     Technical,
+    /// Black lines, and faces in shade hatched, as in patents
+    Patent,
+    /// As technical, in white on blue paper
+    Blueprint,
+    /// Pencil lines as drawn by hand
+    Sketch,
 }
 
 /// The values of `--overlay`.

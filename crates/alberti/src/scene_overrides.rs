@@ -94,15 +94,18 @@ impl SceneOverrideArgs {
         if let Some(anisotropy) = self.max_anisotropy {
             file.image.max_anisotropy = anisotropy;
         }
-        if let Some(background) = &self.background {
-            file.image.background.clone_from(background);
-        }
-        if let Some(style) = self.style {
-            file.style = style.into();
+        if self.background.is_some() {
+            file.image.background.clone_from(&self.background);
         }
         self.section.append_to(file);
-        if self.style == Some(StyleArg::Technical) && !file.sections.is_empty() {
-            file.style = StyleFile::lines_technical_section();
+        if let Some(style) = self.style {
+            let is_cut = !file.sections.is_empty();
+            file.style = match style {
+                StyleArg::Technical | StyleArg::Blueprint if is_cut => {
+                    StyleFile::from(style).without_hidden_lines()
+                }
+                style => style.into(),
+            };
         }
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         self.model_state.apply_to_scene(file);
@@ -211,6 +214,9 @@ impl From<StyleArg> for StyleFile {
             StyleArg::Silhouette => Self::lines_silhouette(),
             StyleArg::Outline => Self::lines_outline(),
             StyleArg::Technical => Self::lines_technical(),
+            StyleArg::Patent => Self::lines_patent(),
+            StyleArg::Blueprint => Self::lines_blueprint(),
+            StyleArg::Sketch => Self::lines_sketch(),
         }
     }
 }

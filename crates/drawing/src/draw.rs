@@ -128,8 +128,10 @@ fn hatch_surface(
     let (spacing, touching) = (options.hatch_spacing, surface.touch_tolerance().world);
     let caps = Hatching::hatch_caps(&surface.section_caps(), projector, spacing, touching);
     let mut hatchings = vec![caps];
-    if options.face_fill == FaceFill::Hatching {
+    let colors_count = options.face_fill == FaceFill::Hatching;
+    if colors_count || options.face_fill == FaceFill::ShadeHatching {
         let faces = surface.colored_faces_without_caps().map(|(vertices, object, color)| {
+            let color = if colors_count { color } else { [1.0; 3] };
             (vertices, object, key_light.face_luma(vertices, color))
         });
         hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));

@@ -15,6 +15,7 @@
 //! and where segments coincide on the page only that of the most important kind remains. Layers
 //! have stable ids, such as `hidden-crease`, by which style sheets and scripts can address them.
 
+use super::hand_drawn::draw_by_hand;
 use super::line_density::Thinning;
 use super::line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 use super::line_type::LineType;
@@ -153,7 +154,14 @@ impl LineDrawing {
             layer
         };
         let layers = layers.rev().map(layer);
-        layers.chain(self.outline_layer(&kinds, placement, prefix, ink)).collect()
+        let mut layers: Vec<Layer> =
+            layers.chain(self.outline_layer(&kinds, placement, prefix, ink)).collect();
+        if style.hand_drawn > 0.0 {
+            for group in layers.iter_mut().flat_map(|layer| &mut layer.groups) {
+                group.strokes = draw_by_hand(&group.strokes, style.hand_drawn);
+            }
+        }
+        layers
     }
 
     /// The layer of the outlines: a group of the whole, or one for each object.
@@ -186,7 +194,7 @@ impl LineDrawing {
     /// Says of the hatch lines in the groups of a layer which areas they hatch; not where faces are
     /// hatched as well as cuts.
     fn mark_hatchings(&self, layer: &mut Layer, style: &LineStyle, placement: Placement) {
-        if style.face_fill == FaceFill::Hatching {
+        if matches!(style.face_fill, FaceFill::Hatching | FaceFill::ShadeHatching) {
             return;
         }
         for group in &mut layer.groups {

@@ -34,6 +34,7 @@ mod error;
 mod face_fill;
 mod face_raster;
 mod fixed_decimal;
+mod hand_drawn;
 mod hatching;
 mod hidden_line;
 mod label;

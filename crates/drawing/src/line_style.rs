@@ -4,6 +4,7 @@ use super::EdgeClass;
 use super::line_type::IsoLineGroup;
 use super::options::{DrawOptions, EdgeClasses, HiddenEdges};
 use super::page::{Cap, Ink, Join, MILLIMETERS_PER_PIXEL};
+use super::palette::{BLACK, BLUEPRINT_BLUE, GRAPHITE, WHITE};
 
 /// The appearance of a line drawing.
 ///
@@ -35,6 +36,8 @@ pub struct LineStyle {
     pub line_widths: LineWidths,
     /// The color of the lines; `None` for one that contrasts with the paper.
     pub ink: Option<Ink>,
+    /// The color of the paper of sheets; `None` for white.
+    pub paper: Option<Ink>,
     /// The ends of lines.
     pub cap: Cap,
     /// The corners of lines.
@@ -43,6 +46,9 @@ pub struct LineStyle {
     pub hatch_spacing: f64,
     /// The fill of faces under the lines.
     pub face_fill: FaceFill,
+    /// How far strokes waver about their true place, in millimeters, as if drawn by hand; 0 for
+    /// exact lines.
+    pub hand_drawn: f64,
 }
 
 /// The edges that a style draws.
@@ -83,6 +89,9 @@ pub enum FaceFill {
     Flat,
     /// Hatch lines on the faces, the denser the darker a face is.
     Hatching,
+    /// Hatch lines on the faces that the key light leaves dark, whatever the colors of the
+    /// materials.
+    ShadeHatching,
 }
 
 /// The widths of lines.
@@ -106,10 +115,12 @@ impl LineStyle {
         depth_cue: 0.0,
         line_widths: LineWidths::Pixels(1.25),
         ink: None,
+        paper: None,
         cap: Cap::Round,
         join: Join::Round,
         hatch_spacing: 2.0,
         face_fill: FaceFill::None,
+        hand_drawn: 0.0,
     };
     /// Features with hidden lines dashed.
     pub const HIDDEN_DASHED: Self =
@@ -133,6 +144,24 @@ impl LineStyle {
         edges: EdgeSelection::Tangents,
         hidden_lines: HiddenLines::Dashed,
         line_widths: LineWidths::Iso(IsoLineGroup::MM_0_5),
+        ..Self::HIDDEN_REMOVED
+    };
+    /// Black lines without hidden ones, and faces in shade hatched by thin lines, as in patents.
+    pub const PATENT: Self = Self {
+        line_widths: LineWidths::Iso(IsoLineGroup::MM_0_35),
+        ink: Some(BLACK),
+        hatch_spacing: 1.2,
+        face_fill: FaceFill::ShadeHatching,
+        ..Self::HIDDEN_REMOVED
+    };
+    /// White lines on blue paper, with the line types and widths of ISO 128.
+    pub const BLUEPRINT: Self =
+        Self { ink: Some(WHITE), paper: Some(BLUEPRINT_BLUE), ..Self::TECHNICAL };
+    /// Lines without hidden ones as drawn by hand, with a pencil.
+    pub const SKETCH: Self = Self {
+        line_widths: LineWidths::Millimeters(0.3),
+        ink: Some(GRAPHITE),
+        hand_drawn: 0.35,
         ..Self::HIDDEN_REMOVED
     };
 }

@@ -11,6 +11,12 @@ pub const BLACK: Ink = [0, 0, 0];
 /// White paper.
 pub const WHITE: Ink = [255; 3];
 
+/// The paper of blueprints.
+pub const BLUEPRINT_BLUE: Ink = [29, 66, 121];
+
+/// The pencil of sketches.
+pub const GRAPHITE: Ink = [68, 66, 64];
+
 /// Ink of line drawings, charts and captions on light paper.
 pub const INK: Ink = [26, 31, 38];
 

@@ -218,7 +218,7 @@ impl Sheet {
             self.title_block.title.clone()
         };
         let size = DVec2::new(self.paper.width(), self.paper.height());
-        let mut page = Page::new(size, title, Some(WHITE));
+        let mut page = Page::new(size, title, Some(self.style.paper.unwrap_or(WHITE)));
         let ink = self.style.ink.unwrap_or(BLACK);
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
         let mut surfaces = SurfaceCache::new(models);

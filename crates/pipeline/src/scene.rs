@@ -203,6 +203,9 @@ pub struct ImageSpec {
     pub caption_height: u32,
     /// The background color: linear, premultiplied by alpha.
     pub background: [f32; 4],
+    /// Whether the background is the white paper that line drawings have by default: pages in
+    /// vector format leave it out.
+    pub is_blank_paper: bool,
     /// How blurred the environment is as the background, from 0 to 1; `None` if it is not visible.
     pub environment_blur: Option<f32>,
     /// Coverage samples per pixel.

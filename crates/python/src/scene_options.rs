@@ -26,7 +26,7 @@ pub(crate) fn apply_options(subject: &Subject, options: &Keywords<'_, '_>) -> Py
         file.style = style_by_name(&name)?;
     }
     if let Some(text) = options.text("background")? {
-        file.image.background = background_by_name(&text)?;
+        file.image.background = Some(background_by_name(&text)?);
     }
     if let Some(samples) = options.count("samples")? {
         if ![1, 4, 8, 16].contains(&samples) {

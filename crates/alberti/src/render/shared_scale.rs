@@ -4,7 +4,7 @@ use crate::CliError;
 use crate::scene_overrides::SceneOverrideArgs;
 use camera::NamedView;
 use pipeline::scene::SceneFile;
-use pipeline::scene::file::{BackgroundFile, EnvironmentFile, ViewportsScale};
+use pipeline::scene::file::{EnvironmentFile, ViewportsScale};
 use pipeline::{Origin, Scene};
 
 /// Gives the view of a scene the least scale of all `--views`.
@@ -25,7 +25,7 @@ pub(super) fn share_scale(
         let mut other = file.clone();
         (other.viewports, other.stereo, other.overlays) = (Vec::new(), None, Vec::new());
         other.viewports_scale = ViewportsScale::Individual;
-        other.image.background = BackgroundFile::Transparent;
+        other.image.background = None;
         if let Some(EnvironmentFile::File { .. }) = other.environment {
             other.environment = Some(EnvironmentFile::STUDIO);
         }

@@ -144,6 +144,7 @@ mod tests {
             height,
             caption_height: 0,
             background,
+            is_blank_paper: false,
             environment_blur,
             samples,
             max_anisotropy: 1,

@@ -30,12 +30,16 @@ const OVERLAY_INK: Ink = [20, 24, 30];
 /// Draws the lines of a scene on a page of the picture's size, at 96 pixels to the inch.
 ///
 /// Styles that show surfaces are drawn with hidden lines removed, in viewports too. An anaglyph is
-/// left out, with a warning. The number of threads does not change the page.
+/// left out, with a warning. Blank paper is left out as well, so that the page can be laid over
+/// others. The number of threads does not change the page.
 ///
 /// # Errors
 /// As [`render`](crate::render()).
 pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Page, RenderError> {
     let mut page = draw_view(scene, threads, timings)?;
+    if scene.image.is_blank_paper {
+        page.paper = None;
+    }
     if scene.insets.iter().any(|inset| inset.cyan_only) {
         page.warnings.push(Warning::AnaglyphIgnored);
     } else {

@@ -1,13 +1,14 @@
 //! Resolution of the background: a color, or a backdrop of a gradient or an image.
 //!
 //! ```text
+//!  none                 white in line drawings, else as Transparent
 //!  Transparent          0, 0, 0, 0
 //!  Color                linear color, alpha 1
 //!  Environment          drawn by the renderer along the view rays
 //!  Gradient, Picture    a backdrop behind the models, over the clear color
 //! ```
 
-use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile};
+use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile, StyleFile};
 use super::surrounding_light::read_image_bytes;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
@@ -33,11 +34,10 @@ impl SceneFile {
     /// finding changed files.
     pub fn image_paths(&self) -> impl Iterator<Item = &str> {
         let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
-        let behind =
-            own.chain([&self.image.background]).filter_map(|background| match background {
-                BackgroundFile::Picture { path, .. } => Some(path.as_str()),
-                _ => None,
-            });
+        let behind = own.chain(&self.image.background).filter_map(|background| match background {
+            BackgroundFile::Picture { path, .. } => Some(path.as_str()),
+            _ => None,
+        });
         let around = match &self.environment {
             Some(EnvironmentFile::File { path, .. }) => Some(path.as_str()),
             _ => None,
@@ -69,7 +69,10 @@ pub(super) fn resolve_background_color(
     file: &SceneFile,
 ) -> Result<[f32; 4], SceneError> {
     let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
-    match &file.image.background {
+    let Some(background) = &file.image.background else {
+        return Ok(default_paper(&file.style).map_or([0.0; 4], |color| opaque(color.to_linear())));
+    };
+    match background {
         BackgroundFile::Transparent => Ok([0.0; 4]),
         BackgroundFile::Environment { .. }
             if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
@@ -88,6 +91,24 @@ pub(super) fn resolve_background_color(
             Ok(color.map_or([0.0; 4], |color| opaque(color.to_linear())))
         }
     }
+}
+
+/// The paper of a style for which the scene has no background: that of line drawings, else none.
+fn default_paper(style: &StyleFile) -> Option<Color> {
+    match style {
+        StyleFile::Wireframe => Some(Color::WHITE),
+        StyleFile::Lines(lines) => Some(lines.paper.unwrap_or(Color::WHITE)),
+        _ => None,
+    }
+}
+
+/// Whether the background is nothing but the white paper that line drawings have by default.
+pub(super) fn is_blank_paper(file: &SceneFile) -> bool {
+    let is_blank = match &file.style {
+        StyleFile::Lines(lines) => lines.paper.is_none(),
+        style => *style == StyleFile::Wireframe,
+    };
+    is_blank && file.image.background.is_none()
 }
 
 /// The linear gradient of `colors` in the direction `angle`, in radians, over an image of width ×
@@ -125,11 +146,11 @@ pub(super) fn resolve_backdrop(
 ) -> Result<Option<Arc<Backdrop>>, SceneError> {
     let (width, height) = file.image.size;
     let backdrop = match &file.image.background {
-        BackgroundFile::Gradient { colors, angle_degrees } => {
+        Some(BackgroundFile::Gradient { colors, angle_degrees }) => {
             let angle = angle_degrees.value().to_radians();
             Backdrop::Gradient(resolve_gradient(origin, colors, angle, file.image.size)?)
         }
-        BackgroundFile::Picture { path, fit, .. } => {
+        Some(BackgroundFile::Picture { path, fit, .. }) => {
             let at = [Field("image"), Field("background"), Field("path")];
             let bytes = read_image_bytes(origin, &at, path, allowed)?;
             let image = decode_image(&bytes, MAX_IMAGE_TEXELS).map_err(|problem| {

@@ -17,6 +17,8 @@ pub struct Color(pub [u8; 3]);
 impl Color {
     /// Black.
     pub const BLACK: Self = Self([0; 3]);
+    /// White.
+    pub const WHITE: Self = Self([255; 3]);
 
     /// Parses `#rgb`, `#rrggbb`, or the name of a color of CSS in any case; `None` if the text is
     /// none of them.

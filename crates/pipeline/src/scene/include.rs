@@ -263,7 +263,7 @@ fn rebase_paths(file: &mut SceneFile, folder: &Path) {
         rebased(path);
     }
     let others = file.viewports.iter_mut().filter_map(|viewport| viewport.background.as_mut());
-    for background in others.chain([&mut file.image.background]) {
+    for background in others.chain(&mut file.image.background) {
         if let BackgroundFile::Picture { path, .. } = background {
             rebased(path);
         }

@@ -83,7 +83,7 @@ pub(super) fn resolve_insets(
 /// The scene file as it holds within a viewport of this size: fields of the viewport replace those
 /// of the scene.
 fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)) -> SceneFile {
-    let background = viewport.background.as_ref().unwrap_or(&file.image.background).clone();
+    let background = viewport.background.as_ref().or(file.image.background.as_ref()).cloned();
     SceneFile {
         camera: viewport.camera.as_ref().unwrap_or(&file.camera).clone(),
         style: viewport.style.as_ref().unwrap_or(&file.style).clone(),

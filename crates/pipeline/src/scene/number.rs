@@ -43,6 +43,18 @@ checked_number! {
 }
 
 checked_number! {
+    /// The amplitude of lines drawn by hand in millimeters, from 0 to 5.
+    HandDrawn, "an amplitude from 0 to 5 millimeters", |x| (0.0..=5.0).contains(&x)
+}
+
+impl HandDrawn {
+    /// No displacement.
+    pub const EXACT: Self = Self(0.0);
+    /// That of the style of sketches.
+    pub const SKETCH: Self = Self(0.35);
+}
+
+checked_number! {
     /// The height of letters in pixels, from 1 to 1000.
     LabelSize, "a height from 1 to 1000 pixels", |x| (1.0..=1000.0).contains(&x)
 }
@@ -55,6 +67,8 @@ impl LabelSize {
 impl HatchSpacing {
     /// 2 millimeters.
     pub const DEFAULT: Self = Self(2.0);
+    /// 1.2 millimeters: the shading of patents.
+    pub const PATENT: Self = Self(1.2);
 }
 
 impl Fraction {

@@ -122,6 +122,7 @@ named_values! {
         None = "Nothing: the paper shows.",
         Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",
         Hatching = "Hatch lines, closer where that light leaves the face darker. They are as exact as the edges.",
+        ShadeHatching = "Hatch lines as well, by the light alone: the colors of the materials make no difference.",
     }
 }
 

@@ -1,7 +1,7 @@
 //! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
 //! the file. Models are loaded, angles are radians, and every default is decided.
 
-use super::backdrop::{resolve_backdrop, resolve_background_color};
+use super::backdrop::{is_blank_paper, resolve_backdrop, resolve_background_color};
 use super::caption::resolve_caption;
 use super::exposure::resolve_exposure;
 use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, ViewFile};
@@ -196,7 +196,7 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
     let samples = resolve_samples(origin, file)?;
     let background = resolve_background_color(origin, file)?;
     let environment_blur = match &file.image.background {
-        BackgroundFile::Environment { blur } => {
+        Some(BackgroundFile::Environment { blur }) => {
             Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))
         }
         _ => None,
@@ -208,6 +208,7 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         height,
         caption_height,
         background,
+        is_blank_paper: is_blank_paper(file),
         environment_blur,
         samples,
         max_anisotropy,

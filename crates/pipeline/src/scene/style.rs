@@ -35,10 +35,12 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneEr
         depth_cue: file.depth_cue_percent.value() / 100.0,
         line_widths: resolve_widths(origin, file.width)?,
         ink: file.color.map(|color| color.0),
+        paper: file.paper.map(|color| color.0),
         cap: file.cap,
         join: file.join,
         hatch_spacing: file.hatch_spacing_mm.value(),
         face_fill: file.face_fill,
+        hand_drawn: file.hand_drawn_mm.value(),
     })
 }
 

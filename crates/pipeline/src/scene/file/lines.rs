@@ -1,7 +1,7 @@
 //! The style of line drawings in a scene file: which edges, how hidden ones show, how wide.
 
 use crate::scene::color::Color;
-use crate::scene::number::{CreaseAngle, HatchSpacing, Percent, Positive};
+use crate::scene::number::{CreaseAngle, HandDrawn, HatchSpacing, Percent, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
 use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join};
 
@@ -21,6 +21,9 @@ scene_struct! {
         pub width: WidthFile = WidthFile::DEFAULT,
         /// The color of the lines. Default: dark on light, light on dark.
         pub color: Option<Color> = None,
+        /// The color of the paper, unless the image has a background. Default: white, which SVG, PDF
+        /// and DXF leave out.
+        pub paper: Option<Color> = None,
         /// How lines end. Default: `Round`.
         pub cap: Cap = Cap::Round,
         /// How lines join at corners. Default: `Round`.
@@ -31,6 +34,9 @@ scene_struct! {
         pub hatch_spacing_mm: HatchSpacing = HatchSpacing::DEFAULT,
         /// The fill of the faces under the lines. Default: `None`.
         pub face_fill: FaceFill = FaceFill::None,
+        /// How far lines waver about their true place, in millimeters of the paper from 0 to 5, as
+        /// if drawn by hand; each is drawn twice. Default: 0, exact lines.
+        pub hand_drawn_mm: HandDrawn = HandDrawn::EXACT,
     }
 }
 

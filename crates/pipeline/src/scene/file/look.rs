@@ -2,9 +2,11 @@
 
 use super::background::BackgroundFile;
 use super::lines::{LinesFile, WidthFile};
-use crate::scene::number::{Finite, Percent};
+use crate::scene::color::Color;
+use crate::scene::number::{Finite, HandDrawn, HatchSpacing, Percent, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
-use drawing::{EdgeSelection, HiddenLines};
+use drawing::palette::{BLUEPRINT_BLUE, GRAPHITE};
+use drawing::{EdgeSelection, FaceFill, HiddenLines};
 use shade::ToneMapping;
 
 scene_enum! {
@@ -47,7 +49,7 @@ type NamedStyle = (&'static str, fn() -> StyleFile);
 
 impl StyleFile {
     /// The styles by the names that flags have for them, each with the default of its fields.
-    pub const NAMED: [NamedStyle; 18] = [
+    pub const NAMED: [NamedStyle; 21] = [
         ("shaded", || Self::Shaded),
         ("flat", || Self::Flat),
         ("gouraud", || Self::Gouraud),
@@ -66,6 +68,9 @@ impl StyleFile {
         ("silhouette", Self::lines_silhouette),
         ("outline", Self::lines_outline),
         ("technical", Self::lines_technical),
+        ("patent", Self::lines_patent),
+        ("blueprint", Self::lines_blueprint),
+        ("sketch", Self::lines_sketch),
     ];
 
     /// Whether the light of an environment arrives in pictures of this style.
@@ -114,12 +119,50 @@ impl StyleFile {
         Self::Lines(LinesFile { edges, hidden, width, ..LinesFile::default() })
     }
 
-    /// As [`lines_technical`](Self::lines_technical), without hidden edges: a section shows what is
-    /// inside, and hidden edges would only confuse (ISO 128-3).
+    /// Black lines without hidden ones, and faces in shade hatched, as in patents.
     #[must_use]
-    pub fn lines_technical_section() -> Self {
-        let (edges, width) = (EdgeSelection::Tangents, WidthFile::DEFAULT_ISO);
-        Self::Lines(LinesFile { edges, width, ..LinesFile::default() })
+    pub fn lines_patent() -> Self {
+        Self::Lines(LinesFile {
+            width: WidthFile::Iso(Positive::constant(0.35)),
+            color: Some(Color::BLACK),
+            hatch_spacing_mm: HatchSpacing::PATENT,
+            face_fill: FaceFill::ShadeHatching,
+            ..LinesFile::default()
+        })
+    }
+
+    /// White lines on blue paper, with the line types and widths of ISO 128.
+    #[must_use]
+    pub fn lines_blueprint() -> Self {
+        Self::Lines(LinesFile {
+            edges: EdgeSelection::Tangents,
+            hidden: HiddenLines::Dashed,
+            width: WidthFile::DEFAULT_ISO,
+            color: Some(Color::WHITE),
+            paper: Some(Color(BLUEPRINT_BLUE)),
+            ..LinesFile::default()
+        })
+    }
+
+    /// Lines without hidden ones as drawn by hand, with a pencil.
+    #[must_use]
+    pub fn lines_sketch() -> Self {
+        Self::Lines(LinesFile {
+            width: WidthFile::Mm(Positive::constant(0.3)),
+            color: Some(Color(GRAPHITE)),
+            hand_drawn_mm: HandDrawn::SKETCH,
+            ..LinesFile::default()
+        })
+    }
+
+    /// The style without hidden lines if it is a line drawing: a section shows what is inside, and
+    /// hidden edges would only confuse (ISO 128-3).
+    #[must_use]
+    pub fn without_hidden_lines(self) -> Self {
+        match self {
+            Self::Lines(lines) => Self::Lines(LinesFile { hidden: HiddenLines::Removed, ..lines }),
+            other => other,
+        }
     }
 }
 
@@ -128,8 +171,9 @@ scene_struct! {
     pub struct ImageFile as "Image" {
         /// Width and height in pixels, each from 1 to 1048576. Default: (960, 720).
         pub size: (u32, u32) = (960, 720),
-        /// The background. Default: `Transparent`.
-        pub background: BackgroundFile = BackgroundFile::Transparent,
+        /// The background. Default: `Transparent`; white paper in line drawings, which SVG, PDF and
+        /// DXF leave out.
+        pub background: Option<BackgroundFile> = None,
         /// Coverage samples per pixel (MSAA): 1, 4, 8 or 16. Default: 4.
         pub samples: u32 = 4,
         /// The bits of each channel in a PNG: 8 or 16. Default: 8.

@@ -10,7 +10,7 @@ const WHITE: u8 = 0xd0;
 
 /// The style `Depth`, which is white where it is near, before a white background.
 pub(super) fn lint_white_background(origin: &Origin, file: &SceneFile) -> Option<Lint> {
-    let BackgroundFile::Color(color) = &file.image.background else { return None };
+    let Some(BackgroundFile::Color(color)) = &file.image.background else { return None };
     if file.style != StyleFile::Depth || color.0.iter().any(|channel| *channel < WHITE) {
         return None;
     }
