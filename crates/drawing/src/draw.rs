@@ -139,14 +139,17 @@ fn hatch_surface(
     hatchings
 }
 
+/// The faces of a wall: lines behind more are not drawn if only the first layer is.
+const FACES_OF_A_WALL: u32 = 2;
+
 /// Divides edges into visible and hidden segments against the occluders of one view.
 ///
 /// Edges are independent of each other, so this is where threads are used.
 struct EdgeDivider {
     projector: Projector,
     occluders: Occluders,
-    /// Whether hidden segments are part of the drawing.
-    retains_hidden: bool,
+    /// Which hidden segments are part of the drawing.
+    hidden_edges: HiddenEdges,
 }
 
 impl EdgeDivider {
@@ -162,8 +165,9 @@ impl EdgeDivider {
             HiddenEdges::Ignored => Occluders::new([], projector, tolerance),
             _ => Occluders::new(surface.occluder_triangles(), projector, tolerance),
         };
-        let retains_hidden = options.hidden_edges == HiddenEdges::Retained && !options.outline_only;
-        Self { projector, occluders, retains_hidden }
+        let hidden_edges =
+            if options.outline_only { HiddenEdges::Removed } else { options.hidden_edges };
+        Self { projector, occluders, hidden_edges }
     }
 
     /// The segments of all edges, in the order of the edges.
@@ -190,15 +194,32 @@ impl EdgeDivider {
             return;
         };
         let hidden = self.occluders.hidden_intervals(&projected, scratch);
-        let retains_hidden = self.retains_hidden && edge.class != EdgeClass::Hatching;
-        let parts = hidden.divide_unit_interval().filter(|(_, hidden)| !hidden || retains_hidden);
-        segments.extend(parts.map(|(interval, hidden)| EdgeSegment {
-            ends: interval.map(|s| projected.screen_at(s)),
-            depths: interval.map(|s| projected.depth_at(s)),
-            class: edge.class,
-            visible: !hidden,
-            object: edge.object,
-            edge: edge_index,
-        }));
+        let hidden_edges = match edge.class {
+            EdgeClass::Hatching => HiddenEdges::Removed,
+            _ => self.hidden_edges,
+        };
+        let mut push = |interval: [f64; 2], hidden: bool| {
+            segments.push(EdgeSegment {
+                ends: interval.map(|s| projected.screen_at(s)),
+                depths: interval.map(|s| projected.depth_at(s)),
+                class: edge.class,
+                visible: !hidden,
+                object: edge.object,
+                edge: edge_index,
+            });
+        };
+        if hidden_edges == HiddenEdges::FirstLayer && !hidden.is_empty() {
+            let deep = self.occluders.intervals_behind_faces(&projected, FACES_OF_A_WALL);
+            for (interval, hidden) in hidden.divide_unit_interval() {
+                let parts = if hidden { deep.parts_outside(interval) } else { vec![interval] };
+                parts.into_iter().for_each(|part| push(part, hidden));
+            }
+            return;
+        }
+        for (interval, hidden) in hidden.divide_unit_interval() {
+            if !hidden || hidden_edges == HiddenEdges::Retained {
+                push(interval, hidden);
+            }
+        }
     }
 }

@@ -20,9 +20,9 @@
 //! ```
 //!
 //! Appel counts, at each point of an edge, the faces in front of it: the *quantitative
-//! invisibility*. A line drawing only asks whether that count is zero, so this module does not
-//! count; it takes the union of the intervals that single faces hide. Two rules make the union
-//! agree with intuition on meshes:
+//! invisibility*. Most line drawings only ask whether that count is zero, so the union of the
+//! intervals that single faces hide is enough; `covering_faces` counts them, for drawings that dash
+//! the lines behind one wall alone. Two rules make the union agree with intuition on meshes:
 //!
 //! - Touching does not hide. An edge that lies in a face, or on its border, belongs to the face and
 //!   stays visible; [`Tolerance`] gives the distances below which an edge touches.
@@ -31,6 +31,7 @@
 //!   face lies, and their intersection is hidden.
 
 mod bvh;
+mod covering_faces;
 mod occluder;
 mod occluders;
 mod occlusion_intervals;

@@ -385,7 +385,7 @@ fn thinning_for_style(
         HiddenLines::Drawn if style.edges == EdgeSelection::Facets => {
             [Thinning::for_lines(drawing, wide, keeps_width, |_| true), Thinning::NONE]
         }
-        HiddenLines::Dashed => {
+        HiddenLines::Dashed | HiddenLines::FirstLayer => {
             let hidden = |segment: &EdgeSegment| !segment.visible;
             [Thinning::NONE, Thinning::for_lines(drawing, narrow, keeps_width, hidden)]
         }

@@ -76,6 +76,9 @@ pub enum HiddenLines {
     Removed,
     /// They are dashed.
     Dashed,
+    /// They are dashed where at most two faces are in front of them, the two sides of one wall;
+    /// those farther behind are not drawn.
+    FirstLayer,
     /// They are drawn like visible ones, as if the bodies were of glass.
     Drawn,
 }
@@ -186,6 +189,7 @@ impl LineStyle {
                 _ if self.edges == EdgeSelection::Outline => HiddenEdges::Ignored,
                 HiddenLines::Removed => HiddenEdges::Removed,
                 HiddenLines::Dashed => HiddenEdges::Retained,
+                HiddenLines::FirstLayer => HiddenEdges::FirstLayer,
                 HiddenLines::Drawn => HiddenEdges::Ignored,
             },
             crease_angle: self.crease_angle,

@@ -43,6 +43,8 @@ pub enum HiddenEdges {
     Removed,
     /// They are drawn as segments that are not visible, to be dashed.
     Retained,
+    /// As `Retained`, where at most two faces are in front of them: the two sides of one wall.
+    FirstLayer,
     /// Visibility is not computed: all edges are visible from end to end, as in a wireframe.
     Ignored,
 }

@@ -78,13 +78,13 @@ pub struct EdgeParts {
 pub struct Occluders {
     /// The projection of the faces; edges must be projected by the same one.
     projector: Projector,
-    tolerance: Tolerance,
+    pub(super) tolerance: Tolerance,
     /// In the order of the leaves of the hierarchy, so that a leaf is a range.
-    occluders: Vec<Occluder>,
+    pub(super) occluders: Vec<Occluder>,
     /// Over the boxes of the occluders: x and y in pixels, z the depth, with 1 nearest.
-    bvh: Bvh,
+    pub(super) bvh: Bvh,
     /// Whether a face hides what is behind it only.
-    respects_depth: bool,
+    pub(super) respects_depth: bool,
 }
 
 /// Memory of one query, reused for the next.
@@ -229,7 +229,7 @@ impl Occluders {
 /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: where even the
 /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box can
 /// hide it. Depth is linear in s, so its extremes are at the ends.
-fn interval_behind_box(
+pub(super) fn interval_behind_box(
     edge: &ProjectedEdge,
     bounds: &Aabb,
     respects_depth: bool,

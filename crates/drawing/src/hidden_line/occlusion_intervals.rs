@@ -95,6 +95,21 @@ impl OcclusionIntervals {
         }
     }
 
+    /// The parts of an interval outside of the set, in rising order.
+    pub(crate) fn parts_outside(&self, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
+        let (mut parts, mut from) = (Vec::new(), start);
+        for &[low, high] in &self.0 {
+            if from < low.min(end) {
+                parts.push([from, low.min(end)]);
+            }
+            from = from.max(high);
+        }
+        if from < end {
+            parts.push([from, end]);
+        }
+        parts
+    }
+
     /// Divides [0, 1] at the ends of the intervals: each part in rising order, with `true` for
     /// hidden.
     ///
@@ -155,6 +170,15 @@ mod tests {
             interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
         intervals.remove_slivers(0.01);
         assert_eq!(intervals.as_slice(), [[0.0, 0.4], [0.8, 1.0]]);
+    }
+
+    #[test]
+    fn parts_outside_of_a_set_end_where_it_begins() {
+        let intervals = interval_set(&[[0.1, 0.3], [0.5, 0.6]]);
+        assert_eq!(intervals.parts_outside([0.0, 1.0]), [[0.0, 0.1], [0.3, 0.5], [0.6, 1.0]]);
+        assert_eq!(intervals.parts_outside([0.2, 0.4]), [[0.3, 0.4]]);
+        assert_eq!(intervals.parts_outside([0.15, 0.25]), [[0.0; 2]; 0]);
+        assert_eq!(intervals.parts_outside([0.7, 0.8]), [[0.7, 0.8]]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::stage::*;
 use drawing::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
+use drawing::{DrawOptions, HiddenEdges, draw};
 
 /// The outline of the cube [−1, 1]³ in the oblique picture, and the three edges within it.
 const OUTLINE: [Segment; 6] = [
@@ -42,6 +43,28 @@ fn a_cube_within_a_cube_is_hidden() {
         &segments_where(&drawing, |line| !line.visible && line.object == 1),
         &inner,
     );
+}
+
+#[test]
+fn of_the_first_layer_are_lines_behind_one_wall_alone() {
+    let wall = cuboid_mesh([-2.0, -1.0, 3.0], [2.0, 1.0, 3.5]);
+    let second = cuboid_mesh([0.25, -1.0, 2.0], [2.0, 1.0, 2.5]);
+    let wire = line_mesh(&[[-3.0, 0.25, 1.0], [3.0, 0.25, 1.0]]);
+    let scene =
+        drawing_scene(build_model(vec![wall, second, wire]), view_projection(window_projection()));
+    let options = DrawOptions { hidden_edges: HiddenEdges::FirstLayer, ..DrawOptions::default() };
+    let drawing = draw(&scene.drawing_subject(), &options, 1).unwrap();
+    assert_segments_cover(
+        &segments_where(&drawing, |line| line.class == Line && line.visible),
+        &[[[-3.0, 0.25], [-2.0, 0.25]], [[2.0, 0.25], [3.0, 0.25]]],
+    );
+    assert_segments_cover(
+        &segments_where(&drawing, |line| line.class == Line && !line.visible),
+        &[[[-2.0, 0.25], [0.25, 0.25]]],
+    );
+    // The edges of the second wall are behind the first one, and its rear ones behind three faces.
+    let of_second = segments_where(&drawing, |line| line.object == 1 && !line.visible);
+    assert!(!of_second.is_empty());
 }
 
 /// A bar comes out of the cube's right side.

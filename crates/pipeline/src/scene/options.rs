@@ -112,6 +112,7 @@ named_values! {
     HiddenLines as "HiddenLines" {
         Removed = "Hidden lines are left out.",
         Dashed = "Hidden lines are dashed.",
+        FirstLayer = "Hidden lines are dashed behind one wall, which is two faces, and left out behind more: for assemblies.",
         Drawn = "Hidden lines are drawn like visible ones.",
     }
 }
