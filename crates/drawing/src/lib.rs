@@ -91,7 +91,7 @@ pub use pdf::to_pdf;
 pub use projector::Projector;
 pub use region::{Region, RegionEdge, RegionHatching};
 pub use retained_points::retained_points;
-pub use sheet::{DimensionUnit, Sheet, SheetError, TitleBlockText};
+pub use sheet::{DimensionUnit, ScaleLimit, Sheet, SheetError, SheetFill, TitleBlockText};
 pub use subject::Subject;
 pub use warning::Warning;
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};

@@ -23,9 +23,11 @@ mod annotation;
 mod dimension;
 mod frame;
 mod free_area;
+mod paper_choice;
 mod projection_symbol;
 mod scale_bar;
 mod section_line;
+mod sheet_fill;
 mod sheet_view;
 mod surface_cache;
 mod title_block;
@@ -45,6 +47,7 @@ use glam::DVec2;
 use homog::{Plane, World};
 use model::{ModelInstance, model_names};
 use projection::SheetAngle;
+pub use sheet_fill::{ScaleLimit, SheetFill};
 use surface_cache::SurfaceCache;
 use view_layout::{PlacedView, ViewLayout};
 use view_plan::ViewPlan;
@@ -248,34 +251,6 @@ impl Sheet {
         ViewLayout::arrange_views(self, &plan).map(drop)
     }
 
-    /// The sheet with its paper upright or on its long side: in the orientation in which models are
-    /// larger or more of the views fit, or as it is if both are equal.
-    #[must_use]
-    pub fn with_best_orientation(
-        self,
-        models: &[ModelInstance],
-        sections: &[Plane<World>],
-    ) -> Self {
-        let Ok(plan) = ViewPlan::new(&self, models, sections) else { return self };
-        let rotated = Self { paper: self.paper.rotated(), ..self.clone() };
-        let layouts = [&self, &rotated].map(|sheet| {
-            let at_any_scale = || {
-                let any = Self { scale: None, ..sheet.clone() };
-                ViewLayout::arrange_views(&any, &plan).ok().map(|layout| (false, layout))
-            };
-            let own = ViewLayout::arrange_views(sheet, &plan).ok().map(|layout| (true, layout));
-            own.or_else(at_any_scale)
-        });
-        let is_rotated_better = match &layouts {
-            [_, None] => false,
-            [None, Some(_)] => true,
-            [Some((fits, own)), Some((other_fits, other))] => {
-                fits < other_fits || fits == other_fits && other.is_better_than(own)
-            }
-        };
-        if is_rotated_better { rotated } else { self }
-    }
-
     /// Warnings: views not shown as they were asked for, and letters that its texts lack.
     fn warnings_of_layout(
         &self,
@@ -327,9 +302,9 @@ impl Sheet {
             }
             page.layers.extend((!layer.groups.is_empty()).then_some(layer));
         }
-        page.layers.extend(scale_bar::scale_bar_layers(self, layout.scale, ink));
+        page.layers.extend(scale_bar::scale_bar_layers(self, layout.scale_bar, layout.scale, ink));
         let block = self.title_block_area();
-        page.layers.push(frame::frame_layer(self.paper, block, ink));
+        page.layers.push(frame::frame_layer(self.paper, &layout.contents(block), ink));
         let title = page.title.clone();
         page.layers.extend(title_block::title_block_layers(self, &title, layout.scale, block, ink));
     }
@@ -356,10 +331,9 @@ impl Sheet {
         frame::area_within_frame(self.paper)
     }
 
-    /// The area of the scale bar: the lower left corner of the frame, or above a title block as
-    /// wide as the frame.
+    /// The usual area of the scale bar.
     fn scale_bar_area(&self) -> Rectangle {
-        scale_bar::scale_bar_area(self)
+        scale_bar::scale_bar_areas(self)[0]
     }
 
     /// The area of the title block: the lower right corner of the frame.

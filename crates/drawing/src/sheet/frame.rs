@@ -2,6 +2,7 @@
 //!
 //! The margin is 20 mm at the left, for filing, and 10 mm elsewhere.
 
+use super::annotation::{Extent, overlap};
 use super::rectangle_from_size;
 use crate::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
 use glam::DVec2;
@@ -19,6 +20,10 @@ const FRAME_LINE_WIDTH: f64 = 0.7;
 /// area.
 const CENTERING_MARK: [f64; 2] = [5.0, 5.0];
 
+/// The least distance from the part of a centering mark within the frame to anything else, in
+/// millimeters.
+const MARK_CLEARANCE: f64 = 1.0;
+
 /// The drawing area within the frame; on paper too small for the margins they are a tenth of its
 /// side.
 pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
@@ -28,12 +33,12 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
     rectangle_from_size(left, edge, paper.width() - left - right, paper.height() - 2.0 * edge)
 }
 
-/// The frame and its centering marks; the lower one stops at the title block.
-pub(super) fn frame_layer(paper: Paper, block: Rectangle, ink: Ink) -> Layer {
+/// The frame and its centering marks, which stop at the frame where something is in their way.
+pub(super) fn frame_layer(paper: Paper, contents: &[Extent], ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
     let mut strokes = vec![rectangle_outline(area_within_frame(paper))];
-    strokes.extend(centering_marks(paper, block));
+    strokes.extend(centering_marks(paper, contents));
     layer.groups.push(Group { strokes, ..Group::default() });
     layer
 }
@@ -48,18 +53,24 @@ pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
 }
 
 /// Marks at the middles of the sides, by which a sheet is aligned in a copier.
-fn centering_marks(paper: Paper, block: Rectangle) -> Vec<Polyline> {
+fn centering_marks(paper: Paper, contents: &[Extent]) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, area_within_frame(paper));
     let (left, top) = (area.x(), area.y());
     let (right, bottom) = (left + area.width(), top + area.height());
     let [inset, length] = CENTERING_MARK;
-    let at_foot = if block.x() > middle.x { length } else { 0.0 };
+    // The outer end of each, its point on the frame, and its direction.
     let marks = [
-        [DVec2::new(inset, middle.y), DVec2::new(left + length, middle.y)],
-        [DVec2::new(size.x - inset, middle.y), DVec2::new(right - length, middle.y)],
-        [DVec2::new(middle.x, inset), DVec2::new(middle.x, top + length)],
-        [DVec2::new(middle.x, size.y - inset), DVec2::new(middle.x, bottom - at_foot)],
+        [DVec2::new(inset, middle.y), DVec2::new(left, middle.y), DVec2::X],
+        [DVec2::new(size.x - inset, middle.y), DVec2::new(right, middle.y), -DVec2::X],
+        [DVec2::new(middle.x, inset), DVec2::new(middle.x, top), DVec2::Y],
+        [DVec2::new(middle.x, size.y - inset), DVec2::new(middle.x, bottom), -DVec2::Y],
     ];
-    marks.iter().filter_map(|mark| Polyline::through_points(mark, false)).collect()
+    let to_line = |[outer, at_frame, inward]: [DVec2; 3]| {
+        let inner = at_frame + inward * length;
+        let around = [at_frame.min(inner) - MARK_CLEARANCE, at_frame.max(inner) + MARK_CLEARANCE];
+        let is_free = !contents.iter().any(|area| overlap(*area, around));
+        Polyline::through_points(&[outer, if is_free { inner } else { at_frame }], false)
+    };
+    marks.into_iter().filter_map(to_line).collect()
 }

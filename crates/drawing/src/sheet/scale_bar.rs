@@ -27,20 +27,29 @@ const LABEL_HEIGHT_FACTOR: f64 = 0.7;
 /// The number of segments; every other one is filled.
 const BAR_SEGMENTS: u32 = 4;
 
-/// The area of the bar and its labels.
-pub(super) fn scale_bar_area(sheet: &Sheet) -> Rectangle {
+/// The places for the bar and its labels: the lower left corner of the frame, or above a title
+/// block as wide as the frame; and above the title block at the right.
+pub(super) fn scale_bar_areas(sheet: &Sheet) -> [Rectangle; 2] {
     let (frame, block) = (sheet.drawing_area(), sheet.title_block_area());
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
     let (width, height) =
         (MAX_BAR_LENGTH.min(frame.width() * 0.5) + 16.0, BAR_HEIGHT + letters + 6.0);
     let is_beside = block.x() - frame.x() > width;
     let bottom = if is_beside { frame.y() + frame.height() } else { block.y() };
-    rectangle_from_size(frame.x(), bottom - height, width, height)
+    let right = frame.x() + frame.width() - width;
+    [
+        rectangle_from_size(frame.x(), bottom - height, width, height),
+        rectangle_from_size(right, block.y() - height, width, height),
+    ]
 }
 
 /// The bar in its area, for a scale, and the lengths below it.
-pub(super) fn scale_bar_layers(sheet: &Sheet, scale: DrawingScale, ink: Ink) -> [Layer; 2] {
-    let area = scale_bar_area(sheet);
+pub(super) fn scale_bar_layers(
+    sheet: &Sheet,
+    area: Rectangle,
+    scale: DrawingScale,
+    ink: Ink,
+) -> [Layer; 2] {
     let letters = sheet.lettering_height() * LABEL_HEIGHT_FACTOR;
     let unit = sheet.dimension_unit;
     let most = scale.to_object_length(area.width() - 16.0);

@@ -19,14 +19,18 @@
 
 use super::annotation::{Extent, ViewAnnotations, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
+use super::paper_choice::scales_of;
 use super::view_grid::{GridSpacing, ViewGrid};
 use super::view_plan::{PlannedView, ViewPlan};
-use super::{Sheet, SheetError};
+use super::{Sheet, SheetError, scale_bar};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// The least distance from a cell to the frame, and half of that between objects, in millimeters.
+/// The distance from a cell to the frame, and half of that between objects, in millimeters.
 const HALF_GAP: f64 = 5.0;
+
+/// The distance from a cell to the frame where more would cost a scale, in millimeters.
+const TIGHT_GAP: f64 = 0.5;
 
 /// The least distance from the annotations of a view to its cell's border, in millimeters.
 const ANNOTATION_GAP: f64 = 1.5;
@@ -52,6 +56,14 @@ pub(super) struct PlacedView<'a> {
     pub(super) annotations: ViewAnnotations,
 }
 
+impl PlacedView<'_> {
+    /// The rectangle around the view and its annotations on the sheet.
+    pub(super) fn extent(&self) -> Extent {
+        let half = self.planned.view.size * self.scale.ratio() * 0.5;
+        self.annotations.extent_with([-half, half]).map(|corner| self.center + corner)
+    }
+}
+
 /// All views with their positions.
 #[derive(Clone, Debug)]
 pub(super) struct ViewLayout<'a> {
@@ -61,6 +73,8 @@ pub(super) struct ViewLayout<'a> {
     pub(super) views: Vec<PlacedView<'a>>,
     /// The views that found no place.
     pub(super) left_out: Vec<&'a PlannedView>,
+    /// The place of the scale bar.
+    pub(super) scale_bar: Rectangle,
 }
 
 /// A view with its annotations at a scale, and the space that it needs about its center.
@@ -114,27 +128,42 @@ impl<'a> ViewLayout<'a> {
     /// # Errors
     /// [`SheetError::TooLarge`] if they do not fit; it names a scale that would, if there is one.
     pub(super) fn arrange_views(sheet: &Sheet, plan: &'a ViewPlan) -> Result<Self, SheetError> {
-        let scales = sheet.scale.map_or(DrawingScale::STANDARD.to_vec(), |scale| vec![scale]);
-        let mut fitting =
-            scales.into_iter().filter_map(|scale| Self::arrange_at_scale(sheet, plan, scale));
-        let Some(mut best) = fitting.next() else { return Err(Self::too_large(sheet, plan)) };
+        let best = Self::arrange_on_best(&[sheet], plan);
+        best.map(|(_, layout)| layout).ok_or_else(|| Self::too_large(sheet, plan))
+    }
+
+    /// As [`arrange_views`](Self::arrange_views) on the best of these sheets, which differ in
+    /// their paper alone, with its index; the first of those that are equal.
+    pub(super) fn arrange_on_best(sheets: &[&Sheet], plan: &'a ViewPlan) -> Option<(usize, Self)> {
+        let at_scale = |scale: DrawingScale| {
+            let layouts = sheets.iter().map(|sheet| Self::arrange_at_scale(sheet, plan, scale));
+            let numbered = layouts.enumerate().filter_map(|(at, layout)| Some((at, layout?)));
+            numbered.reduce(|best, one| if one.1.is_better_than(&best.1) { one } else { best })
+        };
+        let mut fitting = scales_of(sheets.first()?).into_iter().filter_map(at_scale);
+        let mut best = fitting.next()?;
         for smaller in fitting.take(SMALLER_SCALES) {
-            if best.is_satisfied() {
+            if best.1.is_satisfied() {
                 break;
             }
-            if smaller.is_satisfied() || smaller.left_out.len() < best.left_out.len() {
+            let has_more = smaller.1.left_out.len() < best.1.left_out.len();
+            if smaller.1.is_satisfied() || has_more {
                 best = smaller;
             }
         }
-        Ok(best)
+        Some(best)
     }
 
     /// The best arrangement at one scale; `None` if front, top and side view do not fit.
-    fn arrange_at_scale(sheet: &Sheet, plan: &'a ViewPlan, scale: DrawingScale) -> Option<Self> {
+    pub(super) fn arrange_at_scale(
+        sheet: &Sheet,
+        plan: &'a ViewPlan,
+        scale: DrawingScale,
+    ) -> Option<Self> {
         let grid = ViewGrid::new(sheet, &plan.principal, scale);
-        let taken = [sheet.title_block_area(), sheet.scale_bar_area()].map(extent_of_rectangle);
         let mut best: Option<Self> = None;
-        for (area, spacing) in arrangements(sheet) {
+        for Arrangement { area, spacing, scale_bar } in arrangements(sheet) {
+            let taken = [sheet.title_block_area(), scale_bar].map(extent_of_rectangle);
             let Some(centers) = grid.place_views(area, spacing) else { continue };
             let cells = grid.cells.iter().zip(centers);
             let mut obstacles: Vec<Extent> =
@@ -144,7 +173,7 @@ impl<'a> ViewLayout<'a> {
             }
             obstacles.extend(taken);
             let views = cells.map(|(cell, center)| cell.clone().place(center)).collect();
-            let mut layout = Self { scale, views, left_out: Vec::new() };
+            let mut layout = Self { scale, views, left_out: Vec::new(), scale_bar };
             let corner = DVec2::new(centers[2].x, centers[1].y);
             layout.place_free_views(sheet, &plan.free, (obstacles, corner));
             if best.as_ref().is_none_or(|best| layout.is_better_than(best)) {
@@ -176,13 +205,30 @@ impl<'a> ViewLayout<'a> {
     }
 
     /// Whether every view has a place and a scale that is not much smaller than that of the sheet.
-    fn is_satisfied(&self) -> bool {
+    pub(super) fn is_satisfied(&self) -> bool {
+        self.cramped_views().next().is_none()
+    }
+
+    /// The views that have no place, or only one at a scale much smaller than that of the sheet.
+    pub(super) fn cramped_views(&self) -> impl Iterator<Item = &'a PlannedView> {
         let least = LEAST_FREE_SCALE * self.scale.ratio() * (1.0 - 1e-9);
-        self.left_out.is_empty() && self.views.iter().all(|view| view.scale.ratio() >= least)
+        let small = self.views.iter().filter(move |view| view.scale.ratio() < least);
+        self.left_out.iter().copied().chain(small.map(|view| view.planned))
+    }
+
+    /// Width and height that front, top and side view need at a scale, in millimeters.
+    pub(super) fn least_size(sheet: &Sheet, plan: &ViewPlan, scale: DrawingScale) -> DVec2 {
+        ViewGrid::new(sheet, &plan.principal, scale).total_size()
+    }
+
+    /// Width and height that are available to views in any case, in millimeters.
+    pub(super) fn room_above_blocks(sheet: &Sheet) -> DVec2 {
+        let [low, high] = area_above_blocks(sheet, TIGHT_GAP);
+        (high - low).max(DVec2::ZERO)
     }
 
     /// Whether more views have a place, or the same views at larger scales.
-    pub(super) fn is_better_than(&self, other: &Self) -> bool {
+    fn is_better_than(&self, other: &Self) -> bool {
         let score = |layout: &Self| {
             let scales = layout.views.iter().map(|placed| placed.scale.ratio());
             [layout.scale.ratio(), -(layout.left_out.len() as f64), scales.product::<f64>()]
@@ -191,6 +237,12 @@ impl<'a> ViewLayout<'a> {
         // A product of scales depends on the order of its factors in the last digits.
         let differs = |(a, b): &(f64, f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
         own.into_iter().zip(others).find(differs).is_some_and(|(a, b)| a > b)
+    }
+
+    /// What stands within the frame: views with their annotations, title block and scale bar.
+    pub(super) fn contents(&self, title_block: Rectangle) -> Vec<Extent> {
+        let blocks = [title_block, self.scale_bar].map(extent_of_rectangle);
+        self.views.iter().map(PlacedView::extent).chain(blocks).collect()
     }
 
     /// The error with needed and available size, and a remedy.
@@ -204,9 +256,8 @@ impl<'a> ViewLayout<'a> {
             Some(fitting) => format!("; {fitting} fits"),
             None => "; use larger paper, or set the unit of the model".to_owned(),
         };
-        let need = ViewGrid::new(sheet, &plan.principal, scale).total_size().to_array();
-        let [low, high] = area_above_blocks(sheet);
-        let available = (high - low).max(DVec2::ZERO).to_array();
+        let need = Self::least_size(sheet, plan, scale).to_array();
+        let available = Self::room_above_blocks(sheet).to_array();
         SheetError::TooLarge { paper: sheet.paper_name.clone(), scale, need, available, remedy }
     }
 }
@@ -241,25 +292,41 @@ fn fit_into<'a>(
     None
 }
 
-/// The areas and spacings that are tried, the most even first.
-fn arrangements(sheet: &Sheet) -> [(Extent, [GridSpacing; 2]); 5] {
-    let [low, high] = extent_of_rectangle(sheet.drawing_area());
-    let whole = [low + HALF_GAP, high - HALF_GAP];
-    let (equal, close) = (GridSpacing::Equal, GridSpacing::Close);
-    [
-        (whole, [equal, equal]),
-        (area_above_blocks(sheet), [equal, equal]),
-        (whole, [equal, close]),
-        (whole, [close, equal]),
-        (whole, [close, close]),
-    ]
+/// A way to set the grid of views on a sheet.
+struct Arrangement {
+    area: Extent,
+    spacing: [GridSpacing; 2],
+    scale_bar: Rectangle,
 }
 
-/// The area above title block and scale bar.
-fn area_above_blocks(sheet: &Sheet) -> Extent {
+/// The arrangements that are tried, the most even first.
+///
+/// The last of them leave less room between views and frame, or move the scale bar out of the way.
+fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
+    let [low, high] = extent_of_rectangle(sheet.drawing_area());
+    let whole = |gap: f64| [low + gap, high - gap];
+    let [above, tight] = [HALF_GAP, TIGHT_GAP].map(|gap| area_above_blocks(sheet, gap));
+    let (equal, close) = (GridSpacing::Equal, GridSpacing::Close);
+    let [usual, other] = scale_bar::scale_bar_areas(sheet);
+    let ways = [
+        (whole(HALF_GAP), [equal, equal], usual),
+        (above, [equal, equal], usual),
+        (whole(HALF_GAP), [equal, close], usual),
+        (whole(HALF_GAP), [close, equal], usual),
+        (whole(HALF_GAP), [close, close], usual),
+        (tight, [equal, equal], usual),
+        (whole(TIGHT_GAP), [close, close], usual),
+        (whole(TIGHT_GAP), [equal, close], other),
+        (whole(TIGHT_GAP), [close, close], other),
+    ];
+    ways.map(|(area, spacing, scale_bar)| Arrangement { area, spacing, scale_bar }).into()
+}
+
+/// The area above title block and scale bar, at a distance from the frame.
+fn area_above_blocks(sheet: &Sheet, gap: f64) -> Extent {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let blocks = sheet.title_block_area().y().min(sheet.scale_bar_area().y());
-    [low + HALF_GAP, DVec2::new(high.x - HALF_GAP, blocks)]
+    [low + gap, DVec2::new(high.x - gap, blocks)]
 }
 
 /// A rectangle by its corners.

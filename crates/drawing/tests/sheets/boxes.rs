@@ -35,7 +35,7 @@ impl Random {
     }
 
     /// A number from `low` to `high`, evenly by its logarithm.
-    fn by_magnitude(&mut self, low: f64, high: f64) -> f64 {
+    pub fn by_magnitude(&mut self, low: f64, high: f64) -> f64 {
         low * libm::exp(self.fraction() * libm::log(high / low))
     }
 }

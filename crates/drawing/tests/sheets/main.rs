@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 mod boxes;
+mod fill;
 mod lint;
 mod sections;
 mod styles;

@@ -25,7 +25,8 @@ pub struct SheetContent<'a> {
 ///
 /// Edges, crease angle, hidden lines, fill, color and depth cue are those of the scene's line
 /// style, and so is a width in millimeters; what the sheet says itself goes before. Without an
-/// orientation the paper is turned so that the scale is greatest.
+/// orientation the paper is turned so that the scale is greatest, and without a size it is the
+/// smallest that is large enough: [`Sheet::smallest_of`].
 ///
 /// # Errors
 /// If the scale has a 0, ISO 128 has no line group of the width, or the models have several units;
@@ -35,7 +36,29 @@ pub fn resolve_sheet(
     file: &SheetFile,
     content: SheetContent<'_>,
 ) -> Result<Sheet, SceneError> {
-    let (paper, name) = resolve_paper(file);
+    let sizes: &[PaperSize] = match &file.paper {
+        PaperSize::Auto => &SERIES_A,
+        size => core::slice::from_ref(size),
+    };
+    let sheets = sizes.iter().map(|size| resolve_sheet_on(origin, file, *size, content));
+    let turns = file.orientation.is_none();
+    let content = (content.models, content.sections);
+    let chosen = Sheet::smallest_of(sheets.collect::<Result<_, _>>()?, turns, content);
+    chosen.ok_or_else(|| origin.error_at(&[Field("sheet")], "there is no paper", None))
+}
+
+/// The papers among which is chosen, the smallest first.
+const SERIES_A: [PaperSize; 5] =
+    [PaperSize::A4, PaperSize::A3, PaperSize::A2, PaperSize::A1, PaperSize::A0];
+
+/// The sheet on paper of this size, in the orientation of the file or the usual one.
+fn resolve_sheet_on(
+    origin: &Origin,
+    file: &SheetFile,
+    size: PaperSize,
+    content: SheetContent<'_>,
+) -> Result<Sheet, SceneError> {
+    let (paper, name) = resolve_paper(file, size);
     let default_sheet = Sheet::for_paper(paper, name);
     let side_view = file.side_view.map(|side| match side {
         SideView::Left => NamedView::Left,
@@ -53,7 +76,7 @@ pub fn resolve_sheet(
     };
     let hidden_lines = file.hidden.unwrap_or(own.hidden_lines);
     let unit = resolve_unit(origin, file, content.models)?;
-    let sheet = Sheet {
+    Ok(Sheet {
         projection_angle: file.projection_angle,
         side_view,
         style: LineStyle { hidden_lines, line_widths: widths, ..own },
@@ -72,10 +95,6 @@ pub fn resolve_sheet(
             number: file.number.clone(),
         },
         ..default_sheet
-    };
-    Ok(match file.orientation {
-        Some(_) => sheet,
-        None => sheet.with_best_orientation(content.models, content.sections),
     })
 }
 
@@ -105,20 +124,20 @@ pub(super) fn check_sheet_layout(
 }
 
 /// The paper in its orientation, and its name on the sheet.
-fn resolve_paper(file: &SheetFile) -> (Paper, &'static str) {
-    let (paper, name) = match file.paper {
+fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
+    let (paper, name) = match size {
         PaperSize::A0 => (Paper::A0, "A0"),
         PaperSize::A1 => (Paper::A1, "A1"),
         PaperSize::A2 => (Paper::A2, "A2"),
         PaperSize::A3 => (Paper::A3, "A3"),
-        PaperSize::A4 => (Paper::A4, "A4"),
+        PaperSize::A4 | PaperSize::Auto => (Paper::A4, "A4"),
         PaperSize::A5 => (Paper::A5, "A5"),
         PaperSize::Letter => (Paper::LETTER, "Letter"),
         PaperSize::Tabloid => (Paper::TABLOID, "Tabloid"),
     };
     let upright = match file.orientation {
         Some(orientation) => orientation == PageOrientation::Portrait,
-        None => matches!(file.paper, PaperSize::A4 | PaperSize::A5 | PaperSize::Letter),
+        None => matches!(size, PaperSize::A4 | PaperSize::A5 | PaperSize::Letter),
     };
     (if upright { paper } else { paper.rotated() }, name)
 }

@@ -57,6 +57,9 @@ named_enum! {
         A5 = "148 × 210 mm.",
         Letter = "8½ × 11 inches.",
         Tabloid = "11 × 17 inches.",
+        Auto = "The smallest of A4 to A0 that holds the views at 1:1 or larger, or at the scale \
+                that is given; if A0 does not, the smallest of which the next larger one gives no \
+                larger scale.",
     }
 }
 

@@ -1,0 +1,84 @@
+//! Choice of paper: its orientation, and the smallest size that is large enough.
+//!
+//! ```text
+//!   scale     A4 upright   A4 on its side
+//!   1:2       no           no
+//!   1:5       no           yes               the larger scale wins, then the more views, then
+//!   1:10      yes          yes               their scales
+//! ```
+
+use super::Sheet;
+use super::view_layout::ViewLayout;
+use super::view_plan::ViewPlan;
+use homog::{Plane, World};
+use model::ModelInstance;
+use viewport::DrawingScale;
+
+impl Sheet {
+    /// The sheet with its paper upright or on its long side: in the orientation in which models are
+    /// larger or more of the views fit, or as it is if both are equal.
+    #[must_use]
+    pub fn with_best_orientation(
+        self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+    ) -> Self {
+        let Ok(plan) = ViewPlan::new(&self, models, sections) else { return self };
+        self.turned_for(&plan)
+    }
+
+    /// The first of these sheets, given from the smallest paper to the largest, that is large
+    /// enough:
+    ///
+    /// - with a scale of its own, the first that holds all views at this scale;
+    /// - else the first that holds all views at 1:1 or larger;
+    /// - where not even the largest paper holds them so, the first of which the next larger one
+    ///   gives no larger scale.
+    ///
+    /// With `turns`, each is taken in its best orientation. Without models it is the first.
+    /// `None` without sheets. They are to differ in paper and line widths alone.
+    #[must_use]
+    pub fn smallest_of(
+        sheets: Vec<Self>,
+        turns: bool,
+        (models, sections): (&[ModelInstance], &[Plane<World>]),
+    ) -> Option<Self> {
+        if sheets.len() == 1 && !turns {
+            return sheets.into_iter().next();
+        }
+        let plan = ViewPlan::new(sheets.first()?, models, sections);
+        let Ok(plan) = plan else { return sheets.into_iter().next() };
+        let turned = sheets.into_iter().map(|own| if turns { own.turned_for(&plan) } else { own });
+        let sheets: Vec<Self> = turned.collect();
+        let layouts: Vec<Option<ViewLayout<'_>>> =
+            sheets.iter().map(|sheet| ViewLayout::arrange_views(sheet, &plan).ok()).collect();
+        let ratio = |at: usize| layouts[at].as_ref().map_or(0.0, |layout| layout.scale.ratio());
+        let is_enough = |layout: &ViewLayout<'_>| {
+            layout.is_satisfied() && (sheets[0].scale.is_some() || layout.scale.ratio() >= 1.0)
+        };
+        let enough = layouts.iter().position(|layout| layout.as_ref().is_some_and(is_enough));
+        let last = sheets.len() - 1;
+        let is_no_smaller = |at: &usize| ratio(*at) > 0.0 && ratio(*at) >= ratio(at + 1);
+        let chosen = enough.or_else(|| (0..last).find(is_no_smaller)).unwrap_or(last);
+        sheets.into_iter().nth(chosen)
+    }
+
+    /// The sheet in its best orientation for these views.
+    fn turned_for(self, plan: &ViewPlan) -> Self {
+        let rotated = Self { paper: self.paper.rotated(), ..self.clone() };
+        let both = [&self, &rotated];
+        let at_own_scale = ViewLayout::arrange_on_best(&both, plan);
+        let is_rotated = at_own_scale.map(|(at, _)| at == 1).unwrap_or_else(|| {
+            // A given scale that fits in neither: the orientation that comes nearest to it.
+            let any = both.map(|sheet| Self { scale: None, ..sheet.clone() });
+            let best = ViewLayout::arrange_on_best(&any.each_ref(), plan);
+            best.is_some_and(|(at, _)| at == 1)
+        });
+        if is_rotated { rotated } else { self }
+    }
+}
+
+/// The scales that are tried on sheets, the largest first.
+pub(super) fn scales_of(sheet: &Sheet) -> Vec<DrawingScale> {
+    sheet.scale.map_or(DrawingScale::STANDARD.to_vec(), |scale| vec![scale])
+}

@@ -1,0 +1,189 @@
+//! Fill of a sheet: the part of the paper that its views use, and what keeps them from the next
+//! larger scale.
+//!
+//! ```text
+//!   ┌───────────────────────────────┐
+//!   │ ┌─ ─ ─ ─ ─ ─┐  ┌─ ─ ─┐        │      fill = area of the dashed rectangles
+//!   │   front          left         │           / (area within the frame
+//!   │ └─ ─ ─ ─ ─ ─┘  └─ ─ ─┘        │              - title block - scale bar)
+//!   │ 0──1──2 m      ┌──────────────┤
+//!   └────────────────┴──────────────┘
+//! ```
+//!
+//! A rectangle goes around a view and its annotations. The standard scales (ISO 5455) are a factor
+//! of 2 or 2.5 apart, areas therefore of 4 or 6.25: a sheet whose views just miss a scale is hardly
+//! filled, and the only remedy is other paper.
+
+use super::annotation::Extent;
+use super::view_layout::ViewLayout;
+use super::view_plan::ViewPlan;
+use super::{Sheet, SheetError};
+use core::fmt;
+use homog::{Plane, World};
+use model::ModelInstance;
+use viewport::{DrawingScale, Rectangle};
+
+/// Numbers n of scales 1:n and n:1 between those of the standard.
+const INTERMEDIATE: [u32; 14] = [3, 4, 15, 25, 30, 40, 150, 250, 300, 400, 1500, 2500, 3000, 4000];
+
+/// How much of a sheet its views use, and why they are not larger.
+///
+/// Its text says both in a sentence.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SheetFill {
+    /// The scale of the sheet.
+    pub scale: DrawingScale,
+    /// The area of the views with their annotations, each as a rectangle, as a part of the area
+    /// within the frame without title block and scale bar.
+    pub fraction: f64,
+    /// What keeps the views from a larger scale.
+    pub limit: ScaleLimit,
+    /// The largest scale between this one and the next standard one at which all views fit, such
+    /// as 1:3; `None` if there is none.
+    pub between: Option<DrawingScale>,
+}
+
+/// What keeps the views of a sheet from the next larger standard scale.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum ScaleLimit {
+    /// Nothing: the scale was asked for.
+    Given,
+    /// There is no larger standard scale.
+    Largest,
+    /// Front, top and side view are larger than the room for them.
+    TooLarge {
+        /// The next larger scale.
+        scale: DrawingScale,
+        /// Width and height of the views at this scale, in millimeters.
+        need: [f64; 2],
+        /// Width and height that are available to them, in millimeters.
+        available: [f64; 2],
+    },
+    /// Front, top and side view leave no room for others.
+    NoRoom {
+        /// The next larger scale.
+        scale: DrawingScale,
+        /// The names of the other views, such as `isometric view`.
+        views: Vec<String>,
+    },
+}
+
+impl Sheet {
+    /// How much of the paper the views of models, cut by section planes, use, without drawing them.
+    ///
+    /// # Errors
+    /// As for [`draw`](Self::draw).
+    pub fn fill(
+        &self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+    ) -> Result<SheetFill, SheetError> {
+        let plan = ViewPlan::new(self, models, sections)?;
+        let layout = ViewLayout::arrange_views(self, &plan)?;
+        let area = |extent: Extent| {
+            let size = extent[1] - extent[0];
+            size.x * size.y
+        };
+        let of_rectangle = |rectangle: Rectangle| rectangle.width() * rectangle.height();
+        let used: f64 = layout.views.iter().map(|view| area(view.extent())).sum();
+        let blocks = of_rectangle(self.title_block_area()) + of_rectangle(self.scale_bar_area());
+        let room = of_rectangle(self.drawing_area()) - blocks;
+        let limit = self.scale_limit(&plan, layout.scale);
+        let between = match limit {
+            ScaleLimit::TooLarge { .. } | ScaleLimit::NoRoom { .. } => {
+                self.largest_between(&plan, layout.scale)
+            }
+            ScaleLimit::Given | ScaleLimit::Largest => None,
+        };
+        let fraction = used / room.max(1e-9);
+        Ok(SheetFill { scale: layout.scale, fraction, limit, between })
+    }
+
+    /// The largest scale up to 2.5 times as large as this one at which all views fit.
+    fn largest_between(&self, plan: &ViewPlan, scale: DrawingScale) -> Option<DrawingScale> {
+        let reach = scale.ratio() * (1.0 + 1e-9)..scale.ratio() * 2.5 * (1.0 - 1e-9);
+        let mut between: Vec<DrawingScale> = INTERMEDIATE
+            .into_iter()
+            .flat_map(|n| [DrawingScale::new(n, 1), DrawingScale::new(1, n)])
+            .flatten()
+            .filter(|one| reach.contains(&one.ratio()))
+            .collect();
+        between.sort_by(|a, b| b.ratio().total_cmp(&a.ratio()));
+        let holds_all = |one: &DrawingScale| {
+            let layout = ViewLayout::arrange_at_scale(self, plan, *one);
+            layout.is_some_and(|layout| layout.is_satisfied())
+        };
+        between.into_iter().find(holds_all)
+    }
+
+    /// What keeps the views from the scale after this one.
+    fn scale_limit(&self, plan: &ViewPlan, scale: DrawingScale) -> ScaleLimit {
+        if self.scale.is_some() {
+            return ScaleLimit::Given;
+        }
+        let larger = DrawingScale::STANDARD.into_iter().rev().find(|s| s.ratio() > scale.ratio());
+        let Some(larger) = larger else { return ScaleLimit::Largest };
+        if let Some(layout) = ViewLayout::arrange_at_scale(self, plan, larger) {
+            let views = layout.cramped_views().map(|view| view.title()).collect();
+            return ScaleLimit::NoRoom { scale: larger, views };
+        }
+        let need = ViewLayout::least_size(self, plan, larger).to_array();
+        let available = ViewLayout::room_above_blocks(self).to_array();
+        ScaleLimit::TooLarge { scale: larger, need, available }
+    }
+}
+
+impl fmt::Display for SheetFill {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (percent, scale) = (libm::round(self.fraction * 100.0), self.scale);
+        write!(f, "the views fill {percent} % of the drawing area at {scale}; ")?;
+        self.limit.fmt(f)?;
+        match self.between {
+            Some(between) => write!(f, "; {between}, which is no standard scale, fits"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for ScaleLimit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Given => f.write_str("this scale was asked for"),
+            Self::Largest => f.write_str("there is no larger standard scale"),
+            Self::TooLarge { scale, need, available } => write!(
+                f,
+                "at {scale}, the next standard scale, front, top and side view need \
+                 {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available",
+                need[0], need[1], available[0], available[1]
+            ),
+            Self::NoRoom { scale, views } => write!(
+                f,
+                "at {scale}, the next standard scale, there is no room for the {}",
+                views.join(", the ")
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fill_is_told_in_a_sentence() {
+        let [scale, next] = [7, 6].map(|at| DrawingScale::STANDARD[at]);
+        let fill = |limit, between| SheetFill { scale, fraction: 0.384, limit, between };
+        let (need, available) = ([391.2, 262.0], [257.0, 158.4]);
+        let limit = ScaleLimit::TooLarge { scale: next, need, available };
+        assert_eq!(
+            fill(limit, DrawingScale::new(1, 4).ok()).to_string(),
+            "the views fill 38 % of the drawing area at 1:5; at 1:2, the next standard scale, \
+             front, top and side view need 391 x 262 mm, and 257 x 158 mm are available; \
+             1:4, which is no standard scale, fits"
+        );
+        let views = ["section A-A", "isometric view"].map(str::to_owned).to_vec();
+        let text = fill(ScaleLimit::NoRoom { scale: next, views }, None).to_string();
+        assert!(text.ends_with("no room for the section A-A, the isometric view"), "{text}");
+    }
+}
