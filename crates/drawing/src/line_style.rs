@@ -28,7 +28,10 @@ pub struct LineStyle {
     pub hidden_lines: HiddenLines,
     /// Two faces that meet at more than this angle, in radians, have an edge between them.
     pub crease_angle: f64,
-    /// Whether there is no such edge where the vertex normals of the file agree on both sides.
+    /// Two faces that meet at more than this angle, in radians, but at no crease, have a tangent
+    /// edge between them; `None` if only a change of material makes one.
+    pub tangent_angle: Option<f64>,
+    /// Whether there is no crease where the vertex normals of the file agree on both sides.
     pub asks_normals: bool,
     /// The part of its contrast that the farthest line loses: 0 for none, 1 for all.
     pub depth_cue: f64,
@@ -114,6 +117,7 @@ impl LineStyle {
         edges: EdgeSelection::Features,
         hidden_lines: HiddenLines::Removed,
         crease_angle: 30.0 * core::f64::consts::PI / 180.0,
+        tangent_angle: None,
         asks_normals: true,
         depth_cue: 0.0,
         line_widths: LineWidths::Pixels(1.25),
@@ -193,6 +197,7 @@ impl LineStyle {
                 HiddenLines::Drawn => HiddenEdges::Ignored,
             },
             crease_angle: self.crease_angle,
+            tangent_angle: self.tangent_angle,
             asks_normals: self.asks_normals,
             outline_only: self.edges == EdgeSelection::Silhouette,
             hatch_spacing: self.hatch_spacing / MILLIMETERS_PER_PIXEL,

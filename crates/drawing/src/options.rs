@@ -18,6 +18,9 @@ pub struct DrawOptions {
     /// Two faces that meet at more than this angle make a crease: in radians, 0 between coplanar
     /// faces. Default: 30 degrees.
     pub crease_angle: f64,
+    /// Two faces that meet at more than this angle, and at no more than a crease, make a tangent
+    /// edge, in radians; `None` if only a change of material does. Default: `None`.
+    pub tangent_angle: Option<f64>,
     /// Whether an edge with the same vertex normals on both sides is smooth, however sharp: scanned
     /// and sculpted surfaces have such edges. Default: true.
     pub asks_normals: bool,
@@ -66,6 +69,7 @@ impl DrawOptions {
             classes: EdgeClasses::FEATURES,
             hidden_edges: HiddenEdges::Removed,
             crease_angle: Self::DEFAULT_CREASE_ANGLE,
+            tangent_angle: None,
             asks_normals: true,
             outline_only: false,
             hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,

@@ -52,6 +52,8 @@ pub(super) struct EdgeClassifier<'a> {
     normals: FaceNormals,
     /// The cosine of the crease angle.
     crease_cosine: f64,
+    /// The cosine of the angle above which faces make a tangent edge, if any does.
+    tangent_cosine: Option<f64>,
     /// Whether vertex normals that agree on both sides make an edge smooth.
     asks_normals: bool,
 }
@@ -69,6 +71,7 @@ impl<'a> EdgeClassifier<'a> {
             section_edges: &mesh.section_edges,
             normals,
             crease_cosine: libm::cos(options.crease_angle),
+            tangent_cosine: options.tangent_angle.map(libm::cos),
             asks_normals: options.asks_normals,
         }
     }
@@ -153,8 +156,8 @@ impl<'a> EdgeClassifier<'a> {
         pairs.into_iter().all(|((a, n), (b, m))| a == b && n.agrees_with(m))
     }
 
-    /// The class of the edge between two faces: silhouette, crease, tangent (materials differ) or
-    /// facet.
+    /// The class of the edge between two faces: silhouette, crease, tangent (materials differ, or
+    /// the angle is more than that of tangent edges) or facet.
     ///
     /// With both normals taken along the edge, those of a smooth surface are opposite: n·(−m) is
     /// the cosine of the dihedral angle, and facing flags that *agree* mark a silhouette.
@@ -167,7 +170,9 @@ impl<'a> EdgeClassifier<'a> {
             EdgeClass::Silhouette
         } else if cosine < self.crease_cosine && !self.is_smooth_by_normals(one, other, cosine) {
             EdgeClass::Crease
-        } else if self.face_of_half_edge(one).material != self.face_of_half_edge(other).material {
+        } else if self.face_of_half_edge(one).material != self.face_of_half_edge(other).material
+            || self.tangent_cosine.is_some_and(|least| cosine < least)
+        {
             EdgeClass::Tangent
         } else {
             EdgeClass::Facet

@@ -47,6 +47,36 @@ fn two_squares(gap: f32, fall: f32) -> Primitive {
 }
 
 #[test]
+fn tangent_edges_are_between_the_tangent_angle_and_that_of_creases() {
+    // A strip of three squares, bent by 10 and by 20 degrees; creases are above 15.
+    let mut corners = vec![[-1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    for degrees in [10.0_f64, 30.0] {
+        let [x, _, z] = corners[corners.len() - 1];
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        let next = [x + cos as f32, 0.0, z - sin as f32];
+        corners.extend([next, [next[0], 1.0, next[2]]]);
+    }
+    let quads: Vec<u32> = (0..3).flat_map(|k| [0, 2, 3, 0, 3, 1].map(|n| 2 * k + n)).collect();
+    let strip = || build_model(vec![triangle_mesh(&corners, &quads)]);
+    let classes = |tangent_degrees: Option<f64>| {
+        let options = DrawOptions {
+            classes: EdgeClasses::FEATURES.without(EdgeClass::Boundary),
+            crease_angle: 15.0_f64.to_radians(),
+            tangent_angle: tangent_degrees.map(f64::to_radians),
+            ..DrawOptions::default()
+        };
+        let scene = drawing_scene(strip(), view_projection(window_projection()));
+        let drawing = draw(&scene.drawing_subject(), &options, 1).unwrap();
+        let mut classes: Vec<EdgeClass> = drawing.segments.iter().map(|line| line.class).collect();
+        classes.sort_unstable();
+        classes
+    };
+    assert_eq!(classes(None), [EdgeClass::Crease]);
+    assert_eq!(classes(Some(5.0)), [EdgeClass::Crease, EdgeClass::Tangent]);
+    assert_eq!(classes(Some(12.0)), [EdgeClass::Crease]);
+}
+
+#[test]
 fn split_vertices_make_no_boundary() {
     // Exactly together, and as far apart as quantisation to 12 bits may move them.
     for gap in [0.0, 2e-4] {

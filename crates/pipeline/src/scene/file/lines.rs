@@ -15,6 +15,9 @@ scene_struct! {
         /// Faces that meet at more than this angle have a crease edge between them. Default: 30,
         /// but none where the model's vertex normals are the same on both sides of the edge.
         pub crease_degrees: Option<CreaseAngle> = None,
+        /// Faces that meet at more than this angle, but at no crease, have a tangent edge between
+        /// them, as between a flat face and its fillet. Default: only a change of material has one.
+        pub tangent_degrees: Option<CreaseAngle> = None,
         /// How much of its contrast the farthest line loses. Default: 0.
         pub depth_cue_percent: Percent = Percent::ZERO,
         /// The width of the lines. Default: 1.25 pixels.
