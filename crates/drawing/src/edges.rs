@@ -15,6 +15,7 @@
 
 mod classify;
 mod half_edges;
+mod interpolated_contour;
 mod intersections;
 mod seams;
 mod section_caps;

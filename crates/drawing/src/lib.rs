@@ -78,7 +78,7 @@ pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
 pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 pub use line_type::{IsoLineGroup, LineType};
 pub use markup::escape_markup;
-pub use options::{DrawOptions, EdgeClasses, HiddenEdges};
+pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 pub use overlay::{
     LabelFault, Overlay, PointLabel, label_warnings, missing_glyph_warning, overlay_layers,
 };

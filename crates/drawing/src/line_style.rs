@@ -2,7 +2,7 @@
 
 use super::EdgeClass;
 use super::line_type::IsoLineGroup;
-use super::options::{DrawOptions, EdgeClasses, HiddenEdges};
+use super::options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 use super::page::{Cap, Ink, Join, MILLIMETERS_PER_PIXEL};
 use super::palette::{BLACK, BLUEPRINT_BLUE, GRAPHITE, WHITE};
 
@@ -33,6 +33,8 @@ pub struct LineStyle {
     pub tangent_angle: Option<f64>,
     /// Whether there is no crease where the vertex normals of the file agree on both sides.
     pub asks_normals: bool,
+    /// How silhouettes of smooth surfaces are found.
+    pub silhouettes: SilhouetteMethod,
     /// The part of its contrast that the farthest line loses: 0 for none, 1 for all.
     pub depth_cue: f64,
     /// The widths of the lines.
@@ -119,6 +121,7 @@ impl LineStyle {
         crease_angle: 30.0 * core::f64::consts::PI / 180.0,
         tangent_angle: None,
         asks_normals: true,
+        silhouettes: SilhouetteMethod::Facets,
         depth_cue: 0.0,
         line_widths: LineWidths::Pixels(1.25),
         ink: None,
@@ -199,6 +202,7 @@ impl LineStyle {
             crease_angle: self.crease_angle,
             tangent_angle: self.tangent_angle,
             asks_normals: self.asks_normals,
+            silhouettes: self.silhouettes,
             outline_only: self.edges == EdgeSelection::Silhouette,
             hatch_spacing: self.hatch_spacing / MILLIMETERS_PER_PIXEL,
             face_fill: self.face_fill,

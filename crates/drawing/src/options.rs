@@ -24,6 +24,8 @@ pub struct DrawOptions {
     /// Whether an edge with the same vertex normals on both sides is smooth, however sharp: scanned
     /// and sculpted surfaces have such edges. Default: true.
     pub asks_normals: bool,
+    /// How silhouettes of smooth surfaces are found. Default: from the facets, exactly.
+    pub silhouettes: SilhouetteMethod,
     /// Whether only the outline of everything is drawn: edges beside which there is no face, before
     /// them or behind. Default: false.
     pub outline_only: bool,
@@ -52,6 +54,18 @@ pub enum HiddenEdges {
     Ignored,
 }
 
+/// How the silhouettes of smooth surfaces are found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SilhouetteMethod {
+    /// They are the sides of triangles where the mesh turns away from the viewer: exact for the
+    /// mesh, and in zigzag near the outline of the surface that it stands for.
+    Facets,
+    /// They run across the triangles, where the interpolated normal is at a right angle to the line
+    /// of sight (Hertzmann and Zorin 2000): smooth, and approximate. There can be gaps at cusps, and
+    /// where triangles are large the line lies beside what they cover.
+    Interpolated,
+}
+
 impl Default for DrawOptions {
     fn default() -> Self {
         Self::hidden_edges_removed()
@@ -71,6 +85,7 @@ impl DrawOptions {
             crease_angle: Self::DEFAULT_CREASE_ANGLE,
             tangent_angle: None,
             asks_normals: true,
+            silhouettes: SilhouetteMethod::Facets,
             outline_only: false,
             hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,
             outlines: false,

@@ -156,6 +156,26 @@ impl<'a> EdgeClassifier<'a> {
         pairs.into_iter().all(|((a, n), (b, m))| a == b && n.agrees_with(m))
     }
 
+    /// Whether faces that meet at an angle with this cosine have a crease between them.
+    fn is_crease(&self, one: HalfEdge, other: HalfEdge, cosine: f64) -> bool {
+        cosine < self.crease_cosine && !self.is_smooth_by_normals(one, other, cosine)
+    }
+
+    /// Whether two faces of one object and one orientation meet without a crease.
+    pub(super) fn is_smooth_between(&self, one: HalfEdge, other: HalfEdge) -> bool {
+        let [n, m] = [one, other].map(|side| self.normals.normal_along(side).0);
+        let objects = [one, other].map(|side| self.face_of_half_edge(side).object);
+        one.is_forward != other.is_forward
+            && objects[0] == objects[1]
+            && !self.is_crease(one, other, n.dot(-m))
+    }
+
+    /// Whether an edge is a silhouette of a smooth surface, which an interpolated contour replaces.
+    pub(super) fn is_smooth_silhouette(&self, one: HalfEdge, other: HalfEdge) -> bool {
+        self.class_between(one, other) == EdgeClass::Silhouette
+            && self.is_smooth_between(one, other)
+    }
+
     /// The class of the edge between two faces: silhouette, crease, tangent (materials differ, or
     /// the angle is more than that of tangent edges) or facet.
     ///
@@ -168,7 +188,7 @@ impl<'a> EdgeClassifier<'a> {
         let cosine = n.dot(-m);
         if is_front == other_is_front {
             EdgeClass::Silhouette
-        } else if cosine < self.crease_cosine && !self.is_smooth_by_normals(one, other, cosine) {
+        } else if self.is_crease(one, other, cosine) {
             EdgeClass::Crease
         } else if self.face_of_half_edge(one).material != self.face_of_half_edge(other).material
             || self.tangent_cosine.is_some_and(|least| cosine < least)

@@ -11,6 +11,7 @@
 
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
+use super::interpolated_contour::interpolated_contours;
 use super::intersections::{Intersections, intersect_faces};
 use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, weld_near_borders};
 use super::section_cut::cut_mesh;
@@ -18,7 +19,7 @@ use super::weld::weld_equal_vertices;
 use super::world_mesh::{Face, WorldMesh};
 use crate::hidden_line::Tolerance;
 use crate::projector::Projector;
-use crate::{DrawOptions, EdgeClass, Warning};
+use crate::{DrawOptions, EdgeClass, SilhouetteMethod, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
 use model::ModelInstance;
@@ -232,8 +233,15 @@ impl WeldedSurface {
             let class = classifier.classify_edge(ends, sides);
             add_candidate(ends, class, classifier.lowest_object(sides));
         };
+        let interpolates = options.silhouettes == SilhouetteMethod::Interpolated;
+        let is_replaced = |sides: &[HalfEdge]| match *sides {
+            [one, other] => interpolates && classifier.is_smooth_silhouette(one, other),
+            _ => false,
+        };
         for (ends, sides) in self.half_edges.edges().filter(|(_, sides)| sides.len() > 1) {
-            classify(ends, sides);
+            if !is_replaced(sides) {
+                classify(ends, sides);
+            }
         }
         for parts in self.border_edges.chunk_by(|(a, _), (b, _)| a == b) {
             let sides: Vec<HalfEdge> = parts.iter().map(|(_, side)| *side).collect();
@@ -242,6 +250,12 @@ impl WeldedSurface {
         for line in &mesh.line_edges {
             let class = if line.is_marked { EdgeClass::Marked } else { EdgeClass::Line };
             add_candidate(line.ends, class, line.object);
+        }
+        let class = EdgeClass::Silhouette;
+        if interpolates && options.classes.contains(class) {
+            let contours = interpolated_contours(mesh, &self.half_edges, &classifier, projector);
+            let candidate = |(ends, object)| CandidateEdge { ends, class, object };
+            candidates.extend(contours.into_iter().map(candidate));
         }
         candidates
     }

@@ -1,7 +1,7 @@
 //! Edges that vertex normals and materials decide about, and lines too short to be drawn.
 
 use crate::stage::*;
-use drawing::{DrawOptions, EdgeClass, LineDrawing, LineStyle, draw};
+use drawing::{DrawOptions, EdgeClass, LineDrawing, LineStyle, SilhouetteMethod, draw};
 use model::{Material, Model, Primitive};
 use std::f64::consts::TAU;
 
@@ -161,4 +161,50 @@ fn the_silhouette_style_draws_the_outline_alone() {
     // The small box, and the sides of the third before the large one.
     let within = length_in(LineStyle::CONTOURS) - expected;
     assert!((within - 8.0 * 100.0 * drawing::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
+}
+
+/// A ball of radius 2 whose poles lie obliquely, from shared vertices.
+fn ball(rings: u32) -> Primitive {
+    let sectors = 2 * rings;
+    let (mut positions, mut indices) = (Vec::new(), Vec::new());
+    for ring in 0..=rings {
+        for sector in 0..sectors {
+            let (sine, cosine) = libm::sincos(TAU * f64::from(sector) / f64::from(sectors));
+            let (radius, height) = libm::sincos(TAU / 2.0 * f64::from(ring) / f64::from(rings));
+            let at = glam::DVec3::new(radius * cosine, height, radius * sine) * 2.0;
+            let turn = glam::DQuat::from_axis_angle(glam::DVec3::new(0.6, 0.0, 0.8), 0.7);
+            positions.push((turn * at).as_vec3().to_array());
+            if ring < rings {
+                let next = (sector + 1) % sectors;
+                let corners = [sector, next].map(|k| [ring, ring + 1].map(|r| r * sectors + k));
+                let [[a, b], [d, c]] = corners;
+                indices.extend([a, c, b, a, d, c]);
+            }
+        }
+    }
+    triangle_mesh(&positions, &indices)
+}
+
+#[test]
+fn the_interpolated_contour_of_a_ball_is_a_circle() {
+    let silhouettes = SilhouetteMethod::Interpolated;
+    let options = DrawOptions { silhouettes, ..DrawOptions::hidden_edges_removed() };
+    let smooth = draw_front(build_model(vec![ball(24)]), &options);
+    let lines = segments_where(&smooth, |line| line.class == EdgeClass::Silhouette);
+    let radius = |[x, y]: [f64; 2]| libm::hypot(x, y);
+    assert!(lines.as_flattened().iter().all(|&end| (radius(end) - 2.0).abs() < 0.012));
+    let length: f64 = lines.iter().map(|[a, b]| radius([b[0] - a[0], b[1] - a[1]])).sum();
+    assert!((length / (2.0 * TAU) - 1.0).abs() < 0.01, "{length}, and no gaps nor doubles");
+    assert_eq!(smooth.segments.len(), lines.len(), "nothing else is drawn");
+}
+
+#[test]
+fn creases_have_no_interpolated_contours() {
+    let draw_box = |silhouettes: SilhouetteMethod| {
+        let options = DrawOptions { silhouettes, ..DrawOptions::hidden_edges_retained() };
+        let model = build_model(vec![cuboid_mesh([-1.0; 3], [1.0; 3])]);
+        let scene = drawing_scene(model, oblique_view());
+        draw(&scene.drawing_subject(), &options, 1).unwrap()
+    };
+    assert_eq!(draw_box(SilhouetteMethod::Interpolated), draw_box(SilhouetteMethod::Facets));
 }

@@ -7,7 +7,7 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::CameraAxes;
-use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join};
+use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
 use model::{LengthUnit, UpAxis};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
@@ -114,6 +114,14 @@ named_values! {
         Dashed = "Hidden lines are dashed.",
         FirstLayer = "Hidden lines are dashed behind one wall, which is two faces, and left out behind more: for assemblies.",
         Drawn = "Hidden lines are drawn like visible ones.",
+    }
+}
+
+named_values! {
+    /// How the silhouettes of smooth surfaces are found.
+    SilhouetteMethod as "Silhouettes" {
+        Facets = "Sides of triangles: exact for the mesh, in zigzag where it stands for a curved surface.",
+        Interpolated = "Across the triangles, where the interpolated normal is at a right angle to the line of sight: smooth, but approximate, with possible gaps at cusps.",
     }
 }
 

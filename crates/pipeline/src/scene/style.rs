@@ -33,6 +33,7 @@ fn resolve_lines(origin: &Origin, file: &LinesFile) -> Result<LineStyle, SceneEr
         crease_angle: file.crease_degrees.unwrap_or(CreaseAngle::DEFAULT).value().to_radians(),
         tangent_angle: file.tangent_degrees.map(|angle| angle.value().to_radians()),
         asks_normals: file.crease_degrees.is_none(),
+        silhouettes: file.silhouettes,
         depth_cue: file.depth_cue_percent.value() / 100.0,
         line_widths: resolve_widths(origin, file.width)?,
         ink: file.color.map(|color| color.0),

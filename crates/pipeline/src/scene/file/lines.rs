@@ -3,7 +3,7 @@
 use crate::scene::color::Color;
 use crate::scene::number::{CreaseAngle, HandDrawn, HatchSpacing, Percent, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
-use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join};
+use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
 
 scene_struct! {
     /// The style of a line drawing.
@@ -18,6 +18,8 @@ scene_struct! {
         /// Faces that meet at more than this angle, but at no crease, have a tangent edge between
         /// them, as between a flat face and its fillet. Default: only a change of material has one.
         pub tangent_degrees: Option<CreaseAngle> = None,
+        /// How silhouettes of smooth surfaces are found. Default: `Facets`.
+        pub silhouettes: SilhouetteMethod = SilhouetteMethod::Facets,
         /// How much of its contrast the farthest line loses. Default: 0.
         pub depth_cue_percent: Percent = Percent::ZERO,
         /// The width of the lines. Default: 1.25 pixels.

@@ -1,0 +1,152 @@
+//! Interpolated contours: approximate silhouettes of smooth surfaces, across their triangles.
+//!
+//! ```text
+//!          +                        n·v at the vertices, linear along the sides: it is zero on a
+//!         ╱ ╲                       line across the triangle, not on a side. Lines of adjacent
+//!     ●──╱───╲──●  n·v = 0          triangles continue each other.
+//!       ╱     ╲
+//!      − ───── −
+//! ```
+//!
+//! After Hertzmann and Zorin, *Illustrating smooth surfaces* (2000). The sides of triangles, which
+//! are the silhouette of the mesh, run in zigzag near that of the surface which the mesh stands for.
+//! Vertex normals are averages over the faces around a vertex, as far as edges between them are
+//! smooth. Points are lifted from the triangles towards the curved surface by Phong tessellation
+//! (Boubekeur and Alexa 2008) where it is convex, or faces of the mesh would hide them.
+//!
+//! This is an approximation, and fails in known ways. A contour can have gaps or loose ends at
+//! cusps, where the surface turns along the line of sight, since visibility is that of the mesh. It
+//! is not the border of what the mesh covers: where triangles are large, it lies beside it. At a
+//! crease it ends a little off the crease, by the height of the lift. Edges a little blunter than
+//! creases are rounded off by the averaged normals, so their silhouettes can be missing.
+
+use super::classify::EdgeClassifier;
+use super::half_edges::{HalfEdge, HalfEdges};
+use super::world_mesh::{Face, WorldMesh};
+use crate::projector::Projector;
+use glam::DVec3;
+
+/// The part of Phong tessellation in the lift: the value of its authors, which raises the middle of
+/// an arc a little over the circle.
+const LIFT: f64 = 0.75;
+
+/// The contours of all smooth faces for one viewer, face by face, with their objects.
+pub(super) fn interpolated_contours(
+    mesh: &WorldMesh,
+    half_edges: &HalfEdges,
+    classifier: &EdgeClassifier<'_>,
+    projector: &Projector,
+) -> Vec<([DVec3; 2], u32)> {
+    let normals = SmoothNormals::new(mesh, half_edges, classifier);
+    let mut contours = Vec::new();
+    for (face, index) in mesh.faces.iter().zip(0..) {
+        let corners = [0, 1, 2].map(|k| normals.corner(mesh, face, index, k, projector));
+        let side = |k: usize| crossing(corners[k], corners[(k + 1) % 3]);
+        let mut crossings = (0..3).filter_map(side);
+        if let (Some(from), Some(to)) = (crossings.next(), crossings.next())
+            && from != to
+        {
+            contours.push(([from, to], face.object));
+        }
+    }
+    contours
+}
+
+/// A corner of a face, with its part of n·v.
+#[derive(Clone, Copy)]
+struct Corner {
+    vertex: u32,
+    position: DVec3,
+    normal: DVec3,
+    facing: f64,
+}
+
+/// The lifted point of a side at which n·v is zero; `None` if it has one sign.
+///
+/// It is computed from the lower vertex to the higher one, so that both faces get the same bits.
+fn crossing(one: Corner, other: Corner) -> Option<DVec3> {
+    let [a, b] = if one.vertex < other.vertex { [one, other] } else { [other, one] };
+    if (a.facing > 0.0) == (b.facing > 0.0) {
+        return None;
+    }
+    let t = a.facing / (a.facing - b.facing);
+    let flat = a.position.lerp(b.position, t);
+    // Where the surface is concave along the side, the side is before it already.
+    let onto_plane = |corner: Corner| {
+        let height = (flat - corner.position).dot(corner.normal);
+        flat - corner.normal * height.min(0.0)
+    };
+    Some(flat.lerp(onto_plane(a).lerp(onto_plane(b), t), LIFT))
+}
+
+/// A unit normal for each corner of each face, shared by corners that smooth edges join.
+struct SmoothNormals {
+    /// By corner, three for each face: the first corner of its fan.
+    fans: Vec<u32>,
+    /// By corner; those of first corners are normals.
+    normals: Vec<DVec3>,
+}
+
+impl SmoothNormals {
+    /// Joins corners across smooth edges into fans, and sums the area vectors of their faces.
+    fn new(mesh: &WorldMesh, half_edges: &HalfEdges, classifier: &EdgeClassifier<'_>) -> Self {
+        let mut fans: Vec<u32> = (0..mesh.faces.len() as u32 * 3).collect();
+        for (ends, sides) in half_edges.edges() {
+            let &[one, other] = sides else { continue };
+            if classifier.is_smooth_between(one, other) {
+                for end in ends {
+                    let corners = [one, other].map(|side| corner_at(mesh, side, end));
+                    join_fans(&mut fans, corners);
+                }
+            }
+        }
+        for corner in 0..fans.len() as u32 {
+            fans[corner as usize] = first_of_fan(&fans, corner);
+        }
+        let mut normals = vec![DVec3::ZERO; fans.len()];
+        for (face, index) in mesh.faces.iter().zip(0_usize..) {
+            let [a, b, c] = face.vertices.map(|vertex| mesh.points[vertex as usize]);
+            let area = (b - a).cross(c - a);
+            fans[3 * index..3 * index + 3].iter().for_each(|&fan| normals[fan as usize] += area);
+        }
+        normals.iter_mut().for_each(|normal| *normal = normal.normalize_or_zero());
+        Self { fans, normals }
+    }
+
+    /// A corner of a face as this viewer sees it.
+    fn corner(
+        &self,
+        mesh: &WorldMesh,
+        face: &Face,
+        index: usize,
+        k: usize,
+        projector: &Projector,
+    ) -> Corner {
+        let vertex = face.vertices[k];
+        let position = mesh.points[vertex as usize];
+        let normal = self.normals[self.fans[3 * index + k] as usize];
+        Corner { vertex, position, normal, facing: normal.dot(projector.towards_viewer(position)) }
+    }
+}
+
+/// The corner of a half-edge's face at a vertex.
+fn corner_at(mesh: &WorldMesh, side: HalfEdge, vertex: u32) -> u32 {
+    let vertices = mesh.faces[side.face as usize].vertices;
+    let k = vertices.iter().position(|&other| other == vertex).unwrap_or(0);
+    side.face * 3 + k as u32
+}
+
+/// The first corner of the fan of a corner.
+fn first_of_fan(fans: &[u32], mut corner: u32) -> u32 {
+    while fans[corner as usize] != corner {
+        corner = fans[corner as usize];
+    }
+    corner
+}
+
+/// Makes one fan of those of two corners; paths become shorter on the way.
+fn join_fans(fans: &mut [u32], corners: [u32; 2]) {
+    let [a, b] = corners.map(|corner| first_of_fan(fans, corner));
+    fans[a.max(b) as usize] = a.min(b);
+    corners.into_iter().for_each(|corner| fans[corner as usize] = a.min(b));
+}
