@@ -13,7 +13,9 @@ use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use drawing::{DxfOptions, HiddenLines, Page, Warning};
-use pipeline::scene::file::{AxonometricView, PageOrientation, PaperSize, SheetFile};
+use pipeline::scene::file::{
+    AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
+};
 use pipeline::scene::{ResolveOptions, SheetContent, Style};
 use pipeline::{Picture, Scene};
 use projection::SheetAngle;
@@ -53,7 +55,7 @@ pub(crate) struct SheetArgs {
     /// style, else dashed]
     #[arg(long, value_parser = option_parser::<HiddenLines>())]
     hidden_lines: Option<HiddenLines>,
-    /// Omit the overall dimensions
+    /// Omit all dimensions
     #[arg(long)]
     no_dimensions: bool,
     /// Title in the title block [default: the names of the models]
@@ -163,7 +165,9 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view);
     args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = Some(hidden));
     sheet.scale = args.scale.or(sheet.scale);
-    sheet.dimensions &= !args.no_dimensions;
+    if args.no_dimensions {
+        sheet.dimensions = DimensionsFile::none();
+    }
     let texts = [
         (&mut sheet.title, &args.title),
         (&mut sheet.author, &args.author),

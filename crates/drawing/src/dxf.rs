@@ -22,7 +22,7 @@
 //! screen. Characters beyond ASCII are written by their code, Ø as `\U+00D8`. The file has no dates: equal pages give
 //! equal bytes.
 
-mod arcs;
+pub(crate) mod arcs;
 mod color_index;
 mod entities;
 mod layers;

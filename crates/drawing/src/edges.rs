@@ -14,6 +14,7 @@
 //! sharp angle a crease.
 
 mod classify;
+mod feature_edges;
 mod half_edges;
 mod interpolated_contour;
 mod intersections;
@@ -25,5 +26,6 @@ mod weld;
 mod welded_surface;
 mod world_mesh;
 
+pub(super) use feature_edges::{FeatureChain, FeatureEdge};
 pub(super) use welded_surface::{CandidateEdge, SectionCap, WeldedSurface};
 pub(super) use world_mesh::WorldMesh;

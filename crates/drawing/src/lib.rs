@@ -14,6 +14,7 @@
 //!  `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
 //!  `line_style`, `line_type`, `dash_pattern` | pens, line widths and dashes of ISO 128 |
 //!  `region`, `region_outline` | outlines of what faces cover, by winding numbers and snap rounding |
+//!  `feature_picker`, `circles` | vertices, edges, faces and circles by their place
 //!  `page`, `svg`, `pdf`, `dxf`, `canvas` | pages in micrometers, and their four formats |
 //!  `page_clip` | lines clipped to the rectangles of views |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
@@ -26,6 +27,7 @@
 
 mod canvas;
 mod chart;
+mod circles;
 mod dash_pattern;
 mod draw;
 mod dxf;
@@ -33,6 +35,7 @@ mod edges;
 mod error;
 mod face_fill;
 mod face_raster;
+mod feature_picker;
 mod fixed_decimal;
 mod hand_drawn;
 mod hatching;
@@ -71,6 +74,7 @@ pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
 pub use draw::draw;
 pub use dxf::DxfOptions;
 pub use error::DrawError;
+pub use feature_picker::{FeaturePicker, PickedFeature};
 pub use hidden_line::{EdgeParts, Occluders, Tolerance};
 pub use label::{Label, TextAlign};
 pub use layout::Placement;
@@ -91,7 +95,10 @@ pub use pdf::to_pdf;
 pub use projector::Projector;
 pub use region::{Region, RegionEdge, RegionHatching};
 pub use retained_points::retained_points;
-pub use sheet::{DimensionUnit, ScaleLimit, Sheet, SheetError, SheetFill, TitleBlockText};
+pub use sheet::{
+    Dimension, DimensionFault, DimensionSide, DimensionUnit, LengthDirection, Measure, ScaleLimit,
+    Sheet, SheetError, SheetFill, TitleBlockText, WorldCircle,
+};
 pub use subject::Subject;
 pub use warning::Warning;
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};

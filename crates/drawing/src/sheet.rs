@@ -19,10 +19,16 @@
 //! (ISO 5456-2). The scale is one of the standard series (ISO 5455). Frame and title block follow
 //! ISO 5457 and ISO 7200, dimensions ISO 129-1.
 
+mod angle_dimension;
 mod annotation;
+mod circle_dimension;
+mod collision;
 mod dimension;
+mod dimension_board;
 mod frame;
 mod free_area;
+mod length_dimension;
+mod measure;
 mod paper_choice;
 mod projection_symbol;
 mod scale_bar;
@@ -33,6 +39,7 @@ mod surface_cache;
 mod title_block;
 mod view_grid;
 mod view_layout;
+mod view_measures;
 mod view_plan;
 
 use super::layout::Placement;
@@ -45,6 +52,9 @@ use annotation::AnnotationLayer;
 use camera::NamedView;
 use glam::DVec2;
 use homog::{Plane, World};
+pub use measure::{
+    Dimension, DimensionFault, DimensionSide, LengthDirection, Measure, WorldCircle,
+};
 use model::{ModelInstance, model_names};
 use projection::SheetAngle;
 pub use sheet_fill::{ScaleLimit, SheetFill};
@@ -91,6 +101,8 @@ pub struct Sheet {
     pub style: LineStyle,
     /// Whether overall dimensions are drawn.
     pub dimensions: bool,
+    /// Further dimensions, which are numbered in this order.
+    pub measures: Vec<Dimension>,
     /// The texts of the title block.
     pub title_block: TitleBlockText,
 }
@@ -198,6 +210,7 @@ impl Sheet {
             axonometric_view: Some(NamedView::Isometric),
             style: LineStyle { line_widths: LineWidths::Iso(group), ..LineStyle::TECHNICAL },
             dimensions: true,
+            measures: Vec::new(),
             title_block: TitleBlockText::default(),
         }
     }
@@ -261,6 +274,11 @@ impl Sheet {
         let mut warnings = plan.warnings.clone();
         let left_out = layout.left_out.iter();
         warnings.extend(left_out.map(|view| Warning::ViewLeftOut { view: view.title() }));
+        let without_room = layout.views.iter().flat_map(|placed| &placed.annotations.left_out);
+        warnings.extend(without_room.map(|dimension| Warning::DimensionLeftOut {
+            dimension: dimension.clone(),
+            fault: DimensionFault::NoRoom,
+        }));
         let block = &self.title_block;
         let texts = [title, &block.author, &block.date, &block.number];
         warnings.extend(texts.into_iter().filter_map(missing_glyph_warning));

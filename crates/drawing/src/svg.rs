@@ -21,7 +21,9 @@
 
 use super::fixed_decimal::{format_millimeters, format_thousandths, write_thousandths};
 use super::markup::escape_markup;
-use super::page::{Cap, Group, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
+use super::page::{
+    Cap, Group, GroupContent, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline,
+};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
@@ -86,7 +88,7 @@ fn write_image(svg: &mut String, pasted: &PlacedImage) {
 /// Writes a layer as a group, with a group in it for each object.
 ///
 /// Ids are unique because that of an object is prefixed by that of its layer; titles become
-/// tooltips in browsers.
+/// tooltips in browsers. Where a text has an id, it is its own title.
 fn write_layer(svg: &mut String, layer: &Layer) {
     let id = escape_markup(&layer.id);
     let _ = write!(
@@ -101,8 +103,12 @@ fn write_layer(svg: &mut String, layer: &Layer) {
             continue;
         }
         let _ = writeln!(svg, "<g id=\"{id}.{}\">", escape_markup(&group.id));
-        if !group.title.is_empty() {
-            let _ = writeln!(svg, "<title>{}</title>", escape_markup(&group.title));
+        let title = match &group.content {
+            GroupContent::Text(line) if group.title.is_empty() => &line.text,
+            _ => &group.title,
+        };
+        if !title.is_empty() {
+            let _ = writeln!(svg, "<title>{}</title>", escape_markup(title));
         }
         write_paths(svg, group, &layer.pen);
         *svg += "</g>\n";

@@ -1,5 +1,6 @@
 //! Warnings: what a drawing leaves out, returned along with it.
 
+use crate::DimensionFault;
 use crate::overlay::LabelFault;
 use core::fmt;
 
@@ -39,6 +40,13 @@ pub enum Warning {
     ViewLeftOut {
         /// The name of the view, such as `isometric view` or `section A-A`.
         view: String,
+    },
+    /// A dimension is not on the sheet.
+    DimensionLeftOut {
+        /// The name of the dimension, such as `dimension 3`.
+        dimension: String,
+        /// The reason.
+        fault: DimensionFault,
     },
     /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
@@ -99,6 +107,9 @@ impl fmt::Display for Warning {
                 "there is no place for the {view} beside the other views, and it is left out: \
                  use larger paper or a smaller scale"
             ),
+            Self::DimensionLeftOut { dimension, fault } => {
+                write!(f, "{dimension} is not on the sheet: {fault}")
+            }
             Self::ImagesNotInDxf => f.write_str(
                 "DXF has lines, areas and texts, but no images: \
                  backgrounds and fills of faces are left out",

@@ -18,6 +18,7 @@ mod caption;
 mod classical;
 mod color;
 pub(crate) mod depth_span;
+mod dimensions;
 mod error;
 mod exposure;
 pub mod file;

@@ -37,24 +37,24 @@ const MAX_SWEEP: f64 = 0.97 * core::f64::consts::TAU;
 
 /// A vertex of a polyline whose sides are lines and arcs.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct ArcVertex {
+pub(crate) struct ArcVertex {
     /// In micrometers of the page.
-    pub(super) point: DVec2,
+    pub(crate) point: DVec2,
     /// The tangent of a quarter of the angle of the arc to the next vertex; positive where it turns
     /// from x to y, 0 for a line.
-    pub(super) bulge: f64,
+    pub(crate) bulge: f64,
 }
 
 /// A circle in micrometers of the page.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Circle {
-    pub(super) center: DVec2,
-    pub(super) radius: f64,
+pub(crate) struct Circle {
+    pub(crate) center: DVec2,
+    pub(crate) radius: f64,
 }
 
 /// A line of the page as lines and arcs.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum LineShape {
+pub(crate) enum LineShape {
     /// A full circle.
     Circle(Circle),
     /// One arc from an angle to a greater one in radians, from x to y.
@@ -65,7 +65,7 @@ pub(super) enum LineShape {
 
 /// The curve of a line, with arcs where its points lie on circles within a tolerance in micrometers;
 /// with a tolerance of 0 there are none.
-pub(super) fn recognize_arcs(line: &Polyline, tolerance: f64) -> LineShape {
+pub(crate) fn recognize_arcs(line: &Polyline, tolerance: f64) -> LineShape {
     let points: Vec<DVec2> = line.points.iter().copied().map(grid_point).collect();
     let straight = |points: &[DVec2]| -> Vec<ArcVertex> {
         points.iter().map(|&point| ArcVertex { point, bulge: 0.0 }).collect()

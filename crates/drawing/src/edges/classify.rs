@@ -171,7 +171,8 @@ impl<'a> EdgeClassifier<'a> {
     }
 
     /// Whether an edge is a silhouette of a smooth surface, which an interpolated contour replaces.
-    pub(super) fn is_smooth_silhouette(&self, one: HalfEdge, other: HalfEdge) -> bool {
+    pub(super) fn is_smooth_silhouette(&self, sides: &[HalfEdge]) -> bool {
+        let &[one, other] = sides else { return false };
         self.class_between(one, other) == EdgeClass::Silhouette
             && self.is_smooth_between(one, other)
     }

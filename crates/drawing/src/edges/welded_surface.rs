@@ -161,6 +161,27 @@ impl WeldedSurface {
         Tolerance::for_scene(self.diagonal)
     }
 
+    /// The mesh.
+    pub(crate) const fn mesh(&self) -> &WorldMesh {
+        &self.mesh
+    }
+
+    /// The diagonal of the models' bounding box before sections.
+    pub(crate) const fn diagonal(&self) -> f64 {
+        self.diagonal
+    }
+
+    /// Calls `visit` with every edge and the half-edges at it, boundaries split at T-junctions.
+    pub(super) fn for_each_edge(&self, mut visit: impl FnMut([u32; 2], &[HalfEdge])) {
+        for (ends, sides) in self.half_edges.edges().filter(|(_, sides)| sides.len() > 1) {
+            visit(ends, sides);
+        }
+        for parts in self.border_edges.chunk_by(|(a, _), (b, _)| a == b) {
+            let sides: Vec<HalfEdge> = parts.iter().map(|(_, side)| *side).collect();
+            visit(parts[0].0, &sides);
+        }
+    }
+
     /// The names of the objects.
     pub(crate) fn object_names(&self) -> &[String] {
         &self.mesh.objects
@@ -229,24 +250,16 @@ impl WeldedSurface {
             }
         };
         let classifier = EdgeClassifier::new(mesh, projector, options);
-        let mut classify = |ends: [u32; 2], sides: &[HalfEdge]| {
+        let classify = |ends: [u32; 2], sides: &[HalfEdge]| {
             let class = classifier.classify_edge(ends, sides);
             add_candidate(ends, class, classifier.lowest_object(sides));
         };
         let interpolates = options.silhouettes == SilhouetteMethod::Interpolated;
-        let is_replaced = |sides: &[HalfEdge]| match *sides {
-            [one, other] => interpolates && classifier.is_smooth_silhouette(one, other),
-            _ => false,
-        };
-        for (ends, sides) in self.half_edges.edges().filter(|(_, sides)| sides.len() > 1) {
-            if !is_replaced(sides) {
+        self.for_each_edge(|ends, sides| {
+            if !(interpolates && classifier.is_smooth_silhouette(sides)) {
                 classify(ends, sides);
             }
-        }
-        for parts in self.border_edges.chunk_by(|(a, _), (b, _)| a == b) {
-            let sides: Vec<HalfEdge> = parts.iter().map(|(_, side)| *side).collect();
-            classify(parts[0].0, &sides);
-        }
+        });
         for line in &mesh.line_edges {
             let class = if line.is_marked { EdgeClass::Marked } else { EdgeClass::Line };
             add_candidate(line.ends, class, line.object);

@@ -20,6 +20,8 @@ pub(super) type Extent = [DVec2; 2];
 /// The layers that annotations are drawn on, in drawing order.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum AnnotationLayer {
+    /// The axes of circles and cylinders.
+    CenterLines,
     /// Dimension lines, extension lines and arrowheads.
     Dimensions,
     /// The lengths above dimension lines.
@@ -53,6 +55,8 @@ pub(super) struct AnnotationText {
 pub(super) enum AnnotationShape {
     /// A straight line.
     Line([DVec2; 2]),
+    /// Straight lines from point to point, such as the parts of an arc.
+    Path(Vec<DVec2>),
     /// A filled triangle: an arrowhead.
     Head([DVec2; 3]),
     /// A text.
@@ -63,6 +67,18 @@ pub(super) enum AnnotationShape {
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(super) struct ViewAnnotations {
     items: Vec<(AnnotationLayer, AnnotationShape)>,
+    /// The dimensions that were asked for, each a group of its own.
+    dimensions: Vec<PlacedDimension>,
+    /// The names of dimensions without a place.
+    pub(super) left_out: Vec<String>,
+}
+
+/// A dimension with its place.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct PlacedDimension {
+    /// Its number on the sheet, from 1.
+    pub(super) number: usize,
+    pub(super) shapes: Vec<(AnnotationLayer, AnnotationShape)>,
 }
 
 impl AnnotationText {
@@ -85,6 +101,7 @@ impl AnnotationShape {
     fn extent(&self) -> Option<Extent> {
         match self {
             Self::Line(ends) => extent_of_points(ends.iter().copied()),
+            Self::Path(points) => extent_of_points(points.iter().copied()),
             Self::Head(corners) => extent_of_points(corners.iter().copied()),
             Self::Text(text) => {
                 let strokes = text.label(DVec2::ZERO).strokes();
@@ -99,7 +116,26 @@ impl AnnotationShape {
     fn touches(&self, area: Extent) -> bool {
         match self {
             Self::Line(ends) => segment_crosses(*ends, area),
+            Self::Path(points) => {
+                points.windows(2).any(|pair| segment_crosses([pair[0], pair[1]], area))
+            }
             _ => self.extent().is_some_and(|extent| overlap(extent, area)),
+        }
+    }
+}
+
+impl AnnotationShape {
+    /// The shape as a group, with the center of the view at `origin`.
+    fn group(&self, origin: DVec2) -> Group {
+        let line = |points: &[DVec2], closed: bool| {
+            let moved: Vec<DVec2> = points.iter().map(|point| origin + *point).collect();
+            Polyline::through_points(&moved, closed).into_iter().collect()
+        };
+        match self {
+            Self::Line(ends) => Group { strokes: line(ends, false), ..Group::default() },
+            Self::Path(points) => Group { strokes: line(points, false), ..Group::default() },
+            Self::Head(corners) => Group { fills: line(corners, true), ..Group::default() },
+            Self::Text(text) => text.label(origin).group(),
         }
     }
 }
@@ -129,7 +165,7 @@ impl ViewAnnotations {
             let shape = AnnotationShape::Text(text);
             let is_free = shape.extent().is_some_and(|[low, high]| {
                 let area = [low - clearance, high + clearance];
-                !overlap(object, area) && !self.items.iter().any(|(_, other)| other.touches(area))
+                !overlap(object, area) && !self.shapes().any(|other| other.touches(area))
             });
             if is_free {
                 return self.push(layer, shape);
@@ -141,8 +177,26 @@ impl ViewAnnotations {
 
     /// The rectangle around the object and all annotations.
     pub(super) fn extent_with(&self, object: Extent) -> Extent {
-        let extents = self.items.iter().filter_map(|(_, shape)| shape.extent());
+        let extents = self.shapes().filter_map(AnnotationShape::extent);
         extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
+    }
+
+    /// The rectangle around the object and the dimensions that were asked for.
+    pub(super) fn extent_of_dimensions(&self, object: Extent) -> Extent {
+        let shapes = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
+        let extents = shapes.filter_map(|(_, shape)| shape.extent());
+        extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
+    }
+
+    /// Adds a dimension that was asked for.
+    pub(super) fn push_dimension(&mut self, dimension: PlacedDimension) {
+        self.dimensions.push(dimension);
+    }
+
+    /// All shapes, those of dimensions last.
+    pub(super) fn shapes(&self) -> impl Iterator<Item = &AnnotationShape> {
+        let own = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
+        self.items.iter().chain(own).map(|(_, shape)| shape)
     }
 
     /// The annotations of one layer as groups, with the center of the view at `origin`.
@@ -152,23 +206,44 @@ impl ViewAnnotations {
         origin: DVec2,
     ) -> impl Iterator<Item = Group> {
         let of_layer = self.items.iter().filter(move |(other, _)| *other == layer);
-        of_layer.map(move |(_, shape)| match shape {
-            AnnotationShape::Line(ends) => {
-                let line = Polyline::through_points(&ends.map(|end| origin + end), false);
-                Group { strokes: line.into_iter().collect(), ..Group::default() }
+        let own = self.dimensions.iter().flat_map(move |one| one.groups(layer, origin));
+        of_layer.map(move |(_, shape)| shape.group(origin)).chain(own)
+    }
+}
+
+impl PlacedDimension {
+    /// The shapes of one layer: the lines as one group, each text as one.
+    ///
+    /// Their ids are the number of the dimension, with the number of the text if there are several.
+    fn groups(&self, layer: AnnotationLayer, origin: DVec2) -> Vec<Group> {
+        let of_layer = self.shapes.iter().filter(|(other, _)| *other == layer);
+        let (mut lines, mut groups) = (Group::default(), Vec::new());
+        for (_, shape) in of_layer {
+            let group = shape.group(origin);
+            if let AnnotationShape::Text(_) = shape {
+                groups.push(group);
+            } else {
+                lines.strokes.extend(group.strokes);
+                lines.fills.extend(group.fills);
             }
-            AnnotationShape::Head(corners) => {
-                let head = Polyline::through_points(&corners.map(|corner| origin + corner), true);
-                Group { fills: head.into_iter().collect(), ..Group::default() }
-            }
-            AnnotationShape::Text(text) => text.label(origin).group(),
-        })
+        }
+        let texts = groups.len();
+        for (group, index) in groups.iter_mut().zip(1..) {
+            let own = self.number;
+            group.id = if texts > 1 { format!("{own}-{index}") } else { own.to_string() };
+        }
+        if !(lines.strokes.is_empty() && lines.fills.is_empty()) {
+            lines.id = self.number.to_string();
+            groups.push(lines);
+        }
+        groups
     }
 }
 
 impl AnnotationLayer {
     /// All layers in drawing order.
-    pub(super) const ALL: [Self; 7] = [
+    pub(super) const ALL: [Self; 8] = [
+        Self::CenterLines,
         Self::CutLines,
         Self::CutEnds,
         Self::CutArrows,
@@ -191,6 +266,7 @@ impl AnnotationLayer {
         };
         let lettering = || Pen::solid(letters * 0.1, ink);
         let (id, title, pen) = match self {
+            Self::CenterLines => ("center-lines", "center lines", chain()),
             Self::CutLines => ("cut-lines", "lines of cuts", chain()),
             Self::CutEnds => ("cut-ends", "ends of cuts", butt(group.wide_width())),
             Self::CutArrows => ("cut-arrows", "arrows of cuts", butt(group.lettering_width())),

@@ -20,23 +20,23 @@ use glam::DVec2;
 use viewport::DrawingScale;
 
 /// From the outline to the dimension line.
-const LINE_DISTANCE: f64 = 2.4;
+pub(super) const LINE_DISTANCE: f64 = 2.4;
 
 /// From the outline to the start of the extension line.
-const EXTENSION_GAP: f64 = 0.25;
+pub(super) const EXTENSION_GAP: f64 = 0.25;
 
 /// The length of an extension line beyond the dimension line.
-const EXTENSION_OVERHANG: f64 = 0.5;
+pub(super) const EXTENSION_OVERHANG: f64 = 0.5;
 
 /// The length of an arrowhead; it is a third as wide.
-const ARROW_LENGTH: f64 = 0.9;
+pub(super) const ARROW_LENGTH: f64 = 0.9;
 
 /// From the dimension line to the text above it.
-const TEXT_GAP: f64 = 0.35;
+pub(super) const TEXT_GAP: f64 = 0.35;
 
 /// The side of a view on which a dimension of its whole extent stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum DimensionSide {
+pub(super) enum OverallSide {
     Above,
     Below,
     Left,
@@ -58,12 +58,12 @@ struct LinearDimension {
 /// Where the object has no extent there is no dimension.
 pub(super) fn add_overall_dimensions(
     annotations: &mut ViewAnnotations,
-    sides: &[DimensionSide],
+    sides: &[OverallSide],
     half: DVec2,
     settings: &DimensionSettings,
 ) {
     for side in sides {
-        let dimension = overall_dimension(*side, half, settings);
+        let dimension = overall_dimension(*side, half, &settings.beyond(annotations, *side, half));
         if dimension.length > 1e-3 {
             dimension.annotate(annotations, settings);
         }
@@ -83,24 +83,59 @@ pub(super) struct DimensionSettings {
     pub(super) reserved: f64,
 }
 
+impl DimensionSettings {
+    /// The settings of an overall dimension beyond the dimensions that stand on its side.
+    fn beyond(&self, annotations: &ViewAnnotations, side: OverallSide, half: DVec2) -> Self {
+        let [low, high] = annotations.extent_of_dimensions([-half, half]);
+        let taken = match side {
+            OverallSide::Above => -half.y - low.y,
+            OverallSide::Below => high.y - half.y,
+            OverallSide::Left => -half.x - low.x,
+        };
+        let reserved = if taken > 0.0 { taken.max(self.reserved) } else { self.reserved };
+        Self { reserved, ..*self }
+    }
+}
+
+impl OverallSide {
+    /// The unit vector from the object to the dimension line.
+    pub(super) const fn outward(self) -> DVec2 {
+        match self {
+            Self::Above => DVec2::NEG_Y,
+            Self::Below => DVec2::Y,
+            Self::Left => DVec2::NEG_X,
+        }
+    }
+}
+
 /// The dimension of the whole extent on one side.
 fn overall_dimension(
-    side: DimensionSide,
+    side: OverallSide,
     half: DVec2,
     settings: &DimensionSettings,
 ) -> LinearDimension {
     let DimensionSettings { letters, scale, reserved, .. } = *settings;
     let corner = |x: f64, y: f64| half * DVec2::new(x, y);
     let (ends, outward) = match side {
-        DimensionSide::Above => ([corner(-1.0, -1.0), corner(1.0, -1.0)], -DVec2::Y),
-        DimensionSide::Below => ([corner(-1.0, 1.0), corner(1.0, 1.0)], DVec2::Y),
-        DimensionSide::Left => ([corner(-1.0, 1.0), corner(-1.0, -1.0)], -DVec2::X),
+        OverallSide::Above => ([corner(-1.0, -1.0), corner(1.0, -1.0)], -DVec2::Y),
+        OverallSide::Below => ([corner(-1.0, 1.0), corner(1.0, 1.0)], DVec2::Y),
+        OverallSide::Left => ([corner(-1.0, 1.0), corner(-1.0, -1.0)], -DVec2::X),
     };
     // A text above the line is between it and an outline that is above.
-    let text = if side == DimensionSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
+    let text = if side == OverallSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
     let distance = (LINE_DISTANCE * letters).max(reserved + (text + 0.5) * letters);
     let length = scale.to_object_length((ends[1] - ends[0]).length());
     LinearDimension { ends, outward, distance, length }
+}
+
+/// A number with at most so many decimal places, without trailing zeros.
+pub(super) fn format_decimals(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    let text = match text.split_once('.') {
+        Some(_) => text.trim_end_matches('0').trim_end_matches('.'),
+        None => &text,
+    };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// A length without trailing zeros: in millimeters to a hundredth, from one meter on to a
@@ -112,12 +147,7 @@ pub(super) fn format_length(millimeters: f64, unit: DimensionUnit) -> String {
         DimensionUnit::Millimeter => 0,
         DimensionUnit::Inch => 3,
     };
-    let text = format!("{length:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    format_decimals(length, decimals)
 }
 
 impl LinearDimension {
@@ -176,7 +206,7 @@ impl LinearDimension {
 }
 
 /// An arrowhead with this tip; `into` is the direction from the tip to the base.
-fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
+pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
     let across = DVec2::new(-into.y, into.x) * (length / 6.0);
     let base = tip + into * length;
     [tip, base + across, base - across]
@@ -207,7 +237,7 @@ mod tests {
     }
 
     /// The annotations of an object of this half size at 1:1.
-    fn annotated(half: DVec2, side: DimensionSide, reserved: f64) -> ViewAnnotations {
+    fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, unit) = (DrawingScale::STANDARD[5], DimensionUnit::Millimeter);
         let settings = DimensionSettings { letters: 3.5, scale, unit, reserved };
         let mut annotations = ViewAnnotations::default();
@@ -219,7 +249,7 @@ mod tests {
     fn narrow_dimensions_have_their_arrows_outside() {
         let span = |half: f64| {
             let object = [DVec2::ZERO; 2];
-            let annotations = annotated(DVec2::splat(half), DimensionSide::Above, 0.0);
+            let annotations = annotated(DVec2::splat(half), OverallSide::Above, 0.0);
             annotations.extent_with(object).map(|corner| corner.x)
         };
         assert_eq!(span(20.0), [-20.0, 20.0]);
@@ -230,12 +260,12 @@ mod tests {
     #[test]
     fn dimension_lines_leave_room_for_cut_lines() {
         let object = [DVec2::splat(-20.0), DVec2::splat(20.0)];
-        for (side, axis) in [(DimensionSide::Above, 1), (DimensionSide::Left, 0)] {
+        for (side, axis) in [(OverallSide::Above, 1), (OverallSide::Left, 0)] {
             let low = |reserved| annotated(object[1], side, reserved).extent_with(object)[0][axis];
             assert!(low(0.0) > -20.0 - 14.0, "{side:?}");
             assert!(low(12.0) < -20.0 - 12.0 - 3.5, "{side:?}");
         }
-        let below = annotated(object[1], DimensionSide::Below, 12.0).extent_with(object)[1].y;
+        let below = annotated(object[1], OverallSide::Below, 12.0).extent_with(object)[1].y;
         assert!(below > 20.0 + 12.0 + 3.5, "{below}");
     }
 }

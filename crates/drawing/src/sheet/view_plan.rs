@@ -12,9 +12,10 @@
 //! free.
 
 use super::annotation::{AnnotationLayer, ViewAnnotations};
-use super::dimension::{DimensionSettings, DimensionSide, add_overall_dimensions};
+use super::dimension::{DimensionSettings, OverallSide, add_overall_dimensions};
 use super::section_line::{SectionLine, add_caption, section_line_reserve};
 use super::sheet_view::{SheetView, ViewName};
+use super::view_measures::ViewMeasures;
 use super::{Sheet, SheetError};
 use crate::Warning;
 use crate::retained_points::{idle_section_warning, retained_points};
@@ -32,11 +33,13 @@ type LetteredPlane = (Plane<World>, char);
 pub(super) struct PlannedView {
     pub(super) view: SheetView,
     /// The sides with an overall dimension.
-    dimensions: Vec<DimensionSide>,
+    dimensions: Vec<OverallSide>,
     /// The planes whose lines the view shows.
     section_lines: Vec<LetteredPlane>,
     /// The letter of the section that the view shows.
     letter: Option<char>,
+    /// The dimensions and center lines that were asked for.
+    pub(super) measures: ViewMeasures,
 }
 
 /// The views of a sheet.
@@ -102,8 +105,8 @@ impl ViewPlan {
         }
         if sheet.dimensions {
             let first = sheet.projection_angle == SheetAngle::First;
-            let across = if first { DimensionSide::Above } else { DimensionSide::Below };
-            principal[0].dimensions = vec![across, DimensionSide::Left];
+            let across = if first { OverallSide::Above } else { OverallSide::Below };
+            principal[0].dimensions = vec![across, OverallSide::Left];
             principal[2].dimensions = vec![across];
         }
         if let Some(name) = sheet.axonometric_view {
@@ -111,7 +114,9 @@ impl ViewPlan {
             let view = SheetView::frame_points(&left, name, unit)?;
             free.push(PlannedView::plain(view.cut_by(planes)));
         }
-        Ok(Self { principal, free, warnings })
+        let mut plan = Self { principal, free, warnings };
+        plan.add_measures(sheet, models);
+        Ok(plan)
     }
 }
 
@@ -135,7 +140,8 @@ fn side_view(
 impl PlannedView {
     /// A view with nothing beside it.
     fn plain(view: SheetView) -> Self {
-        Self { view, dimensions: Vec::new(), section_lines: Vec::new(), letter: None }
+        let (dimensions, section_lines, letter) = (Vec::new(), Vec::new(), None);
+        Self { view, dimensions, section_lines, letter, measures: ViewMeasures::default() }
     }
 
     /// Whether the view is one of the six along the axes, not cut.
@@ -168,6 +174,7 @@ impl PlannedView {
             unit: sheet.dimension_unit,
             reserved: if lines.is_empty() { 0.0 } else { section_line_reserve(letters) },
         };
+        self.measures.annotate(&mut annotations, (&self.dimensions, half), &settings);
         add_overall_dimensions(&mut annotations, &self.dimensions, half, &settings);
         lines.iter().for_each(|line| line.add_letters(&mut annotations, object, letters));
         if let Some(letter) = self.letter {

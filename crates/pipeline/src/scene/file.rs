@@ -7,6 +7,7 @@
 mod background;
 mod camera;
 mod camera_path;
+mod dimension;
 mod environment;
 mod ground;
 mod include;
@@ -29,6 +30,7 @@ pub use self::camera::{
     CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, RotationFile, ViewFile,
 };
 pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
+pub use self::dimension::{DimensionFile, DimensionView, DimensionsFile, PickFile, PlaceFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
 pub use self::include::Paths;

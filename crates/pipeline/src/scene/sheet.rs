@@ -1,5 +1,6 @@
 //! Resolution of the drawing sheet: paper, arrangement, scale and title block.
 
+use super::dimensions::resolve_dimensions;
 use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 use super::style::resolve_iso_group;
 use super::syntax::PathStep::{self, Field};
@@ -29,8 +30,8 @@ pub struct SheetContent<'a> {
 /// smallest that is large enough: [`Sheet::smallest_of`].
 ///
 /// # Errors
-/// If the scale has a 0, ISO 128 has no line group of the width, or the models have several units;
-/// the error points into the file.
+/// If the scale has a 0, ISO 128 has no line group of the width, the models have several units, or
+/// a dimension names or picks what is not there; the error points into the file.
 pub fn resolve_sheet(
     origin: &Origin,
     file: &SheetFile,
@@ -76,6 +77,7 @@ fn resolve_sheet_on(
     };
     let hidden_lines = file.hidden.unwrap_or(own.hidden_lines);
     let unit = resolve_unit(origin, file, content.models)?;
+    let (has_overall, measures) = resolve_dimensions(origin, file, content.models)?;
     Ok(Sheet {
         projection_angle: file.projection_angle,
         side_view,
@@ -87,7 +89,8 @@ fn resolve_sheet_on(
             _ => DimensionUnit::Millimeter,
         },
         axonometric_view: axonometric_view(file.axonometric_view),
-        dimensions: file.dimensions,
+        dimensions: has_overall,
+        measures,
         title_block: TitleBlockText {
             title: file.title.clone(),
             author: file.author.clone(),

@@ -1,5 +1,6 @@
 //! A drawing sheet in a scene file: paper, arrangement of the views, scale and title block.
 
+use super::DimensionsFile;
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
 use drawing::HiddenLines;
@@ -33,8 +34,9 @@ scene_struct! {
         /// The width of wide lines in millimeters, a line group of ISO 128. Default: that of the
         /// scene's line style if it is in millimeters, else to suit the paper.
         pub width: Option<Positive> = None,
-        /// Whether overall dimensions are drawn. Default: true.
-        pub dimensions: bool = true,
+        /// The dimensions: `true` for the overall ones, `false` for none, or a list such as
+        /// `[Overall, Length(from: Node(name: "lid"), to: Point((0, 0, 0)))]`. Default: true.
+        pub dimensions: DimensionsFile = DimensionsFile::overall(),
         /// The title. Default: the names of the models.
         pub title: String = String::new(),
         /// The author. Default: the field is left out.

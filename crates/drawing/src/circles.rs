@@ -1,0 +1,101 @@
+//! Circles of models: chains of feature edges that lie on a circle or an arc in space.
+//!
+//! The chain is laid out in its plane, on a grid of a billionth of its size, and the arcs of DXF
+//! files are recognized there: at least eight points, at equal distances, less than 29.5° apart, and
+//! all of them within the tolerance of plane and circle. A polygon of up to twelve sides is no
+//! circle.
+
+use crate::dxf::arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
+use crate::edges::FeatureChain;
+use crate::page::Polyline;
+use crate::sheet::WorldCircle;
+use core::f64::consts::TAU;
+use glam::{DVec2, DVec3};
+use homog::{Point, Vector};
+
+/// Points may be so far beside a circle, as a part of the diagonal of the models.
+pub(crate) const CIRCLE_TOLERANCE: f64 = 5e-5;
+
+/// The grid steps of the larger half extent of a chain.
+const GRID_STEPS: f64 = 1e9;
+
+/// The plane of a chain and its coordinates.
+struct ChainPlane {
+    origin: DVec3,
+    axes: [DVec3; 2],
+    /// Grid steps in a unit.
+    steps: f64,
+}
+
+impl ChainPlane {
+    /// The plane in which all points lie within a tolerance; `None` if there is none.
+    ///
+    /// Its normal is that of the area that the chain encloses (Newell).
+    fn of_chain(chain: &FeatureChain, tolerance: f64) -> Option<Self> {
+        let points = &chain.points;
+        let count = points.len() as f64;
+        let origin = points.iter().sum::<DVec3>() / count;
+        let next = |at: usize| points[(at + 1) % points.len()] - origin;
+        let doubled: DVec3 =
+            points.iter().enumerate().map(|(at, point)| (*point - origin).cross(next(at))).sum();
+        let normal = doubled.try_normalize()?;
+        let extent = points.iter().fold(0.0, |most: f64, point| most.max(point.distance(origin)));
+        let is_flat = points.iter().all(|point| (*point - origin).dot(normal).abs() <= tolerance);
+        let first = normal.any_orthonormal_vector();
+        (is_flat && extent > 0.0).then(|| Self {
+            origin,
+            axes: [first, normal.cross(first)],
+            steps: GRID_STEPS / extent,
+        })
+    }
+
+    /// A point as a point of the grid.
+    fn to_grid(&self, point: DVec3) -> [i32; 2] {
+        let arm = (point - self.origin) * self.steps;
+        self.axes.map(|axis| libm::round(arm.dot(axis)) as i32)
+    }
+
+    /// A circle of the grid in the world.
+    fn to_world(&self, circle: Circle, sweep: f64) -> WorldCircle {
+        let [x, y] = self.axes;
+        let center = circle.center / self.steps;
+        WorldCircle {
+            center: Point::from_raw(self.origin + x * center.x + y * center.y),
+            axis: Vector::from_raw(x.cross(y)),
+            radius: circle.radius / self.steps,
+            sweep,
+        }
+    }
+}
+
+/// The circles and arcs of a chain, within a tolerance in units of the world.
+pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<WorldCircle> {
+    let Some(plane) = ChainPlane::of_chain(chain, tolerance) else { return Vec::new() };
+    let points = chain.points.iter().map(|point| plane.to_grid(*point)).collect();
+    let line = Polyline { points, closed: chain.is_closed };
+    match recognize_arcs(&line, tolerance * plane.steps) {
+        LineShape::Circle(circle) => vec![plane.to_world(circle, TAU)],
+        LineShape::Arc(circle, [start, end]) => vec![plane.to_world(circle, end - start)],
+        LineShape::Path(vertices, is_closed) => {
+            let next = |at: usize| vertices[(at + 1) % vertices.len()].point;
+            let last = if is_closed { vertices.len() } else { vertices.len() - 1 };
+            let arcs = vertices[..last].iter().enumerate();
+            arcs.filter_map(|(at, from)| arc_of_bulge(from, next(at)))
+                .map(|(circle, sweep)| plane.to_world(circle, sweep))
+                .collect()
+        }
+    }
+}
+
+/// The circle of an arc of a polyline, and its angle; `None` for a straight side.
+fn arc_of_bulge(from: &ArcVertex, to: DVec2) -> Option<(Circle, f64)> {
+    let (bulge, chord) = (from.bulge, to - from.point);
+    if bulge == 0.0 {
+        return None;
+    }
+    // The height of the center over the chord, to the left for a positive bulge.
+    let height = (1.0 - bulge * bulge) / (4.0 * bulge);
+    let center = from.point + chord * 0.5 + chord.perp() * height;
+    let radius = center.distance(from.point);
+    Some((Circle { center, radius }, 4.0 * libm::atan(bulge.abs())))
+}

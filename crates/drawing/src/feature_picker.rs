@@ -1,0 +1,194 @@
+//! Feature picker: vertices, edges, circles and faces of models by their place, for dimensions.
+
+use crate::WorldCircle;
+use crate::circles::{CIRCLE_TOLERANCE, circles_of_chain};
+use crate::edges::{FeatureEdge, WeldedSurface, WorldMesh};
+use glam::DVec3;
+use homog::{Bounds, Point, Vector, World};
+use model::ModelInstance;
+use std::sync::OnceLock;
+
+/// The features of models in the world.
+///
+/// Objects are the nodes with a mesh, in the order of [`Model::mesh_instances`] of one model after
+/// the other. `None` for objects means all of them.
+///
+/// [`Model::mesh_instances`]: model::Model::mesh_instances
+#[derive(Debug)]
+pub struct FeaturePicker<'a> {
+    models: &'a [ModelInstance],
+    mesh: WorldMesh,
+    crease_angle: f64,
+    features: OnceLock<Features>,
+}
+
+/// The features of a welded surface.
+#[derive(Debug)]
+struct Features {
+    surface: WeldedSurface,
+    edges: Vec<FeatureEdge>,
+    circles: Vec<(WorldCircle, u32)>,
+}
+
+/// An edge or a face with the point of it that is nearest to the place where it was picked.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PickedFeature {
+    /// The nearest point.
+    pub point: Point<World>,
+    /// The unit vector along the edge, or perpendicular to the face.
+    pub direction: Vector<World>,
+    /// The middle of the edge, or of the triangle.
+    pub middle: Point<World>,
+}
+
+impl<'a> FeaturePicker<'a> {
+    /// The features of models; edges between faces are those sharper than an angle in radians.
+    #[must_use]
+    pub fn new(models: &'a [ModelInstance], crease_angle: f64) -> Self {
+        let mesh = WorldMesh::from_models(models);
+        Self { models, mesh, crease_angle, features: OnceLock::new() }
+    }
+
+    /// The features of the welded surface, found at the first request.
+    fn features(&self) -> &Features {
+        self.features.get_or_init(|| {
+            let surface = WeldedSurface::new(self.models, &[]);
+            let edges = surface.feature_edges(self.crease_angle);
+            let circles = surface.circles(&edges);
+            Features { surface, edges, circles }
+        })
+    }
+
+    /// The box around objects; `None` if they have no vertices.
+    #[must_use]
+    pub fn bounds(&self, objects: Option<&[u32]>) -> Option<Bounds<World>> {
+        let points = self.vertices(objects).map(Point::from_raw);
+        Bounds::from_points(points)
+    }
+
+    /// The vertices of the faces and lines of objects.
+    fn vertices(&self, objects: Option<&[u32]>) -> impl Iterator<Item = DVec3> {
+        let faces = self.mesh.faces.iter().filter(move |face| is_wanted(objects, face.object));
+        let lines = self.mesh.line_edges.iter().filter(move |line| is_wanted(objects, line.object));
+        let of_faces = faces.flat_map(|face| face.vertices);
+        of_faces.chain(lines.flat_map(|line| line.ends)).map(|at| self.mesh.points[at as usize])
+    }
+
+    /// The vertex of objects that is nearest to a point.
+    #[must_use]
+    pub fn nearest_vertex(
+        &self,
+        to: Point<World>,
+        objects: Option<&[u32]>,
+    ) -> Option<Point<World>> {
+        let distance = |point: &DVec3| point.distance_squared(to.raw());
+        let vertices = self.vertices(objects);
+        vertices.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(Point::from_raw)
+    }
+
+    /// The edge of objects that is nearest to a point: a crease or a boundary.
+    #[must_use]
+    pub fn nearest_edge(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
+        let Features { surface, edges, .. } = self.features();
+        let points = &surface.mesh().points;
+        let wanted = edges.iter().filter(|edge| is_wanted(objects, edge.object));
+        let picked = wanted.map(|edge| {
+            let [a, b] = edge.ends.map(|end| points[end as usize]);
+            let span = b - a;
+            let t = (to.raw() - a).dot(span) / span.length_squared();
+            let point = a + span * t.clamp(0.0, 1.0);
+            [point, span.normalize_or_zero(), (a + b) * 0.5]
+        });
+        nearest(picked, to)
+    }
+
+    /// The face of objects that is nearest to a point: a triangle, which stands for its plane.
+    #[must_use]
+    pub fn nearest_face(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<PickedFeature> {
+        let wanted = self.mesh.faces.iter().filter(|face| is_wanted(objects, face.object));
+        let picked = wanted.map(|face| {
+            let corners = face.vertices.map(|vertex| self.mesh.points[vertex as usize]);
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            let middle = corners.iter().sum::<DVec3>() / 3.0;
+            [nearest_point_of_triangle(corners, to.raw()), normal.normalize_or_zero(), middle]
+        });
+        nearest(picked, to)
+    }
+
+    /// The circle or arc of objects whose center or line is nearest to a point.
+    #[must_use]
+    pub fn nearest_circle(&self, to: Point<World>, objects: Option<&[u32]>) -> Option<WorldCircle> {
+        let circles = self.circles(objects);
+        let distance = |circle: &WorldCircle| {
+            let arm = to.raw() - circle.center.raw();
+            let height = arm.dot(circle.axis.raw());
+            let beside = (arm - circle.axis.raw() * height).length();
+            arm.length().min(DVec3::new(beside - circle.radius, height, 0.0).length())
+        };
+        circles.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// The circles and arcs of objects.
+    pub fn circles(&self, objects: Option<&[u32]>) -> impl Iterator<Item = WorldCircle> {
+        let circles = self.features().circles.iter();
+        circles.filter(move |(_, object)| is_wanted(objects, *object)).map(|(circle, _)| *circle)
+    }
+}
+
+impl WeldedSurface {
+    /// The circles and arcs of feature edges, each with its object.
+    ///
+    /// Points may be 1/20,000 of the diagonal of the models beside their circle.
+    pub(crate) fn circles(&self, edges: &[FeatureEdge]) -> Vec<(WorldCircle, u32)> {
+        let tolerance = CIRCLE_TOLERANCE * self.diagonal();
+        let chains = self.feature_chains(edges);
+        let circles = chains.iter().flat_map(|chain| {
+            let circles = circles_of_chain(chain, tolerance).into_iter();
+            circles.map(|circle| (circle, chain.object))
+        });
+        circles.collect()
+    }
+}
+
+/// Whether an object is one of those that are wanted.
+fn is_wanted(objects: Option<&[u32]>, object: u32) -> bool {
+    objects.is_none_or(|objects| objects.contains(&object))
+}
+
+/// The feature whose point is nearest, by its point, direction and middle; those without a direction
+/// are none.
+fn nearest(picked: impl Iterator<Item = [DVec3; 3]>, to: Point<World>) -> Option<PickedFeature> {
+    let distance = |feature: &[DVec3; 3]| feature[0].distance_squared(to.raw());
+    let [point, direction, middle] = picked
+        .filter(|[_, direction, _]| *direction != DVec3::ZERO)
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    Some(PickedFeature {
+        point: Point::from_raw(point),
+        direction: Vector::from_raw(direction),
+        middle: Point::from_raw(middle),
+    })
+}
+
+/// The point of a triangle that is nearest to a point (Ericson, Real-Time Collision Detection,
+/// 5.1.5).
+fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVec3 {
+    let normal = (b - a).cross(c - a);
+    let is_inside = |from: DVec3, side: DVec3| side.cross(to - from).dot(normal) >= 0.0;
+    if normal != DVec3::ZERO && is_inside(a, b - a) && is_inside(b, c - b) && is_inside(c, a - c) {
+        return to - normal * ((to - a).dot(normal) / normal.length_squared());
+    }
+    let on_side = |[from, end]: [DVec3; 2]| {
+        let span = end - from;
+        let length = span.length_squared();
+        let t = if length > 0.0 { (to - from).dot(span) / length } else { 0.0 };
+        from + span * t.clamp(0.0, 1.0)
+    };
+    let sides = [[a, b], [b, c], [c, a]].map(on_side);
+    let distance = |point: &DVec3| point.distance_squared(to);
+    sides.into_iter().fold(
+        a,
+        |best, point| {
+            if distance(&point) < distance(&best) { point } else { best }
+        },
+    )
+}

@@ -1,0 +1,197 @@
+//! Dimension board: the free room around a view, in which dimensions find their places one after
+//! the other.
+//!
+//! ```text
+//!        │◄── 80 ──►│          a number touches neither the part (its convex hull), nor a line, nor
+//!      ┌─┴──────────┴─┐        another number; extension lines may cross the part and other lines,
+//!      │    part      │        but no number
+//!      └──────────────┘
+//! ```
+
+use super::annotation::{AnnotationLayer, AnnotationShape, PlacedDimension, ViewAnnotations};
+use super::collision::{convex_overlap, convex_parts};
+use super::dimension::{DimensionSettings, format_decimals, format_length};
+use super::measure::{ViewDimension, ViewMeasure};
+use glam::DVec2;
+
+/// The margin around texts, in heights of letters.
+const TEXT_MARGIN: f64 = 0.2;
+
+/// Dimension lines that run beside each other are at least so far apart, in heights of letters.
+const LINE_SPACING: f64 = 1.8;
+
+/// A shape with its layer.
+pub(super) type LayeredShape = (AnnotationLayer, AnnotationShape);
+
+/// A dimension at a place that may be free.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Candidate {
+    pub(super) shapes: Vec<LayeredShape>,
+    /// The dimension line, if it is straight.
+    pub(super) span: Option<[DVec2; 2]>,
+}
+
+/// The room around a view, in millimeters of paper from its center.
+#[derive(Clone, Debug)]
+pub(super) struct DimensionBoard {
+    /// The convex hull of the object.
+    pub(super) hull: Vec<DVec2>,
+    pub(super) settings: DimensionSettings,
+    /// The convex parts of lines and arrowheads.
+    lines: Vec<Vec<DVec2>>,
+    /// Those of texts, with their margin.
+    texts: Vec<Vec<DVec2>>,
+    /// The dimension lines.
+    spans: Vec<[DVec2; 2]>,
+}
+
+impl Candidate {
+    /// Adds a shape.
+    pub(super) fn push(&mut self, layer: AnnotationLayer, shape: AnnotationShape) {
+        self.shapes.push((layer, shape));
+    }
+
+    /// Adds a straight line of a dimension.
+    pub(super) fn push_line(&mut self, ends: [DVec2; 2]) {
+        self.push(AnnotationLayer::Dimensions, AnnotationShape::Line(ends));
+    }
+}
+
+impl DimensionBoard {
+    /// The room that annotations and the lines of others, which are yet to come, leave.
+    pub(super) fn new(
+        annotations: &ViewAnnotations,
+        hull: Vec<DVec2>,
+        reserved: Vec<[DVec2; 2]>,
+        settings: DimensionSettings,
+    ) -> Self {
+        let lines = reserved.into_iter().map(|line| line.to_vec()).collect();
+        let mut board = Self { hull, settings, lines, texts: Vec::new(), spans: Vec::new() };
+        annotations.shapes().for_each(|shape| board.add_shape(shape));
+        board
+    }
+
+    /// The margin around texts in millimeters.
+    fn text_margin(&self) -> f64 {
+        TEXT_MARGIN * self.settings.letters
+    }
+
+    /// Takes the room of a shape.
+    fn add_shape(&mut self, shape: &AnnotationShape) {
+        let parts = convex_parts(shape, self.text_margin());
+        match shape {
+            AnnotationShape::Text(_) => self.texts.extend(parts),
+            _ => self.lines.extend(parts),
+        }
+    }
+
+    /// Whether a candidate touches nothing that it must not touch.
+    pub(super) fn is_free(&self, candidate: &Candidate) -> bool {
+        let margin = self.text_margin();
+        let is_shape_free = |shape: &AnnotationShape| {
+            let is_text = matches!(shape, AnnotationShape::Text(_));
+            convex_parts(shape, margin).iter().all(|part| {
+                let meets =
+                    |other: &Vec<DVec2>| boxes_overlap(part, other) && convex_overlap(part, other);
+                let meets_line =
+                    || convex_overlap(part, &self.hull) || self.lines.iter().any(meets);
+                !(self.texts.iter().any(meets) || is_text && meets_line())
+            })
+        };
+        let is_span_free = candidate.span.is_none_or(|span| {
+            let beside = |other: &[DVec2; 2]| self.run_beside(span, *other);
+            !self.spans.iter().any(beside)
+        });
+        is_span_free && candidate.shapes.iter().all(|(_, shape)| is_shape_free(shape))
+    }
+
+    /// Whether two dimension lines run so near to each other that they could be taken for one.
+    fn run_beside(&self, a: [DVec2; 2], b: [DVec2; 2]) -> bool {
+        let along = (a[1] - a[0]).normalize_or(DVec2::X);
+        let other = (b[1] - b[0]).normalize_or(DVec2::X);
+        let distance = (b[0] - a[0]).perp_dot(along).abs();
+        let reach = |ends: [DVec2; 2]| {
+            let [s, t] = ends.map(|end| end.dot(along));
+            [s.min(t), s.max(t)]
+        };
+        let ([low, high], [other_low, other_high]) = (reach(a), reach(b));
+        along.perp_dot(other).abs() < 0.2
+            && distance < LINE_SPACING * self.settings.letters
+            && low < other_high
+            && other_low < high
+    }
+
+    /// Takes the room of a candidate.
+    pub(super) fn take(&mut self, candidate: &Candidate) {
+        candidate.shapes.iter().for_each(|(_, shape)| self.add_shape(shape));
+        self.spans.extend(candidate.span);
+    }
+
+    /// Places dimensions: the shorter lengths next to the part, then angles, then circles.
+    pub(super) fn place_all(
+        &mut self,
+        dimensions: &[ViewDimension],
+        annotations: &mut ViewAnnotations,
+    ) {
+        let mut order: Vec<&ViewDimension> = dimensions.iter().collect();
+        order.sort_by(|a, b| {
+            let (a_key, b_key) = (rank(a), rank(b));
+            a_key.0.cmp(&b_key.0).then(a_key.1.total_cmp(&b_key.1)).then(a.number.cmp(&b.number))
+        });
+        for dimension in order {
+            let places: Option<Vec<Candidate>> = self.candidates(dimension).into_iter().collect();
+            let places = places.unwrap_or_default();
+            places.iter().for_each(|candidate| self.take(candidate));
+            let shapes: Vec<LayeredShape> =
+                places.into_iter().flat_map(|candidate| candidate.shapes).collect();
+            if shapes.is_empty() {
+                annotations.left_out.push(dimension.name.clone());
+            } else {
+                annotations.push_dimension(PlacedDimension { number: dimension.number, shapes });
+            }
+        }
+    }
+
+    /// The free places of the parts of a dimension: one, or as many as a baseline has lengths.
+    fn candidates(&self, dimension: &ViewDimension) -> Vec<Option<Candidate>> {
+        match &dimension.measure {
+            ViewMeasure::Lengths { .. } => self.length_candidates(dimension),
+            ViewMeasure::Round { .. } => vec![self.leader_candidate(dimension)],
+            ViewMeasure::Angle { .. } => vec![self.angle_candidate(dimension)],
+        }
+    }
+
+    /// The number of a length in millimeters of the object, in the unit of the sheet.
+    pub(super) fn length_text(&self, dimension: &ViewDimension, millimeters: f64) -> String {
+        let unit = self.settings.unit;
+        dimension.decimals.map_or_else(
+            || format_length(millimeters, unit),
+            |decimals| format_decimals(millimeters / unit.in_millimeters(), decimals as usize),
+        )
+    }
+}
+
+/// The order in which dimensions are placed.
+fn rank(dimension: &ViewDimension) -> (u8, f64) {
+    match &dimension.measure {
+        ViewMeasure::Lengths { feet, along, .. } => {
+            let places = feet.iter().map(|foot| foot.dot(*along));
+            let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+                [low.min(at), high.max(at)]
+            });
+            (0, high - low)
+        }
+        ViewMeasure::Angle { .. } => (1, 0.0),
+        ViewMeasure::Round { radius, .. } => (2, -radius),
+    }
+}
+
+/// Whether the boxes around points overlap: cheap, and mostly not.
+fn boxes_overlap(a: &[DVec2], b: &[DVec2]) -> bool {
+    let around = |points: &[DVec2]| {
+        let far = DVec2::splat(f64::INFINITY);
+        points.iter().fold((far, -far), |(low, high), point| (low.min(*point), high.max(*point)))
+    };
+    let ((low, high), (other_low, other_high)) = (around(a), around(b));
+    low.cmple(other_high).all() && other_low.cmple(high).all()
+}

@@ -1,0 +1,88 @@
+//! The dimensions and center lines of a view, and which view has which of them.
+
+use super::Sheet;
+use super::annotation::ViewAnnotations;
+use super::collision::convex_hull;
+use super::dimension::{DimensionSettings, OverallSide};
+use super::dimension_board::DimensionBoard;
+use super::measure::ViewDimension;
+use super::sheet_view::SheetView;
+use super::view_plan::{PlannedView, ViewPlan};
+use crate::Warning;
+use glam::DVec2;
+use model::{ModelInstance, world_points};
+
+/// How far extension lines of overall dimensions may reach, in heights of letters.
+const FAR: f64 = 200.0;
+
+/// The dimensions and center lines of a view.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ViewMeasures {
+    dimensions: Vec<ViewDimension>,
+    /// The convex hull of the object, in millimeters of it from the center of the view, y down.
+    hull: Vec<DVec2>,
+}
+
+impl ViewPlan {
+    /// Gives each dimension to the view that shows it; those that no view shows are warned of.
+    pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
+        if sheet.measures.is_empty() {
+            return;
+        }
+        let axonometric = sheet.axonometric_view;
+        let is_parallel =
+            |view: &SheetView| axonometric.is_none() || view.named_view() != axonometric;
+        let Self { principal, free, warnings } = self;
+        let planned = principal.iter_mut().chain(free.iter_mut());
+        let mut planned: Vec<&mut PlannedView> =
+            planned.filter(|planned| is_parallel(&planned.view)).collect();
+        for (dimension, number) in sheet.measures.iter().zip(1..) {
+            let views: Vec<&SheetView> = planned.iter().map(|planned| &planned.view).collect();
+            match dimension.choose_view(&views) {
+                Ok((at, measure)) => planned[at].measures.dimensions.push(ViewDimension {
+                    number,
+                    measure,
+                    side: dimension.side,
+                    decimals: dimension.decimals,
+                    name: dimension.name.clone(),
+                }),
+                Err(fault) => {
+                    let dimension = dimension.name.clone();
+                    warnings.push(Warning::DimensionLeftOut { dimension, fault });
+                }
+            }
+        }
+        let points = world_points(models);
+        for planned in planned {
+            let PlannedView { view, measures, .. } = planned;
+            if !measures.dimensions.is_empty() {
+                let images = points.iter().map(|&point| view.image_of(point)).collect();
+                measures.hull = convex_hull(images);
+            }
+        }
+    }
+}
+
+impl ViewMeasures {
+    /// Adds the dimensions at a scale, clear of what is there and of the overall dimensions that
+    /// are yet to come.
+    pub(super) fn annotate(
+        &self,
+        annotations: &mut ViewAnnotations,
+        (overall, half): (&[OverallSide], DVec2),
+        settings: &DimensionSettings,
+    ) {
+        if self.dimensions.is_empty() {
+            return;
+        }
+        let hull = self.hull.iter().map(|point| *point * settings.scale.ratio()).collect();
+        let reserved = overall.iter().flat_map(|side| {
+            let (outward, far) = (side.outward(), FAR * settings.letters);
+            let corner = outward.abs() * half * (outward.x + outward.y);
+            let across = outward.perp().abs() * half;
+            [corner + across, corner - across].map(|foot| [foot, foot + outward * far])
+        });
+        let mut board = DimensionBoard::new(annotations, hull, reserved.collect(), *settings);
+        board.place_all(&self.dimensions, annotations);
+    }
+}

@@ -1,0 +1,61 @@
+//! Angles between edges and between faces: the vertex, and a point on each side.
+
+use super::picking::Picked;
+use drawing::PickedFeature;
+use glam::DVec3;
+
+/// Edges whose nearest points are farther apart, as a part of the distance of their middles, do not
+/// lie in one plane.
+const SKEW: f64 = 1e-3;
+
+/// What is wrong, and what to do.
+type Fault = (&'static str, &'static str);
+
+/// The vertex of the angle between two edges or two faces, and a point on each of its sides.
+pub(super) fn angle_points(from: &Picked, to: &Picked) -> Result<[DVec3; 3], Fault> {
+    match (from, to) {
+        (Picked::Edge(a), Picked::Edge(b)) => between_edges(a, b),
+        (Picked::Face(a), Picked::Face(b)) => between_faces(a, b),
+        _ => Err((
+            "an angle is between two edges or two faces, or between points at a vertex",
+            "add vertex: …, or pick two edges",
+        )),
+    }
+}
+
+/// The angle between two edges, towards the middle of each.
+fn between_edges(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fault> {
+    let [(p, u), (q, v)] = [a, b].map(|edge| (edge.middle.raw(), edge.direction.raw()));
+    let normal = u.cross(v);
+    if normal.length() < 1e-6 {
+        return Err(("the edges are parallel", "pick edges that meet, or measure their distance"));
+    }
+    let apart = (q - p).dot(normal.normalize()).abs();
+    if apart > SKEW * p.distance(q) {
+        return Err((
+            "the edges do not lie in one plane",
+            "pick edges of one face, or give a vertex and two points",
+        ));
+    }
+    let vertex = p + u * ((q - p).cross(v).dot(normal) / normal.length_squared());
+    let side = |middle: DVec3, along: DVec3| {
+        if middle.distance(vertex) > 1e-9 { middle } else { vertex + along }
+    };
+    Ok([vertex, side(p, u), side(q, v)])
+}
+
+/// The angle between two faces, in the plane perpendicular to both through the middle of the first.
+fn between_faces(a: &PickedFeature, b: &PickedFeature) -> Result<[DVec3; 3], Fault> {
+    let [(p, m), (q, n)] = [a, b].map(|face| (face.middle.raw(), face.direction.raw()));
+    let axis = m.cross(n);
+    if axis.length() < 1e-6 {
+        return Err(("the faces are parallel", "pick faces that meet, or measure their distance"));
+    }
+    let axis = axis.normalize();
+    // The point of three planes (Goldman 1990).
+    let determinant = m.dot(n.cross(axis));
+    let vertex = (n.cross(axis) * p.dot(m) + axis.cross(m) * q.dot(n) + m.cross(n) * p.dot(axis))
+        / determinant;
+    let level = |point: DVec3| point - axis * (point - vertex).dot(axis);
+    Ok([vertex, level(p), level(q)])
+}

@@ -1,0 +1,57 @@
+//! Nodes by their names, and the objects of drawings below them.
+
+use model::{Model, ModelInstance};
+
+/// All objects below the nodes of a name: one list for each such node, in the order of the models
+/// and their nodes.
+///
+/// A node without a name goes by that of its mesh.
+pub(super) fn objects_below(models: &[ModelInstance], name: &str) -> Vec<Vec<u32>> {
+    let mut first_object = 0;
+    let mut found = Vec::new();
+    for ModelInstance { model, .. } in models {
+        let objects: Vec<(usize, u32)> =
+            model.mesh_instances().zip(first_object..).map(|(at, o)| (at.node, o)).collect();
+        for instance in model.node_instances() {
+            if node_name(model, instance.node) == Some(name) {
+                let below = nodes_below(model, instance.node);
+                let own = objects.iter().filter(|(node, _)| below[*node]);
+                found.push(own.map(|(_, object)| *object).collect());
+            }
+        }
+        first_object += objects.len() as u32;
+    }
+    found
+}
+
+/// The names of all nodes, each once.
+pub(super) fn node_names(models: &[ModelInstance]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for ModelInstance { model, .. } in models {
+        let nodes = model.node_instances();
+        let own = nodes.iter().filter_map(|instance| node_name(model, instance.node));
+        names.extend(own.map(ToOwned::to_owned));
+    }
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// The name of a node, else of its mesh.
+fn node_name(model: &Model, node: usize) -> Option<&str> {
+    let node = &model.nodes[node];
+    let mesh = || node.mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
+    node.name.as_deref().or_else(mesh)
+}
+
+/// For each node, whether it is a node or below it.
+fn nodes_below(model: &Model, node: usize) -> Vec<bool> {
+    let mut is_below = vec![false; model.nodes.len()];
+    let mut stack = vec![node];
+    while let Some(node) = stack.pop() {
+        if !std::mem::replace(&mut is_below[node], true) {
+            stack.extend(&model.nodes[node].children);
+        }
+    }
+    is_below
+}
