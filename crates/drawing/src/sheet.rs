@@ -21,6 +21,7 @@
 
 mod angle_dimension;
 mod annotation;
+mod center_line;
 mod circle_dimension;
 mod collision;
 mod dimension;
@@ -103,6 +104,8 @@ pub struct Sheet {
     pub dimensions: bool,
     /// Further dimensions, which are numbered in this order.
     pub measures: Vec<Dimension>,
+    /// Whether circles and the axes of round parts have center lines.
+    pub center_lines: bool,
     /// The texts of the title block.
     pub title_block: TitleBlockText,
 }
@@ -211,6 +214,7 @@ impl Sheet {
             style: LineStyle { line_widths: LineWidths::Iso(group), ..LineStyle::TECHNICAL },
             dimensions: true,
             measures: Vec::new(),
+            center_lines: false,
             title_block: TitleBlockText::default(),
         }
     }

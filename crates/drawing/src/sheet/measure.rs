@@ -123,9 +123,7 @@ impl fmt::Display for DimensionFault {
                     None => f.write_str(", and no other view does"),
                 }
             }
-            Self::NowhereTrue => {
-                f.write_str("no view shows it true; measured across a view, or up, it would be")
-            }
+            Self::NowhereTrue => f.write_str("no view of the sheet shows it true"),
             Self::CutAway => f.write_str("a section removes what it measures"),
             Self::NoExtent => f.write_str("there is nothing to measure between its points"),
             Self::NoRoom => f.write_str("there is no free place for its number"),
@@ -190,12 +188,12 @@ impl SheetView {
     }
 
     /// Whether a vector lies in the plane of the view.
-    fn shows_true(&self, vector: DVec3) -> bool {
+    pub(super) fn shows_true(&self, vector: DVec3) -> bool {
         vector.dot(self.gaze_vector()).abs() <= TRUE_SINE * vector.length()
     }
 
     /// Whether a unit vector points along the view direction.
-    fn looks_along(&self, unit: DVec3) -> bool {
+    pub(super) fn looks_along(&self, unit: DVec3) -> bool {
         unit.cross(self.gaze_vector()).length() <= TRUE_SINE
     }
 

@@ -2,13 +2,14 @@
 
 use super::Sheet;
 use super::annotation::ViewAnnotations;
+use super::center_line::{CENTER_LINE_OVERHANG, CenterLines};
 use super::collision::convex_hull;
 use super::dimension::{DimensionSettings, OverallSide};
 use super::dimension_board::DimensionBoard;
 use super::measure::ViewDimension;
 use super::sheet_view::SheetView;
 use super::view_plan::{PlannedView, ViewPlan};
-use crate::Warning;
+use crate::{FeaturePicker, Warning, WorldCircle};
 use glam::DVec2;
 use model::{ModelInstance, world_points};
 
@@ -18,15 +19,17 @@ const FAR: f64 = 200.0;
 /// The dimensions and center lines of a view.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ViewMeasures {
+    center_lines: CenterLines,
     dimensions: Vec<ViewDimension>,
     /// The convex hull of the object, in millimeters of it from the center of the view, y down.
     hull: Vec<DVec2>,
 }
 
 impl ViewPlan {
-    /// Gives each dimension to the view that shows it; those that no view shows are warned of.
+    /// Gives each dimension to the view that shows it; those that no view shows are warned of. Center
+    /// lines are in every view but axonometric ones.
     pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
-        if sheet.measures.is_empty() {
+        if sheet.measures.is_empty() && !sheet.center_lines {
             return;
         }
         let axonometric = sheet.axonometric_view;
@@ -52,6 +55,13 @@ impl ViewPlan {
                 }
             }
         }
+        if sheet.center_lines {
+            let picker = FeaturePicker::new(models, sheet.style.crease_angle);
+            let circles: Vec<WorldCircle> = picker.circles(None).collect();
+            for planned in &mut planned {
+                planned.measures.center_lines = CenterLines::in_view(&planned.view, &circles);
+            }
+        }
         let points = world_points(models);
         for planned in planned {
             let PlannedView { view, measures, .. } = planned;
@@ -64,6 +74,11 @@ impl ViewPlan {
 }
 
 impl ViewMeasures {
+    /// The room that center lines may take around the object, in millimeters of paper.
+    pub(super) fn reserve(&self) -> f64 {
+        if self.center_lines.is_empty() { 0.0 } else { CENTER_LINE_OVERHANG }
+    }
+
     /// Adds the dimensions at a scale, clear of what is there and of the overall dimensions that
     /// are yet to come.
     pub(super) fn annotate(
@@ -72,6 +87,7 @@ impl ViewMeasures {
         (overall, half): (&[OverallSide], DVec2),
         settings: &DimensionSettings,
     ) {
+        self.center_lines.annotate(annotations, settings.scale);
         if self.dimensions.is_empty() {
             return;
         }

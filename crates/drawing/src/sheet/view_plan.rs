@@ -172,7 +172,11 @@ impl PlannedView {
             letters,
             scale,
             unit: sheet.dimension_unit,
-            reserved: if lines.is_empty() { 0.0 } else { section_line_reserve(letters) },
+            reserved: if lines.is_empty() {
+                self.measures.reserve()
+            } else {
+                section_line_reserve(letters)
+            },
         };
         self.measures.annotate(&mut annotations, (&self.dimensions, half), &settings);
         add_overall_dimensions(&mut annotations, &self.dimensions, half, &settings);

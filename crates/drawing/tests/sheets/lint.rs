@@ -1,6 +1,6 @@
 //! A lint of sheets: no text touches another text or a line, and all of it lies within the frame.
 
-use drawing::{Page, Polyline, to_millimeters};
+use drawing::{Group, GroupContent, Page, Polyline, to_millimeters};
 use glam::DVec2;
 
 /// A rectangle by its least and its greatest corner.
@@ -41,47 +41,67 @@ fn sides(line: &Polyline) -> impl Iterator<Item = [DVec2; 2]> {
     (0..sides).map(move |k| [k, (k + 1) % count].map(|at| to_millimeters(line.points[at])))
 }
 
-/// Whether a side comes into a rectangle.
-fn crosses([a, b]: [DVec2; 2], [low, high]: Extent) -> bool {
-    let mut span = [0.0_f64, 1.0_f64];
-    for axis in 0..2 {
-        let (from, step) = (a[axis], b[axis] - a[axis]);
-        if step == 0.0 {
-            if from <= low[axis] || from >= high[axis] {
-                return false;
-            }
-            continue;
+/// Whether two convex outlines are apart: along the normal of one of their sides.
+fn are_apart(a: &[DVec2], b: &[DVec2]) -> bool {
+    let normals = |points: &[DVec2]| -> Vec<DVec2> {
+        let sides = (0..points.len()).map(|k| points[(k + 1) % points.len()] - points[k]);
+        sides.filter_map(|side| side.perp().try_normalize()).collect()
+    };
+    let reach = |points: &[DVec2], axis: DVec2| {
+        let along = points.iter().map(|point| point.dot(axis));
+        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], at| [l.min(at), h.max(at)])
+    };
+    normals(a).into_iter().chain(normals(b)).any(|axis| {
+        let ([low, high], [other_low, other_high]) = (reach(a, axis), reach(b, axis));
+        high <= other_low || other_high <= low
+    })
+}
+
+/// The corners of a rectangle around a text, with a margin; slanted if the text is.
+fn text_outline(group: &Group, margin: f64) -> Option<Vec<DVec2>> {
+    let [low, high] = extent(group.strokes.iter())?;
+    if let GroupContent::Text(line) = &group.content {
+        let [start, end] = line.baseline.map(to_millimeters);
+        let along = (end - start).normalize_or(DVec2::X);
+        if along.x.abs() > 1e-3 && along.y.abs() > 1e-3 {
+            let up = DVec2::new(along.y, -along.x);
+            let height = f64::from(line.height) / 1000.0 + margin;
+            let (start, end) = (start - along * margin, end + along * margin);
+            let corners =
+                [start - up * margin, end - up * margin, end + up * height, start + up * height];
+            return Some(corners.to_vec());
         }
-        let (s, t) = ((low[axis] - from) / step, (high[axis] - from) / step);
-        span = [span[0].max(s.min(t)), span[1].min(s.max(t))];
     }
-    span[0] < span[1]
+    let (low, high) = (low - margin, high + margin);
+    Some(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
 /// Faults of a sheet, in words; empty if nothing is.
 pub fn faults(page: &Page) -> Vec<String> {
     let mut faults = Vec::new();
-    let mut texts: Vec<(&str, Extent)> = Vec::new();
+    let mut texts: Vec<(&str, Vec<DVec2>)> = Vec::new();
     for layer in page.layers.iter().filter(|layer| is_text_layer(&layer.id)) {
-        let half = DVec2::splat(0.5 * layer.pen.width);
-        let groups = layer.groups.iter().filter_map(|group| extent(group.strokes.iter()));
-        texts.extend(groups.map(|[low, high]| (layer.id.as_str(), [low - half, high + half])));
+        let half = 0.5 * layer.pen.width;
+        let outlines = layer.groups.iter().filter_map(|group| text_outline(group, half));
+        texts.extend(outlines.map(|outline| (layer.id.as_str(), outline)));
     }
     for (index, (id, area)) in texts.iter().enumerate() {
         for (other_id, other) in &texts[index + 1..] {
-            let apart = area[1].cmple(other[0]).any() || other[1].cmple(area[0]).any();
-            if !apart {
+            if !are_apart(area, other) {
                 faults.push(format!("{id} at {} touches {other_id} at {}", area[0], other[0]));
             }
         }
     }
     for layer in page.layers.iter().filter(|layer| !is_text_layer(&layer.id)) {
-        let half = DVec2::splat(0.5 * layer.pen.width);
+        let half = 0.5 * layer.pen.width;
         let lines = layer.groups.iter().flat_map(|group| group.strokes.iter().chain(&group.fills));
-        for side in lines.flat_map(sides) {
-            for (id, [low, high]) in &texts {
-                if crosses(side, [*low - half, *high + half]) {
-                    faults.push(format!("{id} at {low} touches {} at {}", layer.id, side[0]));
+        for [a, b] in lines.flat_map(sides) {
+            // The line with its width.
+            let across = (b - a).perp().normalize_or_zero() * half;
+            let line = [a + across, b + across, b - across, a - across];
+            for (id, area) in &texts {
+                if !are_apart(&line, area) {
+                    faults.push(format!("{id} at {} touches {} at {a}", area[0], layer.id));
                 }
             }
         }

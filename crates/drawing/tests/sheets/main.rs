@@ -4,7 +4,11 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 mod boxes;
+mod center_lines;
+mod dimension_layout;
+mod dimensions;
 mod fill;
+mod formats;
 mod lint;
 mod sections;
 mod styles;

@@ -268,3 +268,6 @@ const fn named_view(view: DimensionView) -> NamedView {
         DimensionView::Bottom => NamedView::Bottom,
     }
 }
+
+#[cfg(test)]
+mod tests;

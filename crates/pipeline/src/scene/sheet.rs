@@ -41,7 +41,11 @@ pub fn resolve_sheet(
         PaperSize::Auto => &SERIES_A,
         size => core::slice::from_ref(size),
     };
-    let sheets = sizes.iter().map(|size| resolve_sheet_on(origin, file, *size, content));
+    let (dimensions, measures) = resolve_dimensions(origin, file, content.models)?;
+    let sheets = sizes.iter().map(|size| {
+        let sheet = resolve_sheet_on(origin, file, *size, content)?;
+        Ok(Sheet { dimensions, measures: measures.clone(), ..sheet })
+    });
     let turns = file.orientation.is_none();
     let content = (content.models, content.sections);
     let chosen = Sheet::smallest_of(sheets.collect::<Result<_, _>>()?, turns, content);
@@ -77,7 +81,6 @@ fn resolve_sheet_on(
     };
     let hidden_lines = file.hidden.unwrap_or(own.hidden_lines);
     let unit = resolve_unit(origin, file, content.models)?;
-    let (has_overall, measures) = resolve_dimensions(origin, file, content.models)?;
     Ok(Sheet {
         projection_angle: file.projection_angle,
         side_view,
@@ -89,8 +92,7 @@ fn resolve_sheet_on(
             _ => DimensionUnit::Millimeter,
         },
         axonometric_view: axonometric_view(file.axonometric_view),
-        dimensions: has_overall,
-        measures,
+        center_lines: file.center_lines,
         title_block: TitleBlockText {
             title: file.title.clone(),
             author: file.author.clone(),

@@ -37,6 +37,10 @@ scene_struct! {
         /// The dimensions: `true` for the overall ones, `false` for none, or a list such as
         /// `[Overall, Length(from: Node(name: "lid"), to: Point((0, 0, 0)))]`. Default: true.
         pub dimensions: DimensionsFile = DimensionsFile::overall(),
+        /// Whether circles and the axes of round parts have center lines: chain lines of ISO 128.
+        /// A circle is an edge of at least eight equal parts, of which half a turn is there.
+        /// Default: false.
+        pub center_lines: bool = false,
         /// The title. Default: the names of the models.
         pub title: String = String::new(),
         /// The author. Default: the field is left out.
