@@ -3,6 +3,9 @@
 //! The sheet is one page in vector format; PNG is a rasterization of the same page. Without a sheet
 //! in the scene file, and for a bare model, all of its fields have defaults.
 
+mod assembly;
+mod page_files;
+
 use super::CliError;
 use super::format::{DxfArgs, OutputFormat, image_warning};
 use super::load_options::LoadArgs;
@@ -12,7 +15,9 @@ use super::options::option_parser;
 use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
+use assembly::AssemblyArgs;
 use drawing::{DxfOptions, HiddenLines, Page, Warning};
+use page_files::{PageNames, write_all};
 use pipeline::scene::file::{
     AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
 };
@@ -33,6 +38,9 @@ pub(crate) struct SheetArgs {
     /// Scene (.ron) or model (.gltf, .glb, .stl, .obj, .ply, .3mf)
     input: PathBuf,
     /// Output file: .pdf, .svg, .dxf or .png [default: the input's name with .pdf, in the current folder]
+    ///
+    /// Several pages are those of one PDF; in the other formats each is a file: out.svg stands for
+    /// out-1.svg, out-2.svg and so on, and {page} in a name for the number.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Paper size [default: a3]
@@ -71,6 +79,8 @@ pub(crate) struct SheetArgs {
     #[arg(long)]
     number: Option<String>,
     #[command(flatten)]
+    assembly: AssemblyArgs,
+    #[command(flatten)]
     dxf: DxfArgs,
     #[command(flatten)]
     section: SectionArgs,
@@ -93,6 +103,7 @@ pub(crate) struct SheetArgs {
 pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let output = args.output.clone().map_or_else(|| default_output(args), Ok)?;
     let format = OutputFormat::from_path(&output)?;
+    let names = PageNames::parse(&args.input, &output, format)?;
     let progress = Progress::start("loading");
     let (origin, mut file) = open_input(&args.input, &args.load_options.import_options())?;
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
@@ -112,19 +123,27 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
         sheet.style.asks_normals = false;
     }
     progress.enter_stage("drawing");
-    let page = sheet.draw(&scene.models, &scene.sections, thread_count(args.threads))?;
+    let pages = sheet.draw_pages(&scene.models, &scene.sections, thread_count(args.threads))?;
     progress.enter_stage("writing");
-    let mut warnings = page.warnings.clone();
+    let mut warnings: Vec<Warning> =
+        pages.iter().flat_map(|page| &page.warnings).cloned().collect();
+    warnings.sort_unstable();
+    warnings.dedup();
     if !matches!(scene.style, Style::Lines(_) | Style::Shaded) {
         warnings.push(Warning::StyleIgnored);
     }
-    warnings.extend(image_warning(format, &page));
-    let bytes = match format {
-        OutputFormat::Png => rasterize_page(&page)?.to_png(),
-        OutputFormat::Svg | OutputFormat::Pdf => format.encode_pages(&[page]),
-        OutputFormat::Dxf => page.to_dxf(&args.dxf.apply_to(DxfOptions::on_paper(&page))),
+    warnings.extend(pages.iter().find_map(|page| image_warning(format, page)));
+    let encode = |page: &Page| match format {
+        OutputFormat::Png => Ok(rasterize_page(page)?.to_png()),
+        OutputFormat::Dxf => Ok(page.to_dxf(&args.dxf.apply_to(DxfOptions::on_paper(page)))),
+        _ => Ok(format.encode_pages(std::slice::from_ref(page))),
     };
-    pipeline::write_file(&output, &bytes)?;
+    let mut files = match format {
+        OutputFormat::Pdf => vec![(output, format.encode_pages(&pages))],
+        _ => names.files(&pages, encode)?,
+    };
+    files.extend(args.assembly.list_file(&sheet, &scene.models));
+    write_all(&files)?;
     drop(progress);
     print_warnings(&scene, &warnings);
     Ok(())
@@ -168,6 +187,7 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     if args.no_dimensions {
         sheet.dimensions = DimensionsFile::none();
     }
+    args.assembly.apply_to(sheet);
     let texts = [
         (&mut sheet.title, &args.title),
         (&mut sheet.author, &args.author),

@@ -18,6 +18,7 @@
 //!  `page`, `svg`, `pdf`, `dxf`, `canvas` | pages in micrometers, and their four formats |
 //!  `page_clip` | lines clipped to the rectangles of views |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
+//!  `assembly` | parts of models counted by content, masses by the divergence theorem, exploded views |
 //!  `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
 //!  `z_buffer_check` | a drawing checked against the z-buffer image of its scene |
 //!
@@ -25,6 +26,7 @@
 //! `viewport`), so a line drawing lies exactly over a picture of the same scene. Results do not
 //! depend on the number of threads.
 
+mod assembly;
 mod canvas;
 mod chart;
 mod circles;
@@ -69,6 +71,9 @@ mod svg;
 mod warning;
 mod z_buffer_check;
 
+pub use assembly::{
+    AssemblyPages, ExplosionAxis, ExplosionSettings, PartDensity, PartsList, PartsListItem,
+};
 pub use canvas::draw_layers_over;
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
 pub use draw::draw;

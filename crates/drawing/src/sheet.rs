@@ -21,6 +21,8 @@
 
 mod angle_dimension;
 mod annotation;
+mod assembly_view;
+mod balloon_ring;
 mod center_line;
 mod circle_dimension;
 mod collision;
@@ -30,7 +32,9 @@ mod frame;
 mod free_area;
 mod length_dimension;
 mod measure;
+mod pages;
 mod paper_choice;
+mod parts_table;
 mod projection_symbol;
 mod scale_bar;
 mod section_line;
@@ -42,12 +46,14 @@ mod view_grid;
 mod view_layout;
 mod view_measures;
 mod view_plan;
+mod visible_spots;
 
 use super::layout::Placement;
 use super::line_style::{HiddenLines, LineStyle, LineWidths};
 use super::line_type::IsoLineGroup;
 use super::page::{Ink, Page};
 use super::palette::{BLACK, WHITE};
+use crate::assembly::AssemblyPages;
 use crate::{DrawError, LineDrawing, Warning, missing_glyph_warning};
 use annotation::AnnotationLayer;
 use camera::NamedView;
@@ -108,6 +114,9 @@ pub struct Sheet {
     pub center_lines: bool,
     /// The texts of the title block.
     pub title_block: TitleBlockText,
+    /// The pages that show the models as an assembly of parts: see
+    /// [`draw_pages`](Self::draw_pages).
+    pub assembly: AssemblyPages,
 }
 
 /// The unit in which lengths are written on a sheet; the paper is measured in millimeters always.
@@ -151,6 +160,8 @@ pub struct TitleBlockText {
     pub date: String,
     /// The drawing number.
     pub number: String,
+    /// The number of this sheet and the count of all, each from 1; `None` for no such field.
+    pub sheet: Option<[u32; 2]>,
 }
 
 /// A sheet that cannot be drawn.
@@ -216,6 +227,7 @@ impl Sheet {
             measures: Vec::new(),
             center_lines: false,
             title_block: TitleBlockText::default(),
+            assembly: AssemblyPages::default(),
         }
     }
 
@@ -230,6 +242,16 @@ impl Sheet {
         sections: &[Plane<World>],
         threads: usize,
     ) -> Result<Page, SheetError> {
+        self.draw_views(models, sections, (&mut SurfaceCache::new(models), threads))
+    }
+
+    /// As [`draw`](Self::draw), with surfaces that other pages use as well.
+    fn draw_views(
+        &self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+        (surfaces, threads): (&mut SurfaceCache<'_>, usize),
+    ) -> Result<Page, SheetError> {
         let plan = ViewPlan::new(self, models, sections)?;
         let layout = ViewLayout::arrange_views(self, &plan)?;
         let title = if self.title_block.title.is_empty() {
@@ -241,7 +263,6 @@ impl Sheet {
         let mut page = Page::new(size, title, Some(self.style.paper.unwrap_or(WHITE)));
         let ink = self.style.ink.unwrap_or(BLACK);
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
-        let mut surfaces = SurfaceCache::new(models);
         for placed in &layout.views {
             let view = &placed.planned.view;
             let style = self.style_of_view(placed);
@@ -328,7 +349,8 @@ impl Sheet {
         let block = self.title_block_area();
         page.layers.push(frame::frame_layer(self.paper, &layout.contents(block), ink));
         let title = page.title.clone();
-        page.layers.extend(title_block::title_block_layers(self, &title, layout.scale, block, ink));
+        let scale = Some(layout.scale);
+        page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
 
     /// The line group, 0.5 mm if the style has other widths.

@@ -70,6 +70,44 @@ pub enum Warning {
         /// The characters, each once.
         characters: String,
     },
+    /// An assembly was asked for of models without lines and triangles.
+    NoParts,
+    /// The mass of a part does not follow from its density.
+    MassUnknown {
+        /// The name of the part.
+        part: String,
+    },
+    /// Names of parts have characters that the stroke font lacks.
+    PartNamesUnreadable {
+        /// The first of the names.
+        name: String,
+        /// How many there are.
+        count: usize,
+    },
+    /// A part is hidden in the view of the assembly, and has no balloon.
+    PartNotVisible {
+        /// Its number in the list.
+        number: usize,
+        /// Its name.
+        part: String,
+    },
+    /// Balloons find no place around the view of the assembly.
+    BalloonsLeftOut {
+        /// The number of the first.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// There are too many parts for an exploded view.
+    TooManyPartsToExplode {
+        /// How many there may be.
+        most: usize,
+    },
+    /// There are too many parts for a sheet of each.
+    PartSheetsLeftOut {
+        /// How many have none.
+        count: usize,
+    },
     /// The search for intersection edges was cut off.
     IntersectionsIncomplete,
     /// The hatching was cut off.
@@ -126,7 +164,36 @@ impl fmt::Display for Warning {
                 f,
                 "the letters of drawings lack {characters} of \"{text}\": boxes are in their place"
             ),
-            Self::SectionsIgnored
+            Self::MassUnknown { part } => write!(
+                f,
+                "the mass of `{part}` is not known: its mesh is not closed, so it has no volume"
+            ),
+            Self::PartNamesUnreadable { name, count } => write!(
+                f,
+                "the letters of drawings lack characters of {count} names in the parts list, \
+                 such as \"{name}\": boxes are in their place"
+            ),
+            Self::PartNotVisible { number, part } => write!(
+                f,
+                "item {number}, `{part}`, has no balloon: other parts hide it in the view of the \
+                 assembly; an exploded view, or another axonometric view, may show it"
+            ),
+            Self::BalloonsLeftOut { number, count } => write!(
+                f,
+                "{count} balloons find no place around the view, the first of them {number}: \
+                 use larger paper"
+            ),
+            Self::TooManyPartsToExplode { most } => write!(
+                f,
+                "the assembly has more than {most} parts, and is not exploded: \
+                 draw a part of the model"
+            ),
+            Self::PartSheetsLeftOut { count } => write!(
+                f,
+                "there are too many parts for a sheet of each: the last {count} items have none"
+            ),
+            Self::NoParts
+            | Self::SectionsIgnored
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
             | Self::IntersectionsIncomplete
@@ -139,6 +206,9 @@ impl Warning {
     /// The text of a warning without a value; empty for the others.
     const fn fixed_text(&self) -> &'static str {
         match self {
+            Self::NoParts => {
+                "there are no parts to list or to number: the models have no lines or triangles"
+            }
             Self::SectionsIgnored => {
                 "sections cut line drawings only: this style shows whole models; \
                  choose another, such as `--style lines`"

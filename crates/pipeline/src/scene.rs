@@ -10,6 +10,7 @@
 //! file. `file` declares the language; [`mod@reference`] lists the declarations; `vocabulary` knows
 //! the words of other programs.
 
+mod assembly;
 mod backdrop;
 mod calibrated_lens;
 mod camera_path;

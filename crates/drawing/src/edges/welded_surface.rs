@@ -250,7 +250,7 @@ impl WeldedSurface {
             }
         };
         let classifier = EdgeClassifier::new(mesh, projector, options);
-        let classify = |ends: [u32; 2], sides: &[HalfEdge]| {
+        let mut classify = |ends: [u32; 2], sides: &[HalfEdge]| {
             let class = classifier.classify_edge(ends, sides);
             add_candidate(ends, class, classifier.lowest_object(sides));
         };

@@ -116,6 +116,7 @@ fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)>
 fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
     let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
     for (center, along) in sides {
+        let is_full = lines.len() >= MAX_LINES;
         let own = lines.iter_mut().find(|(point, direction, _)| {
             direction.perp_dot(along).abs() < 1e-3
                 && (center - *point).perp_dot(*direction).abs() <= same
@@ -125,8 +126,8 @@ fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
                 let at = (center - *point).dot(*direction);
                 (*low, *high) = (low.min(at), high.max(at));
             }
-            None if lines.len() < MAX_LINES => lines.push((center, along, [0.0; 2])),
-            None => {}
+            None if is_full => {}
+            None => lines.push((center, along, [0.0; 2])),
         }
     }
     let long = lines.into_iter().filter(|(_, _, [low, high])| high - low > same);

@@ -74,7 +74,7 @@ pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
 pub(super) fn title_block_layers(
     sheet: &Sheet,
     title: &str,
-    scale: DrawingScale,
+    scale: Option<DrawingScale>,
     area: Rectangle,
     ink: Ink,
 ) -> Vec<Layer> {
@@ -122,7 +122,7 @@ const PROJECTION_FIELD: &str = "Projection";
 fn title_block_fields<'a>(
     sheet: &Sheet,
     title: &str,
-    scale: DrawingScale,
+    scale: Option<DrawingScale>,
 ) -> Vec<TitleBlockField<'a>> {
     let rows = [[0.0, 0.31], [0.31, 0.69], [0.69, 1.0]];
     let field = |row: usize, from: f64, to: f64, name: &'a str, value: &str| TitleBlockField {
@@ -133,17 +133,22 @@ fn title_block_fields<'a>(
         height: if row == 1 { TITLE_HEIGHT } else { VALUE_HEIGHT },
     };
     let titles = &sheet.title_block;
-    vec![
+    let numbers = titles.sheet.map(|[number, count]| format!("{number}/{count}"));
+    let number_end = if numbers.is_some() { 0.87 } else { 1.0 };
+    let scale = scale.map(|scale| scale.to_string()).unwrap_or_default();
+    let mut fields = vec![
         field(0, 0.0, 0.4, "Author", &titles.author),
         field(0, 0.4, 0.64, "Date", &titles.date),
-        field(0, 0.64, 1.0, "Number", &titles.number),
+        field(0, 0.64, number_end, "Number", &titles.number),
         field(1, 0.0, 1.0, "Title", title),
-        field(2, 0.0, 0.17, "Scale", &scale.to_string()),
+        field(2, 0.0, 0.17, "Scale", &scale),
         field(2, 0.17, 0.31, "Paper", &sheet.paper_name),
         field(2, 0.31, 0.52, "Dimensions in", sheet.dimension_unit.symbol()),
         field(2, 0.52, 0.74, PROJECTION_FIELD, ""),
         field(2, 0.74, 1.0, "Drawn with", "alberti"),
-    ]
+    ];
+    fields.extend(numbers.map(|numbers| field(0, number_end, 1.0, "Sheet", &numbers)));
+    fields
 }
 
 /// The projection symbol in its field, to the right of the field's name.

@@ -330,7 +330,7 @@ fn area_above_blocks(sheet: &Sheet, gap: f64) -> Extent {
 }
 
 /// A rectangle by its corners.
-fn extent_of_rectangle(area: Rectangle) -> Extent {
+pub(super) fn extent_of_rectangle(area: Rectangle) -> Extent {
     let low = DVec2::new(area.x(), area.y());
     [low, low + DVec2::new(area.width(), area.height())]
 }

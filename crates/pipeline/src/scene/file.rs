@@ -4,6 +4,7 @@
 //! [`Scene::resolve`](super::Scene::resolve) does that. Every field but the models' paths may be
 //! left out. Unknown fields are errors, so that misspelt ones are found.
 
+mod assembly;
 mod background;
 mod camera;
 mod camera_path;
@@ -25,6 +26,7 @@ mod shadow;
 mod sheet;
 mod viewport;
 
+pub use self::assembly::{DensityFile, ExplodedFile};
 pub use self::background::BackgroundFile;
 pub use self::camera::{
     CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, RotationFile, ViewFile,

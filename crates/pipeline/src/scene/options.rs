@@ -7,7 +7,7 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::CameraAxes;
-use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
+use drawing::{Cap, EdgeSelection, ExplosionAxis, FaceFill, HiddenLines, Join, SilhouetteMethod};
 use model::{LengthUnit, UpAxis};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
@@ -132,6 +132,17 @@ named_values! {
         Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",
         Hatching = "Hatch lines, closer where that light leaves the face darker. They are as exact as the edges.",
         ShadeHatching = "Hatch lines as well, by the light alone: the colors of the materials make no difference.",
+    }
+}
+
+named_values! {
+    /// The direction in which the parts of an exploded view move.
+    ExplosionAxis as "ExplosionAxis" {
+        Auto = "Along the axis on which the centers of the parts spread most.",
+        X = "To the left and to the right.",
+        Y = "Up and down.",
+        Z = "To the front and to the back.",
+        All = "Each part away from the largest one, along the axis on which it is farthest from it.",
     }
 }
 

@@ -1,5 +1,6 @@
 //! Resolution of the drawing sheet: paper, arrangement, scale and title block.
 
+use super::assembly::resolve_assembly;
 use super::dimensions::resolve_dimensions;
 use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 use super::style::resolve_iso_group;
@@ -98,7 +99,9 @@ fn resolve_sheet_on(
             author: file.author.clone(),
             date: file.date.clone(),
             number: file.number.clone(),
+            sheet: None,
         },
+        assembly: resolve_assembly(origin, file, content.models)?,
         ..default_sheet
     })
 }

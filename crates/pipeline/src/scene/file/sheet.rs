@@ -1,6 +1,7 @@
 //! A drawing sheet in a scene file: paper, arrangement of the views, scale and title block.
 
 use super::DimensionsFile;
+use super::assembly::{DensityFile, ExplodedFile};
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
 use drawing::HiddenLines;
@@ -49,6 +50,20 @@ scene_struct! {
         pub date: String = String::new(),
         /// The drawing number. Default: the field is left out.
         pub number: String = String::new(),
+        /// Whether a list counts the equal parts of the models: their nodes with meshes. It stands
+        /// on the page of the assembly, else on pages of its own. Default: false.
+        pub parts_list: bool = false,
+        /// Whether a page shows the assembly, in the axonometric view, with the number of each item
+        /// of the list in a balloon. Default: false.
+        pub balloons: bool = false,
+        /// How the parts are moved apart on the page of the assembly, which need not have balloons.
+        /// Default: they stay in their places.
+        pub exploded: Option<ExplodedFile> = None,
+        /// Whether each item of the list has a page of its own, with its principal views. Default:
+        /// false.
+        pub part_sheets: bool = false,
+        /// The densities from which the masses of the list follow. Default: none, and no masses.
+        pub densities: Vec<DensityFile> = Vec::new(),
     }
 }
 

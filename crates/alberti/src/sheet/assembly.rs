@@ -1,0 +1,72 @@
+//! Flags of assemblies: parts list, balloons, exploded view, a sheet for each part.
+
+use crate::options::option_parser;
+use crate::page_output::has_extension;
+use drawing::{ExplosionAxis, PartsList, Sheet};
+use model::ModelInstance;
+use pipeline::scene::file::SheetFile;
+use std::path::PathBuf;
+
+/// Flags of the pages that show the models as an assembly of parts.
+#[derive(Debug, clap::Args)]
+pub(super) struct AssemblyArgs {
+    /// Add a list of the parts: equal nodes with meshes, counted; with a name also as CSV
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        num_args = 0..=1,
+        require_equals = true,
+        value_parser = parse_list_file
+    )]
+    parts_list: Option<Option<PathBuf>>,
+    /// Add a page that shows the assembly with the number of each item of the list
+    #[arg(long)]
+    balloons: bool,
+    /// Move the parts on that page apart, with their paths
+    #[arg(
+        long,
+        value_name = "AXIS",
+        num_args = 0..=1,
+        require_equals = true,
+        value_parser = option_parser::<ExplosionAxis>()
+    )]
+    exploded: Option<Option<ExplosionAxis>>,
+    /// Add a page with the principal views of each item of the list
+    #[arg(long)]
+    part_sheets: bool,
+}
+
+impl AssemblyArgs {
+    /// Switches on what was asked for; nothing is switched off.
+    pub(super) fn apply_to(&self, sheet: &mut SheetFile) {
+        sheet.parts_list |= self.parts_list.is_some();
+        sheet.balloons |= self.balloons;
+        sheet.part_sheets |= self.part_sheets;
+        if let Some(axis) = self.exploded {
+            let exploded = sheet.exploded.get_or_insert_default();
+            axis.into_iter().for_each(|axis| exploded.axis = axis);
+        }
+    }
+
+    /// The name and the content of the parts list as a file, if it was asked for.
+    pub(super) fn list_file(
+        &self,
+        sheet: &Sheet,
+        models: &[ModelInstance],
+    ) -> Option<(PathBuf, Vec<u8>)> {
+        let path = self.parts_list.clone().flatten()?;
+        let densities = &sheet.assembly.densities;
+        let list = PartsList::new(models, densities, sheet.millimeters_per_unit);
+        Some((path, list.to_csv().into_bytes()))
+    }
+}
+
+/// Parses the name of a parts list, which ends in `.csv`.
+fn parse_list_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if has_extension(&path, "csv") {
+        Ok(path)
+    } else {
+        Err("expected a name that ends in .csv".to_owned())
+    }
+}

@@ -1,0 +1,147 @@
+//! Equal parts: the same triangles, lines and materials at the same size, wherever they are.
+//!
+//! Meshes are compared by their content, so that copies in a file count as one part. A mirror image
+//! is another part. Meshes of one shape whose vertices a file gives at several places are different
+//! here: positions are compared as they are.
+
+use super::part::{Part, drawn_primitives};
+use glam::DMat3;
+use model::{MeshInstance, Model, ModelInstance, Primitive};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Lengths and angles of equal parts differ by no more than this fraction, from rounding.
+const SHAPE_TOLERANCE: f64 = 1e-5;
+
+/// Sizes of one mesh beyond this number are not compared: each is a part of its own.
+const MAX_SIZES: usize = 1000;
+
+/// Finds equal parts: two parts have the same number if they are equal.
+pub(super) struct PartClasses<'a> {
+    models: &'a [ModelInstance],
+    /// Contents by their digests: a part that has it, and its number.
+    contents: BTreeMap<u64, Vec<(usize, MeshInstance)>>,
+    /// The digests of meshes that nothing deforms, by the first model that has them.
+    rigid: BTreeMap<(usize, usize), (u64, usize)>,
+    /// The sizes of a content, and the number of each class.
+    sizes: BTreeMap<(u64, usize), Vec<(DMat3, bool, usize)>>,
+    count: usize,
+}
+
+impl<'a> PartClasses<'a> {
+    /// No classes yet.
+    pub(super) fn new(models: &'a [ModelInstance]) -> Self {
+        Self {
+            models,
+            contents: BTreeMap::new(),
+            rigid: BTreeMap::new(),
+            sizes: BTreeMap::new(),
+            count: 0,
+        }
+    }
+
+    /// The class of a part.
+    pub(super) fn class_of(&mut self, part: &Part) -> usize {
+        let content = self.content_of(part);
+        let (shape, mirrored) = part.shape(self.models);
+        let sizes = self.sizes.entry(content).or_default();
+        let equal = |(other, is_mirrored, _): &&(DMat3, bool, usize)| {
+            *is_mirrored == mirrored && are_close(shape, *other)
+        };
+        if let Some((.., class)) = sizes.iter().take(MAX_SIZES).find(equal) {
+            return *class;
+        }
+        let class = self.count;
+        self.count += 1;
+        sizes.push((shape, mirrored, class));
+        class
+    }
+
+    /// The digest of a part's mesh, and which of those with this digest it is.
+    fn content_of(&mut self, part: &Part) -> (u64, usize) {
+        let model = &self.models[part.model].model;
+        let is_same = |other: &ModelInstance| Arc::ptr_eq(&other.model, model);
+        let first = self.models.iter().take(part.model).position(is_same).unwrap_or(part.model);
+        let node = &model.nodes[part.instance.node];
+        let deforms = node.skin.is_some()
+            || drawn_primitives(model, part.instance).any(|one| !one.morph_targets.is_empty());
+        let key = (first, node.mesh.unwrap_or(usize::MAX));
+        if !deforms && let Some(known) = self.rigid.get(&key) {
+            return *known;
+        }
+        let digest = digest_of_mesh(model, part.instance);
+        let same_digest = self.contents.entry(digest).or_default();
+        let is_equal = |(number, instance): &(usize, MeshInstance)| {
+            let other = &self.models[*number].model;
+            meshes_are_equal((model, part.instance), (other, *instance))
+        };
+        let content = same_digest.iter().position(is_equal).unwrap_or_else(|| {
+            same_digest.push((part.model, part.instance));
+            same_digest.len() - 1
+        });
+        if !deforms {
+            self.rigid.insert(key, (digest, content));
+        }
+        (digest, content)
+    }
+}
+
+/// Whether two Gram matrices are equal but for rounding.
+fn are_close(a: DMat3, b: DMat3) -> bool {
+    let size = a.x_axis.x + a.y_axis.y + a.z_axis.z;
+    (a - b).to_cols_array().iter().all(|difference| difference.abs() <= SHAPE_TOLERANCE * size)
+}
+
+/// The material of a primitive as far as a list tells it apart: its name and base color.
+fn material_key<'a>(model: &'a Model, primitive: &Primitive) -> (Option<&'a str>, [u32; 4]) {
+    let material = primitive.material.and_then(|index| model.materials.get(index));
+    let color = material.map_or([1.0; 4], |material| material.base_color);
+    (material.and_then(|material| material.name.as_deref()), color.map(f32::to_bits))
+}
+
+/// A number that equal meshes have in common (Fowler, Noll and Vo, by words).
+fn digest_of_mesh(model: &Model, instance: MeshInstance) -> u64 {
+    let mut digest = 0xcbf2_9ce4_8422_2325_u64;
+    let mut add = |word: u32| {
+        digest = (digest ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3);
+        digest ^= digest >> 29;
+    };
+    for primitive in drawn_primitives(model, instance) {
+        add(primitive.topology as u32);
+        primitive.indices.iter().for_each(|index| add(*index));
+        let skinned = model.skin_primitive(instance, primitive);
+        skinned.positions.as_flattened().iter().for_each(|coordinate| add(coordinate.to_bits()));
+        let (name, color) = material_key(model, primitive);
+        name.into_iter().flat_map(str::bytes).for_each(|byte| add(byte.into()));
+        color.into_iter().for_each(&mut add);
+    }
+    digest
+}
+
+/// Whether two meshes have the same triangles, lines and materials, bit for bit.
+fn meshes_are_equal(
+    (model, instance): (&Model, MeshInstance),
+    (other_model, other_instance): (&Model, MeshInstance),
+) -> bool {
+    let mut own = drawn_primitives(model, instance);
+    let mut others = drawn_primitives(other_model, other_instance);
+    loop {
+        let (a, b) = match (own.next(), others.next()) {
+            (None, None) => return true,
+            (Some(a), Some(b)) => (a, b),
+            _ => return false,
+        };
+        let positions = |model: &Model, instance, primitive| {
+            let skinned = model.skin_primitive(instance, primitive);
+            let bits = skinned.positions.as_flattened().iter().map(|c| c.to_bits());
+            bits.collect::<Vec<u32>>()
+        };
+        let is_equal = a.topology == b.topology
+            && a.indices == b.indices
+            && material_key(model, a) == material_key(other_model, b)
+            && positions(model, instance, a) == positions(other_model, other_instance, b);
+        if !is_equal {
+            return false;
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Parts: the nodes of models that carry a mesh, with their names, places and bounding boxes.
+
+use glam::{DMat3, DVec3};
+use homog::{Affine, Bounds, Model as ModelSpace, Point, World};
+use model::{MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Topology};
+
+/// A node with a mesh that has lines or triangles, once for each instance of the mesh.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// The name in one line: see [`part_name`].
+    pub(crate) name: String,
+    /// The number of its object in drawings of the same models.
+    pub(crate) object: u32,
+    /// The number of its model.
+    pub(crate) model: usize,
+    /// The node and its place in the model.
+    pub(crate) instance: MeshInstance,
+    /// The least and the greatest corner of its bounding box in the world.
+    pub(crate) bounds: Bounds<World>,
+}
+
+/// The parts of models, in the order of their nodes: parents before children.
+pub(crate) fn gather_parts(models: &[ModelInstance]) -> Vec<Part> {
+    let mut parts = Vec::new();
+    let mut object = 0;
+    for (number, placed) in models.iter().enumerate() {
+        let instances: Vec<MeshInstance> = placed.model.mesh_instances().collect();
+        let is_alone = instances.len() == 1;
+        for instance in instances {
+            if let Some(bounds) = part_bounds(placed, instance) {
+                let name = part_name(&placed.model, instance.node, is_alone);
+                parts.push(Part { name, object, model: number, instance, bounds });
+            }
+            object += 1;
+        }
+    }
+    parts
+}
+
+/// The primitives of a mesh instance that have lines or triangles.
+pub(crate) fn drawn_primitives(
+    model: &Model,
+    instance: MeshInstance,
+) -> impl Iterator<Item = &Primitive> {
+    let mesh = model.nodes[instance.node].mesh.and_then(|mesh| model.meshes.get(mesh));
+    let primitives = mesh.map_or(&[][..], |mesh| mesh.primitives.as_slice()).iter();
+    primitives.filter(|one| one.topology != Topology::Points && one.item_count() > 0)
+}
+
+/// The bounding box of the vertices that lines and triangles use; `None` without any.
+fn part_bounds(placed: &ModelInstance, instance: MeshInstance) -> Option<Bounds<World>> {
+    let mut extent: Option<[DVec3; 2]> = None;
+    for primitive in drawn_primitives(&placed.model, instance) {
+        let skinned = placed.model.skin_primitive(instance, primitive);
+        let to_world = skinned.to_model.then(placed.model_to_world);
+        let mut is_used = vec![false; skinned.positions.len()];
+        primitive.indices.iter().for_each(|&index| is_used[index as usize] = true);
+        let used = skinned.positions.iter().zip(is_used).filter(|(_, used)| *used);
+        for (position, _) in used {
+            let point = to_world.transform_point(position.map(f64::from).into()).raw();
+            if point.is_finite() {
+                let [low, high] = extent.get_or_insert([point; 2]);
+                (*low, *high) = (low.min(point), high.max(point));
+            }
+        }
+    }
+    Bounds::from_points(extent?.map(Point::from_raw))
+}
+
+impl Part {
+    /// The map from the positions of its vertices, once they are skinned, to the world.
+    pub(crate) fn to_world(
+        &self,
+        models: &[ModelInstance],
+        skinned: &SkinnedPrimitive<'_>,
+    ) -> Affine<ModelSpace, World> {
+        skinned.to_model.then(models[self.model].model_to_world)
+    }
+
+    /// The lengths and angles of the part's axes in the world: the Gram matrix of the linear part,
+    /// and whether the part is a mirror image.
+    pub(crate) fn shape(&self, models: &[ModelInstance]) -> (DMat3, bool) {
+        let to_world = self.instance.node_to_model.then(models[self.model].model_to_world).raw();
+        let linear = DMat3::from_mat4(to_world);
+        (linear.transpose() * linear, linear.determinant() < 0.0)
+    }
+
+    /// Calls `visit` with each triangle of the part in the world.
+    pub(crate) fn for_each_triangle(
+        &self,
+        models: &[ModelInstance],
+        mut visit: impl FnMut([DVec3; 3]),
+    ) {
+        let model = &models[self.model].model;
+        for primitive in drawn_primitives(model, self.instance) {
+            if primitive.topology != Topology::Triangles {
+                continue;
+            }
+            let skinned = model.skin_primitive(self.instance, primitive);
+            let to_world = self.to_world(models, &skinned);
+            let position = |index: u32| {
+                let position = skinned.positions[index as usize].map(f64::from);
+                to_world.transform_point(position.into()).raw()
+            };
+            let triangles = primitive.indices.as_chunks::<3>().0;
+            triangles.iter().for_each(|triangle| visit(triangle.map(position)));
+        }
+    }
+}
+
+/// The name of a part: of its node, its mesh, or the nearest node above it that has one; else of
+/// the model if that has no other part; else `part`.
+fn part_name(model: &Model, node: usize, is_alone: bool) -> String {
+    let own = model.nodes[node].name.as_deref();
+    let mesh = || model.nodes[node].mesh.and_then(|mesh| model.meshes[mesh].name.as_deref());
+    let candidates = core::iter::once(own).chain(core::iter::once_with(mesh)).flatten();
+    if let Some(name) = candidates.map(one_line).find(|name| !name.is_empty()) {
+        return name;
+    }
+    // The importer refuses cycles; the count is a bound all the same.
+    let mut above = model.nodes[node].parent;
+    for _ in 0..model.nodes.len() {
+        let Some(parent) = above.and_then(|parent| model.nodes.get(parent)) else { break };
+        let name = parent.name.as_deref().map(one_line).unwrap_or_default();
+        if !name.is_empty() {
+            return name;
+        }
+        above = parent.parent;
+    }
+    let name = one_line(&model.name);
+    if is_alone && !name.is_empty() { name } else { "part".to_owned() }
+}
+
+/// A text without control characters and marks of direction, its words one space apart.
+pub(crate) fn one_line(text: &str) -> String {
+    let is_mark = |c: char| matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
+    let plain = |c: char| if c.is_control() || is_mark(c) { ' ' } else { c };
+    let plain: String = text.chars().map(plain).collect();
+    plain.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model::{Mesh, Node};
+
+    #[test]
+    fn names_are_one_line() {
+        for (text, line) in [
+            ("bolt\r\n M8\t\u{202e}x", "bolt M8 x"),
+            ("  ", ""),
+            ("\u{0}\u{7}", ""),
+            ("\u{5d1}\u{5d5}\u{5e8}\u{5d2}", "\u{5d1}\u{5d5}\u{5e8}\u{5d2}"),
+        ] {
+            assert_eq!(one_line(text), line);
+        }
+    }
+
+    #[test]
+    fn a_part_without_a_name_has_that_of_the_next_node_above() {
+        let node = |name: Option<&str>, parent, mesh| Node {
+            name: name.map(str::to_owned),
+            parent,
+            mesh,
+            ..Node::default()
+        };
+        let mut model = Model {
+            name: "engine".to_owned(),
+            nodes: vec![
+                node(Some("wheel"), None, None),
+                node(Some(""), Some(0), None),
+                node(None, Some(1), Some(0)),
+                node(Some("hub"), None, Some(0)),
+                node(None, None, Some(0)),
+            ],
+            meshes: vec![Mesh::default()],
+            ..Model::default()
+        };
+        for (index, alone, name) in
+            [(2, false, "wheel"), (3, false, "hub"), (4, false, "part"), (4, true, "engine")]
+        {
+            assert_eq!(part_name(&model, index, alone), name);
+        }
+        model.meshes[0].name = Some("rim".to_owned());
+        assert_eq!(part_name(&model, 2, false), "rim");
+    }
+}
