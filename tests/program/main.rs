@@ -3,6 +3,7 @@
 
 #![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
 
+mod assemblies;
 mod asset_models;
 mod batch;
 #[cfg(unix)]

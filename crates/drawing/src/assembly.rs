@@ -21,6 +21,7 @@ mod volume;
 pub(crate) use explosion::MAX_EXPLODED_PARTS;
 pub use explosion::{ExplosionAxis, ExplosionSettings};
 pub(crate) use part::{Part, gather_parts};
+pub use part_model::explode_models;
 pub(crate) use part_model::{PATHS, exploded_models, part_model};
 pub use parts_list::{PartDensity, PartsList, PartsListItem};
 

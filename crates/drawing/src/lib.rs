@@ -73,6 +73,7 @@ mod z_buffer_check;
 
 pub use assembly::{
     AssemblyPages, ExplosionAxis, ExplosionSettings, PartDensity, PartsList, PartsListItem,
+    explode_models,
 };
 pub use canvas::draw_layers_over;
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};

@@ -84,12 +84,14 @@ pub enum Warning {
         /// How many there are.
         count: usize,
     },
-    /// A part is hidden in the view of the assembly, and has no balloon.
-    PartNotVisible {
-        /// Its number in the list.
+    /// Parts are hidden in the view of the assembly, and have no balloons.
+    PartsNotVisible {
+        /// The number of the first in the list.
         number: usize,
         /// Its name.
         part: String,
+        /// How many items there are of which no part is seen.
+        count: usize,
     },
     /// Balloons find no place around the view of the assembly.
     BalloonsLeftOut {
@@ -173,15 +175,17 @@ impl fmt::Display for Warning {
                 "the letters of drawings lack characters of {count} names in the parts list, \
                  such as \"{name}\": boxes are in their place"
             ),
-            Self::PartNotVisible { number, part } => write!(
+            Self::PartsNotVisible { number, part, count } => write!(
                 f,
-                "item {number}, `{part}`, has no balloon: other parts hide it in the view of the \
-                 assembly; an exploded view, or another axonometric view, may show it"
+                "{count} {} no balloon, since other parts hide what they name in the view of the \
+                 assembly, such as item {number}, `{part}`: \
+                 an exploded view, or another axonometric view, may show it",
+                if *count == 1 { "item has" } else { "items have" }
             ),
             Self::BalloonsLeftOut { number, count } => write!(
                 f,
-                "{count} balloons find no place around the view, the first of them {number}: \
-                 use larger paper"
+                "{count} {} no place around the view, the first of them {number}: use larger paper",
+                if *count == 1 { "balloon finds" } else { "balloons find" }
             ),
             Self::TooManyPartsToExplode { most } => write!(
                 f,

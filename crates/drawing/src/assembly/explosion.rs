@@ -22,11 +22,14 @@ pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 /// The distance between two parts, as a fraction of the diagonal of the assembly.
 const DEFAULT_DISTANCE: f64 = 0.04;
 
+/// Parts whose centers are no farther from a line, as a fraction of that diagonal, are in line.
+const IN_LINE: f64 = 0.01;
+
 /// The direction in which the parts of an exploded view move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum ExplosionAxis {
-    /// Along the axis on which the centers of the parts spread most, compared with the size of the
-    /// assembly.
+    /// Along the axis on which most parts are in line with the largest one; among equal ones that on
+    /// which parts move least.
     #[default]
     Auto,
     /// To the left and to the right.
@@ -68,25 +71,30 @@ impl ExplosionSettings {
             ExplosionAxis::X => Some(0),
             ExplosionAxis::Y => Some(1),
             ExplosionAxis::Z => Some(2),
-            ExplosionAxis::Auto => Some(axis_of_spread(&boxes, size)),
+            ExplosionAxis::Auto => Some(axis_of_assembly(&boxes, base, (size, gap))),
             ExplosionAxis::All => None,
         };
-        let mut order: Vec<(Corners, Direction, usize)> = (0..boxes.len())
-            .filter(|&part| part != base)
-            .map(|part| (boxes[part], Direction::of_part(boxes[part], boxes[base], axis), part))
-            .collect();
-        order.sort_by(|(a, way, i), (b, other, k)| {
-            way.distance(*a).total_cmp(&other.distance(*b)).then(i.cmp(k))
-        });
-        let mut moves = vec![DVec3::ZERO; boxes.len()];
-        let mut placed = vec![boxes[base]];
-        for (corners, direction, part) in order {
-            let by = direction.clearance(corners, &placed, gap);
-            moves[part] = direction.unit() * by;
-            placed.push(corners.map(|corner| corner + moves[part]));
-        }
-        moves
+        moves_along(&boxes, base, (axis, gap))
     }
+}
+
+/// The moves of all parts away from the base, along an axis or each along its own.
+fn moves_along(boxes: &[Corners], base: usize, (axis, gap): (Option<usize>, f64)) -> Vec<DVec3> {
+    let mut order: Vec<(Corners, Direction, usize)> = (0..boxes.len())
+        .filter(|&part| part != base)
+        .map(|part| (boxes[part], Direction::of_part(boxes[part], boxes[base], axis), part))
+        .collect();
+    order.sort_by(|(a, way, i), (b, other, k)| {
+        way.distance(*a).total_cmp(&other.distance(*b)).then(i.cmp(k))
+    });
+    let mut moves = vec![DVec3::ZERO; boxes.len()];
+    let mut placed = vec![boxes[base]];
+    for (corners, direction, part) in order {
+        let by = direction.clearance(corners, &placed, gap);
+        moves[part] = direction.unit() * by;
+        placed.push(corners.map(|corner| corner + moves[part]));
+    }
+    moves
 }
 
 /// A direction along an axis of the world, and where the center of the base is on it.
@@ -155,19 +163,30 @@ fn largest(boxes: &[Corners]) -> usize {
     (0..boxes.len()).reduce(greater).unwrap_or(0)
 }
 
-/// The axis on which the centers spread most, as a part of the size of the whole; y before x
-/// before z.
-fn axis_of_spread(boxes: &[Corners], size: DVec3) -> usize {
-    let centers = boxes.iter().map(|[low, high]| (*low + *high) * 0.5);
-    let (low, high) = centers
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), center| {
-            (low.min(center), high.max(center))
-        });
-    let spread = |axis: usize| {
-        if size[axis] > 0.0 { (high[axis] - low[axis]) / size[axis] } else { 0.0 }
+/// The axis on which most parts are in line with the base; among equal ones that on which parts move
+/// least, y before x before z.
+fn axis_of_assembly(boxes: &[Corners], base: usize, (size, gap): (DVec3, f64)) -> usize {
+    let center = |[low, high]: Corners| (low + high) * 0.5;
+    let near = size.length() * IN_LINE;
+    let in_line = |axis: usize| {
+        let across = [(axis + 1) % 3, (axis + 2) % 3];
+        let is_in_line = |other: &&Corners| {
+            let away = center(**other) - center(boxes[base]);
+            across.iter().all(|&axis| away[axis].abs() <= near)
+        };
+        boxes.iter().filter(is_in_line).count()
     };
-    let greater = |a, b| if spread(b) > spread(a) + 1e-6 { b } else { a };
-    [1, 0, 2].into_iter().reduce(greater).unwrap_or(1)
+    let way = |axis| moves_along(boxes, base, (Some(axis), gap)).iter().map(|by| by.length()).sum();
+    let scored = [1, 0, 2].map(|axis| (axis, in_line(axis)));
+    let most = scored.iter().map(|(_, count)| *count).max();
+    let mut best: Option<(usize, f64)> = None;
+    for (axis, count) in scored {
+        let way = if Some(count) == most { way(axis) } else { f64::INFINITY };
+        if best.is_none_or(|(_, least)| way < least * (1.0 - 1e-6)) {
+            best = Some((axis, way));
+        }
+    }
+    best.map_or(1, |(axis, _)| axis)
 }
 
 #[cfg(test)]
@@ -197,11 +216,11 @@ mod tests {
 
     #[test]
     fn parts_beside_each_other_move_alike() {
-        let bolt = |x: f64| boxed([x - 1.0, 1.0, 0.0], [x + 1.0, 4.0, 1.0]);
+        let bolt = |x: f64| boxed([x - 1.0, 1.0, -0.5], [x + 1.0, 4.0, 0.5]);
         let boxes = [boxed([-9.0, 0.0, -9.0], [9.0, 2.0, 9.0]), bolt(-5.0), bolt(0.0), bolt(5.0)];
         let settings = ExplosionSettings { axis: ExplosionAxis::Auto, distance: Some(0.5) };
-        let moves = settings.moves(&boxes);
-        assert!(moves[1..].iter().all(|by| *by == DVec3::Y * 1.5) || moves[1].x < 0.0, "{moves:?}");
+        // One bolt is in line with the plate along y; they move by the same way.
+        assert_eq!(settings.moves(&boxes)[1..], [DVec3::Y * 1.5; 3]);
         let up = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(0.5) }.moves(&boxes);
         assert_eq!(up[1..], [DVec3::Y * 1.5; 3]);
     }

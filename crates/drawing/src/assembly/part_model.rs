@@ -1,6 +1,7 @@
 //! Models of parts: one part by itself, and all parts moved apart with their paths.
 
-use super::part::{Part, drawn_primitives};
+use super::explosion::ExplosionSettings;
+use super::part::{Part, drawn_primitives, gather_parts};
 use glam::{DMat3, DMat4, DVec3};
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
@@ -25,6 +26,20 @@ pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance
     let model = model_of_meshes(vec![mesh], &part.name, &models[part.model].model);
     let model_to_world = to_world.unwrap_or(Affine::IDENTITY);
     ModelInstance { model: Arc::new(model), model_to_world }
+}
+
+/// Models with their parts moved apart, as an exploded view shows them: an object for each part, and
+/// one more, the last, for the straight paths of the parts that moved.
+///
+/// The bounding boxes of the moved parts do not meet.
+#[must_use]
+pub fn explode_models(
+    models: &[ModelInstance],
+    settings: &ExplosionSettings,
+) -> Vec<ModelInstance> {
+    let parts = gather_parts(models);
+    let boxes: Vec<_> = parts.iter().map(|part| part.bounds).collect();
+    exploded_models(models, &parts, &settings.moves(&boxes))
 }
 
 /// Models with every part moved, in the order of the parts, and the straight paths of those that

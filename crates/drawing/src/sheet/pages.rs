@@ -14,7 +14,7 @@ use super::parts_table::{PartsTable, TableColumn};
 use super::sheet_view::SheetView;
 use super::surface_cache::SurfaceCache;
 use super::view_layout::extent_of_rectangle;
-use super::visible_spots::{MovedParts, VisibleSpot, find_visible_spots};
+use super::visible_spots::{MovedParts, VisibleSpot, add_spots_on_edges, find_visible_spots};
 use super::{Sheet, SheetError, frame, title_block};
 use crate::assembly::{
     AssemblyPages, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem, exploded_models,
@@ -182,8 +182,8 @@ impl<'a> DrawnAssembly<'a> {
 
     /// A page without anything on it.
     fn empty_page(&self) -> Page {
-        let paper = self.sheet.paper;
-        Page::new(DVec2::new(paper.width(), paper.height()), self.title.clone(), Some(WHITE))
+        let (paper, color) = (self.sheet.paper, self.sheet.style.paper.unwrap_or(WHITE));
+        Page::new(DVec2::new(paper.width(), paper.height()), self.title.clone(), Some(color))
     }
 
     /// Draws the view of all parts, and arranges it on its page.
@@ -224,21 +224,20 @@ impl<'a> DrawnAssembly<'a> {
         let mut warnings = drawing.warnings.clone();
         let mut balloons = Vec::new();
         if sheet.assembly.balloons {
-            let moved = self.moved_parts();
-            let spots = find_visible_spots(
-                &MovedParts { parts: &self.parts, models: self.models, moves: &moved },
-                &view,
-            );
+            let moves = self.moves.clone().unwrap_or_else(|| vec![DVec3::ZERO; self.parts.len()]);
+            let moved = MovedParts { parts: &self.parts, models: self.models, moves: &moves };
+            let mut spots = find_visible_spots(&moved, &view);
+            // Objects of an exploded view are the parts.
+            let object = |part: usize| match exploded {
+                Some(_) => part as u32,
+                None => self.parts[part].object,
+            };
+            add_spots_on_edges(&mut spots, &drawing, object, &view);
             let targets = self.balloon_targets(&spots, (&layout, &view), &mut warnings);
             balloons = self.place_balloons(&layout, &targets, &mut warnings);
         }
         let images = drawing.face_fill_image(placement, prefix).into_iter().collect();
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
-    }
-
-    /// The move of each part.
-    fn moved_parts(&self) -> Vec<DVec3> {
-        self.moves.clone().unwrap_or_else(|| vec![DVec3::ZERO; self.parts.len()])
     }
 
     /// The items with the spots of their leaders, each the best of its parts; warns of those that
@@ -249,7 +248,7 @@ impl<'a> DrawnAssembly<'a> {
         (layout, view): (&AssemblyLayout, &SheetView),
         warnings: &mut Vec<Warning>,
     ) -> Vec<BalloonTarget<'_>> {
-        let mut targets = Vec::new();
+        let (mut targets, mut hidden) = (Vec::new(), Vec::new());
         for item in &self.list.items {
             let number = |object: &u32| self.parts.binary_search_by_key(object, |p| p.object).ok();
             let of_item = item.objects.iter().filter_map(number).filter_map(|at| spots[at]);
@@ -260,9 +259,12 @@ impl<'a> DrawnAssembly<'a> {
                 Some(spot) => {
                     targets.push(BalloonTarget { item, spot: layout.on_page(&spot, view) });
                 }
-                None => warnings
-                    .push(Warning::PartNotVisible { number: item.number, part: item.name.clone() }),
+                None => hidden.push(item),
             }
+        }
+        if let Some(first) = hidden.first() {
+            let (number, part, count) = (first.number, first.name.clone(), hidden.len());
+            warnings.push(Warning::PartsNotVisible { number, part, count });
         }
         targets
     }

@@ -195,16 +195,19 @@ impl<'a> PartsTable<'a> {
         texts
     }
 
-    /// Adds the texts of a row, numbers to the right in their cells.
+    /// Adds the texts of a row: counts in the middle of their cells, masses to the right.
     fn add_row(&self, layer: &mut Layer, (column, row): (&TableColumn, usize), texts: &[String]) {
         let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
         let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
         for (index, ((start, width), text)) in self.cells().iter().zip(texts).enumerate() {
             let room = width - 2.0 * INSET;
             let text = cut_to_width(text, self.letters * LEAST_REDUCTION, room);
-            let is_number = matches!(index, 0 | 1 | 4);
-            let x = column.corner.x + start + if is_number { width - INSET } else { INSET };
-            let align = if is_number { TextAlign::End } else { TextAlign::Start };
+            let (align, x) = match index {
+                0 | 1 => (TextAlign::Middle, 0.5 * width),
+                4 => (TextAlign::End, width - INSET),
+                _ => (TextAlign::Start, INSET),
+            };
+            let x = column.corner.x + start + x;
             let label = Label::new(&text, DVec2::new(x, y), self.letters).with_align(align);
             if !text.is_empty() {
                 layer.groups.push(label.fit_to_width(room).group());

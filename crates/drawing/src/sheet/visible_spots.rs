@@ -8,13 +8,19 @@
 //! ```
 
 use super::sheet_view::SheetView;
+use crate::LineDrawing;
 use crate::assembly::Part;
 use glam::{DVec2, DVec3};
 use homog::Point;
 use model::ModelInstance;
+use std::collections::BTreeMap;
+use viewport::DrawingScale;
 
 /// Pixels on the longer side of the view.
 const LONG_SIDE: f64 = 1200.0;
+
+/// The number of 1:1 among the standard scales.
+const NATURAL_SCALE: usize = 5;
 
 /// The number of a pixel that shows no part.
 const NO_PART: u32 = u32::MAX;
@@ -55,6 +61,34 @@ pub(super) fn find_visible_spots(
         }
     }
     spots
+}
+
+/// Gives parts without a spot, which are narrower than a pixel, the middle of the longest piece of
+/// their edges that is visible. `object` is the number of a part in the drawing of the view.
+pub(super) fn add_spots_on_edges(
+    spots: &mut [Option<VisibleSpot>],
+    drawing: &LineDrawing,
+    object: impl Fn(usize) -> u32,
+    view: &SheetView,
+) {
+    let missing = (0..spots.len()).filter(|part| spots[*part].is_none());
+    let part_of: BTreeMap<u32, usize> = missing.map(|part| (object(part), part)).collect();
+    if part_of.is_empty() {
+        return;
+    }
+    let mut longest = vec![0.0; spots.len()];
+    let window = view.placement(drawing, DrawingScale::STANDARD[NATURAL_SCALE], DVec2::ZERO);
+    for segment in drawing.segments.iter().filter(|segment| segment.visible) {
+        let Some(&part) = part_of.get(&segment.object) else { continue };
+        let [from, to] = segment.ends;
+        let length = (to - from).length();
+        if length > longest[part] {
+            longest[part] = length;
+            let millimeters = (from + to) * 0.5 * window.scale + window.corner;
+            let at = millimeters / view.millimeters_per_unit;
+            spots[part] = Some(VisibleSpot { at, clearance: 0.0 });
+        }
+    }
 }
 
 /// The number of the nearest part in each pixel of a view.

@@ -8,10 +8,12 @@ pub type Extent = [DVec2; 2];
 
 /// The layers whose groups are texts.
 fn is_text_layer(id: &str) -> bool {
-    const TEXTS: [&str; 7] = [
+    const TEXTS: [&str; 9] = [
         "dimensions-text",
         "cut-names",
         "other-scale",
+        "balloon-numbers",
+        "parts-list-text",
         "scale-bar-text",
         "title-block-names",
         "title-block-title",

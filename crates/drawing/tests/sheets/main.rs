@@ -3,6 +3,8 @@
 #![allow(unreachable_pub, reason = "in a test `pub` means: used by another file")]
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
+mod assemblies;
+mod balloons;
 mod boxes;
 mod center_lines;
 mod dimension_layout;
@@ -10,5 +12,6 @@ mod dimensions;
 mod fill;
 mod formats;
 mod lint;
+mod parts_models;
 mod sections;
 mod styles;

@@ -138,7 +138,7 @@ named_values! {
 named_values! {
     /// The direction in which the parts of an exploded view move.
     ExplosionAxis as "ExplosionAxis" {
-        Auto = "Along the axis on which the centers of the parts spread most.",
+        Auto = "Along the axis on which most parts are in line with the largest one, or on which they move least.",
         X = "To the left and to the right.",
         Y = "Up and down.",
         Z = "To the front and to the back.",

@@ -7,7 +7,8 @@ use drawing::ExplosionAxis;
 scene_struct! {
     /// An exploded view: parts moved apart, with their paths.
     pub struct ExplodedFile as "Exploded" {
-        /// The direction in which parts move. Default: the axis on which their centers spread most.
+        /// The direction in which parts move. Default: the axis on which most parts are in line with
+        /// the largest one, or on which they move least.
         pub axis: ExplosionAxis = ExplosionAxis::Auto,
         /// The least distance of two parts along it, in units of the scene. Default: a
         /// twenty-fifth of the diagonal of the assembly.

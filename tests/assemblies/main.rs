@@ -1,0 +1,138 @@
+//! Sheets of assemblies: parts counted, pages legible, parts of exploded views apart.
+//!
+//! The models are those of `$ASSETS` or of `shared/assets` beside the repository that have several
+//! nodes with meshes. Arguments that are not flags select models by a part of their path.
+
+#![allow(clippy::print_stdout, reason = "a test program prints its results")]
+#![allow(unreachable_pub, reason = "in a program `pub` means: used by another file")]
+#![allow(dead_code, reason = "the lints of the crate's tests are used in part")]
+
+#[path = "../../crates/drawing/tests/sheets/balloons.rs"]
+mod balloons;
+#[path = "../../crates/drawing/tests/sheets/lint.rs"]
+mod lint;
+
+use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program};
+use alberti_tests::manifest::read_manifest;
+use drawing::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
+use glam::DVec3;
+use homog::Affine;
+use model::import::{ImportOptions, load};
+use model::{ModelInstance, Topology};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use viewport::Paper;
+
+/// Models with more triangles are left to the benchmarks.
+const MAX_TRIANGLES: usize = 60_000;
+
+fn main() -> ExitCode {
+    run_program("assemblies", |arguments| {
+        let mut tally = Tally::default();
+        let Some(folder) = data_folder("ASSETS", "assets")? else {
+            tally.skip("assemblies", "there is no folder shared/assets; name one by ASSETS");
+            return Ok(tally);
+        };
+        let mut models = listed_models(&folder)?;
+        models.retain(|(_, name)| arguments.select(name));
+        let results = map_parallel(&models, |_, (path, name)| {
+            let result = check_model(path);
+            if let Ok(Some(summary)) = &result {
+                println!("{name:60} {summary}");
+            }
+            result
+        });
+        let mut count = 0;
+        for ((_, name), result) in models.iter().zip(results) {
+            count += usize::from(!matches!(result, Ok(None)));
+            tally.record(name, result.map(drop));
+        }
+        println!("{count} assemblies");
+        Ok(tally)
+    })
+}
+
+/// Path and name of the listed models that are not too large.
+fn listed_models(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
+    let rows = read_manifest(folder)?.into_iter();
+    let wanted = rows.filter(|row| {
+        row.group() == "models" && row.scene_triangles.is_some_and(|count| count <= MAX_TRIANGLES)
+    });
+    Ok(wanted.map(|row| (folder.join(&row.path), row.path)).collect())
+}
+
+/// Draws the pages of a model with several parts; `None` for others.
+fn check_model(path: &Path) -> Result<Option<String>, String> {
+    let model = load(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
+    let nodes = model.mesh_instances().count();
+    let models = [ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }];
+    let list = PartsList::new(&models, &[], 1.0);
+    let parts: usize = list.items.iter().map(|item| item.quantity).sum();
+    if parts < 2 {
+        return Ok(None);
+    }
+    if parts > nodes {
+        return Err(format!("{parts} parts of {nodes} nodes"));
+    }
+    let mut summary = format!("{parts:5} parts {:5} items", list.items.len());
+    for (paper, name) in [(Paper::A3.rotated(), "A3"), (Paper::A4, "A4")] {
+        for explosion in [None, Some(ExplosionSettings::default())] {
+            let is_exploded = explosion.is_some();
+            let pages = AssemblyPages {
+                parts_list: true,
+                balloons: true,
+                explosion,
+                ..AssemblyPages::default()
+            };
+            let sheet = Sheet { assembly: pages, ..Sheet::for_paper(paper, name) };
+            let pages = sheet.draw_pages(&models, &[], 1).map_err(|error| error.to_string())?;
+            for (page, number) in pages.iter().zip(1..) {
+                let mut faults = lint::faults(page);
+                faults.extend(balloons::balloon_faults(page));
+                if let Some(fault) = faults.first() {
+                    let count = faults.len();
+                    return Err(format!("{name} {is_exploded} page {number}: {count}: {fault}"));
+                }
+            }
+            let balloons = pages.iter().map(|page| balloons::texts(page, "balloon-numbers").len());
+            summary += &format!("  {name} {}/{}", balloons.sum::<usize>(), pages.len());
+        }
+    }
+    let axes = [ExplosionAxis::Auto, ExplosionAxis::X, ExplosionAxis::All];
+    for axis in axes {
+        let settings = ExplosionSettings { axis, distance: None };
+        check_apart(&explode_models(&models, &settings)).map_err(|e| format!("{axis:?}: {e}"))?;
+    }
+    Ok(Some(summary))
+}
+
+/// Whether no two objects come near each other: boxes around their triangles that do not meet.
+fn check_apart(models: &[ModelInstance]) -> Result<(), String> {
+    let mut boxes: Vec<(String, DVec3, DVec3)> = Vec::new();
+    for placed in models {
+        for (instance, primitive) in placed.model.scene_primitives() {
+            if primitive.topology != Topology::Triangles || primitive.indices.is_empty() {
+                continue;
+            }
+            let skinned = placed.model.skin_primitive(instance, primitive);
+            let to_world = skinned.to_model.then(placed.model_to_world);
+            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for &index in &primitive.indices {
+                let position = skinned.positions[index as usize].map(f64::from);
+                let point = to_world.transform_point(position.into()).raw();
+                (low, high) = (low.min(point), high.max(point));
+            }
+            boxes.push((format!("{}", instance.node), low, high));
+        }
+    }
+    for (index, (node, low, high)) in boxes.iter().enumerate() {
+        for (other, other_low, other_high) in &boxes[index + 1..] {
+            let apart = high.cmplt(*other_low).any() || other_high.cmplt(*low).any();
+            if node != other && !apart {
+                return Err(format!("parts {node} and {other} meet"));
+            }
+        }
+    }
+    Ok(())
+}
