@@ -19,7 +19,7 @@
 use super::edges::{CandidateEdge, SectionCap, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_flat_fill};
 use super::hatching::Hatching;
-use super::hidden_line::{Occluders, OcclusionScratch, ProjectedEdge};
+use super::hidden_line::{MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge};
 use super::options::{DrawOptions, HiddenEdges};
 use super::parallel::map_in_order;
 use super::projector::Projector;
@@ -128,10 +128,8 @@ fn hatch_surface(
     let (spacing, touching) = (options.hatch_spacing, surface.touch_tolerance().world);
     let caps = Hatching::hatch_caps(&surface.section_caps(), projector, spacing, touching);
     let mut hatchings = vec![caps];
-    let colors_count = options.face_fill == FaceFill::Hatching;
-    if colors_count || options.face_fill == FaceFill::ShadeHatching {
+    if options.face_fill == FaceFill::Hatching {
         let faces = surface.colored_faces_without_caps().map(|(vertices, object, color)| {
-            let color = if colors_count { color } else { [1.0; 3] };
             (vertices, object, key_light.face_luma(vertices, color))
         });
         hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
@@ -145,26 +143,25 @@ const FACES_OF_A_WALL: u32 = 2;
 /// Divides edges into visible and hidden segments against the occluders of one view.
 ///
 /// Edges are independent of each other, so this is where threads are used.
-struct EdgeDivider {
+struct EdgeDivider<'a> {
     projector: Projector,
-    occluders: Occluders,
+    /// The faces of the surface; `None` where visibility is ignored.
+    occluders: Option<MeshOccluders<&'a WeldedSurface>>,
     /// Which hidden segments are part of the drawing.
     hidden_edges: HiddenEdges,
 }
 
-impl EdgeDivider {
+impl<'a> EdgeDivider<'a> {
     /// A divider with the faces of a surface as occluders, or none where visibility is ignored.
     ///
     /// For outlines faces hide what is before them as well: what is left has nothing beside it.
-    fn new(surface: &WeldedSurface, projector: Projector, options: &DrawOptions) -> Self {
+    fn new(surface: &'a WeldedSurface, projector: Projector, options: &DrawOptions) -> Self {
         let tolerance = surface.touch_tolerance();
-        let occluders = match options.hidden_edges {
-            _ if options.outline_only => {
-                Occluders::new(surface.occluder_triangles(), projector, tolerance).at_any_depth()
-            }
-            HiddenEdges::Ignored => Occluders::new([], projector, tolerance),
-            _ => Occluders::new(surface.occluder_triangles(), projector, tolerance),
-        };
+        let is_ignored = options.hidden_edges == HiddenEdges::Ignored && !options.outline_only;
+        let occluders = (!is_ignored).then(|| {
+            let faces = MeshOccluders::new(surface, surface.face_bvh(), projector, tolerance);
+            if options.outline_only { faces.at_any_depth() } else { faces }
+        });
         let hidden_edges =
             if options.outline_only { HiddenEdges::Removed } else { options.hidden_edges };
         Self { projector, occluders, hidden_edges }
@@ -193,7 +190,10 @@ impl EdgeDivider {
         let Some(projected) = ProjectedEdge::clip_and_project(edge.ends, &self.projector) else {
             return;
         };
-        let hidden = self.occluders.hidden_intervals(&projected, scratch);
+        let hidden = match &self.occluders {
+            Some(occluders) => occluders.hidden_intervals(&projected, scratch),
+            None => scratch.nothing_hidden(),
+        };
         let hidden_edges = match edge.class {
             EdgeClass::Hatching => HiddenEdges::Removed,
             _ => self.hidden_edges,
@@ -208,17 +208,19 @@ impl EdgeDivider {
                 edge: edge_index,
             });
         };
-        if hidden_edges == HiddenEdges::FirstLayer && !hidden.is_empty() {
-            let deep = self.occluders.intervals_behind_faces(&projected, FACES_OF_A_WALL);
-            for (interval, hidden) in hidden.divide_unit_interval() {
-                let parts = if hidden { deep.parts_outside(interval) } else { vec![interval] };
-                parts.into_iter().for_each(|part| push(part, hidden));
+        let deep = match &self.occluders {
+            Some(occluders) if hidden_edges == HiddenEdges::FirstLayer && !hidden.is_empty() => {
+                occluders.intervals_behind_faces(&projected, FACES_OF_A_WALL)
             }
-            return;
-        }
+            _ => OcclusionIntervals::default(),
+        };
         for (interval, hidden) in hidden.divide_unit_interval() {
-            if !hidden || hidden_edges == HiddenEdges::Retained {
-                push(interval, hidden);
+            match hidden_edges {
+                _ if !hidden => push(interval, false),
+                HiddenEdges::Removed | HiddenEdges::Ignored => {}
+                HiddenEdges::Retained | HiddenEdges::FirstLayer => {
+                    deep.parts_outside(interval).into_iter().for_each(|part| push(part, true));
+                }
             }
         }
     }

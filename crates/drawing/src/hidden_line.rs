@@ -8,7 +8,7 @@
 //!  edge a─b in the world
 //!    │  clip to the view volume, project      projected_edge   screen segment + map s ↔ u
 //!    ▼
-//!  for each box of the BVH that the edge passes behind          bvh
+//!  for each box of the BVH that the edge passes behind          bvh, screen_bvh
 //!    │
 //!    ▼
 //!  for each occluder (a clipped face) in it                     occluder
@@ -16,7 +16,7 @@
 //!    ▼
 //!  union of the intervals                                       occlusion_intervals
 //!    ▼
-//!  [0, 1] = visible │ hidden │ visible …                        Occluders::hidden_intervals
+//!  [0, 1] = visible │ hidden │ visible …                        MeshOccluders::hidden_intervals
 //! ```
 //!
 //! Appel counts, at each point of an edge, the faces in front of it: the *quantitative
@@ -36,8 +36,11 @@ mod occluder;
 mod occluders;
 mod occlusion_intervals;
 mod projected_edge;
+mod screen_bvh;
 
 pub(super) use bvh::{Aabb, Bvh};
-pub(super) use occluders::OcclusionScratch;
 pub use occluders::{EdgeParts, Occluders, Tolerance};
+pub(super) use occluders::{MeshOccluders, OcclusionScratch, mesh_bvh};
+pub(super) use occlusion_intervals::OcclusionIntervals;
 pub(super) use projected_edge::ProjectedEdge;
+pub(super) use screen_bvh::TriangleMesh;

@@ -39,8 +39,8 @@ impl FaceNormals {
     /// Seen along the edge from its lower to its higher end, the faces at both sides then need no
     /// common orientation: meshes with inconsistent winding classify like others.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
-        let (normal, is_front) = self.0[side.face as usize];
-        if side.is_forward { (normal, is_front) } else { (-normal, !is_front) }
+        let (normal, is_front) = self.0[side.face() as usize];
+        if side.is_forward() { (normal, is_front) } else { (-normal, !is_front) }
     }
 }
 
@@ -78,7 +78,7 @@ impl<'a> EdgeClassifier<'a> {
 
     /// The face at a half-edge.
     fn face_of_half_edge(&self, side: HalfEdge) -> &Face {
-        &self.faces[side.face as usize]
+        &self.faces[side.face() as usize]
     }
 
     /// The lowest index of the objects that meet at an edge: the edge is drawn as a part of that
@@ -94,7 +94,7 @@ impl<'a> EdgeClassifier<'a> {
         }
         let mesh = self.class_by_geometry(sides);
         let mark = |&side: &HalfEdge| {
-            Some(self.face_of_half_edge(side).edge_visibility?[usize::from(side.side)])
+            Some(self.face_of_half_edge(side).edge_visibility?[usize::from(side.side())])
         };
         match (sides.iter().filter_map(mark).max(), mesh) {
             (None, mesh) => mesh,
@@ -148,7 +148,7 @@ impl<'a> EdgeClassifier<'a> {
         }
         // The ends of each side, the lower vertex first: those of parts of an edge may differ.
         let ends = |face: &Face, side: HalfEdge| {
-            let (from, to) = (usize::from(side.side), usize::from(side.side + 1) % 3);
+            let (from, to) = (usize::from(side.side()), usize::from(side.side() + 1) % 3);
             let ends = [from, to].map(|k| (face.vertices[k], face.normals[k]));
             if ends[0].0 < ends[1].0 { ends } else { [ends[1], ends[0]] }
         };
@@ -165,7 +165,7 @@ impl<'a> EdgeClassifier<'a> {
     pub(super) fn is_smooth_between(&self, one: HalfEdge, other: HalfEdge) -> bool {
         let [n, m] = [one, other].map(|side| self.normals.normal_along(side).0);
         let objects = [one, other].map(|side| self.face_of_half_edge(side).object);
-        one.is_forward != other.is_forward
+        one.is_forward() != other.is_forward()
             && objects[0] == objects[1]
             && !self.is_crease(one, other, n.dot(-m))
     }

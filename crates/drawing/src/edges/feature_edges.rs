@@ -44,17 +44,17 @@ impl WeldedSurface {
             .collect();
         let crease_cosine = libm::cos(crease_angle);
         let along = |side: &HalfEdge| {
-            let normal = normals[side.face as usize];
-            if side.is_forward { normal } else { -normal }
+            let normal = normals[side.face() as usize];
+            if side.is_forward() { normal } else { -normal }
         };
         let mut features = Vec::new();
         self.for_each_edge(|ends, sides| {
             let mut objects: Vec<u32> =
-                sides.iter().map(|side| mesh.faces[side.face as usize].object).collect();
+                sides.iter().map(|side| mesh.faces[side.face() as usize].object).collect();
             objects.sort_unstable();
             objects.dedup();
             for object in objects {
-                let own = sides.iter().filter(|s| mesh.faces[s.face as usize].object == object);
+                let own = sides.iter().filter(|s| mesh.faces[s.face() as usize].object == object);
                 let own: Vec<DVec3> = own.map(along).collect();
                 let is_feature = match own[..] {
                     [one, other] => one.dot(-other) < crease_cosine,

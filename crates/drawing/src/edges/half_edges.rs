@@ -6,18 +6,37 @@
 
 use super::world_mesh::Face;
 
-/// One side of one face.
+/// One side of one face, in eight bytes: a mesh has three times as many as faces.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) struct HalfEdge {
     /// The end with the higher index; the table knows the lower one.
     pub(super) high_vertex: u32,
+    /// The face, two bits for the side and one for the direction.
+    packed: u32,
+}
+
+impl HalfEdge {
+    /// A side of a face: 0 from its first vertex to the second, and so on. Half-edges run forward
+    /// if the face runs from the lower end to the higher: on an oriented manifold the two of an
+    /// edge differ in it.
+    pub(super) fn new(high_vertex: u32, face: u32, side: u8, is_forward: bool) -> Self {
+        Self { high_vertex, packed: face << 3 | u32::from(side) << 1 | u32::from(is_forward) }
+    }
+
     /// The index of the face.
-    pub(super) face: u32,
-    /// Which side of the face: 0 from its first vertex to the second, and so on.
-    pub(super) side: u8,
-    /// Whether the face runs from the lower end to the higher. On an oriented manifold the two
-    /// half-edges of an edge differ in it.
-    pub(super) is_forward: bool,
+    pub(super) const fn face(self) -> u32 {
+        self.packed >> 3
+    }
+
+    /// Which side of the face.
+    pub(super) const fn side(self) -> u8 {
+        (self.packed >> 1 & 3) as u8
+    }
+
+    /// Whether the face runs from the lower end to the higher.
+    pub(super) const fn is_forward(self) -> bool {
+        self.packed & 1 == 1
+    }
 }
 
 /// The half-edges of all faces, sorted by their ends.
@@ -43,18 +62,13 @@ impl HalfEdges {
         for at in 2..starts.len() {
             starts[at] += starts[at - 1];
         }
-        let none = HalfEdge { high_vertex: 0, face: 0, side: 0, is_forward: false };
+        let none = HalfEdge::new(0, 0, 0, false);
         let mut half_edges = vec![none; faces.len() * 3];
         for (face, index) in faces.iter().zip(0..) {
             for (ends, side) in face_sides(face).into_iter().zip(0..) {
                 let slot = &mut starts[low(ends) + 1];
                 let [from, to] = ends;
-                half_edges[*slot as usize] = HalfEdge {
-                    high_vertex: from.max(to),
-                    face: index,
-                    side,
-                    is_forward: from < to,
-                };
+                half_edges[*slot as usize] = HalfEdge::new(from.max(to), index, side, from < to);
                 *slot += 1;
             }
         }

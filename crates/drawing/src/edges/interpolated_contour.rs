@@ -131,9 +131,9 @@ impl SmoothNormals {
 
 /// The corner of a half-edge's face at a vertex.
 fn corner_at(mesh: &WorldMesh, side: HalfEdge, vertex: u32) -> u32 {
-    let vertices = mesh.faces[side.face as usize].vertices;
+    let vertices = mesh.faces[side.face() as usize].vertices;
     let k = vertices.iter().position(|&other| other == vertex).unwrap_or(0);
-    side.face * 3 + k as u32
+    side.face() * 3 + k as u32
 }
 
 /// The first corner of the fan of a corner.

@@ -13,7 +13,7 @@
 //! Triangles that are coplanar, or only touch, do not intersect. Nor do triangles so nearly
 //! coplanar that the segment would be an effect of rounding: decals, and copies of a surface.
 
-use super::seams::{BorderEdge, WeldRadii, half_surface_area};
+use super::seams::{BorderEdge, WeldRadii};
 use super::world_mesh::{Face, WorldMesh};
 use crate::hidden_line::{Aabb, Bvh};
 use crate::parallel::map_in_order;
@@ -42,51 +42,55 @@ pub(super) struct Intersections {
 /// About the greatest number of intersections that are found.
 const MAX_INTERSECTIONS: usize = 1 << 22;
 
+/// A pair of faces that intersect, the one that asks first, and the segment.
+type IntersectingPair = ([u32; 2], IntersectionSegment);
+
 /// Finds all intersection edges of a mesh's faces, with up to `threads` threads.
 ///
-/// Faces nearer than `touching` only touch. Intersections along boundaries of both faces are left
-/// out, for the boundaries are drawn. Of each pair the face with the smaller box asks for the
-/// larger: large faces are few wherever one looks. The work is bounded by [`Bvh::query_budget`] and
-/// [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
+/// `bvh` has the faces as its first items. Faces nearer than `touching` only touch. Intersections
+/// along boundaries of both faces are left out, for the boundaries are drawn. Leaves of the
+/// hierarchy are compared with each other, each pair of them once. The work is bounded by
+/// [`Bvh::query_budget`] and [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
 pub(super) fn intersect_faces(
     mesh: &WorldMesh,
+    bvh: &Bvh,
     (borders, weld_radii): (&[BorderEdge], &WeldRadii),
     touching: f64,
     threads: usize,
 ) -> Intersections {
-    let mut triangles: Vec<IntersectionTriangle> =
-        mesh.faces.iter().map(|face| IntersectionTriangle::from_face(mesh, face)).collect();
-    for (ends, side) in borders {
-        let triangle = &mut triangles[side.face as usize];
-        triangle.borders[usize::from(side.side)] = true;
-        triangle.border_distance = 2.0 * weld_radii.edge_radius(*ends);
-    }
-    let boxes: Vec<Aabb> = triangles.iter().map(|t| Aabb::from_points(t.vertices)).collect();
-    let bvh = Bvh::new(&boxes, half_surface_area);
-    // Each pair is tested once, by the smaller box: few large boxes overlap it.
-    let size = |face: usize| (half_surface_area(boxes[face].max - boxes[face].min), face);
-    let count = mesh.faces.len();
-    let budget = Bvh::query_budget(count);
-    let most_per_face = (MAX_INTERSECTIONS / count.max(1)).max(16);
+    let leaves = bvh.leaf_nodes();
+    let search = IntersectionSearch {
+        mesh,
+        borders: FaceBorders::new(borders, weld_radii),
+        touching,
+        most_per_leaf: (MAX_INTERSECTIONS / leaves.len().max(1)).max(64),
+    };
+    let budget = Bvh::query_budget(leaves.len());
     let is_cut_off = AtomicBool::new(false);
-    let segments = map_in_order(count, threads, |range, stack: &mut Vec<u32>, segments| {
-        for one in range {
-            let before = segments.len();
-            let visited = bvh.for_each_overlapping(&boxes[one], budget, stack, |other| {
-                let other = other as usize;
-                let faces = [&mesh.faces[one], &mesh.faces[other]];
-                let is_asked = size(one) < size(other) && segments.len() - before < most_per_face;
-                if is_asked && !shares_edge(faces) {
-                    let segment = triangles[one].intersect_triangle(&triangles[other], touching);
-                    let object = faces[0].object.min(faces[1].object);
-                    segments.extend(segment.map(|ends| (ends, object)));
+    let mut pairs: Vec<IntersectingPair> =
+        map_in_order(leaves.len(), threads, |range, memory: &mut LeafMemory, pairs| {
+            for &leaf in &leaves[range] {
+                let LeafMemory { stack, own, bounds } = memory;
+                own.clear();
+                let (first, mut is_complete) = (pairs.len(), true);
+                let visited = bvh.for_each_later_leaf(leaf, budget, stack, |items, is_own| {
+                    if pairs.len() - first >= search.most_per_leaf {
+                        is_complete = false;
+                    } else if is_own {
+                        own.extend(search.leaf_triangles(items));
+                        *bounds = own.iter().map(|triangle| triangle.bounds).reduce(Aabb::union);
+                        search.intersect_own(own, pairs);
+                    } else if let Some(bounds) = bounds {
+                        search.intersect_other((own, bounds), items, pairs);
+                    }
+                });
+                if !visited || !is_complete {
+                    is_cut_off.store(true, Ordering::Relaxed);
                 }
-            });
-            if !visited || segments.len() - before >= most_per_face {
-                is_cut_off.store(true, Ordering::Relaxed);
             }
-        }
-    });
+        });
+    pairs.sort_by_key(|(faces, _)| *faces);
+    let segments = pairs.into_iter().map(|(_, segment)| segment).collect();
     Intersections { segments, is_cut_off: is_cut_off.into_inner() }
 }
 
@@ -95,33 +99,147 @@ fn shares_edge([one, other]: [&Face; 2]) -> bool {
     one.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count() > 1
 }
 
+/// Memory of the search from one leaf, reused for the next.
+#[derive(Default)]
+struct LeafMemory {
+    /// Nodes of the hierarchy that are still to be visited.
+    stack: Vec<u32>,
+    /// The triangles of the leaf, and the box around them.
+    own: Vec<IntersectionTriangle>,
+    bounds: Option<Aabb>,
+}
+
+/// What a search for intersections depends on.
+struct IntersectionSearch<'a> {
+    mesh: &'a WorldMesh,
+    borders: FaceBorders,
+    touching: f64,
+    /// About the greatest number of intersections of the faces of a leaf with later ones.
+    most_per_leaf: usize,
+}
+
+impl IntersectionSearch<'_> {
+    /// The faces among the items of a leaf; others are fillings.
+    fn leaf_triangles(&self, items: &[u32]) -> impl Iterator<Item = IntersectionTriangle> {
+        let faces = items.iter().filter(|item| (**item as usize) < self.mesh.faces.len());
+        faces.map(|face| IntersectionTriangle::from_face(self.mesh, *face))
+    }
+
+    /// Intersects the triangles of a leaf with each other.
+    fn intersect_own(&self, own: &[IntersectionTriangle], pairs: &mut Vec<IntersectingPair>) {
+        for (at, one) in own.iter().enumerate() {
+            pairs.extend(own[at + 1..].iter().filter_map(|other| self.intersect_pair(one, other)));
+        }
+    }
+
+    /// Intersects the triangles of a leaf, within a box, with those of another.
+    fn intersect_other(
+        &self,
+        (own, bounds): (&[IntersectionTriangle], &Aabb),
+        items: &[u32],
+        pairs: &mut Vec<IntersectingPair>,
+    ) {
+        for other in self.leaf_triangles(items).filter(|other| bounds.intersects(&other.bounds)) {
+            pairs.extend(own.iter().filter_map(|one| self.intersect_pair(one, &other)));
+        }
+    }
+
+    /// The intersection of two triangles: the one with the smaller box comes first.
+    fn intersect_pair(
+        &self,
+        a: &IntersectionTriangle,
+        b: &IntersectionTriangle,
+    ) -> Option<IntersectingPair> {
+        if !a.bounds.intersects(&b.bounds) {
+            return None;
+        }
+        let faces = [a, b].map(|triangle| &self.mesh.faces[triangle.face as usize]);
+        if shares_edge(faces) {
+            return None;
+        }
+        let size =
+            |triangle: &IntersectionTriangle| (triangle.bounds.half_surface_area(), triangle.face);
+        let (one, other) = if size(a) < size(b) { (a, b) } else { (b, a) };
+        let ends = one.intersect_triangle(other, self.touching)?;
+        let is_seam = [one, other].iter().all(|triangle| self.borders.have_segment(triangle, ends));
+        let object = faces[0].object.min(faces[1].object);
+        (!is_seam).then_some(([one.face, other.face], (ends, object)))
+    }
+}
+
+/// The boundary sides of faces.
+struct FaceBorders(Vec<FaceBorder>);
+
+/// A boundary side of a face.
+#[derive(Clone, Copy)]
+struct FaceBorder {
+    face: u32,
+    side: u8,
+    /// A point nearer than this to the side is on it.
+    distance: f64,
+}
+
+impl FaceBorders {
+    /// The sides with a part among these boundary edges.
+    fn new(borders: &[BorderEdge], weld_radii: &WeldRadii) -> Self {
+        let border = |(ends, side): &BorderEdge| FaceBorder {
+            face: side.face(),
+            side: side.side(),
+            distance: 2.0 * weld_radii.edge_radius(*ends),
+        };
+        let mut sides: Vec<FaceBorder> = borders.iter().map(border).collect();
+        sides.sort_by_key(|border| border.face);
+        Self(sides)
+    }
+
+    /// Whether both ends of a segment are on one boundary side of a triangle.
+    fn have_segment(&self, triangle: &IntersectionTriangle, ends: [DVec3; 2]) -> bool {
+        let first = self.0.partition_point(|border| border.face < triangle.face);
+        let here = &self.0[first..];
+        let count = here.iter().take_while(|border| border.face == triangle.face).count();
+        // One distance for all sides, that of the last part.
+        let distance = here[..count].last().map_or(0.0, |border| border.distance);
+        here[..count].iter().any(|border| {
+            let k = usize::from(border.side);
+            let (from, to) = (triangle.vertices[k], triangle.vertices[(k + 1) % 3]);
+            let along = (to - from).normalize_or_zero();
+            ends.iter().all(|&end| (end - from).reject_from_normalized(along).length() < distance)
+        })
+    }
+}
+
 /// A triangle with what the intersection test needs of it.
 #[derive(Clone, Copy, Debug)]
 struct IntersectionTriangle {
+    face: u32,
     vertices: [DVec3; 3],
-    /// The unit normal.
-    normal: DVec3,
-    /// Which sides are boundary edges.
-    borders: [bool; 3],
-    /// A point nearer than this to a boundary side is on it.
-    border_distance: f64,
+    bounds: Aabb,
 }
 
 impl IntersectionTriangle {
-    /// The triangle of a face, without boundary sides.
-    fn from_face(mesh: &WorldMesh, face: &Face) -> Self {
-        let vertices = face.vertices.map(|vertex| mesh.points[vertex as usize]);
-        let [a, b, c] = vertices;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        Self { vertices, normal, borders: [false; 3], border_distance: 0.0 }
+    /// The triangle of a face.
+    fn from_face(mesh: &WorldMesh, face: u32) -> Self {
+        let corners = mesh.faces[face as usize].vertices;
+        let vertices = corners.map(|vertex| mesh.points[vertex as usize]);
+        Self { face, vertices, bounds: Aabb::around_triangle(vertices) }
+    }
+
+    /// The unit normal.
+    fn unit_normal(&self) -> DVec3 {
+        let [a, b, c] = self.vertices;
+        (b - a).cross(c - a).normalize_or_zero()
     }
 
     /// The segment in which two triangles intersect; `None` if they do not, touch, or are coplanar.
     fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
-        let heights =
-            [self.distances_to_plane(other, touching), other.distances_to_plane(self, touching)];
-        let (ours, theirs) = (self.cut_at_zero(heights[0])?, other.cut_at_zero(heights[1])?);
-        let line = self.normal.cross(other.normal);
+        let other_normal = other.unit_normal();
+        let our_heights = self.distances_to_plane(other, other_normal, touching);
+        let ours = self.cut_at_zero(our_heights)?;
+        let normal = self.unit_normal();
+        let their_heights = other.distances_to_plane(self, normal, touching);
+        let theirs = other.cut_at_zero(their_heights)?;
+        let heights = [our_heights, their_heights];
+        let line = normal.cross(other_normal);
         let is_flat =
             heights.as_flattened().iter().all(|height| height.abs() < COPLANAR_FACTOR * touching);
         if is_flat || line.length() < MIN_PLANE_SINE {
@@ -135,28 +253,14 @@ impl IntersectionTriangle {
         let from = if a.0 >= c.0 { a } else { c };
         let to = if b.0 <= d.0 { b } else { d };
         let is_long = to.0 > from.0 && (to.1 - from.1).length() > touching;
-        let ends = [from.1, to.1];
-        let is_seam = || self.runs_along_border(ends) && other.runs_along_border(ends);
-        (is_long && !is_seam()).then_some(ends)
+        is_long.then_some([from.1, to.1])
     }
 
-    /// Whether both ends of a segment are on one boundary side.
-    fn runs_along_border(&self, ends: [DVec3; 2]) -> bool {
-        let is_on = |k: usize| {
-            let (from, to) = (self.vertices[k], self.vertices[(k + 1) % 3]);
-            let along = (to - from).normalize_or_zero();
-            ends.iter().all(|&end| {
-                (end - from).reject_from_normalized(along).length() < self.border_distance
-            })
-        };
-        (0..3).any(|k| self.borders[k] && is_on(k))
-    }
-
-    /// The signed distances of the vertices from another triangle's plane, with those below
-    /// `touching` made zero.
-    fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
+    /// The signed distances of the vertices from another triangle's plane, whose unit normal is
+    /// given, with those below `touching` made zero.
+    fn distances_to_plane(&self, other: &Self, normal: DVec3, touching: f64) -> [f64; 3] {
         self.vertices.map(|vertex| {
-            let height = other.normal.dot(vertex - other.vertices[0]);
+            let height = normal.dot(vertex - other.vertices[0]);
             if height.abs() <= touching { 0.0 } else { height }
         })
     }
@@ -164,9 +268,9 @@ impl IntersectionTriangle {
     /// The segment of the triangle where a linear function with these vertex values is zero; `None`
     /// if it has one sign.
     fn cut_at_zero(&self, heights: [f64; 3]) -> Option<[DVec3; 2]> {
-        let lowest = heights.into_iter().fold(f64::INFINITY, f64::min);
-        let highest = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        if lowest >= 0.0 || highest <= 0.0 {
+        if heights.iter().all(|height| *height >= 0.0)
+            || heights.iter().all(|height| *height <= 0.0)
+        {
             return None;
         }
         let mut ends = [DVec3::ZERO; 2];

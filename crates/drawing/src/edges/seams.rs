@@ -73,7 +73,7 @@ pub(super) fn weld_near_borders(
     let points = border_vertices(borders);
     let boxes: Vec<Aabb> =
         points.iter().map(|&vertex| Aabb::from_points([mesh.points[vertex as usize]])).collect();
-    let bvh = Bvh::new(&boxes, half_surface_area);
+    let bvh = Bvh::new(boxes.iter().copied());
     let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();
     let mut is_taken = vec![false; points.len()];
     let mut stack = Vec::new();
@@ -124,7 +124,7 @@ pub(super) fn split_at_t_junctions(
     let position = |vertex: u32| mesh.points[vertex as usize];
     let boxes: Vec<Aabb> =
         points.iter().map(|&vertex| Aabb::from_points([position(vertex)])).collect();
-    let bvh = Bvh::new(&boxes, half_surface_area);
+    let bvh = Bvh::new(boxes.iter().copied());
     let (mut stack, mut cuts) = (Vec::new(), Vec::new());
     let budget = Bvh::query_budget(borders.len());
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
@@ -144,7 +144,7 @@ pub(super) fn split_at_t_junctions(
         cuts.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let stops = || cuts.iter().map(|&(_, vertex)| vertex).chain([b]);
         // A fan of slivers about `a`: one between each cut and the next stop.
-        let face = mesh.faces[side.face as usize];
+        let face = mesh.faces[side.face() as usize];
         let sliver = |(from, to)| Face { vertices: [a, from, to], ..face };
         fillings.extend(stops().zip(stops().skip(1)).map(sliver));
         let ends = stops().scan(a, |from, to| Some([std::mem::replace(from, to), to]));
@@ -157,8 +157,8 @@ pub(super) fn split_at_t_junctions(
 /// A part of a boundary edge as an edge of its own, with the orientation of the original.
 fn border_part([from, to]: [u32; 2], side: HalfEdge) -> BorderEdge {
     let (low, high) = (from.min(to), from.max(to));
-    let is_forward = side.is_forward == (from < to);
-    ([low, high], HalfEdge { high_vertex: high, is_forward, ..side })
+    let is_forward = side.is_forward() == (from < to);
+    ([low, high], HalfEdge::new(high, side.face(), side.side(), is_forward))
 }
 
 /// The vertices of boundary edges, sorted, each once.
@@ -167,9 +167,4 @@ fn border_vertices(borders: &[BorderEdge]) -> Vec<u32> {
     points.sort_unstable();
     points.dedup();
     points
-}
-
-/// Half the surface area of a box: the cost of a box in space for the BVH.
-pub(super) fn half_surface_area(size: DVec3) -> f64 {
-    size.x * size.y + size.y * size.z + size.z * size.x
 }

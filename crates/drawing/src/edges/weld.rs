@@ -2,43 +2,72 @@
 //!
 //! Files split the vertices of a surface where texture coordinates, normals or materials change,
 //! and give each side of the seam a copy. To find the two faces at an edge the copies must share an
-//! index. Exact copies are found by sorting, in O(n log n) and without a hash, so the result
-//! depends on nothing but the coordinates. Copies that differ by quantization are left to
+//! index. Exact copies are found by sorting numbers that are mixed from the coordinates, in
+//! O(n log n): equal points have equal numbers, and points with equal numbers are compared, so the
+//! result depends on nothing but the coordinates. Copies that differ by quantization are left to
 //! [`seams`](super::seams).
 
 use super::world_mesh::{Face, WorldMesh};
 use glam::DVec3;
 
-/// Gives all points with exactly equal coordinates one index, that of the first of them.
+/// Gives all points with equal coordinates one index, that of the first of them.
 ///
 /// ```text
 ///   points   0 A   1 B   2 A   3 C   4 B         representative  0  1  0  3  1
 /// ```
 ///
 /// Faces that lose a vertex by it, and duplicates of other faces, are removed. Negative and
-/// positive zero are equal coordinates but not neighbors in the total order; such points stay apart
-/// until near welding.
+/// positive zero are equal.
 pub(super) fn weld_equal_vertices(mesh: &mut WorldMesh) {
-    let sorted_order = sort_by_position(&mesh.points);
-    let mut representative: Vec<u32> = (0..mesh.points.len() as u32).collect();
-    for pair in sorted_order.windows(2) {
-        let [a, b] = [pair[0], pair[1]].map(|at| at as usize);
-        if mesh.points[a] == mesh.points[b] {
-            representative[b] = representative[a];
-        }
-    }
+    let representative = equal_points(&mesh.points);
     remap_vertices(mesh, &representative);
 }
 
-/// The indices of the points sorted by x, y, z and index.
-fn sort_by_position(points: &[DVec3]) -> Vec<u32> {
-    let mut keyed: Vec<([f64; 3], u32)> =
-        points.iter().zip(0..).map(|(point, at)| (point.to_array(), at)).collect();
-    keyed.sort_unstable_by(|(a, i), (b, j)| {
-        let order = a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
-        order.then(a[2].total_cmp(&b[2])).then(i.cmp(j))
+/// Runs of points with one number that are longer are sorted, not compared with each other.
+const MAX_COMPARED_RUN: usize = 16;
+
+/// For each point the first one with the same coordinates.
+fn equal_points(points: &[DVec3]) -> Vec<u32> {
+    let key = |(point, at): (&DVec3, u32)| u64::from(mix_coordinates(*point)) << 32 | u64::from(at);
+    let mut keyed: Vec<u64> = points.iter().zip(0..).map(key).collect();
+    keyed.sort_unstable();
+    let mut representative: Vec<u32> = (0..points.len() as u32).collect();
+    let mut sorted: Vec<u32> = Vec::new();
+    for run in keyed.chunk_by(|a, b| a >> 32 == b >> 32).filter(|run| run.len() > 1) {
+        sorted.clear();
+        sorted.extend(run.iter().map(|key| *key as u32));
+        if run.len() > MAX_COMPARED_RUN {
+            let order = |at: u32| (points[at as usize] + DVec3::ZERO).to_array();
+            sorted.sort_unstable_by(|&i, &j| {
+                let ([a, b, c], [x, y, z]) = (order(i), order(j));
+                let by_place = a.total_cmp(&x).then(b.total_cmp(&y)).then(c.total_cmp(&z));
+                by_place.then(i.cmp(&j))
+            });
+            for pair in sorted.windows(2) {
+                if points[pair[0] as usize] == points[pair[1] as usize] {
+                    representative[pair[1] as usize] = representative[pair[0] as usize];
+                }
+            }
+            continue;
+        }
+        for (count, &at) in sorted.iter().enumerate() {
+            let is_same = |other: &&u32| points[**other as usize] == points[at as usize];
+            if let Some(first) = sorted[..count].iter().find(is_same) {
+                representative[at as usize] = *first;
+            }
+        }
+    }
+    representative
+}
+
+/// A number that equal points share, and others seldom.
+fn mix_coordinates(point: DVec3) -> u32 {
+    // Zero is added for its sign.
+    let bits = (point + DVec3::ZERO).to_array().map(f64::to_bits);
+    let mixed = bits.into_iter().fold(0_u64, |mixed, bits| {
+        (mixed.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
     });
-    keyed.into_iter().map(|(_, at)| at).collect()
+    ((mixed ^ mixed >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32) as u32
 }
 
 /// Replaces each vertex index `v` by `same[v]`, and removes faces and lines that degenerate by it.
@@ -57,7 +86,7 @@ pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
     mesh.section_edges.dedup();
     mesh.faces.retain(|Face { vertices: [a, b, c], .. }| a != b && b != c && c != a);
     mesh.line_edges.retain(|stroke| stroke.ends[0] != stroke.ends[1]);
-    drop_duplicate_faces(&mut mesh.faces, mesh.keeps_duplicates);
+    drop_duplicate_faces(&mut mesh.faces, mesh.points.len(), mesh.keeps_duplicates);
 }
 
 /// Removes all but the first of faces with the same three vertices, whatever their orientation.
@@ -65,21 +94,51 @@ pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
 /// Two-sided surfaces are often modeled as two coincident faces; drawn as two they would have
 /// creases and no boundaries. With `by_object` faces of different objects are not duplicates of
 /// each other.
-fn drop_duplicate_faces(faces: &mut Vec<Face>, by_object: bool) {
-    let mut keyed: Vec<(([u32; 3], u32), u32)> = faces
-        .iter()
-        .zip(0..)
-        .map(|(face, at)| {
+fn drop_duplicate_faces(faces: &mut Vec<Face>, points: usize, by_object: bool) {
+    let mut is_copy = vec![false; faces.len()];
+    // A counting sort by the lowest vertex: only the few faces of one vertex are compared.
+    let lowest = |face: &Face| *face.vertices.iter().min().unwrap_or(&0) as usize;
+    let mut starts = vec![0_u32; points + 2];
+    faces.iter().for_each(|face| starts[lowest(face) + 2] += 1);
+    for at in 2..starts.len() {
+        starts[at] += starts[at - 1];
+    }
+    let mut order = vec![0_u32; faces.len()];
+    for (face, index) in faces.iter().zip(0..) {
+        let slot = &mut starts[lowest(face) + 1];
+        order[*slot as usize] = index;
+        *slot += 1;
+    }
+    let mut keyed: Vec<([u32; 4], u32)> = Vec::new();
+    for range in starts.windows(2).filter(|range| range[1] - range[0] > 1) {
+        keyed.clear();
+        keyed.extend(order[range[0] as usize..range[1] as usize].iter().map(|&at| {
+            let face = &faces[at as usize];
             let mut vertices = face.vertices;
             vertices.sort_unstable();
-            ((vertices, if by_object { face.object } else { 0 }), at)
-        })
-        .collect();
-    keyed.sort_unstable();
-    let mut is_copy = vec![false; faces.len()];
-    for pair in keyed.windows(2) {
-        is_copy[pair[1].1 as usize] = pair[0].0 == pair[1].0;
+            let [a, b, c] = vertices;
+            ([a, b, c, if by_object { face.object } else { 0 }], at)
+        }));
+        keyed.sort_unstable();
+        for pair in keyed.windows(2) {
+            is_copy[pair[1].1 as usize] = pair[0].0 == pair[1].0;
+        }
     }
+    drop((starts, order));
     let mut copies = is_copy.into_iter();
     faces.retain(|_| copies.next() != Some(true));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_points_have_the_index_of_the_first() {
+        let point = |k: usize| DVec3::new((k % 7) as f64, (k % 3) as f64 * -0.0, (k % 5) as f64);
+        let points: Vec<DVec3> = (0..500).map(point).collect();
+        let first = |at: &DVec3| points.iter().position(|other| other == at).map(|at| at as u32);
+        let expected: Vec<u32> = points.iter().filter_map(first).collect();
+        assert_eq!(equal_points(&points), expected);
+    }
 }

@@ -17,7 +17,7 @@ use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, we
 use super::section_cut::cut_mesh;
 use super::weld::weld_equal_vertices;
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::Tolerance;
+use crate::hidden_line::{Bvh, Tolerance, TriangleMesh, mesh_bvh};
 use crate::projector::Projector;
 use crate::{DrawOptions, EdgeClass, SilhouetteMethod, Warning};
 use glam::DVec3;
@@ -77,6 +77,8 @@ pub(crate) struct WeldedSurface {
     warnings: Vec<Warning>,
     /// Where faces intersect: found at the first request, for wireframes do not ask.
     intersections: OnceLock<Intersections>,
+    /// The boxes around the faces and fillings: made at the first request.
+    face_bvh: OnceLock<Bvh>,
 }
 
 impl WeldedSurface {
@@ -106,6 +108,7 @@ impl WeldedSurface {
             sections: sections.to_vec(),
             warnings: Vec::new(),
             intersections: OnceLock::new(),
+            face_bvh: OnceLock::new(),
         };
         for (index, &plane) in sections.iter().enumerate() {
             surface.cut_by_plane(plane, index as u16);
@@ -277,7 +280,34 @@ impl WeldedSurface {
     fn intersections(&self, threads: usize) -> &Intersections {
         self.intersections.get_or_init(|| {
             let borders = (self.border_edges.as_slice(), &self.weld_radii);
-            intersect_faces(&self.mesh, borders, self.touch_tolerance().world, threads)
+            let touching = self.touch_tolerance().world;
+            intersect_faces(&self.mesh, self.face_bvh(), borders, touching, threads)
         })
+    }
+
+    /// The hierarchy of the triangles that hide: the faces, then the fillings.
+    pub(crate) fn face_bvh(&self) -> &Bvh {
+        self.face_bvh.get_or_init(|| mesh_bvh(&self))
+    }
+}
+
+/// All triangles that hide: the faces, then the slivers at T-junctions.
+impl TriangleMesh for &WeldedSurface {
+    fn triangle_count(&self) -> u32 {
+        (self.mesh.faces.len() + self.fillings.len()) as u32
+    }
+
+    fn vertex_count(&self) -> u32 {
+        self.mesh.points.len() as u32
+    }
+
+    fn vertex_indices(&self, triangle: u32) -> [u32; 3] {
+        let (triangle, count) = (triangle as usize, self.mesh.faces.len());
+        let face = self.mesh.faces.get(triangle);
+        face.unwrap_or_else(|| &self.fillings[triangle - count]).vertices
+    }
+
+    fn position(&self, vertex: u32) -> DVec3 {
+        self.mesh.points[vertex as usize]
     }
 }

@@ -1,9 +1,9 @@
 //! Bounding-volume hierarchy over axis-aligned boxes, built by the binned surface-area heuristic.
 //!
 //! After Wald, *On fast construction of SAH-based bounding volume hierarchies* (2007): each node is
-//! split where the expected cost of its children is least, among 16 bins along its longest axis.
-//! The cost of a box is given by the caller, since queries differ: a box on the screen is met in
-//! proportion to half its perimeter by long edges, a box in space in proportion to its surface.
+//! split where the expected cost of its children is least, among some bins along its longest axis.
+//! One hierarchy in the world serves everything: the search for intersections, and each view, which
+//! takes its nodes and finds their boxes on the screen anew (`screen_bvh`).
 //!
 //! ```text
 //!   nodes   0 ─┬─ 1 ─┬─ 2 leaf        depth first: the first child follows its parent,
@@ -11,8 +11,12 @@
 //!              └─ 4 leaf
 //!   order   [ items of 2 │ of 3 │ of 4 ]
 //! ```
+//!
+//! Boxes are stored in single precision, relative to the middle of all and rounded outward: a query
+//! may meet a box that it just misses, never the other way round.
 
 use glam::DVec3;
+use std::ops::Range;
 
 /// An axis-aligned bounding box.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -34,6 +38,17 @@ impl Aabb {
         points.into_iter().fold(Self::EMPTY, grow)
     }
 
+    /// The smallest box around three points, whose coordinates are numbers.
+    pub(crate) fn around_triangle([a, b, c]: [DVec3; 3]) -> Self {
+        let least = |a: f64, b: f64| if a < b { a } else { b };
+        let greatest = |a: f64, b: f64| if a > b { a } else { b };
+        let along = |pick: fn(f64, f64) -> f64| {
+            let axis = |k: usize| pick(pick(a[k], b[k]), c[k]);
+            DVec3::new(axis(0), axis(1), axis(2))
+        };
+        Self { min: along(least), max: along(greatest) }
+    }
+
     /// The smallest box around both.
     pub(crate) fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
@@ -46,25 +61,107 @@ impl Aabb {
 
     /// Whether two boxes have a point in common, borders included.
     pub(crate) fn intersects(&self, other: &Self) -> bool {
-        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+        self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+            && self.min.z <= other.max.z
+            && other.min.z <= self.max.z
+    }
+
+    /// Half the surface area: in proportion to it a box is met in space.
+    pub(crate) fn half_surface_area(&self) -> f64 {
+        let size = self.max - self.min;
+        size.x * size.y + size.y * size.z + size.z * size.x
+    }
+}
+
+/// A box in single precision.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    min: [f32; 3],
+    max: [f32; 3],
+}
+
+impl Bounds {
+    const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
+
+    /// A box relative to an origin, rounded outward.
+    fn around(area: &Aabb, origin: DVec3) -> Self {
+        Self {
+            min: (area.min - origin).to_array().map(round_down),
+            max: (area.max - origin).to_array().map(round_up),
+        }
+    }
+
+    /// Grows to hold another box.
+    fn extend(&mut self, other: &Self) {
+        for k in 0..3 {
+            self.min[k] = least(self.min[k], other.min[k]);
+            self.max[k] = greatest(self.max[k], other.max[k]);
+        }
+    }
+
+    /// Grows to hold a point.
+    fn extend_to(&mut self, point: [f32; 3]) {
+        self.extend(&Self { min: point, max: point });
     }
 
     /// The midpoint, by which items are sorted into bins.
-    fn box_center(&self) -> DVec3 {
-        (self.min + self.max) * 0.5
+    fn box_center(&self) -> [f32; 3] {
+        [0, 1, 2].map(|k| (self.min[k] + self.max[k]) * 0.5)
     }
+
+    fn half_surface_area(&self) -> f32 {
+        let [x, y, z] = [0, 1, 2].map(|k| self.max[k] - self.min[k]);
+        x * y + y * z + z * x
+    }
+
+    /// Whether two boxes have a point in common, borders included.
+    fn intersects(&self, other: &Self) -> bool {
+        (0..3).all(|k| self.min[k] <= other.max[k] && other.min[k] <= self.max[k])
+    }
+}
+
+/// The lesser number: without the cases of `f32::min` for what is not a number, one instruction.
+pub(super) fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The greater number, as [`least`].
+pub(super) fn greatest(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The nearest number of single precision that is not above.
+pub(super) fn round_down(x: f64) -> f32 {
+    let rounded = x as f32;
+    if f64::from(rounded) > x { rounded.next_down() } else { rounded }
+}
+
+/// The nearest number of single precision that is not below.
+pub(super) fn round_up(x: f64) -> f32 {
+    let rounded = x as f32;
+    if f64::from(rounded) < x { rounded.next_up() } else { rounded }
 }
 
 /// A node of the hierarchy: a leaf with items or an inner node with two children.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Node {
+struct Node {
     /// The box around everything below the node.
-    pub(crate) bounds: Aabb,
+    bounds: Bounds,
     /// In a leaf the first item, an index into [`Bvh::order`]; otherwise the second child. The
     /// first child is the next node.
     first: u32,
     /// The number of items of a leaf; 0 marks an inner node.
     count: u32,
+}
+
+/// An item that is being sorted into the tree.
+#[derive(Clone, Copy)]
+struct Item {
+    bounds: Bounds,
+    index: u32,
 }
 
 /// The children or the items of a node.
@@ -73,7 +170,7 @@ pub(crate) enum NodeContents {
     /// The indices of the two children.
     Nodes([u32; 2]),
     /// A range of [`Bvh::order`].
-    Items(std::ops::Range<usize>),
+    Items(Range<usize>),
 }
 
 /// The hierarchy.
@@ -83,25 +180,41 @@ pub(crate) struct Bvh {
     nodes: Vec<Node>,
     /// The indices of the items, in the order of the leaves.
     pub(crate) order: Vec<u32>,
+    /// The point to which the boxes are relative.
+    origin: DVec3,
 }
 
 /// A node with no more items than this becomes a leaf.
-const MAX_LEAF_ITEMS: usize = 4;
+const MAX_LEAF_ITEMS: usize = 6;
 /// The number of bins of the surface-area heuristic.
 const BIN_COUNT: usize = 16;
+/// The number of bins of nodes with few items.
+const FEW_BINS: usize = 6;
+/// Nodes with no more items have few bins.
+const FEW_ITEMS: usize = 48;
 /// Below this depth nodes are split at the median, which bounds the depth whatever the boxes.
 const MAX_BINNED_DEPTH: u32 = 48;
 
 impl Bvh {
-    /// Builds the hierarchy of some boxes. `cost` is proportional to the probability that a query
-    /// meets a box of a given extent.
-    pub(crate) fn new(boxes: &[Aabb], cost: fn(DVec3) -> f64) -> Self {
-        let count = u32::try_from(boxes.len()).unwrap_or(u32::MAX);
-        let mut tree = Self { nodes: Vec::new(), order: (0..count).collect() };
-        if count > 0 {
-            tree.nodes.reserve(boxes.len());
-            tree.build_node(boxes, 0..count as usize, 0, cost);
+    /// Builds the hierarchy of some boxes, which are asked for twice.
+    pub(crate) fn new(boxes: impl Iterator<Item = Aabb> + Clone) -> Self {
+        let all = boxes.clone().fold(Aabb::EMPTY, Aabb::union);
+        let middle = (all.min + all.max) * 0.5;
+        let origin = if middle.is_finite() { middle } else { DVec3::ZERO };
+        let item =
+            |(area, index): (Aabb, u32)| Item { bounds: Bounds::around(&area, origin), index };
+        let mut items: Vec<Item> = boxes.zip(0..).map(item).collect();
+        let mut tree = Self { nodes: Vec::new(), order: Vec::new(), origin };
+        if !items.is_empty() {
+            tree.nodes.reserve(items.len() / 2);
+            let (mut bounds, mut centers) = (Bounds::EMPTY, Bounds::EMPTY);
+            for item in &items {
+                bounds.extend(&item.bounds);
+                centers.extend_to(item.bounds.box_center());
+            }
+            tree.build_node(&mut items, 0, &Extents { bounds, centers, count: 0 }, 0);
         }
+        tree.order = items.into_iter().map(|item| item.index).collect();
         tree
     }
 
@@ -110,9 +223,9 @@ impl Bvh {
         (!self.nodes.is_empty()).then_some(0)
     }
 
-    /// The box of a node.
-    pub(crate) fn bounds(&self, node: u32) -> &Aabb {
-        &self.nodes[node as usize].bounds
+    /// The number of nodes. Children have greater indices than their parents.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
     }
 
     /// The children or the items of a node.
@@ -136,11 +249,12 @@ impl Bvh {
         open: &mut Vec<u32>,
         mut visit: impl FnMut(u32),
     ) -> bool {
+        let area = Bounds::around(area, self.origin);
         open.clear();
         open.extend(self.root_node());
         let mut remaining = most;
         while let Some(node) = open.pop() {
-            if !self.bounds(node).intersects(area) {
+            if !self.nodes[node as usize].bounds.intersects(&area) {
                 continue;
             }
             match self.contents(node) {
@@ -150,6 +264,51 @@ impl Bvh {
                     self.order[range].iter().for_each(|&item| visit(item));
                 }
                 NodeContents::Items(_) => return false,
+            }
+        }
+        true
+    }
+
+    /// The leaves, by their nodes.
+    pub(crate) fn leaf_nodes(&self) -> Vec<u32> {
+        let nodes = (0..).zip(&self.nodes);
+        nodes.filter(|(_, node)| node.count > 0).map(|(index, _)| index).collect()
+    }
+
+    /// Calls `visit` with the items of a leaf, and `true`, and then with those of each later leaf
+    /// whose box overlaps its box; stops and returns `false` after `most` items.
+    ///
+    /// Called for every leaf, it meets each pair of overlapping leaves once.
+    pub(crate) fn for_each_later_leaf(
+        &self,
+        leaf: u32,
+        most: usize,
+        open: &mut Vec<u32>,
+        mut visit: impl FnMut(&[u32], bool),
+    ) -> bool {
+        let area = self.nodes[leaf as usize].bounds;
+        open.clear();
+        open.extend(self.root_node());
+        let mut remaining = most;
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index as usize];
+            if !node.bounds.intersects(&area) {
+                continue;
+            }
+            if node.count == 0 {
+                // All nodes below the first child come before the second; the leaf itself comes first.
+                open.push(node.first);
+                if leaf < node.first {
+                    open.push(index + 1);
+                }
+            } else if index >= leaf {
+                let count = node.count as usize;
+                if count > remaining {
+                    return false;
+                }
+                remaining -= count;
+                let items = node.first as usize..node.first as usize + count;
+                visit(&self.order[items], index == leaf);
             }
         }
         true
@@ -166,125 +325,144 @@ impl Bvh {
         (ALL / queries.max(1)).max(1024)
     }
 
-    /// Builds the subtree over a range of `order`, in place, and appends its nodes depth first.
+    /// Builds the subtree over some items, which begin at `first` in the order, and appends its
+    /// nodes depth first.
     ///
     /// A node is pushed as a leaf first and turned into an inner node when the index of its second
     /// child is known.
-    fn build_node(
-        &mut self,
-        boxes: &[Aabb],
-        range: std::ops::Range<usize>,
-        depth: u32,
-        cost: fn(DVec3) -> f64,
-    ) {
-        let items = &self.order[range.clone()];
-        let (mut bounds, mut centers) = (Aabb::EMPTY, Aabb::EMPTY);
-        for &item in items {
-            let item = boxes[item as usize];
-            bounds = bounds.union(item);
-            centers = centers.union(Aabb::from_points([item.box_center()]));
-        }
-        let node_index = self.nodes.len();
-        let (first, count) = (range.start as u32, range.len() as u32);
-        self.nodes.push(Node { bounds, first, count });
-        if range.len() <= MAX_LEAF_ITEMS {
+    fn build_node(&mut self, items: &mut [Item], first: u32, extents: &Extents, depth: u32) {
+        let node = self.nodes.len();
+        let bounds = extents.bounds;
+        self.nodes.push(Node { bounds, first, count: items.len() as u32 });
+        if items.len() <= MAX_LEAF_ITEMS {
             return;
         }
-        let items = &mut self.order[range.clone()];
-        let left = if depth < MAX_BINNED_DEPTH {
-            partition_by_sah(boxes, items, centers, cost)
-        } else {
-            None
+        let split = match items.len() {
+            _ if depth >= MAX_BINNED_DEPTH => None,
+            ..=FEW_ITEMS => partition_by_sah::<FEW_BINS>(items, &extents.centers),
+            _ => partition_by_sah::<BIN_COUNT>(items, &extents.centers),
         };
-        let left = left.unwrap_or_else(|| partition_at_median(boxes, items, centers));
-        let middle = range.start + left;
-        self.build_node(boxes, range.start..middle, depth + 1, cost);
+        let split = split.unwrap_or_else(|| partition_at_median(items, &extents.centers));
+        let (left, right) = items.split_at_mut(split[0].count);
+        let middle = first + left.len() as u32;
+        self.build_node(left, first, &split[0], depth + 1);
         let second = self.nodes.len() as u32;
-        self.build_node(boxes, middle..range.end, depth + 1, cost);
-        self.nodes[node_index] = Node { bounds, first: second, count: 0 };
+        self.build_node(right, middle, &split[1], depth + 1);
+        self.nodes[node] = Node { bounds, first: second, count: 0 };
+    }
+}
+
+/// The boxes around some items and around their centers, and their number.
+#[derive(Clone, Copy)]
+struct Extents {
+    bounds: Bounds,
+    centers: Bounds,
+    count: usize,
+}
+
+impl Extents {
+    const EMPTY: Self = Self { bounds: Bounds::EMPTY, centers: Bounds::EMPTY, count: 0 };
+
+    fn of_items(items: &[Item]) -> Self {
+        let mut extents = Self::EMPTY;
+        items.iter().for_each(|item| extents.insert(item, item.bounds.box_center()));
+        extents
+    }
+
+    fn insert(&mut self, item: &Item, center: [f32; 3]) {
+        self.bounds.extend(&item.bounds);
+        self.centers.extend_to(center);
+        self.count += 1;
+    }
+
+    fn extend(&mut self, other: &Self) {
+        self.bounds.extend(&other.bounds);
+        self.centers.extend(&other.centers);
+        self.count += other.count;
+    }
+
+    /// The expected cost of a node, up to a factor.
+    fn sah_cost(&self) -> f32 {
+        if self.count == 0 { 0.0 } else { self.bounds.half_surface_area() * self.count as f32 }
     }
 }
 
 /// Partitions items where the sum of the children's costs times their counts is least; returns the
-/// size of the left part.
+/// extents of both parts.
 ///
 /// Items are binned by their centers along the longest axis of the centers' box, not of the items'
-/// box, so that one large item does not waste bins. `None` if all centers coincide or the best
-/// split leaves a side empty.
-fn partition_by_sah(
-    boxes: &[Aabb],
-    items: &mut [u32],
-    centers: Aabb,
-    cost: fn(DVec3) -> f64,
-) -> Option<usize> {
-    let extent = centers.max - centers.min;
-    let axis = longest_axis(extent);
-    if extent[axis] <= 0.0 || !extent[axis].is_finite() {
+/// box, so that one large item does not waste bins. `None` if all centers coincide, if the boxes
+/// have no area to compare, or if the best split leaves a side empty.
+fn partition_by_sah<const BINS: usize>(
+    items: &mut [Item],
+    centers: &Bounds,
+) -> Option<[Extents; 2]> {
+    let (axis, extent) = longest_axis(centers);
+    if extent <= 0.0 || !extent.is_finite() {
         return None;
     }
-    let scale = BIN_COUNT as f64 / extent[axis];
-    let bin = |item: u32| {
-        let along = boxes[item as usize].box_center()[axis] - centers.min[axis];
-        ((along * scale) as usize).min(BIN_COUNT - 1)
-    };
-    let mut bins = [(Aabb::EMPTY, 0_usize); BIN_COUNT];
-    for &item in &*items {
-        let (bounds, count) = &mut bins[bin(item)];
-        *bounds = bounds.union(boxes[item as usize]);
-        *count += 1;
+    let (from, scale) = (centers.min[axis], BINS as f32 / extent);
+    let bin = |center: f32| (((center - from) * scale) as usize).min(BINS - 1);
+    let mut bins = [Extents::EMPTY; BINS];
+    for item in &*items {
+        let center = item.bounds.box_center();
+        bins[bin(center[axis])].insert(item, center);
     }
-    let cut = cheapest_bin_split(&bins, cost)?;
+    let cut = cheapest_bin_split(&bins)?;
+    let mut split = [Extents::EMPTY; 2];
+    for (at, extents) in bins.iter().enumerate() {
+        split[usize::from(at > cut)].extend(extents);
+    }
     let mut left = 0;
     for at in 0..items.len() {
-        if bin(items[at]) <= cut {
+        let bounds = &items[at].bounds;
+        if bin((bounds.min[axis] + bounds.max[axis]) * 0.5) <= cut {
             items.swap(left, at);
             left += 1;
         }
     }
-    (left > 0 && left < items.len()).then_some(left)
+    (left > 0 && left < items.len()).then_some(split)
 }
 
 /// The last bin of the left side at the cheapest split: one sweep from the right for the costs
-/// there, one from the left.
-fn cheapest_bin_split(bins: &[(Aabb, usize); BIN_COUNT], cost: fn(DVec3) -> f64) -> Option<usize> {
-    let sah_cost = |bounds: Aabb, count: usize| match count {
-        0 => 0.0,
-        _ => cost(bounds.max - bounds.min) * count as f64,
-    };
-    let mut right = [0.0; BIN_COUNT];
-    let (mut bounds, mut count) = (Aabb::EMPTY, 0);
-    for at in (1..BIN_COUNT).rev() {
-        (bounds, count) = (bounds.union(bins[at].0), count + bins[at].1);
-        right[at - 1] = sah_cost(bounds, count);
+/// there, one from the left. `None` if no box has an area.
+fn cheapest_bin_split<const BINS: usize>(bins: &[Extents; BINS]) -> Option<usize> {
+    let mut right = [0.0; BINS];
+    let mut extents = Extents::EMPTY;
+    for at in (1..BINS).rev() {
+        extents.extend(&bins[at]);
+        right[at - 1] = extents.sah_cost();
     }
-    (bounds, count) = (Aabb::EMPTY, 0);
+    extents = Extents::EMPTY;
     let mut best = None;
-    for at in 0..BIN_COUNT - 1 {
-        (bounds, count) = (bounds.union(bins[at].0), count + bins[at].1);
-        let sum = sah_cost(bounds, count) + right[at];
+    for at in 0..BINS - 1 {
+        extents.extend(&bins[at]);
+        let sum = extents.sah_cost() + right[at];
         if best.is_none_or(|(least, _)| sum < least) {
             best = Some((sum, at));
         }
     }
-    best.map(|(_, at)| at)
+    best.filter(|(sum, _)| *sum > 0.0 && sum.is_finite()).map(|(_, at)| at)
 }
 
 /// Partitions items into halves of equal count along the longest axis.
-fn partition_at_median(boxes: &[Aabb], items: &mut [u32], centers: Aabb) -> usize {
-    let axis = longest_axis(centers.max - centers.min);
+fn partition_at_median(items: &mut [Item], centers: &Bounds) -> [Extents; 2] {
+    let (axis, _) = longest_axis(centers);
     let half = items.len() / 2;
-    let key = |item: u32| boxes[item as usize].box_center()[axis];
-    items.select_nth_unstable_by(half, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
-    half
+    let key = |item: &Item| item.bounds.box_center()[axis];
+    items
+        .select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.index.cmp(&b.index)));
+    let (left, right) = items.split_at(half);
+    [left, right].map(Extents::of_items)
 }
 
-/// The index of the greatest component.
-fn longest_axis(extent: DVec3) -> usize {
-    if extent.x >= extent.y && extent.x >= extent.z {
+/// The longest side of a box: its axis and its length.
+fn longest_axis(bounds: &Bounds) -> (usize, f32) {
+    let extent = [0, 1, 2].map(|k| bounds.max[k] - bounds.min[k]);
+    let axis = if extent[0] >= extent[1] && extent[0] >= extent[2] {
         0
-    } else if extent.y >= extent.z {
-        1
     } else {
-        2
-    }
+        usize::from(extent[1] < extent[2]) + 1
+    };
+    (axis, extent[axis])
 }

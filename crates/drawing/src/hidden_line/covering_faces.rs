@@ -9,11 +9,11 @@
 //! Visibility asks only whether the number is zero. Drawings of assemblies ask for more: dashed
 //! lines are legible behind one wall, whose two sides are two faces, and a black cloud behind all.
 
-use super::bvh::NodeContents;
 use super::occluder::Occlusion;
-use super::occluders::{Occluders, interval_behind_box};
+use super::occluders::MeshOccluders;
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
+use super::screen_bvh::{ScreenEdge, TriangleMesh};
 
 /// The places along an edge where the number of faces in front of it changes.
 ///
@@ -55,7 +55,7 @@ impl FaceCount {
     }
 }
 
-impl Occluders {
+impl<M: TriangleMesh> MeshOccluders<M> {
     /// The intervals of s in which more than `most` faces are in front of an edge; slivers shorter
     /// than the tolerance are removed.
     pub(crate) fn intervals_behind_faces(
@@ -63,20 +63,18 @@ impl Occluders {
         edge: &ProjectedEdge,
         most: u32,
     ) -> OcclusionIntervals {
+        let on_screen = ScreenEdge::new(edge, self.respects_depth);
         let mut count = FaceCount::default();
-        let mut nodes: Vec<u32> = self.bvh.root_node().into_iter().collect();
+        let mut nodes: Vec<u32> = self.screen.root_node().into_iter().collect();
         while let Some(node) = nodes.pop() {
-            if interval_behind_box(edge, self.bvh.bounds(node), self.respects_depth).is_none() {
+            if self.screen.interval_behind(node, &on_screen).is_none() {
                 continue;
             }
-            match self.bvh.contents(node) {
-                NodeContents::Nodes(children) => nodes.extend(children),
-                NodeContents::Items(range) => {
-                    let faces = self.occluders[range].iter();
-                    let occlusions = faces.filter_map(|face| {
-                        face.occlude_edge(edge, &self.tolerance, self.respects_depth)
-                    });
-                    occlusions.for_each(|occlusion| count.insert(occlusion));
+            match self.screen.contents(node) {
+                Ok(children) => nodes.extend(children),
+                Err(triangles) => {
+                    let hide = |&triangle| self.occlude_edge(triangle, edge, &on_screen);
+                    triangles.iter().filter_map(hide).for_each(|one| count.insert(one));
                 }
             }
         }

@@ -15,17 +15,16 @@
 use super::{ProjectedEdge, Tolerance};
 use glam::{DVec2, DVec3};
 
-/// A face, or a triangle of what clipping to the view volume left of it, ready to hide edges.
+/// A face on the screen, or a triangle of what clipping to the view volume left of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Occluder {
-    /// The vertices on the screen in pixels, ordered so that `(b − a) × (c − a)` is positive.
+    /// The vertices in pixels, ordered so that `(b − a) × (c − a)` is positive.
     pub(super) vertices: [DVec2; 3],
-    /// The unit normal of the face in world space, on the side of the viewer.
-    pub(super) normal: DVec3,
-    /// The distance of the plane from the origin along the normal: points of the plane have `normal
-    /// · p = offset`.
-    pub(super) offset: f64,
 }
+
+/// The plane of a face in the world: the unit normal on the side of the viewer, and the distance
+/// from the origin along it. Points of the plane have `normal · p = offset`.
+pub(super) type FacePlane = (DVec3, f64);
 
 /// The interval of s in which a face hides an edge, and how: by its interior or only along a side.
 ///
@@ -54,81 +53,79 @@ impl Occluder {
     /// The part of an edge that this face hides, `None` if there is none.
     ///
     /// Three steps, the cheapest rejection first: a triangle side with the whole edge outside; the
-    /// interval inside the triangle; the part of it behind the plane. A side that the edge runs
-    /// along is left out of the second step, because rounding decides on which side of it the edge
-    /// lies. Without respect to depth there is no third step.
+    /// interval inside the triangle; the part of it behind the plane, which is asked for only then.
+    /// A side that the edge runs along is left out of the second step, because rounding decides on
+    /// which side of it the edge lies. Without a plane there is no third step.
     pub(super) fn occlude_edge(
         &self,
         edge: &ProjectedEdge,
         tolerance: &Tolerance,
-        respects_depth: bool,
+        plane: Option<impl FnOnce() -> Option<FacePlane>>,
     ) -> Option<Occlusion> {
-        let (sides, lengths) = self.side_functions(edge);
-        let beyond = |k: usize| sides[k][0].max(sides[k][1]) < -tolerance.screen * lengths[k];
-        if (0..3).any(beyond) {
-            return None;
+        let [a, b, c] = self.vertices;
+        let side_vectors = [b - a, c - b, a - c];
+        let sides = [[a, b], [b, c], [c, a]].map(|side| side_function(side, edge));
+        // The distances from the sides are times their lengths, which spares a division; tolerances
+        // are times the length instead.
+        let near = |k: usize| tolerance.screen * side_vectors[k].length();
+        for (k, [start, end]) in sides.iter().enumerate() {
+            let most = if start > end { *start } else { *end };
+            if most < 0.0 && most < -near(k) {
+                return None;
+            }
         }
-        let side_along_edge =
-            (0..3).find(|&k| runs_along_side(k, &sides, lengths[k], edge, tolerance));
+        let side_along_edge = (0..3).find(|&k| {
+            let [start, end] = sides[k];
+            let vector = side_vectors[k].abs();
+            // The sum of both components is not less than the length: few sides need the root.
+            let is_far = start.min(end) > tolerance.screen * (vector.x + vector.y);
+            !is_far && runs_along_side(k, &sides, near(k), edge, tolerance)
+        });
         let interval =
             positive_interval((0..3).filter(|&k| Some(k) != side_along_edge).map(|k| sides[k]))?;
-        let interval = if respects_depth {
-            self.interval_behind_plane(edge, interval, tolerance)?
-        } else {
-            interval
+        let interval = match plane {
+            Some(plane) => interval_behind_plane(plane()?, edge, interval, tolerance)?,
+            None => interval,
         };
         let Some(k) = side_along_edge else { return Some(Occlusion::Interior(interval)) };
-        let side = self.vertices[(k + 1) % 3] - self.vertices[k];
-        let runs_with = side.dot(edge.screen[1] - edge.screen[0]) > 0.0;
+        let runs_with = side_vectors[k].dot(edge.screen[1] - edge.screen[0]) > 0.0;
         Some(if runs_with { Occlusion::FaceLeft(interval) } else { Occlusion::FaceRight(interval) })
     }
+}
 
-    /// The signed distances of the edge from the three sides, each times the length of its side,
-    /// and those lengths.
-    ///
-    /// The products spare a division for each side; tolerances are multiplied by the length
-    /// instead.
-    fn side_functions(&self, edge: &ProjectedEdge) -> ([LinearFunction; 3], [f64; 3]) {
-        let [a, b, c] = self.vertices;
-        let sides = [[a, b], [b, c], [c, a]];
-        (sides.map(|side| side_function(side, edge)), sides.map(|[from, to]| (to - from).length()))
+/// The part of an interval of s in which the edge is behind the plane of the face.
+///
+/// ```text
+///    height over the plane
+///       +│╲
+///        ├──╲────────── 0
+///       −│    ╲████████        hidden
+///        └──────────── u
+/// ```
+///
+/// The height is linear in u, not in s: its zero is found in the world and mapped to the screen
+/// by IN-1. An edge that nowhere gets farther behind the plane than `tolerance.world` lies in
+/// it and is not hidden at all.
+fn interval_behind_plane(
+    (normal, offset): FacePlane,
+    edge: &ProjectedEdge,
+    interval: [f64; 2],
+    tolerance: &Tolerance,
+) -> Option<[f64; 2]> {
+    let height = edge.world.map(|end| normal.dot(end) - offset);
+    let ends = interval.map(|s| evaluate_linear(height, edge.world_fraction(s)));
+    if ends[0].min(ends[1]) >= -tolerance.world {
+        return None;
     }
-
-    /// The part of an interval of s in which the edge is behind the plane of the face.
-    ///
-    /// ```text
-    ///    height over the plane
-    ///       +│╲
-    ///        ├──╲────────── 0
-    ///       −│    ╲████████        hidden
-    ///        └──────────── u
-    /// ```
-    ///
-    /// The height is linear in u, not in s: its zero is found in the world and mapped to the screen
-    /// by IN-1. An edge that nowhere gets farther behind the plane than `tolerance.world` lies in
-    /// it and is not hidden at all.
-    fn interval_behind_plane(
-        &self,
-        edge: &ProjectedEdge,
-        interval: [f64; 2],
-        tolerance: &Tolerance,
-    ) -> Option<[f64; 2]> {
-        let height = edge.world.map(|end| self.normal.dot(end) - self.offset);
-        let ends = interval.map(|s| evaluate_linear(height, edge.world_fraction(s)));
-        if ends[0].min(ends[1]) >= -tolerance.world {
-            return None;
-        }
-        let pierced = || {
-            edge.screen_fraction(height[0] / (height[0] - height[1]))
-                .clamp(interval[0], interval[1])
-        };
-        let interval = match ends.map(|height| height < 0.0) {
-            [true, false] => [interval[0], pierced()],
-            [false, true] => [pierced(), interval[1]],
-            _ => interval,
-        };
-        (interval[0] < interval[1]).then_some(interval)
-    }
+    let pierced = || {
+        edge.screen_fraction(height[0] / (height[0] - height[1])).clamp(interval[0], interval[1])
+    };
+    let interval = match ends.map(|height| height < 0.0) {
+        [true, false] => [interval[0], pierced()],
+        [false, true] => [pierced(), interval[1]],
+        _ => interval,
+    };
+    (interval[0] < interval[1]).then_some(interval)
 }
 
 /// Twice the signed area between a side and each end of the edge; positive where the edge is left
@@ -159,19 +156,18 @@ fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<
     (interval[0] < interval[1]).then_some(interval)
 }
 
-/// Whether the edge runs along side `k`: within `tolerance.screen` of it as long as it is inside
-/// the two other sides.
+/// Whether the edge runs along side `k`: within `near`, which is `tolerance.screen` times the
+/// length of the side, as long as it is inside the two other sides.
 ///
 /// The stretch must be longer than eight tolerances; shorter ones occur where the edge crosses a
 /// vertex, and say nothing about its direction.
 fn runs_along_side(
     k: usize,
     sides: &[LinearFunction; 3],
-    length: f64,
+    near: f64,
     edge: &ProjectedEdge,
     tolerance: &Tolerance,
 ) -> bool {
-    let near = tolerance.screen * length;
     let [start, end] = sides[k];
     if start.min(end) > near || start.max(end) < -near {
         return false;

@@ -1,19 +1,19 @@
 //! All occluders of a scene in a bounding-volume hierarchy, and the query for the hidden parts of
 //! an edge.
 //!
-//! [`Occluders::hidden_intervals`] is where hidden lines are cut. It descends the hierarchy of
+//! [`MeshOccluders::hidden_intervals`] is where hidden lines are cut. It descends the hierarchy of
 //! screen boxes, nearest first, and skips each box that the edge does not pass behind and each
 //! whose part of the edge is hidden already. With n faces and evenly spread edges a query visits
 //! O(log n + k) of them, k being those it crosses on the screen.
 
 use super::super::projector::Projector;
-use super::bvh::{Aabb, Bvh, NodeContents};
+use super::bvh::{Aabb, Bvh};
 use super::occluder::{Occluder, Occlusion};
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
-use clip::{Outcode, Volume, clip_triangle};
-use glam::{DVec2, DVec3};
-use homog::{Clip, HPoint, Point, World};
+use super::screen_bvh::{ScreenBvh, ScreenEdge, TriangleMesh};
+use glam::DVec3;
+use homog::{Point, World};
 
 /// The distances below which an edge touches a face. Touching does not hide (HL-1).
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -75,14 +75,84 @@ pub struct EdgeParts {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Occluders {
+pub struct Occluders(MeshOccluders<TriangleList>);
+
+/// Triangles that share no vertices.
+#[derive(Clone, Debug)]
+struct TriangleList(Vec<[DVec3; 3]>);
+
+impl TriangleMesh for TriangleList {
+    fn triangle_count(&self) -> u32 {
+        self.0.len() as u32
+    }
+
+    fn vertex_count(&self) -> u32 {
+        3 * self.triangle_count()
+    }
+
+    fn vertex_indices(&self, triangle: u32) -> [u32; 3] {
+        [0, 1, 2].map(|k| 3 * triangle + k)
+    }
+
+    fn position(&self, vertex: u32) -> DVec3 {
+        self.0[vertex as usize / 3][vertex as usize % 3]
+    }
+}
+
+impl Occluders {
+    /// Projects triangles and builds the hierarchy: O(n log n).
+    ///
+    /// Both sides of a face hide. A face that is seen edge-on, or is thinner than the tolerance on
+    /// the screen, hides nothing.
+    pub fn new(
+        triangles: impl IntoIterator<Item = [Point<World>; 3]>,
+        projector: Projector,
+        tolerance: Tolerance,
+    ) -> Self {
+        let mesh =
+            TriangleList(triangles.into_iter().map(|corners| corners.map(Point::raw)).collect());
+        let bvh = mesh_bvh(&mesh);
+        Self(MeshOccluders::new(mesh, &bvh, projector, tolerance))
+    }
+
+    /// The occluders as if each face hid all of the screen that it covers, at any depth: what they
+    /// do not hide is the outline.
+    #[must_use]
+    pub fn at_any_depth(self) -> Self {
+        Self(self.0.at_any_depth())
+    }
+
+    /// The visible and the hidden parts of a segment of the world.
+    #[must_use]
+    pub fn edge_parts(&self, ends: [Point<World>; 2]) -> EdgeParts {
+        let mut parts = EdgeParts::default();
+        let Some(edge) = ProjectedEdge::clip_and_project(ends.map(Point::raw), &self.0.projector)
+        else {
+            return parts;
+        };
+        let mut scratch = OcclusionScratch::default();
+        let hidden = self.0.hidden_intervals(&edge, &mut scratch);
+        for (interval, hidden) in hidden.divide_unit_interval() {
+            let list = if hidden { &mut parts.hidden } else { &mut parts.visible };
+            list.push(interval.map(|s| edge.edge_fraction(s)));
+        }
+        parts
+    }
+}
+
+/// The hierarchy of the boxes around the triangles of a mesh in the world.
+pub(crate) fn mesh_bvh(mesh: &impl TriangleMesh) -> Bvh {
+    Bvh::new((0..mesh.triangle_count()).map(|index| Aabb::around_triangle(mesh.positions(index))))
+}
+
+/// The triangles of a mesh as one viewer sees them, in a hierarchy of boxes on the screen.
+#[derive(Clone, Debug)]
+pub(crate) struct MeshOccluders<M> {
+    mesh: M,
     /// The projection of the faces; edges must be projected by the same one.
     projector: Projector,
     pub(super) tolerance: Tolerance,
-    /// In the order of the leaves of the hierarchy, so that a leaf is a range.
-    pub(super) occluders: Vec<Occluder>,
-    /// Over the boxes of the occluders: x and y in pixels, z the depth, with 1 nearest.
-    pub(super) bvh: Bvh,
+    pub(super) screen: ScreenBvh,
     /// Whether a face hides what is behind it only.
     pub(super) respects_depth: bool,
 }
@@ -110,6 +180,12 @@ impl OcclusionScratch {
         self.node_stack.extend(root);
     }
 
+    /// The result where there is no face.
+    pub(crate) fn nothing_hidden(&mut self) -> &OcclusionIntervals {
+        self.restart(None);
+        &self.hidden
+    }
+
     /// Adds what one face hides to the set that its kind belongs to.
     fn insert(&mut self, occlusion: Occlusion) {
         match occlusion {
@@ -120,52 +196,16 @@ impl OcclusionScratch {
     }
 }
 
-impl Occluders {
-    /// Projects triangles and builds the hierarchy: O(n log n).
-    ///
-    /// Both sides of a face hide. A face that is seen edge-on, or is thinner than the tolerance on
-    /// the screen, hides nothing.
-    pub fn new(
-        triangles: impl IntoIterator<Item = [Point<World>; 3]>,
-        projector: Projector,
-        tolerance: Tolerance,
-    ) -> Self {
-        let (mut unsorted, mut boxes) = (Vec::new(), Vec::new());
-        for triangle in triangles {
-            let vertices = triangle.map(Point::raw);
-            push_occluders(vertices, &projector, &tolerance, |occluder, bounds| {
-                unsorted.push(occluder);
-                boxes.push(bounds);
-            });
-        }
-        // Long edges meet a box on the screen in proportion to half its perimeter.
-        let bvh = Bvh::new(&boxes, |size| size.x + size.y);
-        let occluders = bvh.order.iter().map(|&index| unsorted[index as usize]).collect();
-        Self { projector, tolerance, occluders, bvh, respects_depth: true }
+impl<M: TriangleMesh> MeshOccluders<M> {
+    /// Projects a mesh whose hierarchy in the world is `bvh`.
+    pub(crate) fn new(mesh: M, bvh: &Bvh, projector: Projector, tolerance: Tolerance) -> Self {
+        let screen = ScreenBvh::new(&mesh, bvh, &projector, tolerance.screen);
+        Self { mesh, projector, tolerance, screen, respects_depth: true }
     }
 
-    /// The occluders as if each face hid all of the screen that it covers, at any depth: what they
-    /// do not hide is the outline.
-    #[must_use]
-    pub fn at_any_depth(self) -> Self {
+    /// The occluders as if each face hid all of the screen that it covers, at any depth.
+    pub(crate) fn at_any_depth(self) -> Self {
         Self { respects_depth: false, ..self }
-    }
-
-    /// The visible and the hidden parts of a segment of the world.
-    #[must_use]
-    pub fn edge_parts(&self, ends: [Point<World>; 2]) -> EdgeParts {
-        let mut parts = EdgeParts::default();
-        let Some(edge) = ProjectedEdge::clip_and_project(ends.map(Point::raw), &self.projector)
-        else {
-            return parts;
-        };
-        let mut scratch = OcclusionScratch::default();
-        for (interval, hidden) in self.hidden_intervals(&edge, &mut scratch).divide_unit_interval()
-        {
-            let list = if hidden { &mut parts.hidden } else { &mut parts.visible };
-            list.push(interval.map(|s| edge.edge_fraction(s)));
-        }
-        parts
     }
 
     /// The intervals of s in which an edge is hidden: the union over all faces in front of it.
@@ -178,23 +218,18 @@ impl Occluders {
         edge: &ProjectedEdge,
         scratch: &'a mut OcclusionScratch,
     ) -> &'a OcclusionIntervals {
-        scratch.restart(self.bvh.root_node());
+        scratch.restart(self.screen.root_node());
+        let on_screen = ScreenEdge::new(edge, self.respects_depth);
         while let Some(node) = scratch.node_stack.pop() {
-            let bounds = self.bvh.bounds(node);
-            let Some(interval) = interval_behind_box(edge, bounds, self.respects_depth) else {
-                continue;
-            };
+            let Some(interval) = self.screen.interval_behind(node, &on_screen) else { continue };
             if scratch.hidden.contains_interval(interval) {
                 continue;
             }
-            match self.bvh.contents(node) {
-                NodeContents::Nodes(children) => {
-                    scratch.node_stack.extend(self.far_to_near(children));
-                }
-                NodeContents::Items(range) => {
-                    for occluder in &self.occluders[range] {
-                        let occlusion =
-                            occluder.occlude_edge(edge, &self.tolerance, self.respects_depth);
+            match self.screen.contents(node) {
+                Ok(children) => scratch.node_stack.extend(children),
+                Err(triangles) => {
+                    for &triangle in triangles {
+                        let occlusion = self.occlude_edge(triangle, edge, &on_screen);
                         occlusion.into_iter().for_each(|occlusion| scratch.insert(occlusion));
                     }
                 }
@@ -209,103 +244,31 @@ impl Occluders {
         hidden
     }
 
-    /// Two nodes in the order for a stack: the nearer one is popped first.
-    fn far_to_near(&self, [a, b]: [u32; 2]) -> [u32; 2] {
-        let nearest_depth = |node| self.bvh.bounds(node).max.z;
-        if nearest_depth(a) > nearest_depth(b) { [b, a] } else { [a, b] }
-    }
-}
-
-/// The interval of s in which an edge passes over a box on the screen and is not wholly in front of
-/// it.
-///
-/// ```text
-///         ┌──────┐
-///   a ────┼──────┼──── b      s of the sides along x and along y: the greatest entry and the
-///         └──────┘            least exit bound the interval
-///          s₀    s₁
-/// ```
-///
-/// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: where even the
-/// farthest point of the edge is nearer than the nearest point of the box, nothing in the box can
-/// hide it. Depth is linear in s, so its extremes are at the ends.
-pub(super) fn interval_behind_box(
-    edge: &ProjectedEdge,
-    bounds: &Aabb,
-    respects_depth: bool,
-) -> Option<[f64; 2]> {
-    let [a, b] = edge.screen;
-    let mut interval = [0.0_f64, 1.0];
-    for axis in 0..2 {
-        let (from, step) = (a[axis], b[axis] - a[axis]);
-        if step == 0.0 {
-            if from < bounds.min[axis] || from > bounds.max[axis] {
-                return None;
-            }
-            continue;
+    /// What a triangle of the hierarchy hides of an edge.
+    pub(super) fn occlude_edge(
+        &self,
+        packed: u32,
+        edge: &ProjectedEdge,
+        on_screen: &ScreenEdge<'_>,
+    ) -> Option<Occlusion> {
+        let (vertices, triangle) = self.screen.triangle(packed, &self.mesh);
+        if on_screen.is_beside(vertices, self.tolerance.screen) {
+            return None;
         }
-        let (s, t) = ((bounds.min[axis] - from) / step, (bounds.max[axis] - from) / step);
-        interval = [interval[0].max(s.min(t)), interval[1].min(s.max(t))];
+        let occluder = Occluder { vertices };
+        let plane = || self.plane_towards_viewer(triangle);
+        occluder.occlude_edge(edge, &self.tolerance, self.respects_depth.then_some(plane))
     }
-    if interval[0] > interval[1] {
-        return None;
-    }
-    let farthest = edge.depth_at(interval[0]).min(edge.depth_at(interval[1]));
-    (!respects_depth || farthest <= bounds.max.z).then_some(interval)
-}
 
-/// Clips a face to the view volume and hands on each triangle that is left, with its box on the
-/// screen.
-///
-/// All triangles of a face keep its plane in the world, computed before clipping: clipping must not
-/// tilt it.
-fn push_occluders(
-    vertices: [DVec3; 3],
-    projector: &Projector,
-    tolerance: &Tolerance,
-    mut push: impl FnMut(Occluder, Aabb),
-) {
-    let clip = vertices.map(|vertex| projector.world_to_clip_point(vertex));
-    let outcodes = clip.map(|point| Volume::CHAPTER.outcode(point));
-    if !Outcode::trivially_rejects(&outcodes).is_inside() {
-        return;
+    /// The plane of a triangle: its unit normal on the side of the viewer, and its distance from
+    /// the origin along it. `None` if it is seen edge-on.
+    ///
+    /// It is that of the triangle before clipping, which must not tilt it.
+    fn plane_towards_viewer(&self, triangle: u32) -> Option<(DVec3, f64)> {
+        let [a, b, c] = self.mesh.positions(triangle);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let towards = normal.dot(self.projector.towards_viewer(a));
+        let normal = normal * towards.signum();
+        (towards != 0.0).then(|| (normal, normal.dot(a)))
     }
-    let [a, b, c] = vertices;
-    let normal = (b - a).cross(c - a).normalize_or_zero();
-    let towards = normal.dot(projector.towards_viewer(a));
-    if towards == 0.0 {
-        return;
-    }
-    let normal = normal * towards.signum();
-    let offset = normal.dot(a);
-    let mut push_clipped = |points: [HPoint<Clip>; 3]| {
-        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.project_to_screen(point))
-        else {
-            return;
-        };
-        let bounds = Aabb::from_points([a, b, c]);
-        if let Some(vertices) = with_positive_area([a, b, c].map(DVec3::truncate), tolerance.screen)
-        {
-            let margin = DVec3::new(tolerance.screen, tolerance.screen, 0.0);
-            push(Occluder { vertices, normal, offset }, bounds.expanded_by(margin));
-        }
-    };
-    if Outcode::trivially_accepts(&outcodes) {
-        push_clipped(clip);
-    } else {
-        clip_triangle(clip, &Volume::CHAPTER)
-            .triangles()
-            .for_each(|triangle| push_clipped(triangle.map(|vertex| vertex.point)));
-    }
-}
-
-/// Orders vertices so that their signed area is positive; `None` if the triangle is thinner than
-/// `thinnest` pixels.
-fn with_positive_area([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<[DVec2; 3]> {
-    let area = (b - a).perp_dot(c - a);
-    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    if area.abs() <= thinnest * longest {
-        return None;
-    }
-    Some(if area > 0.0 { [a, b, c] } else { [a, c, b] })
 }

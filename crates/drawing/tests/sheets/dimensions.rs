@@ -127,7 +127,7 @@ fn twenty_pairs_read_back_from_every_format_are_the_formula() {
                 read_svg(&page, "dimensions-text").texts,
                 read_dxf(&page, "dimensions-text").texts,
             ];
-            for text in texts.as_flattened() {
+            for text in texts.iter().flatten() {
                 let printed = text.parse::<f64>().expect("a number") * unit.in_millimeters();
                 assert!((printed - expected).abs() < EXACT, "{number}: {text} {expected}");
             }

@@ -1,0 +1,400 @@
+//! Screen hierarchy: a hierarchy of boxes in the world as one viewer sees it.
+//!
+//! ```text
+//!   world      nodes ──────────────────► the same nodes, with boxes on the screen
+//!   vertices   projected once each ────► leaves: the triangles that face neither edge-on nor away
+//!                                        from the view volume, clipped where they cross it
+//! ```
+//!
+//! The tree is built once for all views of a sheet; a view only finds the boxes anew, from the
+//! leaves up. What is near in space is near on the screen, so such boxes are as good as those of a
+//! tree that is built on the screen, and those of different depth are apart.
+//!
+//! A triangle is an index here, and its vertices are those of the mesh: a record for each would
+//! take several times the memory of the mesh.
+
+use super::super::projector::Projector;
+use super::bvh::{Bvh, NodeContents, greatest, least, round_down, round_up};
+use super::projected_edge::ProjectedEdge;
+use clip::{Outcode, Volume, clip_triangle};
+use glam::{DVec2, DVec3};
+use homog::{Clip, HPoint};
+
+/// Triangles that share vertices.
+pub(crate) trait TriangleMesh: Sync {
+    /// The number of triangles.
+    fn triangle_count(&self) -> u32;
+    /// The number of vertices.
+    fn vertex_count(&self) -> u32;
+    /// The vertices of a triangle.
+    fn vertex_indices(&self, triangle: u32) -> [u32; 3];
+    /// The position of a vertex in the world.
+    fn position(&self, vertex: u32) -> DVec3;
+
+    /// The positions of the vertices of a triangle.
+    fn positions(&self, triangle: u32) -> [DVec3; 3] {
+        self.vertex_indices(triangle).map(|vertex| self.position(vertex))
+    }
+}
+
+/// A triangle on the screen, or one that clipping to the view volume left of it.
+#[derive(Clone, Copy, Debug)]
+enum ScreenTriangle {
+    /// All of a triangle of the mesh.
+    Whole {
+        /// Its index.
+        triangle: u32,
+        /// Whether its last two vertices are exchanged.
+        is_reversed: bool,
+    },
+    /// A piece, by its index.
+    Clipped(u32),
+}
+
+impl ScreenTriangle {
+    /// Two bits and an index, in one number.
+    fn pack(self) -> u32 {
+        match self {
+            Self::Whole { triangle, is_reversed } => triangle << 2 | u32::from(is_reversed) << 1,
+            Self::Clipped(piece) => piece << 2 | 1,
+        }
+    }
+
+    fn unpack(bits: u32) -> Self {
+        match bits & 1 {
+            0 => Self::Whole { triangle: bits >> 2, is_reversed: bits & 2 != 0 },
+            _ => Self::Clipped(bits >> 2),
+        }
+    }
+}
+
+/// What clipping to the view volume left of a triangle.
+#[derive(Clone, Copy, Debug)]
+struct ClippedPiece {
+    triangle: u32,
+    vertices: [DVec2; 3],
+}
+
+/// A node: its box on the screen, with the nearest depth in it.
+#[derive(Clone, Copy, Debug)]
+struct ScreenNode {
+    min: [f32; 2],
+    max: [f32; 2],
+    /// The greatest depth, with 1 nearest.
+    nearest: f32,
+    /// As in [`Bvh`]: the second child, or the first triangle of a leaf.
+    first: u32,
+    /// The number of triangles of a leaf, or [`INNER_NODE`].
+    count: u32,
+}
+
+/// The count of nodes that are no leaves.
+const INNER_NODE: u32 = u32::MAX;
+
+/// The boxes and the triangles of a mesh on the screen of one viewer.
+#[derive(Clone, Debug)]
+pub(super) struct ScreenBvh {
+    nodes: Vec<ScreenNode>,
+    /// The triangles in the order of the leaves, packed.
+    triangles: Vec<u32>,
+    pieces: Vec<ClippedPiece>,
+    /// The vertices on the screen in pixels, where they have an image.
+    vertices: Vec<DVec2>,
+}
+
+/// The vertices of a mesh on their way to the screen.
+struct ProjectedVertices {
+    screen: Vec<DVec2>,
+    /// Rounded towards the viewer.
+    depths: Vec<f32>,
+    outcodes: Vec<Outcode>,
+}
+
+impl ProjectedVertices {
+    fn new(mesh: &impl TriangleMesh, projector: &Projector) -> Self {
+        let count = mesh.vertex_count() as usize;
+        let (mut screen, mut depths, mut outcodes) =
+            (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
+        for vertex in 0..mesh.vertex_count() {
+            let clip = projector.world_to_clip_point(mesh.position(vertex));
+            let at = projector.project_to_screen(clip).unwrap_or(DVec3::NAN);
+            screen.push(at.truncate());
+            depths.push(round_up(at.z));
+            outcodes.push(Volume::CHAPTER.outcode(clip));
+        }
+        Self { screen, depths, outcodes }
+    }
+}
+
+impl ScreenBvh {
+    /// Projects a mesh, and finds the boxes of its hierarchy on the screen: O(n).
+    ///
+    /// `thinnest` is the height in pixels up to which a triangle hides nothing, and the margin of
+    /// the boxes.
+    pub(super) fn new(
+        mesh: &impl TriangleMesh,
+        bvh: &Bvh,
+        projector: &Projector,
+        thinnest: f64,
+    ) -> Self {
+        let projected = ProjectedVertices::new(mesh, projector);
+        let empty = ScreenNode {
+            min: [f32::INFINITY; 2],
+            max: [f32::NEG_INFINITY; 2],
+            nearest: f32::NEG_INFINITY,
+            first: 0,
+            count: 0,
+        };
+        let mut tree = Self {
+            nodes: vec![empty; bvh.node_count()],
+            triangles: Vec::with_capacity(bvh.order.len()),
+            pieces: Vec::new(),
+            vertices: Vec::new(),
+        };
+        // Children come after their parents: from the last node on they are there first.
+        for index in (0..bvh.node_count()).rev() {
+            tree.nodes[index] = match bvh.contents(index as u32) {
+                NodeContents::Nodes(children) => tree.join_nodes(children),
+                NodeContents::Items(range) => {
+                    let first = tree.triangles.len() as u32;
+                    let mut area = ScreenArea::EMPTY;
+                    for &triangle in &bvh.order[range] {
+                        tree.push_triangle(
+                            triangle,
+                            mesh,
+                            (projector, &projected, thinnest),
+                            &mut area,
+                        );
+                    }
+                    let count = tree.triangles.len() as u32 - first;
+                    area.to_leaf(first, count, thinnest)
+                }
+            };
+        }
+        tree.vertices = projected.screen;
+        tree
+    }
+
+    /// The node above two others, of which the first follows it.
+    fn join_nodes(&self, [first, second]: [u32; 2]) -> ScreenNode {
+        let [a, b] = [first, second].map(|node| self.nodes[node as usize]);
+        ScreenNode {
+            min: [0, 1].map(|k| least(a.min[k], b.min[k])),
+            max: [0, 1].map(|k| greatest(a.max[k], b.max[k])),
+            nearest: greatest(a.nearest, b.nearest),
+            first: second,
+            count: INNER_NODE,
+        }
+    }
+
+    /// Adds a triangle, or its pieces within the view volume, to the leaf that is being made.
+    fn push_triangle(
+        &mut self,
+        triangle: u32,
+        mesh: &impl TriangleMesh,
+        (projector, projected, thinnest): (&Projector, &ProjectedVertices, f64),
+        area: &mut ScreenArea,
+    ) {
+        let indices = mesh.vertex_indices(triangle).map(|vertex| vertex as usize);
+        let outcodes = indices.map(|vertex| projected.outcodes[vertex]);
+        if Outcode::trivially_accepts(&outcodes) {
+            let corners = indices.map(|vertex| projected.screen[vertex]);
+            if let Some(is_reversed) = orientation(corners, thinnest) {
+                corners.iter().for_each(|corner| area.extend_to(*corner));
+                indices.iter().for_each(|vertex| area.extend_to_depth(projected.depths[*vertex]));
+                self.triangles.push(ScreenTriangle::Whole { triangle, is_reversed }.pack());
+            }
+        } else if Outcode::trivially_rejects(&outcodes).is_inside() {
+            let clip = mesh.positions(triangle).map(|at| projector.world_to_clip_point(at));
+            for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
+                let points = piece.map(|vertex| vertex.point);
+                self.push_piece(triangle, points, (projector, thinnest), area);
+            }
+        }
+    }
+
+    /// Adds a piece of a triangle to the leaf that is being made.
+    fn push_piece(
+        &mut self,
+        triangle: u32,
+        points: [HPoint<Clip>; 3],
+        (projector, thinnest): (&Projector, f64),
+        area: &mut ScreenArea,
+    ) {
+        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.project_to_screen(point))
+        else {
+            return;
+        };
+        let [p, q, r] = [a, b, c].map(DVec3::truncate);
+        let Some(is_reversed) = orientation([p, q, r], thinnest) else { return };
+        for corner in [a, b, c] {
+            area.extend_to(corner.truncate());
+            area.extend_to_depth(round_up(corner.z));
+        }
+        let vertices = if is_reversed { [p, r, q] } else { [p, q, r] };
+        self.triangles.push(ScreenTriangle::Clipped(self.pieces.len() as u32).pack());
+        self.pieces.push(ClippedPiece { triangle, vertices });
+    }
+
+    /// The vertices of a triangle of a leaf in pixels, ordered so that `(b − a) × (c − a)` is
+    /// positive, and its index in the mesh.
+    pub(super) fn triangle(&self, packed: u32, mesh: &impl TriangleMesh) -> ([DVec2; 3], u32) {
+        match ScreenTriangle::unpack(packed) {
+            ScreenTriangle::Whole { triangle, is_reversed } => {
+                let [a, b, c] =
+                    mesh.vertex_indices(triangle).map(|vertex| self.vertices[vertex as usize]);
+                (if is_reversed { [a, c, b] } else { [a, b, c] }, triangle)
+            }
+            ScreenTriangle::Clipped(piece) => {
+                let piece = &self.pieces[piece as usize];
+                (piece.vertices, piece.triangle)
+            }
+        }
+    }
+
+    /// The interval of s in which an edge passes over the box of a node and is not wholly in front
+    /// of it.
+    pub(super) fn interval_behind(&self, node: u32, edge: &ScreenEdge<'_>) -> Option<[f64; 2]> {
+        edge.interval_behind_node(&self.nodes[node as usize])
+    }
+
+    /// The root; `None` if there is nothing.
+    pub(super) fn root_node(&self) -> Option<u32> {
+        (!self.nodes.is_empty()).then_some(0)
+    }
+
+    /// The two children of a node, the nearer one last, or the triangles of a leaf.
+    pub(super) fn contents(&self, index: u32) -> Result<[u32; 2], &[u32]> {
+        let node = &self.nodes[index as usize];
+        if node.count != INNER_NODE {
+            return Err(&self.triangles[node.first as usize..(node.first + node.count) as usize]);
+        }
+        let [a, b] = [index + 1, node.first];
+        let nearest = |node: u32| self.nodes[node as usize].nearest;
+        Ok(if nearest(a) > nearest(b) { [b, a] } else { [a, b] })
+    }
+}
+
+/// The box of a leaf, in double precision.
+struct ScreenArea {
+    min: DVec2,
+    max: DVec2,
+    nearest: f32,
+}
+
+impl ScreenArea {
+    const EMPTY: Self =
+        Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f32::NEG_INFINITY };
+
+    fn extend_to(&mut self, point: DVec2) {
+        self.min = self.min.min(point);
+        self.max = self.max.max(point);
+    }
+
+    fn extend_to_depth(&mut self, depth: f32) {
+        self.nearest = greatest(self.nearest, depth);
+    }
+
+    /// The node of a leaf with a margin around its triangles.
+    fn to_leaf(&self, first: u32, count: u32, margin: f64) -> ScreenNode {
+        ScreenNode {
+            min: (self.min - margin).to_array().map(round_down),
+            max: (self.max + margin).to_array().map(round_up),
+            nearest: self.nearest,
+            first,
+            count,
+        }
+    }
+}
+
+/// Whether two vertices have to be exchanged so that the signed area of a triangle is positive;
+/// `None` if the triangle is thinner than `thinnest` pixels, or has no image.
+fn orientation([a, b, c]: [DVec2; 3], thinnest: f64) -> Option<bool> {
+    let area = (b - a).perp_dot(c - a);
+    let sides = [b - a, c - b, a - c];
+    // The sum of both components is not less than the length: most triangles need no root.
+    let longest = sides.iter().fold(0.0_f64, |most, side| most.max(side.x.abs() + side.y.abs()));
+    if area.abs() > thinnest * longest {
+        return Some(area < 0.0);
+    }
+    let longest = sides.iter().fold(0.0_f64, |most, side| most.max(side.length()));
+    (area.abs() > thinnest * longest).then_some(area < 0.0)
+}
+
+/// An edge as it is compared with boxes.
+pub(super) struct ScreenEdge<'a> {
+    edge: &'a ProjectedEdge,
+    /// The box around it.
+    low: DVec2,
+    high: DVec2,
+    /// The change of s for a pixel along x and y; 0 where the edge does not change.
+    slope: DVec2,
+    /// Whether a box hides what is behind it only.
+    respects_depth: bool,
+}
+
+/// Edges that change by less along an axis, in pixels, are taken as parallel to the other one.
+const LEAST_CHANGE: f64 = 1e-9;
+
+impl<'a> ScreenEdge<'a> {
+    pub(super) fn new(edge: &'a ProjectedEdge, respects_depth: bool) -> Self {
+        let [a, b] = edge.screen;
+        let inverse = |step: f64| if step.abs() < LEAST_CHANGE { 0.0 } else { 1.0 / step };
+        let slope = DVec2::new(inverse(b.x - a.x), inverse(b.y - a.y));
+        Self { edge, low: a.min(b), high: a.max(b), slope, respects_depth }
+    }
+
+    /// Whether a triangle is beside the box around the edge, by more than a margin in pixels.
+    pub(super) fn is_beside(&self, [a, b, c]: [DVec2; 3], margin: f64) -> bool {
+        let (low, high) = (self.low - margin, self.high + margin);
+        (a.x < low.x && b.x < low.x && c.x < low.x)
+            || (a.x > high.x && b.x > high.x && c.x > high.x)
+            || (a.y < low.y && b.y < low.y && c.y < low.y)
+            || (a.y > high.y && b.y > high.y && c.y > high.y)
+    }
+
+    /// The interval of s in which the edge passes over a box on the screen and is not wholly in
+    /// front of it.
+    ///
+    /// ```text
+    ///         ┌──────┐
+    ///   a ────┼──────┼──── b      s of the sides along x and along y: the greatest entry and the
+    ///         └──────┘            least exit bound the interval
+    ///          s₀    s₁
+    /// ```
+    ///
+    /// A slab test in x and y (Kay and Kajiya 1986), then one comparison of depth: where even the
+    /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box
+    /// can hide it. Depth is linear in s, so its extremes are at the ends. Boxes have a margin far
+    /// greater than what is rounded here.
+    fn interval_behind_node(&self, node: &ScreenNode) -> Option<[f64; 2]> {
+        let (min, max) = (node.min.map(f64::from), node.max.map(f64::from));
+        let is_apart = self.high.x < min[0]
+            || self.low.x > max[0]
+            || self.high.y < min[1]
+            || self.low.y > max[1];
+        if is_apart {
+            return None;
+        }
+        let from = self.edge.screen[0];
+        let (mut enter, mut leave) = (0.0, 1.0);
+        for k in 0..2 {
+            if self.slope[k] != 0.0 {
+                let [s, t] = [min[k], max[k]].map(|side| (side - from[k]) * self.slope[k]);
+                let (first, last) = if s < t { (s, t) } else { (t, s) };
+                enter = if first > enter { first } else { enter };
+                leave = if last < leave { last } else { leave };
+            }
+        }
+        if enter > leave {
+            return None;
+        }
+        if !self.respects_depth {
+            return Some([enter, leave]);
+        }
+        let [a, b] = self.edge.depths;
+        let [first, last] = [enter, leave].map(|s| a + (b - a) * s);
+        let farthest = if first < last { first } else { last };
+        (farthest <= f64::from(node.nearest)).then_some([enter, leave])
+    }
+}
