@@ -123,7 +123,12 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
         sheet.style.asks_normals = false;
     }
     progress.enter_stage("drawing");
-    let pages = sheet.draw_pages(&scene.models, &scene.sections, thread_count(args.threads))?;
+    let pages = sheet.draw_pages(&scene.models, &scene.sections, thread_count(args.threads));
+    let pages =
+        pages.map_err(|error| match pipeline::scene::sheet_view_error(&origin, &error) {
+            Some(mistake) => CliError::Scene(mistake),
+            None => CliError::Sheet(error),
+        })?;
     progress.enter_stage("writing");
     let mut warnings: Vec<Warning> =
         pages.iter().flat_map(|page| &page.warnings).cloned().collect();

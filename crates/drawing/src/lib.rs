@@ -16,7 +16,7 @@
 //!  `region`, `region_outline` | outlines of what faces cover, by winding numbers and snap rounding |
 //!  `feature_picker`, `circles` | vertices, edges, faces and circles by their place
 //!  `page`, `svg`, `pdf`, `dxf`, `canvas` | pages in micrometers, and their four formats |
-//!  `page_clip` | lines clipped to the rectangles of views |
+//!  `page_clip`, `line_clip` | lines clipped to the rectangles of views, drawings to parts of views |
 //!  `sheet` | orthographic views in first or third angle, title block, dimensions |
 //!  `assembly` | parts of models counted by content, masses by the divergence theorem, exploded views |
 //!  `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
@@ -44,6 +44,7 @@ mod hatching;
 mod hidden_line;
 mod label;
 mod layout;
+mod line_clip;
 mod line_density;
 mod line_drawing;
 mod line_style;
@@ -103,7 +104,7 @@ pub use region::{Region, RegionEdge, RegionHatching};
 pub use retained_points::retained_points;
 pub use sheet::{
     Dimension, DimensionFault, DimensionSide, DimensionUnit, LengthDirection, Measure, ScaleLimit,
-    Sheet, SheetError, SheetFill, TitleBlockText, WorldCircle,
+    Sheet, SheetError, SheetFill, TitleBlockText, ViewPlace, ViewRequest, ViewSide, WorldCircle,
 };
 pub use subject::Subject;
 pub use warning::Warning;

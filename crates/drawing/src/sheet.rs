@@ -26,16 +26,20 @@ mod balloon_ring;
 mod center_line;
 mod circle_dimension;
 mod collision;
+mod composition;
 mod dimension;
 mod dimension_board;
 mod frame;
 mod free_area;
+mod freehand;
 mod length_dimension;
 mod measure;
 mod pages;
 mod paper_choice;
 mod parts_table;
 mod projection_symbol;
+mod requested_layout;
+mod requested_views;
 mod scale_bar;
 mod section_line;
 mod sheet_fill;
@@ -44,19 +48,22 @@ mod surface_cache;
 mod title_block;
 mod view_grid;
 mod view_layout;
+mod view_mark;
 mod view_measures;
 mod view_plan;
+mod view_request;
 mod visible_spots;
 
 use super::layout::Placement;
 use super::line_style::{HiddenLines, LineStyle, LineWidths};
 use super::line_type::IsoLineGroup;
-use super::page::{Ink, Page};
+use super::page::{Group, Ink, Layer, Page, Pen, Polyline};
 use super::palette::{BLACK, WHITE};
 use crate::assembly::AssemblyPages;
-use crate::{DrawError, LineDrawing, Warning, missing_glyph_warning};
+use crate::{DrawError, Warning, missing_glyph_warning};
 use annotation::AnnotationLayer;
 use camera::NamedView;
+use composition::ComposedDrawing;
 use glam::DVec2;
 use homog::{Plane, World};
 pub use measure::{
@@ -68,6 +75,7 @@ pub use sheet_fill::{ScaleLimit, SheetFill};
 use surface_cache::SurfaceCache;
 use view_layout::{PlacedView, ViewLayout};
 use view_plan::ViewPlan;
+pub use view_request::{ViewPlace, ViewRequest, ViewSide};
 use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Rectangle};
 
 /// A drawing sheet: the views on it and their appearance.
@@ -117,6 +125,9 @@ pub struct Sheet {
     /// The pages that show the models as an assembly of parts: see
     /// [`draw_pages`](Self::draw_pages).
     pub assembly: AssemblyPages,
+    /// Views beyond the principal and the axonometric one, or in their place, and views that are
+    /// cut or broken in part.
+    pub views: Vec<ViewRequest>,
 }
 
 /// The unit in which lengths are written on a sheet; the paper is measured in millimeters always.
@@ -182,6 +193,30 @@ pub enum SheetError {
         /// The reason.
         reason: String,
     },
+    /// A requested view cannot be made as it was asked for.
+    #[error("view {number} of the sheet, the {view}: {reason}")]
+    Request {
+        /// The number of the request, from 1.
+        number: usize,
+        /// The name of the view.
+        view: String,
+        /// The reason.
+        reason: String,
+    },
+    /// A view reaches beyond the frame from the place that it was given.
+    #[error(
+        "the {view} reaches beyond the frame at its place: its center must be from {:.0} to {:.0} mm \
+         from the left and from {:.0} to {:.0} mm from the top",
+        x[0], x[1], y[0], y[1]
+    )]
+    Outside {
+        /// The name of the view.
+        view: String,
+        /// The least and the greatest distance from the left, in millimeters.
+        x: [f64; 2],
+        /// The least and the greatest distance from the top, in millimeters.
+        y: [f64; 2],
+    },
     #[error(
         "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available{remedy}",
         need[0], need[1], available[0], available[1]
@@ -228,6 +263,7 @@ impl Sheet {
             center_lines: false,
             title_block: TitleBlockText::default(),
             assembly: AssemblyPages::default(),
+            views: Vec::new(),
         }
     }
 
@@ -264,11 +300,9 @@ impl Sheet {
         let ink = self.style.ink.unwrap_or(BLACK);
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
         for placed in &layout.views {
-            let view = &placed.planned.view;
             let style = self.style_of_view(placed);
-            let surface = surfaces.cut_by(&view.sections);
-            let drawing = view.draw(surface, &style, placed.scale, threads)?;
-            self.add_view(&mut page, placed, drawing, &style);
+            let composed = placed.planned.draw(surfaces, &style, placed.scale, threads)?;
+            self.add_view(&mut page, placed, composed, &style);
         }
         page.warnings.sort_unstable();
         page.warnings.dedup();
@@ -304,6 +338,7 @@ impl Sheet {
             dimension: dimension.clone(),
             fault: DimensionFault::NoRoom,
         }));
+        warnings.extend(layout.overlaps.iter().cloned());
         let block = &self.title_block;
         let texts = [title, &block.author, &block.date, &block.number];
         warnings.extend(texts.into_iter().filter_map(missing_glyph_warning));
@@ -325,14 +360,25 @@ impl Sheet {
         &self,
         page: &mut Page,
         placed: &PlacedView<'_>,
-        drawing: LineDrawing,
+        ComposedDrawing { drawing, break_lines }: ComposedDrawing,
         style: &LineStyle,
     ) {
-        let view = &placed.planned.view;
+        let view = &placed.planned.drawn_view();
         let placement: Placement = view.placement(&drawing, placed.scale, placed.center);
         let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(BLACK));
         page.images.extend(drawing.face_fill_image(placement, &prefix));
         page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));
+        let pen = Pen::solid(self.line_width_group().narrow_width(), ink);
+        let mut layer = Layer::new(format!("{prefix}break-lines"), "break lines", pen);
+        let on_page = |line: &Vec<DVec2>| {
+            let points: Vec<DVec2> = line.iter().map(|p| placement.pixels_to_page(*p)).collect();
+            Polyline::through_points(&points, false)
+        };
+        let strokes: Vec<Polyline> = break_lines.iter().filter_map(on_page).collect();
+        if !strokes.is_empty() {
+            layer.groups.push(Group { strokes, ..Group::default() });
+            page.layers.push(layer);
+        }
         page.warnings.extend(drawing.warnings);
     }
 

@@ -48,6 +48,19 @@ pub enum Warning {
         /// The reason.
         fault: DimensionFault,
     },
+    /// The line of a section has no view on the sheet that could show it.
+    CutLineNotShown {
+        /// The name of the section, such as `A-A`.
+        section: String,
+    },
+    /// A view of a sheet lies over another one, or over the title block, at the place that it was
+    /// given.
+    ViewOverlaps {
+        /// The name of the view, such as `isometric view`.
+        view: String,
+        /// What it lies over.
+        other: String,
+    },
     /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
     /// The style of the scene shows surfaces, and a sheet is a line drawing.
@@ -150,6 +163,16 @@ impl fmt::Display for Warning {
             Self::DimensionLeftOut { dimension, fault } => {
                 write!(f, "{dimension} is not on the sheet: {fault}")
             }
+            Self::CutLineNotShown { section } => write!(
+                f,
+                "no view of the sheet looks along the steps of section {section}, so none has its \
+                 line"
+            ),
+            Self::ViewOverlaps { view, other } => write!(
+                f,
+                "the {view} lies over the {other} at the place that it was given: move one of them, \
+                 or choose a smaller scale"
+            ),
             Self::ImagesNotInDxf => f.write_str(
                 "DXF has lines, areas and texts, but no images: \
                  backgrounds and fills of faces are left out",

@@ -49,6 +49,7 @@ mod section;
 mod shadows;
 mod shared_scale;
 mod sheet;
+mod sheet_views;
 mod style;
 mod suggest;
 mod surrounding_light;
@@ -70,6 +71,7 @@ pub use outputs::Outputs;
 pub use parse::parse_scene;
 pub use resolve::{ResolveOptions, select_animation};
 pub use sheet::{SheetContent, resolve_sheet};
+pub use sheet_views::sheet_view_error;
 pub use suggest::closest_name;
 pub use validate::validate_scene;
 

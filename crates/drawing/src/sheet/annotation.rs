@@ -14,6 +14,9 @@
 use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
 use glam::DVec2;
 
+/// The least distance of lines from texts, in millimeters.
+const LINE_CLEARANCE: f64 = 0.7;
+
 /// An axis-aligned rectangle: its least and its greatest corner.
 pub(super) type Extent = [DVec2; 2];
 
@@ -36,6 +39,12 @@ pub(super) enum AnnotationLayer {
     CutNames,
     /// The scales of views that have another than the sheet.
     ScaleNotes,
+    /// The center lines of half sections.
+    SymmetryLines,
+    /// Circles around details, and the lines from them to their letters.
+    ViewMarks,
+    /// Letters of details and of viewing directions, and the names of views.
+    ViewNames,
 }
 
 /// A line of text beside a view.
@@ -57,6 +66,8 @@ pub(super) enum AnnotationShape {
     Line([DVec2; 2]),
     /// Straight lines from point to point, such as the parts of an arc.
     Path(Vec<DVec2>),
+    /// The same, back to the first point.
+    Loop(Vec<DVec2>),
     /// A filled triangle: an arrowhead.
     Head([DVec2; 3]),
     /// A text.
@@ -101,7 +112,7 @@ impl AnnotationShape {
     fn extent(&self) -> Option<Extent> {
         match self {
             Self::Line(ends) => extent_of_points(ends.iter().copied()),
-            Self::Path(points) => extent_of_points(points.iter().copied()),
+            Self::Path(points) | Self::Loop(points) => extent_of_points(points.iter().copied()),
             Self::Head(corners) => extent_of_points(corners.iter().copied()),
             Self::Text(text) => {
                 let strokes = text.label(DVec2::ZERO).strokes();
@@ -119,6 +130,10 @@ impl AnnotationShape {
             Self::Path(points) => {
                 points.windows(2).any(|pair| segment_crosses([pair[0], pair[1]], area))
             }
+            Self::Loop(points) => {
+                let next = points.iter().cycle().skip(1);
+                points.iter().zip(next).any(|(a, b)| segment_crosses([*a, *b], area))
+            }
             _ => self.extent().is_some_and(|extent| overlap(extent, area)),
         }
     }
@@ -134,6 +149,7 @@ impl AnnotationShape {
         match self {
             Self::Line(ends) => Group { strokes: line(ends, false), ..Group::default() },
             Self::Path(points) => Group { strokes: line(points, false), ..Group::default() },
+            Self::Loop(points) => Group { strokes: line(points, true), ..Group::default() },
             Self::Head(corners) => Group { fills: line(corners, true), ..Group::default() },
             Self::Text(text) => text.label(origin).group(),
         }
@@ -161,18 +177,38 @@ impl ViewAnnotations {
     ) {
         let mut first = None;
         for text in candidates {
-            let clearance = 0.25 * text.height;
-            let shape = AnnotationShape::Text(text);
-            let is_free = shape.extent().is_some_and(|[low, high]| {
-                let area = [low - clearance, high + clearance];
-                !overlap(object, area) && !self.shapes().any(|other| other.touches(area))
-            });
-            if is_free {
-                return self.push(layer, shape);
+            if self.is_free(&text, object) {
+                return self.push(layer, AnnotationShape::Text(text));
             }
-            first.get_or_insert(shape);
+            first.get_or_insert(text);
         }
-        first.into_iter().for_each(|shape| self.push(layer, shape));
+        first.into_iter().for_each(|text| self.push(layer, AnnotationShape::Text(text)));
+    }
+
+    /// Whether a text touches neither another annotation nor the object.
+    pub(super) fn is_free(&self, text: &AnnotationText, object: Extent) -> bool {
+        let clearance = 0.25 * text.height;
+        AnnotationShape::Text(text.clone()).extent().is_some_and(|[low, high]| {
+            self.is_empty_area([low - clearance, high + clearance], object)
+        })
+    }
+
+    /// Whether neither the object nor an annotation comes into a rectangle.
+    pub(super) fn is_empty_area(&self, area: Extent, object: Extent) -> bool {
+        !overlap(object, area) && !self.shapes().any(|other| other.touches(area))
+    }
+
+    /// Whether a line touches no text and no arrowhead.
+    pub(super) fn is_clear(&self, line: [DVec2; 2]) -> bool {
+        let lies_across = |shape: &AnnotationShape| match shape {
+            AnnotationShape::Text(_) | AnnotationShape::Head(_) => {
+                shape.extent().is_some_and(|[low, high]| {
+                    segment_crosses(line, [low - LINE_CLEARANCE, high + LINE_CLEARANCE])
+                })
+            }
+            _ => false,
+        };
+        !self.shapes().any(lies_across)
     }
 
     /// The rectangle around the object and all annotations.
@@ -242,7 +278,10 @@ impl PlacedDimension {
 
 impl AnnotationLayer {
     /// All layers in drawing order.
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 11] = [
+        Self::SymmetryLines,
+        Self::ViewMarks,
+        Self::ViewNames,
         Self::CenterLines,
         Self::CutLines,
         Self::CutEnds,
@@ -276,6 +315,11 @@ impl AnnotationLayer {
             Self::Dimensions => ("dimensions", "dimensions", butt(group.narrow_width())),
             Self::DimensionTexts => ("dimensions-text", "dimensions: text", lettering()),
             Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
+            Self::SymmetryLines => ("symmetry-lines", "center lines of half sections", chain()),
+            Self::ViewMarks => ("view-marks", "marks of other views", butt(group.narrow_width())),
+            Self::ViewNames => {
+                ("view-names", "names of views", Pen::solid(group.lettering_width(), ink))
+            }
         };
         Layer::new(id, title, pen)
     }

@@ -29,6 +29,10 @@ pub(super) fn convex_parts(shape: &AnnotationShape, margin: f64) -> Vec<Vec<DVec
     match shape {
         AnnotationShape::Line(ends) => vec![ends.to_vec()],
         AnnotationShape::Path(points) => points.windows(2).map(<[DVec2]>::to_vec).collect(),
+        AnnotationShape::Loop(points) => {
+            let next = points.iter().cycle().skip(1);
+            points.iter().zip(next).map(|(a, b)| vec![*a, *b]).collect()
+        }
         AnnotationShape::Head(corners) => vec![corners.to_vec()],
         AnnotationShape::Text(text) => vec![text_outline(text, margin).to_vec()],
     }

@@ -81,6 +81,8 @@ pub(super) struct DimensionSettings {
     pub(super) unit: DimensionUnit,
     /// The room that cut lines and their letters take around the outline, in millimeters: 0 without any.
     pub(super) reserved: f64,
+    /// The length that a broken view leaves out along each axis of the paper, in millimeters of the object.
+    pub(super) left_out: DVec2,
 }
 
 impl DimensionSettings {
@@ -124,7 +126,8 @@ fn overall_dimension(
     // A text above the line is between it and an outline that is above.
     let text = if side == OverallSide::Below { 1.0 + TEXT_GAP } else { 0.0 };
     let distance = (LINE_DISTANCE * letters).max(reserved + (text + 0.5) * letters);
-    let length = scale.to_object_length((ends[1] - ends[0]).length());
+    let axis = usize::from(side == OverallSide::Left);
+    let length = scale.to_object_length((ends[1] - ends[0]).length()) + settings.left_out[axis];
     LinearDimension { ends, outward, distance, length }
 }
 
@@ -239,7 +242,8 @@ mod tests {
     /// The annotations of an object of this half size at 1:1.
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
         let (scale, unit) = (DrawingScale::STANDARD[5], DimensionUnit::Millimeter);
-        let settings = DimensionSettings { letters: 3.5, scale, unit, reserved };
+        let settings =
+            DimensionSettings { letters: 3.5, scale, unit, reserved, left_out: DVec2::ZERO };
         let mut annotations = ViewAnnotations::default();
         add_overall_dimensions(&mut annotations, &[side], half, &settings);
         annotations

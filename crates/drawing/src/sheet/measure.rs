@@ -178,7 +178,7 @@ impl SheetView {
     pub(super) fn named_view(&self) -> Option<NamedView> {
         match self.name {
             ViewName::Named(name) => Some(name),
-            ViewName::Section(_) => None,
+            _ => None,
         }
     }
 

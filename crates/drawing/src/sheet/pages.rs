@@ -337,6 +337,8 @@ impl<'a> DrawnAssembly<'a> {
             number => format!("{number}-{}", item.number),
         };
         sheet.scale = None;
+        // They are views of the whole.
+        sheet.views.clear();
         sheet.draw(&[part_model(part, self.models)], &[], threads)
     }
 }

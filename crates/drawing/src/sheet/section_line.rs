@@ -14,7 +14,9 @@
 use super::annotation::{
     AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
 };
+use super::composition::Break;
 use super::sheet_view::SheetView;
+use super::view_mark::{MarkSettings, add_end_letter};
 use crate::TextAlign;
 use glam::DVec2;
 use homog::{Plane, Vector, World};
@@ -24,10 +26,10 @@ use viewport::DrawingScale;
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
 
 /// The length by which the line extends beyond the view, in millimeters; its wide ends are as long.
-const OVERHANG: f64 = 4.0;
+pub(super) const OVERHANG: f64 = 4.0;
 
 /// The length of arrows with their shafts, in millimeters.
-const ARROW_LENGTH: f64 = 6.0;
+pub(super) const ARROW_LENGTH: f64 = 6.0;
 
 /// The number of places farther out that are tried for a letter or a name.
 const TEXT_STEPS: u32 = 40;
@@ -111,14 +113,25 @@ impl SectionLine {
         let along = (b - a).normalize_or_zero() * OVERHANG;
         annotations.push_line(AnnotationLayer::CutEnds, [a, a + along]);
         annotations.push_line(AnnotationLayer::CutEnds, [b, b - along]);
-        let retained = self.retained_direction;
         for tip in self.ends {
-            let shaft = [tip - retained * ARROW_LENGTH, tip - retained];
-            annotations.push_line(AnnotationLayer::CutArrows, shaft);
-            let (back, side) = (tip - retained * 3.0, DVec2::new(-retained.y, retained.x) * 0.5);
-            let head = AnnotationShape::Head([tip, back + side, back - side]);
-            annotations.push(AnnotationLayer::CutArrows, head);
+            add_section_arrow(annotations, tip, self.retained_direction);
         }
+    }
+
+    /// The line in a view from which a part is left out; `None` if the line is in that part.
+    pub(super) fn shortened(mut self, part: &Break, scale: DrawingScale) -> Option<Self> {
+        let middle = (self.ends[0] + self.ends[1]) * 0.5;
+        if self.retained_direction[part.axis].abs() < 1.0 - PARALLEL_TOLERANCE {
+            // Along the part or oblique to it: its ends stay beside the object.
+            let half = part.length() * (0.5 * scale.ratio());
+            for end in &mut self.ends {
+                *end -= half * (*end - middle)[part.axis].signum();
+            }
+            return Some(self);
+        }
+        let by = part.shortened(middle / scale.ratio())? * scale.ratio() - middle;
+        self.ends.iter_mut().for_each(|end| *end += by);
+        Some(self)
     }
 
     /// Adds the letter at both ends, each at the first free place.
@@ -131,21 +144,18 @@ impl SectionLine {
         let [a, b] = self.ends;
         for (end, other) in [(a, b), (b, a)] {
             let (away, tail) = ((end - other).normalize_or_zero(), -self.retained_direction);
-            let near = [
-                end + tail * (ARROW_LENGTH + letters),
-                end + away * letters,
-                end + (away - tail) * letters,
-                end + tail * (ARROW_LENGTH + 0.5 * letters) + away * letters,
-            ];
-            let farther = (1..=TEXT_STEPS).flat_map(|step| {
-                let step = f64::from(step) * 0.5 * letters;
-                [near[0] + tail * step, near[1] + away * step, near[0] + (tail + away) * step]
-            });
-            let text = |middle| AnnotationText::centered(self.letter.to_string(), middle, letters);
-            let places = near.into_iter().chain(farther).map(text);
-            annotations.push_first_free_text(AnnotationLayer::CutNames, places, object);
+            let settings = MarkSettings { ratio: 1.0, object, letters };
+            add_end_letter(annotations, (end, away, tail), self.letter, &settings);
         }
     }
+}
+
+/// Adds an arrow with its tip at a point, in the direction in which a section looks.
+pub(super) fn add_section_arrow(annotations: &mut ViewAnnotations, tip: DVec2, gaze: DVec2) {
+    annotations.push_line(AnnotationLayer::CutArrows, [tip - gaze * ARROW_LENGTH, tip - gaze]);
+    let (back, side) = (tip - gaze * 3.0, gaze.perp() * 0.5);
+    let head = AnnotationShape::Head([tip, back + side, back - side]);
+    annotations.push(AnnotationLayer::CutArrows, head);
 }
 
 /// Adds a text below a view, as near to it as other annotations allow.

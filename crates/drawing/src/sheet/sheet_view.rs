@@ -34,6 +34,8 @@ const WINDOW_MARGIN: f64 = 1.02;
 pub(super) enum ViewName {
     Named(NamedView),
     Section(char),
+    Detail(char),
+    Auxiliary(char),
 }
 
 impl fmt::Display for ViewName {
@@ -42,6 +44,8 @@ impl fmt::Display for ViewName {
         match self {
             Self::Named(view) => view.fmt(f),
             Self::Section(letter) => write!(f, "section-{}", letter.to_ascii_lowercase()),
+            Self::Detail(letter) => write!(f, "detail-{}", letter.to_ascii_lowercase()),
+            Self::Auxiliary(letter) => write!(f, "auxiliary-{}", letter.to_ascii_lowercase()),
         }
     }
 }
@@ -84,20 +88,79 @@ impl SheetView {
         (plane, letter): (Plane<World>, char),
         unit: f64,
     ) -> Result<Self, SheetError> {
-        let name = ViewName::Section(letter);
         let gaze = Vector::from_raw(plane.normal().raw());
+        let view = Self::frame_along(points, (ViewName::Section(letter), gaze), unit)?;
+        Ok(view.cut_by(vec![plane]))
+    }
+
+    /// The view of these points in any direction, upright.
+    ///
+    /// # Errors
+    /// As for [`frame_points`](Self::frame_points).
+    pub(super) fn frame_along(
+        points: &[Point<World>],
+        (name, gaze): (ViewName, Vector<World>),
+        unit: f64,
+    ) -> Result<Self, SheetError> {
         let view_error = |error: CameraError| SheetError::View {
             view: name.to_string(),
             reason: error.to_string(),
         };
         let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).map_err(view_error)?;
-        let view = Self::frame_from(points, (name, basis), unit)?;
-        Ok(view.cut_by(vec![plane]))
+        Self::frame_from(points, (name, basis), unit)
+    }
+
+    /// A part of the view: what is within a radius of a point, in units of the scene.
+    ///
+    /// # Errors
+    /// [`SheetError::View`] if the camera cannot be moved there.
+    pub(super) fn detail_around(
+        &self,
+        (center, radius): (Point<World>, f64),
+        letter: char,
+    ) -> Result<Self, SheetError> {
+        let name = ViewName::Detail(letter);
+        let offset = self.image_of(center) / self.millimeters_per_unit;
+        let by = self.camera.right() * offset.x - self.camera.v() * offset.y;
+        let camera = self.camera.moved(by).map_err(|error| SheetError::View {
+            view: name.to_string(),
+            reason: error.to_string(),
+        })?;
+        let size = DVec2::splat(2.0 * radius * self.millimeters_per_unit);
+        Ok(Self { name, camera, size, ..self.clone() })
+    }
+
+    /// A direction of the world as the view shows it: right and down, shortened.
+    pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
+        let seen = self.camera.rotation().transform_vector(direction).raw();
+        DVec2::new(seen.x, -seen.y)
+    }
+
+    /// The size of the drawing in pixels.
+    fn pixel_size(&self) -> DVec2 {
+        let window = self.window_size();
+        (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE)
+    }
+
+    /// Pixels of the drawing for a unit of the scene, along its longer side.
+    pub(super) fn pixels_per_unit(&self) -> f64 {
+        LONG_SIDE_PIXELS / self.window_size().max_element()
+    }
+
+    /// Where a point of the world is in the drawing, in pixels.
+    pub(super) fn pixel_of(&self, point: Point<World>) -> DVec2 {
+        let (window, pixels) = (self.window_size(), self.pixel_size());
+        (self.image_of(point) / self.millimeters_per_unit / window + 0.5) * pixels
     }
 
     /// The view with the object cut by these planes.
     pub(super) fn cut_by(self, sections: Vec<Plane<World>>) -> Self {
         Self { sections, ..self }
+    }
+
+    /// The view with another size, in millimeters of the object.
+    pub(super) fn with_size(&self, size: DVec2) -> Self {
+        Self { size, ..self.clone() }
     }
 
     /// The view of these points with a camera of this orientation.
@@ -128,7 +191,7 @@ impl SheetView {
         (size * WINDOW_MARGIN).max(DVec2::splat(least))
     }
 
-    /// The line drawing of the view. Depths get a margin of 2 % of the extent.
+    /// The line drawing of the view.
     pub(super) fn draw(
         &self,
         surface: &WeldedSurface,
@@ -136,6 +199,25 @@ impl SheetView {
         scale: DrawingScale,
         threads: usize,
     ) -> Result<LineDrawing, SheetError> {
+        let (view_projection, size) = self.view_projection()?;
+        let window = self.window_size();
+        // Millimeters of paper for a pixel.
+        let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
+            / LONG_SIDE_PIXELS;
+        let options = DrawOptions {
+            hatch_spacing: style.hatch_spacing / pixel,
+            fill_scale: FILL_DOTS_PER_MILLIMETER * pixel,
+            ..style.to_draw_options()
+        };
+        Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
+    }
+
+    /// The camera with its view volume, and the size of the drawing in pixels. Depths get a margin
+    /// of 2 % of the extent.
+    ///
+    /// # Errors
+    /// [`SheetError::View`] if there is no such volume.
+    pub(super) fn view_projection(&self) -> Result<(ViewProjection, [u32; 2]), SheetError> {
         let window = self.window_size();
         let half = window * 0.5;
         let margin = (self.depths[1] - self.depths[0]).max(window.max_element()) * 0.02;
@@ -146,18 +228,8 @@ impl SheetView {
             reason: error.to_string(),
         })?;
         let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
-        let pixels = (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE);
-        let size = [pixels.x as u32, pixels.y as u32];
-        let view_projection = ViewProjection { camera: self.camera, view_to_clip };
-        // Millimeters of paper for a pixel.
-        let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
-            / LONG_SIDE_PIXELS;
-        let options = DrawOptions {
-            hatch_spacing: style.hatch_spacing / pixel,
-            fill_scale: FILL_DOTS_PER_MILLIMETER * pixel,
-            ..style.to_draw_options()
-        };
-        Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
+        let size = self.pixel_size().to_array().map(|side| side as u32);
+        Ok((ViewProjection { camera: self.camera, view_to_clip }, size))
     }
 
     /// The placement of the view's drawing on the sheet: at this scale, centered at `center`.

@@ -20,14 +20,16 @@
 use super::annotation::{Extent, ViewAnnotations, overlap};
 use super::free_area::{best_rectangle, free_rectangles};
 use super::paper_choice::scales_of;
+use super::requested_layout::{arrange_requested, requested_fault};
 use super::view_grid::{GridSpacing, ViewGrid};
 use super::view_plan::{PlannedView, ViewPlan};
 use super::{Sheet, SheetError, scale_bar};
+use crate::Warning;
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
 /// The distance from a cell to the frame, and half of that between objects, in millimeters.
-const HALF_GAP: f64 = 5.0;
+pub(super) const HALF_GAP: f64 = 5.0;
 
 /// The distance from a cell to the frame where more would cost a scale, in millimeters.
 const TIGHT_GAP: f64 = 0.5;
@@ -44,7 +46,7 @@ const SMALLER_SCALES: usize = 2;
 
 /// A view whose longer side is shorter, in millimeters, is left out, unless it is at the scale of
 /// the sheet.
-const LEAST_VIEW_SIZE: f64 = 8.0;
+pub(super) const LEAST_VIEW_SIZE: f64 = 8.0;
 
 /// A view with its position and scale.
 #[derive(Clone, Debug)]
@@ -75,6 +77,8 @@ pub(super) struct ViewLayout<'a> {
     pub(super) left_out: Vec<&'a PlannedView>,
     /// The place of the scale bar.
     pub(super) scale_bar: Rectangle,
+    /// Warnings of views that lie over others at the places that they were given.
+    pub(super) overlaps: Vec<Warning>,
 }
 
 /// A view with its annotations at a scale, and the space that it needs about its center.
@@ -93,7 +97,7 @@ impl<'a> ViewCell<'a> {
     }
 
     /// The cell of a view with these annotations.
-    fn with_annotations(
+    pub(super) fn with_annotations(
         planned: &'a PlannedView,
         scale: DrawingScale,
         annotations: ViewAnnotations,
@@ -113,7 +117,7 @@ impl<'a> ViewCell<'a> {
     }
 
     /// The view at a center.
-    fn place(self, center: DVec2) -> PlacedView<'a> {
+    pub(super) fn place(self, center: DVec2) -> PlacedView<'a> {
         let Self { planned, scale, annotations, .. } = self;
         PlacedView { planned, center, scale, annotations }
     }
@@ -129,7 +133,10 @@ impl<'a> ViewLayout<'a> {
     /// [`SheetError::TooLarge`] if they do not fit; it names a scale that would, if there is one.
     pub(super) fn arrange_views(sheet: &Sheet, plan: &'a ViewPlan) -> Result<Self, SheetError> {
         let best = Self::arrange_on_best(&[sheet], plan);
-        best.map(|(_, layout)| layout).ok_or_else(|| Self::too_large(sheet, plan))
+        best.map(|(_, layout)| layout).ok_or_else(|| match plan.requested.is_empty() {
+            true => Self::too_large(sheet, plan),
+            false => requested_fault(sheet, plan),
+        })
     }
 
     /// As [`arrange_views`](Self::arrange_views) on the best of these sheets, which differ in
@@ -160,6 +167,9 @@ impl<'a> ViewLayout<'a> {
         plan: &'a ViewPlan,
         scale: DrawingScale,
     ) -> Option<Self> {
+        if !plan.requested.is_empty() {
+            return arrange_requested(sheet, plan, scale).ok();
+        }
         let grid = ViewGrid::new(sheet, &plan.principal, scale);
         let mut best: Option<Self> = None;
         for Arrangement { area, spacing, scale_bar } in arrangements(sheet) {
@@ -173,7 +183,8 @@ impl<'a> ViewLayout<'a> {
             }
             obstacles.extend(taken);
             let views = cells.map(|(cell, center)| cell.clone().place(center)).collect();
-            let mut layout = Self { scale, views, left_out: Vec::new(), scale_bar };
+            let (left_out, overlaps) = (Vec::new(), Vec::new());
+            let mut layout = Self { scale, views, left_out, scale_bar, overlaps };
             let corner = DVec2::new(centers[2].x, centers[1].y);
             layout.place_free_views(sheet, &plan.free, (obstacles, corner));
             if best.as_ref().is_none_or(|best| layout.is_better_than(best)) {
@@ -206,7 +217,7 @@ impl<'a> ViewLayout<'a> {
 
     /// Whether every view has a place and a scale that is not much smaller than that of the sheet.
     pub(super) fn is_satisfied(&self) -> bool {
-        self.cramped_views().next().is_none()
+        self.cramped_views().next().is_none() && self.overlaps.is_empty()
     }
 
     /// The views that have no place, or only one at a scale much smaller than that of the sheet.
@@ -228,7 +239,7 @@ impl<'a> ViewLayout<'a> {
     }
 
     /// Whether more views have a place, or the same views at larger scales.
-    fn is_better_than(&self, other: &Self) -> bool {
+    pub(super) fn is_better_than(&self, other: &Self) -> bool {
         let score = |layout: &Self| {
             let scales = layout.views.iter().map(|placed| placed.scale.ratio());
             [layout.scale.ratio(), -(layout.left_out.len() as f64), scales.product::<f64>()]
@@ -293,16 +304,16 @@ fn fit_into<'a>(
 }
 
 /// A way to set the grid of views on a sheet.
-struct Arrangement {
-    area: Extent,
-    spacing: [GridSpacing; 2],
-    scale_bar: Rectangle,
+pub(super) struct Arrangement {
+    pub(super) area: Extent,
+    pub(super) spacing: [GridSpacing; 2],
+    pub(super) scale_bar: Rectangle,
 }
 
 /// The arrangements that are tried, the most even first.
 ///
 /// The last of them leave less room between views and frame, or move the scale bar out of the way.
-fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
+pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let whole = |gap: f64| [low + gap, high - gap];
     let [above, tight] = [HALF_GAP, TIGHT_GAP].map(|gap| area_above_blocks(sheet, gap));

@@ -32,13 +32,13 @@ impl ViewPlan {
         if sheet.measures.is_empty() && !sheet.center_lines {
             return;
         }
-        let axonometric = sheet.axonometric_view;
-        let is_parallel =
-            |view: &SheetView| axonometric.is_none() || view.named_view() != axonometric;
-        let Self { principal, free, warnings } = self;
-        let planned = principal.iter_mut().chain(free.iter_mut());
-        let mut planned: Vec<&mut PlannedView> =
-            planned.filter(|planned| is_parallel(&planned.view)).collect();
+        let Self { principal, free, requested, warnings } = self;
+        let usual = principal.iter_mut().chain(free.iter_mut()).filter(|_| requested.is_empty());
+        let mut planned: Vec<&mut PlannedView> = usual.collect();
+        if planned.is_empty() {
+            planned.extend(requested);
+        }
+        planned.retain(|planned| planned.takes_measures());
         for (dimension, number) in sheet.measures.iter().zip(1..) {
             let views: Vec<&SheetView> = planned.iter().map(|planned| &planned.view).collect();
             match dimension.choose_view(&views) {

@@ -8,12 +8,13 @@ pub type Extent = [DVec2; 2];
 
 /// The layers whose groups are texts.
 fn is_text_layer(id: &str) -> bool {
-    const TEXTS: [&str; 9] = [
+    const TEXTS: [&str; 10] = [
         "dimensions-text",
         "cut-names",
         "other-scale",
         "balloon-numbers",
         "parts-list-text",
+        "view-names",
         "scale-bar-text",
         "title-block-names",
         "title-block-title",
@@ -23,7 +24,7 @@ fn is_text_layer(id: &str) -> bool {
 }
 
 /// The rectangle around lines, `None` without any.
-fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
+pub fn extent<'a>(lines: impl Iterator<Item = &'a Polyline>) -> Option<Extent> {
     let points = lines.flat_map(|line| &line.points).copied().map(to_millimeters);
     points.fold(None, |extent: Option<Extent>, p| {
         Some(extent.map_or([p; 2], |[low, high]| [low.min(p), high.max(p)]))

@@ -15,3 +15,4 @@ mod lint;
 mod parts_models;
 mod sections;
 mod styles;
+mod views;

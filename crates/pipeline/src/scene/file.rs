@@ -24,6 +24,7 @@ mod projection;
 mod section;
 mod shadow;
 mod sheet;
+mod sheet_view;
 mod viewport;
 
 pub use self::assembly::{DensityFile, ExplodedFile};
@@ -48,6 +49,7 @@ pub use self::projection::ProjectionFile;
 pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
 pub use self::sheet::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
+pub use self::sheet_view::{AxisFile, SheetViewFile, ViewSideFile};
 pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
 pub use super::color::{Color, LightColor};
 use super::number::Scale;

@@ -6,7 +6,7 @@
 
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
-use camera::CameraAxes;
+use camera::{CameraAxes, NamedView};
 use drawing::{Cap, EdgeSelection, ExplosionAxis, FaceFill, HiddenLines, Join, SilhouetteMethod};
 use model::{LengthUnit, UpAxis};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
@@ -220,6 +220,22 @@ named_values! {
         Right = "From +x.",
         Top = "From +y.",
         Bottom = "From −y.",
+    }
+}
+
+named_values! {
+    /// A view with a name.
+    NamedView as "NamedView" {
+        Front = "From +z, which is the front in glTF.",
+        Back = "From −z.",
+        Left = "From −x.",
+        Right = "From +x.",
+        Top = "From +y.",
+        Bottom = "From −y.",
+        Isometric = "From (1, 1, 1): all three axes equally foreshortened.",
+        Dimetric = "x and y foreshortened alike, z half as much again: 7° and 42° on the page.",
+        Trimetric = "Each axis foreshortened by a factor of its own.",
+        ThreeQuarter = "From the front, a little from the right and from above.",
     }
 }
 

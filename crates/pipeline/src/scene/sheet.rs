@@ -3,6 +3,7 @@
 use super::assembly::resolve_assembly;
 use super::dimensions::resolve_dimensions;
 use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
+use super::sheet_views::{resolve_sheet_views, sheet_view_error};
 use super::style::resolve_iso_group;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
@@ -22,6 +23,9 @@ pub struct SheetContent<'a> {
     /// The line style of the scene, if it is a line drawing.
     pub style: Option<LineStyle>,
 }
+
+/// The place of the sheet's scale in a scene file.
+const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("scale")];
 
 /// Resolves the drawing sheet of a scene file for its models.
 ///
@@ -86,7 +90,7 @@ fn resolve_sheet_on(
         projection_angle: file.projection_angle,
         side_view,
         style: LineStyle { hidden_lines, line_widths: widths, ..own },
-        scale: file.scale.map(|scale| resolve_scale(origin, scale)).transpose()?,
+        scale: file.scale.map(|scale| resolve_scale(origin, scale, &SCALE_PATH)).transpose()?,
         millimeters_per_unit: unit.in_millimeters(),
         dimension_unit: match unit {
             LengthUnit::Inch | LengthUnit::Foot => DimensionUnit::Inch,
@@ -102,6 +106,7 @@ fn resolve_sheet_on(
             sheet: None,
         },
         assembly: resolve_assembly(origin, file, content.models)?,
+        views: resolve_sheet_views(origin, file)?,
         ..default_sheet
     })
 }
@@ -116,8 +121,11 @@ pub(super) fn check_sheet_layout(
     let file = file?;
     let sheet = resolve_sheet(origin, file, content).ok()?;
     let error = sheet.check_layout(content.models, content.sections).err()?;
+    if let Some(error) = sheet_view_error(origin, &error) {
+        return Some(error);
+    }
     let place: &[PathStep<'_>] = match (&error, file.scale) {
-        (SheetError::TooLarge { .. }, Some(_)) => &[Field("sheet"), Field("scale")],
+        (SheetError::TooLarge { .. }, Some(_)) => &SCALE_PATH,
         (SheetError::TooLarge { .. }, None) => &[Field("sheet")],
         // Models without anything to draw are told of by the camera.
         _ => return None,
@@ -151,10 +159,14 @@ fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
 }
 
 /// The scale as a ratio of lengths on paper to lengths of the object.
-fn resolve_scale(origin: &Origin, (paper, thing): (u32, u32)) -> Result<DrawingScale, SceneError> {
+pub(super) fn resolve_scale(
+    origin: &Origin,
+    (paper, thing): (u32, u32),
+    path: &[PathStep<'_>],
+) -> Result<DrawingScale, SceneError> {
     DrawingScale::new(paper, thing).map_err(|error| {
         let help = "write (1, 50) for 1:50".to_owned();
-        origin.error_at(&[Field("sheet"), Field("scale")], error.to_string(), Some(help))
+        origin.error_at(path, error.to_string(), Some(help))
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::DimensionsFile;
 use super::assembly::{DensityFile, ExplodedFile};
+use super::sheet_view::SheetViewFile;
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
 use drawing::HiddenLines;
@@ -64,6 +65,10 @@ scene_struct! {
         pub part_sheets: bool = false,
         /// The densities from which the masses of the list follow. Default: none, and no masses.
         pub densities: Vec<DensityFile> = Vec::new(),
+        /// Views beyond the usual ones, or in their place, and ways to show them. A list with a
+        /// `View` names all views; without any, front, top, side and axonometric view are there as
+        /// well. Default: none.
+        pub views: Vec<SheetViewFile> = Vec::new(),
     }
 }
 
