@@ -3,7 +3,7 @@
 use crate::boxes::{box_model, has_view, plane, sheet};
 use crate::lint::{faults, layer_extent};
 use drawing::{Sheet, Warning};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use homog::{Affine, Bounds};
 use model::ModelInstance;
 use model::import::{ImportOptions, load};
@@ -52,13 +52,20 @@ fn planes_that_no_view_faces_get_a_view_of_their_own() {
 }
 
 #[test]
-fn planes_oblique_to_all_views_are_named() {
+fn a_plane_oblique_to_all_views_has_its_line_in_an_auxiliary_view() {
     let model = [box_model(DVec3::new(100.0, 50.0, 30.0))];
     let oblique = plane(DVec3::ZERO, DVec3::new(-1.0, -1.0, -1.0));
     let page = a3(SheetAngle::First).draw(&model, &[oblique], 1).unwrap();
-    assert_eq!(page.warnings, [Warning::SectionOblique { number: 1 }]);
+    assert_eq!((page.warnings.as_slice(), faults(&page)), (&[][..], Vec::new()));
+    for name in ["section-a", "auxiliary-b"] {
+        assert!(has_view(&page, name), "{name}");
+    }
     assert!(page.layers.iter().any(|layer| layer.id == "isometric-visible-section"));
-    assert!(page.layers.iter().all(|layer| layer.id != "cut-names"));
+    // The line is in the auxiliary view: the plane is seen from the side there, through its middle.
+    let [low, high] = layer_extent(&page, |id| id == "cut-lines").expect("a line");
+    let view = layer_extent(&page, |id| id.starts_with("auxiliary-b-")).expect("a view");
+    let middle = |[low, high]: [DVec2; 2]| (low + high) * 0.5;
+    assert!((middle([low, high]) - middle(view)).length() < 0.002, "{low} {high} {view:?}");
 }
 
 #[test]
