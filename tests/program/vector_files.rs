@@ -113,7 +113,7 @@ pub(crate) fn parse_pdf(bytes: &[u8]) -> Vec<(PagePoint, Vec<Vec<PagePoint>>)> {
 /// Millimetres in a point.
 const POINT: f64 = 25.4 / 72.0;
 
-/// The decompressed streams of a file.
+/// The decompressed streams of a file; those of fonts are not compressed, and left out.
 fn inflate_streams(bytes: &[u8]) -> Vec<String> {
     let find = |from: usize, word: &[u8]| {
         bytes[from..].windows(word.len()).position(|part| part == word).map(|at| from + at)
@@ -123,7 +123,7 @@ fn inflate_streams(bytes: &[u8]) -> Vec<String> {
         let start = start + 8;
         let end = find(start, b"\nendstream").expect("an end");
         let text = miniz_oxide::inflate::decompress_to_vec_zlib(&bytes[start..end]);
-        streams.push(String::from_utf8(text.expect("a zlib stream")).expect("text"));
+        streams.extend(text.map(|text| String::from_utf8(text).expect("text")));
         from = end;
     }
     streams

@@ -10,7 +10,7 @@ use pipeline::options::NamedOption;
 ///
 /// The first name of a pair is [`NamedOption::flag_name`], in kebab case; the second is the only
 /// one that flags accept. Scene files keep the long name, because it is read more often than typed.
-const SHORT_NAMES: [(&str, &str); 9] = [
+const SHORT_NAMES: [(&str, &str); 10] = [
     ("ag-x", "agx"),
     ("open-cv", "opencv"),
     ("open-gl", "opengl"),
@@ -20,6 +20,7 @@ const SHORT_NAMES: [(&str, &str); 9] = [
     ("micrometer", "um"),
     ("inch", "in"),
     ("foot", "ft"),
+    ("foot-inch", "ft-in"),
 ];
 
 /// The name of a value in flags.

@@ -43,7 +43,7 @@ pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliErro
 pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     let format = OutputFormat::from_path(output)?;
     let bytes = match format {
-        OutputFormat::Png => sheet::rasterize_page(page)?.to_png(),
+        OutputFormat::Png => sheet::rasterize_page(page, sheet::DEFAULT_DPI)?.to_png(),
         _ => format.encode_pages(std::slice::from_ref(page)),
     };
     Ok(pipeline::write_file(output, &bytes)?)

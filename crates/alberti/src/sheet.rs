@@ -9,14 +9,17 @@ mod page_files;
 use super::CliError;
 use super::format::{DxfArgs, OutputFormat, image_warning};
 use super::load_options::LoadArgs;
-use super::messages::print_warnings;
+use super::messages::{print_note, print_warnings};
 use super::model_state::ModelStateArgs;
 use super::options::option_parser;
 use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use assembly::AssemblyArgs;
-use drawing::{DxfOptions, HiddenLines, Page, Warning};
+use drawing::{
+    DecimalMark, DimensionUnit, DxfOptions, HiddenLines, Page, SheetFrame, TitleBlockLanguage,
+    Warning,
+};
 use page_files::{PageNames, write_all};
 use pipeline::scene::file::{
     AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
@@ -27,10 +30,10 @@ use projection::SheetAngle;
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
-/// The resolution of a sheet written as PNG.
+/// The resolution of pages written as PNG, in dots to the inch.
 ///
 /// An A4 page has 1240 × 1754 pixels then: legible on a screen, and a few hundred kilobytes.
-const DOTS_PER_INCH: f64 = 150.0;
+pub(super) const DEFAULT_DPI: u32 = 150;
 
 /// Arguments of `alberti sheet`; each flag replaces the field of the scene's `sheet`.
 #[derive(Debug, clap::Args)]
@@ -78,6 +81,30 @@ pub(crate) struct SheetArgs {
     /// Drawing number in the title block
     #[arg(long)]
     number: Option<String>,
+    /// Language of the names in the title block [default: english]
+    #[arg(long, value_parser = option_parser::<TitleBlockLanguage>())]
+    language: Option<TitleBlockLanguage>,
+    /// Border around the drawing area [default: plain]
+    #[arg(long, value_parser = option_parser::<SheetFrame>())]
+    frame: Option<SheetFrame>,
+    /// Unit in which lengths are written [default: in if the model is in inches or feet, else mm]
+    #[arg(long, value_name = "UNIT", value_parser = option_parser::<DimensionUnit>())]
+    dimension_unit: Option<DimensionUnit>,
+    /// Most decimals of lengths [default: 2 in millimeters, 3 in inches]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=6))]
+    decimals: Option<u32>,
+    /// Sign before decimals [default: point]
+    #[arg(long, value_parser = option_parser::<DecimalMark>())]
+    decimal_mark: Option<DecimalMark>,
+    /// Dots to the inch of a PNG, from 10 to 1200
+    #[arg(
+        long, value_name = "N", default_value_t = DEFAULT_DPI,
+        value_parser = clap::value_parser!(u32).range(10..=1200)
+    )]
+    dpi: u32,
+    /// Say how much of the drawing area the views fill, and why the scale is not larger
+    #[arg(long)]
+    explain_scale: bool,
     #[command(flatten)]
     assembly: AssemblyArgs,
     #[command(flatten)]
@@ -139,7 +166,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     }
     warnings.extend(pages.iter().find_map(|page| image_warning(format, page)));
     let encode = |page: &Page| match format {
-        OutputFormat::Png => Ok(rasterize_page(page)?.to_png()),
+        OutputFormat::Png => Ok(rasterize_page(page, args.dpi)?.to_png()),
         OutputFormat::Dxf => Ok(page.to_dxf(&args.dxf.apply_to(DxfOptions::on_paper(page)))),
         _ => Ok(format.encode_pages(std::slice::from_ref(page))),
     };
@@ -150,6 +177,9 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     files.extend(args.assembly.list_file(&sheet, &scene.models));
     write_all(&files)?;
     drop(progress);
+    if args.explain_scale {
+        print_note(&sheet.fill(&scene.models, &scene.sections)?.to_string());
+    }
     print_warnings(&scene, &warnings);
     Ok(())
 }
@@ -164,17 +194,19 @@ fn default_output(args: &SheetArgs) -> Result<PathBuf, CliError> {
     Ok(PathBuf::from(stem).with_extension("pdf"))
 }
 
-/// Rasterizes a page at [`DOTS_PER_INCH`].
+/// Rasterizes a page at so many dots to the inch.
 ///
-/// Other commands with pages use it as well, so that all PNGs of pages have one resolution. The
-/// resolution must not depend on the display: output is the same on every machine.
-pub(super) fn rasterize_page(page: &Page) -> Result<Picture, CliError> {
+/// Other commands with pages use it with [`DEFAULT_DPI`]. The resolution must not depend on the
+/// display: output is the same on every machine.
+pub(super) fn rasterize_page(page: &Page, dpi: u32) -> Result<Picture, CliError> {
     let size = || {
         let paper = Paper::new(page.size.x, page.size.y).ok()?;
-        let [width, height] = paper.pixel_size(Resolution::dots_per_inch(DOTS_PER_INCH).ok()?)?;
+        let [width, height] = paper.pixel_size(Resolution::dots_per_inch(dpi.into()).ok()?)?;
         page.to_picture(width, height)
     };
-    size().ok_or_else(|| CliError::Usage("the paper is too large for a picture".to_owned()))
+    size().ok_or_else(|| {
+        CliError::Usage("the paper is too large for a picture: use fewer --dpi".to_owned())
+    })
 }
 
 /// Replaces the fields of the scene's sheet by the flags that were given.
@@ -193,6 +225,11 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
         sheet.dimensions = DimensionsFile::none();
     }
     args.assembly.apply_to(sheet);
+    args.language.into_iter().for_each(|language| sheet.language = language);
+    args.frame.into_iter().for_each(|frame| sheet.frame = frame);
+    sheet.dimension_unit = args.dimension_unit.or(sheet.dimension_unit);
+    sheet.decimals = args.decimals.or(sheet.decimals);
+    args.decimal_mark.into_iter().for_each(|mark| sheet.decimal_mark = mark);
     let texts = [
         (&mut sheet.title, &args.title),
         (&mut sheet.author, &args.author),

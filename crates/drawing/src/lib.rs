@@ -103,8 +103,10 @@ pub use projector::Projector;
 pub use region::{Region, RegionEdge, RegionHatching};
 pub use retained_points::retained_points;
 pub use sheet::{
-    Dimension, DimensionFault, DimensionSide, DimensionUnit, LengthDirection, Measure, ScaleLimit,
-    Sheet, SheetError, SheetFill, TitleBlockText, ViewPlace, ViewRequest, ViewSide, WorldCircle,
+    DecimalMark, Dimension, DimensionFault, DimensionSide, DimensionUnit, LengthDirection, Measure,
+    NumberFormat, ScaleLimit, Sheet, SheetError, SheetFill, SheetFrame, TemplateError,
+    TitleBlockLanguage, TitleBlockTemplate, TitleBlockText, ViewPlace, ViewRequest, ViewSide,
+    WorldCircle,
 };
 pub use subject::Subject;
 pub use warning::Warning;

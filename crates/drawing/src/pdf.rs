@@ -12,11 +12,18 @@
 //! its numbers are those of the SVG. Layers are optional content groups, which a viewer can switch
 //! on and off. Streams are compressed by DEFLATE.
 //!
+//! Texts are strokes, with invisible glyphs over them that a reader finds and copies.
+//!
 //! The file holds no dates and no random identifiers: equal pages give equal bytes, on every
 //! machine.
 
+mod invisible_text;
+
 use super::fixed_decimal::write_thousandths;
-use super::page::{Cap, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline};
+use super::page::{
+    Cap, GroupContent, Ink, Join, Layer, Page, PagePoint, Pen, PlacedImage, Polyline,
+};
+use invisible_text::TextFonts;
 use pdf_writer::{Dict, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use shade::Picture;
 
@@ -30,12 +37,13 @@ const DEFLATE_LEVEL: u8 = 6;
 const MAX_LAYER_NAME: usize = 200;
 
 /// The ids of a file's indirect objects: three fixed ones, two for each page, one for each layer,
-/// two for each image.
+/// two for each image, then those of the fonts.
 ///
 /// Ids follow from counts alone, so that objects can refer to others that are not yet written.
 struct ObjectIds {
     pages: usize,
     layers: usize,
+    images: usize,
 }
 
 impl ObjectIds {
@@ -63,6 +71,11 @@ impl ObjectIds {
         let first = 4 + 2 * self.pages + self.layers + 2 * index;
         [first, first + 1].map(|id| Ref::new(id as i32))
     }
+
+    /// The number of the first object of the fonts.
+    fn first_of_fonts(&self) -> usize {
+        4 + 2 * self.pages + self.layers + 2 * self.images
+    }
 }
 
 /// The pages as a PDF file; its title is that of the first page.
@@ -79,10 +92,12 @@ impl ObjectIds {
 pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let mut pdf = Pdf::new();
     let layers = pages.iter().map(|page| page.layers.len()).sum();
-    let ids = ObjectIds { pages: pages.len(), layers };
+    let images = pages.iter().map(|page| page.images.len()).sum();
+    let ids = ObjectIds { pages: pages.len(), layers, images };
+    let fonts = TextFonts::new(pages);
     let (mut layers, mut pictures) = (0, 0);
     for (index, page) in pages.iter().enumerate() {
-        write_page(&mut pdf, &ids, index, page, [layers, pictures]);
+        write_page(&mut pdf, (&ids, &fonts), (index, page), [layers, pictures]);
         for (at, pasted) in page.images.iter().enumerate() {
             write_image(&mut pdf, ids.image_ids(pictures + at), &pasted.picture);
         }
@@ -95,6 +110,7 @@ pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
         }
         layers += page.layers.len();
     }
+    fonts.write(&mut pdf, ids.first_of_fonts());
     let kids = (0..pages.len()).map(ObjectIds::page_id);
     pdf.pages(ObjectIds::PAGE_TREE).kids(kids).count(pages.len() as i32);
     let mut catalog = pdf.catalog(ObjectIds::CATALOG);
@@ -145,9 +161,8 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 /// `layers` and `pictures` count those of the pages before, for the ids of the objects.
 fn write_page(
     pdf: &mut Pdf,
-    ids: &ObjectIds,
-    index: usize,
-    page: &Page,
+    (ids, fonts): (&ObjectIds, &TextFonts),
+    (index, page): (usize, &Page),
     [layers, pictures]: [usize; 2],
 ) {
     let [width, height] = page.size.to_array().map(|side| (side * POINTS_PER_MILLIMETER) as f32);
@@ -169,9 +184,17 @@ fn write_page(
             objects.pair(Name(format!("P{at}").as_bytes()), ids.image_ids(pictures + at)[0]);
         }
     }
+    if fonts.count() > 0 {
+        let mut list = resources.fonts();
+        for font in 0..fonts.count() {
+            let id = TextFonts::font_id(ids.first_of_fonts(), font);
+            list.pair(Name(TextFonts::name(font).as_bytes()), id);
+        }
+    }
     resources.finish();
     entry.finish();
-    let content = miniz_oxide::deflate::compress_to_vec_zlib(&page_content(page), DEFLATE_LEVEL);
+    let content = page_content(page, fonts);
+    let content = miniz_oxide::deflate::compress_to_vec_zlib(&content, DEFLATE_LEVEL);
     pdf.stream(ObjectIds::content_id(index), &content).filter(Filter::FlateDecode);
 }
 
@@ -183,7 +206,7 @@ fn write_page(
 ///   q  w 0 0 −h x y+h cm  /P0 Do  Q   an image
 ///   /OC /L0 BDC  …  EMC               a layer
 /// ```
-fn page_content(page: &Page) -> Vec<u8> {
+fn page_content(page: &Page, fonts: &TextFonts) -> Vec<u8> {
     let mut out = ContentStream(Vec::new());
     let height = page.size.y * POINTS_PER_MILLIMETER;
     out.push_text(&format!(
@@ -207,6 +230,11 @@ fn page_content(page: &Page) -> Vec<u8> {
     for (at, layer) in page.layers.iter().enumerate() {
         out.push_text(&format!("/OC /L{at} BDC\n"));
         out.draw_layer(layer);
+        for group in &layer.groups {
+            if let GroupContent::Text(line) = &group.content {
+                out.0.extend(fonts.show(line));
+            }
+        }
         out.push_text("EMC\n");
     }
     out.0
@@ -330,7 +358,7 @@ mod tests {
             vec![Polyline { points: vec![[10_000, -500], [110_000, 500]], closed: false }];
         layer.groups.push(Group { strokes, ..Group::default() });
         page.layers.push(layer);
-        let text = String::from_utf8(page_content(&page)).expect("text");
+        let text = String::from_utf8(page_content(&page, &TextFonts::new(&[]))).expect("text");
         let expected = "2.834645669 0 0 -2.834645669 0 841.889764 cm\n1 .502 0 rg\n0 0 210 297 re f\n/OC /L0 BDC\n\
             0 0 0 RG\n0 0 0 rg\n.25 w\n[] 0 d\n1 J 1 j 4 M\n[2.985 .746 ] 0 d\n10 -.5 m\n110 .5 l\nS\nEMC\n";
         assert_eq!(text, expected);

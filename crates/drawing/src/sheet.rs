@@ -30,9 +30,11 @@ mod composition;
 mod dimension;
 mod dimension_board;
 mod frame;
+mod frame_zones;
 mod free_area;
 mod freehand;
 mod length_dimension;
+mod length_format;
 mod measure;
 mod pages;
 mod paper_choice;
@@ -46,6 +48,9 @@ mod sheet_fill;
 mod sheet_view;
 mod surface_cache;
 mod title_block;
+mod title_block_fields;
+mod title_block_language;
+mod title_block_template;
 mod view_grid;
 mod view_layout;
 mod view_mark;
@@ -61,11 +66,14 @@ use super::page::{Group, Ink, Layer, Page, Pen, Polyline};
 use super::palette::{BLACK, WHITE};
 use crate::assembly::AssemblyPages;
 use crate::{DrawError, Warning, missing_glyph_warning};
-use annotation::AnnotationLayer;
+use annotation::{AnnotationLayer, Extent};
 use camera::NamedView;
 use composition::ComposedDrawing;
+pub use frame_zones::SheetFrame;
 use glam::DVec2;
 use homog::{Plane, World};
+use length_format::LengthFormat;
+pub use length_format::{DecimalMark, DimensionUnit, NumberFormat};
 pub use measure::{
     Dimension, DimensionFault, DimensionSide, LengthDirection, Measure, WorldCircle,
 };
@@ -73,10 +81,13 @@ use model::{ModelInstance, model_names};
 use projection::SheetAngle;
 pub use sheet_fill::{ScaleLimit, SheetFill};
 use surface_cache::SurfaceCache;
+pub use title_block_fields::TitleBlockText;
+pub use title_block_language::TitleBlockLanguage;
+pub use title_block_template::{TemplateError, TitleBlockTemplate};
 use view_layout::{PlacedView, ViewLayout};
 use view_plan::ViewPlan;
 pub use view_request::{ViewPlace, ViewRequest, ViewSide};
-use viewport::{DrawingScale, MILLIMETERS_PER_INCH, Paper, Rectangle};
+use viewport::{DrawingScale, Paper, Rectangle};
 
 /// A drawing sheet: the views on it and their appearance.
 ///
@@ -128,51 +139,12 @@ pub struct Sheet {
     /// Views beyond the principal and the axonometric one, or in their place, and views that are
     /// cut or broken in part.
     pub views: Vec<ViewRequest>,
-}
-
-/// The unit in which lengths are written on a sheet; the paper is measured in millimeters always.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum DimensionUnit {
-    /// Millimeters.
-    #[default]
-    Millimeter,
-    /// Inches, as decimals.
-    Inch,
-}
-
-impl DimensionUnit {
-    /// The length of the unit in millimeters.
-    #[must_use]
-    pub const fn in_millimeters(self) -> f64 {
-        match self {
-            Self::Millimeter => 1.0,
-            Self::Inch => MILLIMETERS_PER_INCH,
-        }
-    }
-
-    /// The symbol of the unit.
-    #[must_use]
-    pub const fn symbol(self) -> &'static str {
-        match self {
-            Self::Millimeter => "mm",
-            Self::Inch => "in",
-        }
-    }
-}
-
-/// The texts of a title block (ISO 7200).
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct TitleBlockText {
-    /// The title of the drawing; empty for the names of the models.
-    pub title: String,
-    /// The author.
-    pub author: String,
-    /// The date as text.
-    pub date: String,
-    /// The drawing number.
-    pub number: String,
-    /// The number of this sheet and the count of all, each from 1; `None` for no such field.
-    pub sheet: Option<[u32; 2]>,
+    /// The border around the drawing area.
+    pub frame: SheetFrame,
+    /// The decimals of dimensions and scale bar.
+    pub numbers: NumberFormat,
+    /// A title block of one's own; `None` for that of the program.
+    pub title_block_template: Option<TitleBlockTemplate>,
 }
 
 /// A sheet that cannot be drawn.
@@ -264,6 +236,9 @@ impl Sheet {
             title_block: TitleBlockText::default(),
             assembly: AssemblyPages::default(),
             views: Vec::new(),
+            frame: SheetFrame::Plain,
+            numbers: NumberFormat::default(),
+            title_block_template: None,
         }
     }
 
@@ -290,13 +265,9 @@ impl Sheet {
     ) -> Result<Page, SheetError> {
         let plan = ViewPlan::new(self, models, sections)?;
         let layout = ViewLayout::arrange_views(self, &plan)?;
-        let title = if self.title_block.title.is_empty() {
-            model_names(models)
-        } else {
-            self.title_block.title.clone()
-        };
         let size = DVec2::new(self.paper.width(), self.paper.height());
-        let mut page = Page::new(size, title, Some(self.style.paper.unwrap_or(WHITE)));
+        let paper = Some(self.style.paper.unwrap_or(WHITE));
+        let mut page = Page::new(size, self.title_of(models), paper);
         let ink = self.style.ink.unwrap_or(BLACK);
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
         for placed in &layout.views {
@@ -310,7 +281,8 @@ impl Sheet {
         Ok(page)
     }
 
-    /// Whether the views of models, cut by section planes, fit on the paper, without drawing them.
+    /// Whether the views of models, cut by section planes, fit on the paper, without drawing them;
+    /// the warnings of [`draw`](Self::draw) about views, sections and texts.
     ///
     /// # Errors
     /// As for [`draw`](Self::draw).
@@ -318,9 +290,16 @@ impl Sheet {
         &self,
         models: &[ModelInstance],
         sections: &[Plane<World>],
-    ) -> Result<(), SheetError> {
+    ) -> Result<Vec<Warning>, SheetError> {
         let plan = ViewPlan::new(self, models, sections)?;
-        ViewLayout::arrange_views(self, &plan).map(drop)
+        let layout = ViewLayout::arrange_views(self, &plan)?;
+        Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
+    }
+
+    /// The title of the drawing: its own, or the names of the models.
+    fn title_of(&self, models: &[ModelInstance]) -> String {
+        let own = &self.title_block.title;
+        if own.is_empty() { model_names(models) } else { own.clone() }
     }
 
     /// Warnings: views not shown as they were asked for, and letters that its texts lack.
@@ -339,9 +318,18 @@ impl Sheet {
             fault: DimensionFault::NoRoom,
         }));
         warnings.extend(layout.overlaps.iter().cloned());
-        let block = &self.title_block;
-        let texts = [title, &block.author, &block.date, &block.number];
-        warnings.extend(texts.into_iter().filter_map(missing_glyph_warning));
+        match &self.title_block_template {
+            Some(template) => {
+                let scale = layout.scale.to_string();
+                let contents = template.contents(&self.field_values(title, &scale));
+                warnings.extend(contents.iter().filter_map(|text| missing_glyph_warning(text)));
+            }
+            None => {
+                let own = self.title_block.texts().into_iter().filter(|text| *text != title);
+                let texts = core::iter::once(title).chain(own);
+                warnings.extend(texts.filter_map(missing_glyph_warning));
+            }
+        }
         warnings
     }
 
@@ -393,10 +381,20 @@ impl Sheet {
         }
         page.layers.extend(scale_bar::scale_bar_layers(self, layout.scale_bar, layout.scale, ink));
         let block = self.title_block_area();
-        page.layers.push(frame::frame_layer(self.paper, &layout.contents(block), ink));
+        page.layers.extend(self.frame_layers(&layout.contents(block), ink));
         let title = page.title.clone();
         let scale = Some(layout.scale);
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
+    }
+
+    /// The frame, with its zones if it has them; centering marks stop where contents are near.
+    fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
+        let frame = frame::frame_layer((self.paper, self.frame), contents, ink);
+        let zones = match self.frame {
+            SheetFrame::Plain => Vec::new(),
+            SheetFrame::Zones => frame_zones::zone_layers(self.paper, ink),
+        };
+        core::iter::once(frame).chain(zones).collect()
     }
 
     /// The line group, 0.5 mm if the style has other widths.
@@ -405,6 +403,11 @@ impl Sheet {
             LineWidths::Iso(group) => group,
             _ => IsoLineGroup::MM_0_5,
         }
+    }
+
+    /// The form of lengths.
+    fn length_format(&self) -> LengthFormat {
+        LengthFormat { unit: self.dimension_unit, numbers: self.numbers }
     }
 
     /// The height of letters in millimeters: a standard size (ISO 3098) for the line group.
@@ -428,7 +431,7 @@ impl Sheet {
 
     /// The area of the title block: the lower right corner of the frame.
     fn title_block_area(&self) -> Rectangle {
-        title_block::title_block_area(self.drawing_area())
+        title_block::title_block_area(self, self.drawing_area())
     }
 }
 

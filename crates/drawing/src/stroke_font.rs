@@ -16,6 +16,7 @@
 
 mod accents;
 mod glyphs;
+mod han;
 
 use glam::DVec2;
 
@@ -59,6 +60,11 @@ pub(super) fn typeset_line(text: &str) -> Glyph {
     line
 }
 
+/// From the start of a character in a line to that of the next one.
+pub(super) fn advance_width(character: char) -> f64 {
+    glyph_for_char(character).width + LETTER_SPACING
+}
+
 /// The characters of a text that the font lacks, each once in the order of the text.
 pub(super) fn missing_glyphs(text: &str) -> String {
     let mut missing = String::new();
@@ -75,6 +81,7 @@ fn has_glyph(character: char) -> bool {
     character.is_whitespace()
         || glyphs::GLYPHS.iter().any(|(c, ..)| *c == character)
         || accents::accented_glyph(character).is_some()
+        || han::GLYPHS.iter().any(|(c, _)| *c == character)
 }
 
 /// The glyph of a character; a box for characters that the font lacks.
@@ -84,6 +91,9 @@ fn glyph_for_char(character: char) -> Glyph {
     }
     if let Some((_, width, path)) = glyphs::GLYPHS.iter().find(|(c, ..)| *c == character) {
         return Glyph { width: *width, strokes: parse_strokes(path) };
+    }
+    if let Some((_, path)) = han::GLYPHS.iter().find(|(c, _)| *c == character) {
+        return Glyph { width: han::WIDTH, strokes: parse_strokes(path) };
     }
     accents::accented_glyph(character)
         .unwrap_or_else(|| Glyph { width: 5.0, strokes: parse_strokes(glyphs::MISSING_GLYPH) })
@@ -145,14 +155,13 @@ mod tests {
 
     #[test]
     fn glyphs_stay_between_their_sides_and_the_lines_of_writing() {
+        let known = |word: &str| {
+            let is_number = |text: &str| text.parse::<f64>().is_ok();
+            let is_point = word.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y));
+            "mlhvc".contains(word) || is_point
+        };
         for (character, width, path) in glyphs::GLYPHS {
             let words = path.split_ascii_whitespace();
-            let known = |word: &str| {
-                "mlhvc".contains(word)
-                    || word
-                        .split_once(',')
-                        .is_some_and(|(x, y)| x.parse::<f64>().is_ok() && y.parse::<f64>().is_ok())
-            };
             assert!(words.clone().all(known), "{character}: {path}");
             let points: Vec<DVec2> = parse_strokes(path).concat();
             for point in &points {
@@ -161,6 +170,14 @@ mod tests {
             }
             let reaches = points.iter().fold(-1.0, |most, point| point.x.max(most));
             assert!(width - reaches < 0.9, "{character}: {reaches} of {width}");
+        }
+        for (character, path) in han::GLYPHS {
+            let points: Vec<DVec2> = parse_strokes(path).concat();
+            assert!(!path.split_ascii_whitespace().any(|word| !known(word)), "{character}");
+            for point in &points {
+                assert!((-0.4..=10.4).contains(&point.x), "{character}: {point}");
+                assert!((-0.6..=10.4).contains(&point.y), "{character}: {point}");
+            }
         }
         let mut characters: Vec<char> = glyphs::GLYPHS.iter().map(|(c, ..)| *c).collect();
         characters.sort_unstable();

@@ -185,10 +185,14 @@ impl fmt::Display for Warning {
                     LabelFault::Outside => "outside of the picture",
                 }
             ),
-            Self::GlyphsMissing { text, characters } => write!(
-                f,
-                "the letters of drawings lack {characters} of \"{text}\": boxes are in their place"
-            ),
+            Self::GlyphsMissing { text, characters } => {
+                let [characters, text] = [characters, text].map(|text| visible_text(text));
+                write!(
+                    f,
+                    "the letters of drawings lack {characters} of \"{text}\": \
+                     boxes are in their place"
+                )
+            }
             Self::MassUnknown { part } => write!(
                 f,
                 "the mass of `{part}` is not known: its mesh is not closed, so it has no volume"
@@ -229,6 +233,19 @@ impl fmt::Display for Warning {
     }
 }
 
+/// A text in which characters without a sign of their own, such as controls and those that change
+/// the direction of writing, are written by their code: `\u{202e}`.
+fn visible_text(text: &str) -> String {
+    let is_invisible = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
+            || matches!(c, '\u{2060}'..='\u{206f}' | '\u{feff}')
+    };
+    let shown =
+        |c: char| if is_invisible(c) { c.escape_unicode().to_string() } else { c.to_string() };
+    text.chars().map(shown).collect()
+}
+
 impl Warning {
     /// The text of a warning without a value; empty for the others.
     const fn fixed_text(&self) -> &'static str {
@@ -257,5 +274,19 @@ impl Warning {
             }
             _ => "",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn characters_that_are_not_seen_are_written_by_their_code() {
+        let (text, characters) =
+            ("a\u{7}\u{202e}b\u{5d0}".to_owned(), "\u{7}\u{202e}\u{5d0}".to_owned());
+        let message = Warning::GlyphsMissing { text, characters }.to_string();
+        assert!(message.contains("lack \\u{7}\\u{202e}\u{5d0} of"), "{message}");
+        assert!(message.contains("\"a\\u{7}\\u{202e}b\u{5d0}\""), "{message}");
     }
 }

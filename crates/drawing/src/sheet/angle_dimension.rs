@@ -9,9 +9,7 @@
 //! ```
 
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
-use super::dimension::{
-    ARROW_LENGTH, EXTENSION_GAP, EXTENSION_OVERHANG, TEXT_GAP, arrowhead, format_decimals,
-};
+use super::dimension::{ARROW_LENGTH, EXTENSION_GAP, EXTENSION_OVERHANG, TEXT_GAP, arrowhead};
 use super::dimension_board::{Candidate, DimensionBoard};
 use super::measure::{ViewDimension, ViewMeasure};
 use crate::{Label, TextAlign};
@@ -53,7 +51,8 @@ impl DimensionBoard {
         let arms = ends.map(|end| end - vertex);
         let sweep = libm::atan2(arms[0].perp_dot(arms[1]), arms[0].dot(arms[1]));
         let decimals = dimension.decimals.unwrap_or(DEGREE_DECIMALS) as usize;
-        let text = format!("{}°", format_decimals(sweep.to_degrees(), decimals));
+        let numbers = self.settings.format.numbers;
+        let text = format!("{}°", numbers.decimal(sweep.to_degrees(), decimals));
         let letters = self.settings.letters;
         let (least, step, count) = RADII;
         for number in 0..count {

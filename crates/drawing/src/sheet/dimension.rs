@@ -13,8 +13,8 @@
 //!
 //! All distances are multiples of the height of letters.
 
-use super::DimensionUnit;
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText, ViewAnnotations};
+use super::length_format::LengthFormat;
 use crate::{Label, TextAlign};
 use glam::DVec2;
 use viewport::DrawingScale;
@@ -77,8 +77,8 @@ pub(super) struct DimensionSettings {
     pub(super) letters: f64,
     /// The scale of the view.
     pub(super) scale: DrawingScale,
-    /// The unit of the lengths.
-    pub(super) unit: DimensionUnit,
+    /// The form of the lengths.
+    pub(super) format: LengthFormat,
     /// The room that cut lines and their letters take around the outline, in millimeters: 0 without any.
     pub(super) reserved: f64,
     /// The length that a broken view leaves out along each axis of the paper, in millimeters of the object.
@@ -131,28 +131,6 @@ fn overall_dimension(
     LinearDimension { ends, outward, distance, length }
 }
 
-/// A number with at most so many decimal places, without trailing zeros.
-pub(super) fn format_decimals(number: f64, decimals: usize) -> String {
-    let text = format!("{number:.decimals$}");
-    let text = match text.split_once('.') {
-        Some(_) => text.trim_end_matches('0').trim_end_matches('.'),
-        None => &text,
-    };
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
-}
-
-/// A length without trailing zeros: in millimeters to a hundredth, from one meter on to a
-/// millimeter; in inches to a thousandth.
-pub(super) fn format_length(millimeters: f64, unit: DimensionUnit) -> String {
-    let length = millimeters / unit.in_millimeters();
-    let decimals = match unit {
-        DimensionUnit::Millimeter if length < 1000.0 => 2,
-        DimensionUnit::Millimeter => 0,
-        DimensionUnit::Inch => 3,
-    };
-    format_decimals(length, decimals)
-}
-
 impl LinearDimension {
     /// The direction of the dimension line; its text reads along it from the bottom or from the
     /// right of the sheet.
@@ -176,7 +154,7 @@ impl LinearDimension {
     /// dimension line is extended to them, and on to a text that stands beside it.
     fn annotate(&self, annotations: &mut ViewAnnotations, settings: &DimensionSettings) {
         let height = settings.letters;
-        let text = format_length(self.length, settings.unit);
+        let text = settings.format.text(self.length);
         let [start, end] = self.dimension_line();
         let (along, arrow) = (self.line_direction(), ARROW_LENGTH * height);
         let outwards = if self.fits_arrows(height) { 0.0 } else { 2.0 * arrow };
@@ -219,31 +197,11 @@ pub(super) fn arrowhead(tip: DVec2, into: DVec2, length: f64) -> [DVec2; 3] {
 mod tests {
     use super::*;
 
-    #[test]
-    fn lengths_have_no_trailing_zeros() {
-        for (length, text) in [
-            (150.0, "150"),
-            (12.5, "12.5"),
-            (0.126, "0.13"),
-            (99.999, "100"),
-            (12_345.6, "12346"),
-            (4520.31, "4520"),
-            (999.996, "1000"),
-            (123.45, "123.45"),
-            (100.0, "100"),
-        ] {
-            assert_eq!(format_length(length, DimensionUnit::Millimeter), text);
-        }
-        for (inches, text) in [(1.0, "1"), (0.125, "0.125"), (2.5, "2.5"), (1200.0, "1200")] {
-            assert_eq!(format_length(inches * 25.4, DimensionUnit::Inch), text);
-        }
-    }
-
     /// The annotations of an object of this half size at 1:1.
     fn annotated(half: DVec2, side: OverallSide, reserved: f64) -> ViewAnnotations {
-        let (scale, unit) = (DrawingScale::STANDARD[5], DimensionUnit::Millimeter);
+        let (scale, format) = (DrawingScale::STANDARD[5], LengthFormat::default());
         let settings =
-            DimensionSettings { letters: 3.5, scale, unit, reserved, left_out: DVec2::ZERO };
+            DimensionSettings { letters: 3.5, scale, format, reserved, left_out: DVec2::ZERO };
         let mut annotations = ViewAnnotations::default();
         add_overall_dimensions(&mut annotations, &[side], half, &settings);
         annotations

@@ -10,7 +10,7 @@
 
 use super::annotation::{AnnotationLayer, AnnotationShape, PlacedDimension, ViewAnnotations};
 use super::collision::{convex_overlap, convex_parts};
-use super::dimension::{DimensionSettings, format_decimals, format_length};
+use super::dimension::DimensionSettings;
 use super::measure::{ViewDimension, ViewMeasure};
 use glam::DVec2;
 
@@ -163,11 +163,7 @@ impl DimensionBoard {
 
     /// The number of a length in millimeters of the object, in the unit of the sheet.
     pub(super) fn length_text(&self, dimension: &ViewDimension, millimeters: f64) -> String {
-        let unit = self.settings.unit;
-        dimension.decimals.map_or_else(
-            || format_length(millimeters, unit),
-            |decimals| format_decimals(millimeters / unit.in_millimeters(), decimals as usize),
-        )
+        self.settings.format.with_decimals(dimension.decimals).text(millimeters)
     }
 }
 

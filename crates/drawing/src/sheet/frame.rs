@@ -3,6 +3,7 @@
 //! The margin is 20 mm at the left, for filing, and 10 mm elsewhere.
 
 use super::annotation::{Extent, overlap};
+use super::frame_zones::{SheetFrame, ZONE_BORDER};
 use super::rectangle_from_size;
 use crate::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
 use glam::DVec2;
@@ -34,11 +35,15 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
 }
 
 /// The frame and its centering marks, which stop at the frame where something is in their way.
-pub(super) fn frame_layer(paper: Paper, contents: &[Extent], ink: Ink) -> Layer {
+pub(super) fn frame_layer(
+    (paper, style): (Paper, SheetFrame),
+    contents: &[Extent],
+    ink: Ink,
+) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
     let mut strokes = vec![rectangle_outline(area_within_frame(paper))];
-    strokes.extend(centering_marks(paper, contents));
+    strokes.extend(centering_marks((paper, style), contents));
     layer.groups.push(Group { strokes, ..Group::default() });
     layer
 }
@@ -53,15 +58,19 @@ pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
 }
 
 /// Marks at the middles of the sides, by which a sheet is aligned in a copier.
-fn centering_marks(paper: Paper, contents: &[Extent]) -> Vec<Polyline> {
+fn centering_marks((paper, style): (Paper, SheetFrame), contents: &[Extent]) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, area_within_frame(paper));
     let (left, top) = (area.x(), area.y());
     let (right, bottom) = (left + area.width(), top + area.height());
     let [inset, length] = CENTERING_MARK;
+    let start = match style {
+        SheetFrame::Plain => inset,
+        SheetFrame::Zones => left - ZONE_BORDER,
+    };
     // The outer end of each, its point on the frame, and its direction.
     let marks = [
-        [DVec2::new(inset, middle.y), DVec2::new(left, middle.y), DVec2::X],
+        [DVec2::new(start, middle.y), DVec2::new(left, middle.y), DVec2::X],
         [DVec2::new(size.x - inset, middle.y), DVec2::new(right, middle.y), -DVec2::X],
         [DVec2::new(middle.x, inset), DVec2::new(middle.x, top), DVec2::Y],
         [DVec2::new(middle.x, size.y - inset), DVec2::new(middle.x, bottom), -DVec2::Y],

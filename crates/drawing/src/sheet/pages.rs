@@ -15,7 +15,7 @@ use super::sheet_view::SheetView;
 use super::surface_cache::SurfaceCache;
 use super::view_layout::extent_of_rectangle;
 use super::visible_spots::{MovedParts, VisibleSpot, add_spots_on_edges, find_visible_spots};
-use super::{Sheet, SheetError, frame, title_block};
+use super::{Sheet, SheetError, title_block};
 use crate::assembly::{
     AssemblyPages, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem, exploded_models,
     gather_parts, part_model,
@@ -146,7 +146,7 @@ impl Sheet {
         let block = self.title_block_area();
         // Tables and views reach up to the frame, so the centering marks stop there.
         let contents = [extent_of_rectangle(self.drawing_area())];
-        page.layers.push(frame::frame_layer(self.paper, &contents, ink));
+        page.layers.extend(self.frame_layers(&contents, ink));
         let title = page.title.clone();
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }

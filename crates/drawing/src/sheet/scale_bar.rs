@@ -10,7 +10,7 @@
 //! A scale such as 1:50 in the title block is wrong on a copy of another size; a bar that is
 //! printed along with the drawing scales with it.
 
-use super::{DimensionUnit, Sheet, rectangle_from_size};
+use super::{Sheet, rectangle_from_size};
 use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
@@ -65,7 +65,8 @@ pub(super) fn scale_bar_layers(
     bar.fills.extend(filled);
     layer.groups.push(bar);
     let mut texts = Layer::new("scale-bar-text", "scale bar: text", Pen::solid(0.18, ink));
-    for (text, x) in [("0".to_owned(), 0.0), (length_label(thing, unit), length)] {
+    for (text, x) in [("0".to_owned(), 0.0), (sheet.length_format().text_with_unit(thing), length)]
+    {
         let at = corner + DVec2::new(x, BAR_HEIGHT + 1.2 + letters);
         let label = Label::new(&text, at, letters).with_align(TextAlign::Middle);
         texts.groups.push(label.group());
@@ -101,15 +102,6 @@ fn round_length(most: f64) -> f64 {
     if rounded < 1.0 { 1.0 / libm::round(1.0 / rounded) } else { libm::round(rounded) }
 }
 
-/// The label of a length: in millimeters, meters or kilometers, or in inches.
-fn length_label(length: f64, unit: DimensionUnit) -> String {
-    match unit {
-        DimensionUnit::Millimeter if length >= 1e6 => format!("{} km", length / 1e6),
-        DimensionUnit::Millimeter if length >= 1e3 => format!("{} m", length / 1e3),
-        _ => format!("{length} {}", unit.symbol()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,7 +113,5 @@ mod tests {
         {
             assert_eq!(round_length(most), round);
         }
-        assert_eq!(length_label(2000.0, DimensionUnit::Millimeter), "2 m");
-        assert_eq!(length_label(0.5, DimensionUnit::Inch), "0.5 in");
     }
 }

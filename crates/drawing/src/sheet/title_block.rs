@@ -13,16 +13,25 @@
 
 use super::frame::rectangle_outline;
 use super::projection_symbol::projection_symbol;
+use super::title_block_fields::{TitleBlockField, title_block_fields};
+use super::title_block_language::{FieldName, TitleBlockLanguage};
 use super::{Sheet, rectangle_from_size};
 use crate::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// Width of the block where the paper is wide enough, and its height, in millimeters.
-const BLOCK_SIZE: [f64; 2] = [180.0, 32.0];
+/// The width of the block where the paper is wide enough, in millimeters.
+const BLOCK_WIDTH: f64 = 180.0;
 
-/// The height of letters of field names, in millimeters.
+/// The height of a block with three rows and of one with four, in millimeters.
+const BLOCK_HEIGHTS: [f64; 2] = [32.0, 47.0];
+
+/// The height of letters of field names and the width of their strokes, in millimeters.
 const NAME_HEIGHT: f64 = 1.8;
+const NAME_WIDTH: f64 = 0.18;
+/// The height of Chinese field names and the width of their strokes, in millimeters: they have
+/// more strokes than Latin letters.
+const CHINESE_NAME: [f64; 2] = [2.5, 0.13];
 /// The height of letters of field values, in millimeters.
 const VALUE_HEIGHT: f64 = 3.5;
 /// The height of letters of the title, in millimeters.
@@ -31,16 +40,7 @@ const TITLE_HEIGHT: f64 = 5.0;
 /// The distance from the border of a field to its text, in millimeters.
 const FIELD_INSET: f64 = 1.5;
 
-/// A field: its extent as fractions of the block, its name, and its value.
-struct TitleBlockField<'a> {
-    x: [f64; 2],
-    y: [f64; 2],
-    name: &'a str,
-    value: String,
-    height: f64,
-}
-
-impl TitleBlockField<'_> {
+impl TitleBlockField {
     /// Width and height of the field in a block, in millimeters.
     fn size(&self, block: Rectangle) -> DVec2 {
         self.corner(block, 1) - self.corner(block, 0)
@@ -57,12 +57,22 @@ impl TitleBlockField<'_> {
         let (corner, size) = (self.corner(block, 0), self.size(block));
         rectangle_from_size(corner.x, corner.y, size.x, size.y)
     }
+
+    /// The heights of its value and of the second one, in a field of a height.
+    fn value_heights(&self, height: f64) -> [f64; 2] {
+        let usual = if self.field == FieldName::Title { TITLE_HEIGHT } else { VALUE_HEIGHT };
+        let share = if self.second_value.is_empty() { 0.42 } else { 0.3 };
+        [usual.min(height * share), VALUE_HEIGHT.min(height * 0.21)]
+    }
 }
 
 /// The area of the block within the frame.
-pub(super) fn title_block_area(frame: Rectangle) -> Rectangle {
-    let width = BLOCK_SIZE[0].min(frame.width());
-    let height = BLOCK_SIZE[1].min(frame.height() * 0.3);
+pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
+    if let Some(template) = &sheet.title_block_template {
+        return template.area(frame);
+    }
+    let own = BLOCK_HEIGHTS[usize::from(sheet.title_block.has_all_fields())];
+    let (width, height) = (BLOCK_WIDTH.min(frame.width()), own.min(frame.height() * 0.3));
     let (right, bottom) = (frame.x() + frame.width(), frame.y() + frame.height());
     rectangle_from_size(right - width, bottom - height, width, height)
 }
@@ -78,11 +88,19 @@ pub(super) fn title_block_layers(
     area: Rectangle,
     ink: Ink,
 ) -> Vec<Layer> {
+    if let Some(template) = &sheet.title_block_template {
+        return template.layers(sheet, (title, scale), area, ink);
+    }
     let fields = title_block_fields(sheet, title, scale);
     let border = |width| Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(width, ink) };
     let mut borders = Layer::new("title-block", "title block", border(0.35));
     borders.groups.push(Group { strokes: vec![rectangle_outline(area)], ..Group::default() });
-    let mut names = Layer::new("title-block-names", "title block: names", Pen::solid(0.18, ink));
+    let [name_height, name_width] = match sheet.title_block.language {
+        TitleBlockLanguage::Chinese => CHINESE_NAME,
+        TitleBlockLanguage::English | TitleBlockLanguage::German => [NAME_HEIGHT, NAME_WIDTH],
+    };
+    let names = Pen::solid(name_width, ink);
+    let mut names = Layer::new("title-block-names", "title block: names", names);
     let heading = Pen::solid(0.5, ink);
     let mut heading = Layer::new("title-block-title", "title block: title", heading);
     let mut values = Layer::new("title-block-text", "title block: text", Pen::solid(0.35, ink));
@@ -91,70 +109,38 @@ pub(super) fn title_block_layers(
         let (corner, size) = (field.corner(area, 0), field.size(area));
         borders.groups[0].strokes.push(rectangle_outline(cell));
         let text_width = size.x - 2.0 * FIELD_INSET;
-        let small = NAME_HEIGHT.min(size.y * 0.2);
+        let small = name_height.min(size.y * 0.2 * name_height / NAME_HEIGHT);
         let name = Label::new(
             field.name,
             corner + DVec2::new(FIELD_INSET, FIELD_INSET * 0.8 + small),
             small,
         );
         names.groups.push(name.fit_to_width(text_width).group());
-        let foot = corner + DVec2::new(FIELD_INSET, size.y - size.y * 0.19);
-        let value = Label::new(&field.value, foot, field.height.min(size.y * 0.42));
-        let layer = if field.height == TITLE_HEIGHT { &mut heading } else { &mut values };
+        let [height, second_height] = field.value_heights(size.y);
+        let below = if field.second_value.is_empty() { 0.19 } else { 0.14 };
+        let foot = corner + DVec2::new(FIELD_INSET, size.y - size.y * below);
+        let second = Label::new(&field.second_value, foot, second_height);
+        let up = if field.second_value.is_empty() { 0.0 } else { 1.45 * second_height };
+        let value = Label::new(&field.value, foot - DVec2::Y * up, height);
+        let layer = if field.field == FieldName::Title { &mut heading } else { &mut values };
         layer.groups.push(value.fit_to_width(text_width).group());
-        if field.name == PROJECTION_FIELD {
-            names.groups.push(symbol_group(sheet, cell));
+        if field.field == FieldName::Projection {
+            names.groups.push(symbol_group(sheet, &name, cell));
+        }
+        if !field.second_value.is_empty() {
+            values.groups.push(second.fit_to_width(text_width).group());
         }
     }
     vec![borders, names, heading, values]
 }
 
-/// The width of the name of the field with the projection symbol, with what is around it, in
-/// millimeters.
-const PROJECTION_NAME_WIDTH: f64 = 14.5;
-
-/// The name of the field with the projection symbol.
-const PROJECTION_FIELD: &str = "Projection";
-
-/// The fields in reading order.
-///
-/// Columns and rows are fractions of the block, so that it scales with narrow paper.
-fn title_block_fields<'a>(
-    sheet: &Sheet,
-    title: &str,
-    scale: Option<DrawingScale>,
-) -> Vec<TitleBlockField<'a>> {
-    let rows = [[0.0, 0.31], [0.31, 0.69], [0.69, 1.0]];
-    let field = |row: usize, from: f64, to: f64, name: &'a str, value: &str| TitleBlockField {
-        x: [from, to],
-        y: rows[row],
-        name,
-        value: value.to_owned(),
-        height: if row == 1 { TITLE_HEIGHT } else { VALUE_HEIGHT },
-    };
-    let titles = &sheet.title_block;
-    let numbers = titles.sheet.map(|[number, count]| format!("{number}/{count}"));
-    let number_end = if numbers.is_some() { 0.87 } else { 1.0 };
-    let scale = scale.map(|scale| scale.to_string()).unwrap_or_default();
-    let mut fields = vec![
-        field(0, 0.0, 0.4, "Author", &titles.author),
-        field(0, 0.4, 0.64, "Date", &titles.date),
-        field(0, 0.64, number_end, "Number", &titles.number),
-        field(1, 0.0, 1.0, "Title", title),
-        field(2, 0.0, 0.17, "Scale", &scale),
-        field(2, 0.17, 0.31, "Paper", &sheet.paper_name),
-        field(2, 0.31, 0.52, "Dimensions in", sheet.dimension_unit.symbol()),
-        field(2, 0.52, 0.74, PROJECTION_FIELD, ""),
-        field(2, 0.74, 1.0, "Drawn with", "alberti"),
-    ];
-    fields.extend(numbers.map(|numbers| field(0, number_end, 1.0, "Sheet", &numbers)));
-    fields
-}
+/// The distance from the name of its field to the projection symbol, in millimeters.
+const SYMBOL_DISTANCE: f64 = 1.4;
 
 /// The projection symbol in its field, to the right of the field's name.
-fn symbol_group(sheet: &Sheet, cell: Rectangle) -> Group {
+fn symbol_group(sheet: &Sheet, name: &Label<'_>, cell: Rectangle) -> Group {
     // The symbol is three times as wide as it is high.
-    let room = cell.width() - PROJECTION_NAME_WIDTH - FIELD_INSET;
+    let room = cell.width() - 2.0 * FIELD_INSET - name.width() - SYMBOL_DISTANCE;
     let height = (cell.height() * 0.62).min(room / 3.0).max(1.0);
     let right = cell.x() + cell.width() - FIELD_INSET;
     let middle = DVec2::new(right - 1.5 * height, cell.y() + cell.height() - height * 0.8);

@@ -380,7 +380,7 @@ impl PlannedView {
         let settings = DimensionSettings {
             letters,
             scale,
-            unit: sheet.dimension_unit,
+            format: sheet.length_format(),
             reserved: of_marks.fold(of_lines.max(self.measures.reserve()), f64::max),
             left_out: self.left_out(),
         };

@@ -8,7 +8,8 @@ pub type Extent = [DVec2; 2];
 
 /// The layers whose groups are texts.
 fn is_text_layer(id: &str) -> bool {
-    const TEXTS: [&str; 10] = [
+    const TEXTS: [&str; 11] = [
+        "frame-zone-names",
         "dimensions-text",
         "cut-names",
         "other-scale",
@@ -109,7 +110,7 @@ pub fn faults(page: &Page) -> Vec<String> {
             }
         }
     }
-    let inside = layer_extent(page, |id| id != "frame");
+    let inside = layer_extent(page, |id| !id.starts_with("frame"));
     let frame = page.layers.iter().find(|layer| layer.id == "frame").expect("a frame");
     let frame = extent(frame.groups[0].strokes[..1].iter()).expect("a frame");
     if inside.is_some_and(|[low, high]| low.cmplt(frame[0]).any() || high.cmpgt(frame[1]).any()) {

@@ -28,7 +28,8 @@ const MAX_IMAGE_TEXELS: u64 = 1 << 26;
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
 
 impl SceneFile {
-    /// The paths of all environment and backdrop images, relative to the scene's folder.
+    /// The paths of all environment and backdrop images and of the sheet's title block, relative to
+    /// the scene's folder.
     ///
     /// Insets may have backdrops of their own. The caller uses the list for access checks and for
     /// finding changed files.
@@ -42,7 +43,8 @@ impl SceneFile {
             Some(EnvironmentFile::File { path, .. }) => Some(path.as_str()),
             _ => None,
         };
-        around.into_iter().chain(behind)
+        let title_block = self.sheet.as_ref().and_then(|sheet| sheet.title_block.as_deref());
+        around.into_iter().chain(behind).chain(title_block)
     }
 }
 

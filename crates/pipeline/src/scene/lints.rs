@@ -15,10 +15,11 @@
 //! | `no-light` | a shaded style without light, environment or emission |
 //! | `flat-stereo` | a stereo pair whose eyes see the same within a pixel |
 //! | `label-not-visible` | the point of a label is not in the picture |
-//! | `missing-glyph` | the stroke font lacks a character of a label or a caption |
+//! | `missing-glyph` | the stroke font lacks a character of a label, a caption or a sheet |
 //! | `wide-stereo` | a stereo pair whose eyes are too far apart for the distance of the models |
 //! | `sections-ignored` | section planes, and no line drawing that they cut |
 //! | `section-removes-all`, `section-misses` | a section plane with all models on one side |
+//! | `sheet-view-missing`, `section-oblique` | a view or a section that the sheet does not show |
 //! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
 //! | `coincident-instances` | instances of a model in one place |
 //! | `ground-above-models` | a ground above the lowest point of the models |
@@ -34,6 +35,7 @@ mod depth_style;
 mod ground;
 mod instances;
 mod sections;
+mod sheet;
 mod stereo;
 mod text;
 mod visibility_survey;
@@ -82,6 +84,7 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice.extend(text::lint_text(&adviser));
     advice.extend(stereo::lint_wide_stereo(&adviser));
     advice.extend(sections::lint_idle_sections(&adviser));
+    advice.extend(sheet::lint_sheet(&adviser));
     advice.extend(instances::lint_coincident_instances(&adviser));
     advice.extend(ground::lint_high_ground(&adviser));
     advice.extend(lint_viewports(origin, file, scene));

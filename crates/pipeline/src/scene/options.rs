@@ -7,7 +7,10 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::{CameraAxes, NamedView};
-use drawing::{Cap, EdgeSelection, ExplosionAxis, FaceFill, HiddenLines, Join, SilhouetteMethod};
+use drawing::{
+    Cap, DecimalMark, DimensionUnit, EdgeSelection, ExplosionAxis, FaceFill, HiddenLines, Join,
+    SheetFrame, SilhouetteMethod, TitleBlockLanguage,
+};
 use model::{LengthUnit, UpAxis};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
@@ -236,6 +239,40 @@ named_values! {
         Dimetric = "x and y foreshortened alike, z half as much again: 7° and 42° on the page.",
         Trimetric = "Each axis foreshortened by a factor of its own.",
         ThreeQuarter = "From the front, a little from the right and from above.",
+    }
+}
+
+named_values! {
+    /// The border around the drawing area of a sheet (ISO 5457).
+    SheetFrame as "Frame" {
+        Plain = "A line, with marks at the middles of its sides.",
+        Zones = "Also letters and numbers of zones, and trimming marks.",
+    }
+}
+
+named_values! {
+    /// The language of the names of a title block's fields.
+    TitleBlockLanguage as "Language" {
+        English = "English.",
+        German = "German.",
+        Chinese = "Simplified Chinese.",
+    }
+}
+
+named_values! {
+    /// The unit in which lengths are written on a sheet.
+    DimensionUnit as "DimensionUnit" {
+        Millimeter = "Millimeters.",
+        Inch = "Inches, as decimals.",
+        FootInch = "Feet and inches, with sixteenths of an inch.",
+    }
+}
+
+named_values! {
+    /// The sign before the decimals of a number.
+    DecimalMark as "DecimalMark" {
+        Point = "12.5, as in English.",
+        Comma = "12,5, as in most other languages.",
     }
 }
 

@@ -5,10 +5,14 @@ use super::dimensions::resolve_dimensions;
 use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 use super::sheet_views::{resolve_sheet_views, sheet_view_error};
 use super::style::resolve_iso_group;
+use super::surrounding_light::read_image_bytes;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
-use drawing::{DimensionUnit, LineStyle, LineWidths, Sheet, SheetError, TitleBlockText};
+use drawing::{
+    DimensionUnit, LineStyle, LineWidths, NumberFormat, Sheet, SheetError, TitleBlockTemplate,
+    TitleBlockText,
+};
 use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
 use viewport::{DrawingScale, Paper};
@@ -92,23 +96,75 @@ fn resolve_sheet_on(
         style: LineStyle { hidden_lines, line_widths: widths, ..own },
         scale: file.scale.map(|scale| resolve_scale(origin, scale, &SCALE_PATH)).transpose()?,
         millimeters_per_unit: unit.in_millimeters(),
-        dimension_unit: match unit {
+        dimension_unit: file.dimension_unit.unwrap_or(match unit {
             LengthUnit::Inch | LengthUnit::Foot => DimensionUnit::Inch,
             _ => DimensionUnit::Millimeter,
-        },
+        }),
         axonometric_view: axonometric_view(file.axonometric_view),
         center_lines: file.center_lines,
-        title_block: TitleBlockText {
-            title: file.title.clone(),
-            author: file.author.clone(),
-            date: file.date.clone(),
-            number: file.number.clone(),
-            sheet: None,
-        },
+        title_block: resolve_title_block(origin, file)?,
         assembly: resolve_assembly(origin, file, content.models)?,
         views: resolve_sheet_views(origin, file)?,
+        frame: file.frame,
+        numbers: resolve_numbers(origin, file)?,
+        title_block_template: resolve_template(origin, file)?,
         ..default_sheet
     })
+}
+
+/// The texts of the title block; a sheet has a number of those that there are.
+fn resolve_title_block(origin: &Origin, file: &SheetFile) -> Result<TitleBlockText, SceneError> {
+    if let Some((number, count)) =
+        file.sheet_number.filter(|(number, count)| !(1..=*count).contains(number))
+    {
+        let message = format!("there is no sheet {number} of {count}");
+        let help = "write (2, 5) for the second of five sheets".to_owned();
+        return Err(origin.error_at(&[Field("sheet"), Field("sheet_number")], message, Some(help)));
+    }
+    Ok(TitleBlockText {
+        title: file.title.clone(),
+        author: file.author.clone(),
+        date: file.date.clone(),
+        number: file.number.clone(),
+        supplementary_title: file.supplementary_title.clone(),
+        owner: file.owner.clone(),
+        document_type: file.document_type.clone(),
+        approved_by: file.approved_by.clone(),
+        revision: file.revision.clone(),
+        sheet: file.sheet_number.map(|(number, count)| [number, count]),
+        language: file.language,
+    })
+}
+
+/// The title block of one's own; it lies in the folder of the scene or below.
+fn resolve_template(
+    origin: &Origin,
+    file: &SheetFile,
+) -> Result<Option<TitleBlockTemplate>, SceneError> {
+    let Some(path) = &file.title_block else { return Ok(None) };
+    let at = [Field("sheet"), Field("title_block")];
+    let bytes = read_image_bytes(origin, &at, path, &[])?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| origin.error_at(&at, format!("{path} is no text, as SVG is"), None))?;
+    let template = TitleBlockTemplate::parse(&text);
+    template.map(Some).map_err(|error| origin.error_at(&at, format!("{path}, {error}"), None))
+}
+
+/// The form of numbers.
+fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, SceneError> {
+    let most = NumberFormat::MAX_DECIMALS;
+    let fault = |decimals: u32| {
+        let message = format!("{decimals} decimals are more than {most}");
+        origin.error_at(&[Field("sheet"), Field("decimals")], message, None)
+    };
+    let decimals = match file.decimals {
+        Some(decimals) => {
+            let own = u8::try_from(decimals).ok().filter(|own| *own <= most);
+            Some(own.ok_or_else(|| fault(decimals))?)
+        }
+        None => None,
+    };
+    Ok(NumberFormat { decimals, decimal_mark: file.decimal_mark })
 }
 
 /// The error of a sheet whose views are larger than its paper; `None` without one, or if it is

@@ -5,7 +5,7 @@ use super::assembly::{DensityFile, ExplodedFile};
 use super::sheet_view::SheetViewFile;
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
-use drawing::HiddenLines;
+use drawing::{DecimalMark, DimensionUnit, HiddenLines, SheetFrame, TitleBlockLanguage};
 use model::LengthUnit;
 use projection::SheetAngle;
 
@@ -69,6 +69,35 @@ scene_struct! {
         /// `View` names all views; without any, front, top, side and axonometric view are there as
         /// well. Default: none.
         pub views: Vec<SheetViewFile> = Vec::new(),
+        /// The second line of the title. With it, or an owner, a document type, a name of who
+        /// approved the drawing or a revision, the title block has all fields of ISO 7200.
+        /// Default: none.
+        pub supplementary_title: String = String::new(),
+        /// The legal owner, such as a company. Default: none.
+        pub owner: String = String::new(),
+        /// The type of the document, such as "Part drawing". Default: none.
+        pub document_type: String = String::new(),
+        /// Who approved the drawing. Default: none.
+        pub approved_by: String = String::new(),
+        /// The revision index, such as "B". Default: none.
+        pub revision: String = String::new(),
+        /// The number of the sheet and that of all sheets, as in (2, 5). Default: no number.
+        pub sheet_number: Option<(u32, u32)> = None,
+        /// The language of the names of the title block's fields. Default: English.
+        pub language: TitleBlockLanguage = TitleBlockLanguage::English,
+        /// The path of a title block of one's own, an SVG file with fields such as {title} in its
+        /// texts, in the folder of the scene or below. Default: the program's title block.
+        pub title_block: Option<String> = None,
+        /// The border around the drawing area. Default: a plain line.
+        pub frame: SheetFrame = SheetFrame::Plain,
+        /// The unit in which lengths are written. Default: inches if the unit of the models is
+        /// inches or feet, else millimeters.
+        pub dimension_unit: Option<DimensionUnit> = None,
+        /// The most decimals of lengths, from 0 to 6; zeros at the end are left out. Default: 2 in
+        /// millimeters and none from one meter on, 3 in inches, sixteenths in feet and inches.
+        pub decimals: Option<u32> = None,
+        /// The sign before decimals. Default: a point.
+        pub decimal_mark: DecimalMark = DecimalMark::Point,
     }
 }
 

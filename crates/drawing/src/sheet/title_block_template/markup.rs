@@ -1,0 +1,298 @@
+//! A reader of the XML that templates are made of: elements, attributes in quotes, texts.
+//!
+//! It reads what drawing programs write; a document type, with which entities could be defined, is
+//! an error.
+
+use super::TemplateError;
+use super::path_data::parse_number;
+
+/// The deepest nesting of elements.
+const MAX_DEPTH: usize = 64;
+
+/// An event of the document.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Event<'a> {
+    /// A start tag, or an empty element, which is followed by its end.
+    Start(Element<'a>),
+    /// The text between two tags, with references replaced.
+    Text(String),
+    /// An end tag.
+    End(&'a str),
+}
+
+/// An element by its start tag.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Element<'a> {
+    pub(super) name: &'a str,
+    /// The byte of its `<`.
+    pub(super) at: usize,
+    /// Names, values and the bytes at which values begin.
+    attributes: Vec<(&'a str, &'a str, usize)>,
+}
+
+/// Elements whose contents do not draw anything.
+const SILENT: [&str; 4] = ["metadata", "title", "desc", "defs"];
+
+/// Attributes that change nothing, since sheets have one ink and one font.
+const NEUTRAL: [&str; 14] = [
+    "id",
+    "class",
+    "fill",
+    "stroke",
+    "font-family",
+    "font-weight",
+    "stroke-linecap",
+    "stroke-linejoin",
+    "xmlns",
+    "version",
+    "lang",
+    "space",
+    "text-rendering",
+    "vector-effect",
+];
+
+/// Attributes that are read.
+const READ: [&str; 20] = [
+    "x",
+    "y",
+    "x1",
+    "y1",
+    "x2",
+    "y2",
+    "width",
+    "height",
+    "points",
+    "d",
+    "stroke-width",
+    "font-size",
+    "text-anchor",
+    "textLength",
+    "viewBox",
+    "lengthAdjust",
+    "rx",
+    "ry",
+    "preserveAspectRatio",
+    "baseProfile",
+];
+
+impl<'a> Element<'a> {
+    /// The value of an attribute and the byte at which it begins.
+    pub(super) fn attribute(&self, name: &str) -> Option<(&'a str, usize)> {
+        let found = self.attributes.iter().find(|(own, ..)| *own == name);
+        found.map(|(_, value, at)| (*value, *at))
+    }
+
+    /// The number of an attribute: in units of the view box, also with `mm` or `px`.
+    pub(super) fn number(
+        &self,
+        source: &str,
+        name: &str,
+        default: f64,
+    ) -> Result<f64, TemplateError> {
+        let Some((text, at)) = self.attribute(name) else { return Ok(default) };
+        let own = text.trim();
+        let own = own.strip_suffix("mm").or_else(|| own.strip_suffix("px")).unwrap_or(own);
+        parse_number(own).ok_or_else(|| {
+            TemplateError::at(source, at, format!("`{text}` is no number for `{name}`"))
+        })
+    }
+
+    /// Whether there is nothing that changes the drawing and is not read, such as a transform.
+    pub(super) fn check_attributes(&self, source: &str) -> Result<(), TemplateError> {
+        let is_known =
+            |name: &str| name.contains(':') || NEUTRAL.contains(&name) || READ.contains(&name);
+        match self.attributes.iter().find(|(name, ..)| !is_known(name)) {
+            None => Ok(()),
+            Some((name, _, at)) => {
+                let remedy = match *name {
+                    "transform" => "write coordinates as they are on the paper",
+                    "style" => "write stroke-width, font-size and text-anchor as attributes",
+                    _ => "leave it out",
+                };
+                let message = format!("`{name}` of `{}` is not read: {remedy}", self.name);
+                Err(TemplateError::at(source, *at, message))
+            }
+        }
+    }
+}
+
+/// A reader of events, one after the other.
+pub(super) struct MarkupReader<'a> {
+    source: &'a str,
+    at: usize,
+    open: Vec<&'a str>,
+    /// The end of an empty element, which is still to be told.
+    pending_end: bool,
+}
+
+impl<'a> MarkupReader<'a> {
+    pub(super) const fn new(source: &'a str) -> Self {
+        Self { source, at: 0, open: Vec::new(), pending_end: false }
+    }
+
+    /// The next event; `None` at the end of the document.
+    pub(super) fn next(&mut self) -> Result<Option<Event<'a>>, TemplateError> {
+        loop {
+            if core::mem::take(&mut self.pending_end) {
+                return Ok(self.open.pop().map(Event::End));
+            }
+            let rest = &self.source[self.at..];
+            if rest.is_empty() {
+                return match self.open.last() {
+                    None => Ok(None),
+                    Some(name) => Err(self.fault(format!("`{name}` is not closed"))),
+                };
+            }
+            if let Some(after) = rest.strip_prefix("<?") {
+                self.skip_past(after, "?>", 2)?;
+            } else if let Some(after) = rest.strip_prefix("<!--") {
+                self.skip_past(after, "-->", 4)?;
+            } else if rest.starts_with("<!") {
+                return Err(self.fault("a document type or CDATA is not read: remove it"));
+            } else if let Some(after) = rest.strip_prefix("</") {
+                return self.end_tag(after).map(Some);
+            } else if rest.starts_with('<') {
+                let element = self.start_tag()?;
+                if SILENT.contains(&element.name) || element.name.contains(':') {
+                    self.skip_element(element.name)?;
+                } else {
+                    return Ok(Some(Event::Start(element)));
+                }
+            } else {
+                return self.text().map(Some);
+            }
+        }
+    }
+
+    /// A mistake where the reader is.
+    fn fault(&self, message: impl Into<String>) -> TemplateError {
+        TemplateError::at(self.source, self.at, message)
+    }
+
+    /// Goes past the end of a comment or an instruction.
+    fn skip_past(&mut self, rest: &str, end: &str, begun: usize) -> Result<(), TemplateError> {
+        let length = rest.find(end).ok_or_else(|| self.fault(format!("`{end}` is missing")))?;
+        self.at += begun + length + end.len();
+        Ok(())
+    }
+
+    /// Goes past the end of an element that has just begun.
+    fn skip_element(&mut self, name: &str) -> Result<(), TemplateError> {
+        let depth = self.open.len();
+        loop {
+            match self.next()? {
+                Some(Event::End(_)) if self.open.len() < depth => return Ok(()),
+                Some(_) => {}
+                None => return Err(self.fault(format!("`{name}` is not closed"))),
+            }
+        }
+    }
+
+    /// The end tag after `</`.
+    fn end_tag(&mut self, after: &'a str) -> Result<Event<'a>, TemplateError> {
+        let end = after.find('>').ok_or_else(|| self.fault("`>` is missing"))?;
+        let name = after[..end].trim();
+        if self.open.last() != Some(&name) {
+            return Err(self.fault(format!("`{name}` is closed where it is not open")));
+        }
+        self.open.pop();
+        self.at += 2 + end + 1;
+        Ok(Event::End(name))
+    }
+
+    /// The start tag at `<`.
+    fn start_tag(&mut self) -> Result<Element<'a>, TemplateError> {
+        let at = self.at;
+        self.at += 1;
+        let name = self.name()?;
+        let mut attributes = Vec::new();
+        loop {
+            self.skip_space();
+            let rest = &self.source[self.at..];
+            if rest.starts_with("/>") || rest.starts_with('>') {
+                self.pending_end = rest.starts_with('/');
+                self.at += if self.pending_end { 2 } else { 1 };
+                break;
+            }
+            let own = self.name()?;
+            self.skip_space();
+            self.expect('=')?;
+            self.skip_space();
+            let rest = &self.source[self.at..];
+            let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''));
+            let quote = quote.ok_or_else(|| self.fault("a value in quotes is missing"))?;
+            let length = rest[1..].find(quote);
+            let length = length.ok_or_else(|| self.fault("the quote is not closed"))?;
+            attributes.push((own, &rest[1..=length], self.at + 1));
+            self.at += length + 2;
+        }
+        if self.open.len() >= MAX_DEPTH {
+            return Err(self.fault("elements are nested too deeply"));
+        }
+        self.open.push(name);
+        Ok(Element { name, at, attributes })
+    }
+
+    /// A name of an element or an attribute.
+    fn name(&mut self) -> Result<&'a str, TemplateError> {
+        let rest = &self.source[self.at..];
+        let is_name = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ':' | '.');
+        let length = rest.find(|c| !is_name(c)).unwrap_or(rest.len());
+        if length == 0 {
+            return Err(self.fault("a name is missing"));
+        }
+        self.at += length;
+        Ok(&rest[..length])
+    }
+
+    fn skip_space(&mut self) {
+        let rest = &self.source[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
+    }
+
+    fn expect(&mut self, character: char) -> Result<(), TemplateError> {
+        if !self.source[self.at..].starts_with(character) {
+            return Err(self.fault(format!("`{character}` is missing")));
+        }
+        self.at += character.len_utf8();
+        Ok(())
+    }
+
+    /// The text up to the next tag, white space as single blanks.
+    fn text(&mut self) -> Result<Event<'a>, TemplateError> {
+        let rest = &self.source[self.at..];
+        let own = &rest[..rest.find('<').unwrap_or(rest.len())];
+        let mut text = String::new();
+        let mut left = own;
+        while let Some((before, after)) = left.split_once('&') {
+            text.push_str(before);
+            let (name, after) =
+                after.split_once(';').ok_or_else(|| self.fault("`&` without `;`: write &amp;"))?;
+            let replaced = reference(name);
+            text.push(replaced.ok_or_else(|| self.fault(format!("`&{name};` is unknown")))?);
+            left = after;
+        }
+        text.push_str(left);
+        self.at += own.len();
+        Ok(Event::Text(text.replace(|c: char| c.is_whitespace(), " ")))
+    }
+}
+
+/// The character of a reference.
+fn reference(name: &str) -> Option<char> {
+    match name {
+        "amp" => Some('&'),
+        "lt" => Some('<'),
+        "gt" => Some('>'),
+        "quot" => Some('"'),
+        "apos" => Some('\''),
+        _ => {
+            let digits = name.strip_prefix('#')?;
+            let code = match digits.strip_prefix('x') {
+                Some(digits) => u32::from_str_radix(digits, 16).ok()?,
+                None => digits.parse().ok()?,
+            };
+            char::from_u32(code)
+        }
+    }
+}

@@ -1,0 +1,97 @@
+use super::*;
+
+/// A template with this content.
+fn parse(content: &str) -> Result<TitleBlockTemplate, TemplateError> {
+    TitleBlockTemplate::parse(&format!("<svg viewBox=\"0 0 90 30\">\n{content}\n</svg>"))
+}
+
+/// The points of the only line.
+fn points(content: &str) -> Vec<[f64; 2]> {
+    let template = parse(content).expect("a template");
+    assert_eq!(template.lines.len(), 1, "{content}");
+    template.lines[0].points.iter().map(DVec2::to_array).collect()
+}
+
+#[test]
+fn shapes_are_lines() {
+    let square = [[1.0, 2.0], [4.0, 2.0], [4.0, 7.0], [1.0, 7.0]];
+    for content in [
+        "<rect x='1' y='2' width='3' height='5'/>",
+        "<polygon points='1,2 4,2 4,7 1,7'/>",
+        "<path d='M1 2 H4 V7 H1 Z'/>",
+        "<path d='m1,2 3,0 0,5-3,0z'/>",
+        "<path d='M1 2L4 2 4 7L1.0.7e1z'/>",
+    ] {
+        assert_eq!(points(content), square, "{content}");
+    }
+    assert_eq!(points("<line x1='1' y1='2' x2='3mm'/>"), [[1.0, 2.0], [3.0, 0.0]]);
+    let two = parse("<g><path d='M0 0 h5 z l0 3' stroke-width='.7' fill='none'/></g>");
+    let two = two.expect("a template").lines;
+    assert_eq!((two.len(), two[0].closed, two[1].closed, two[0].width), (2, true, false, 0.7));
+    assert_eq!(two[1].points, [DVec2::ZERO, DVec2::new(0.0, 3.0)]);
+}
+
+#[test]
+fn fields_are_filled_in() {
+    let template = parse(
+        "<?xml version='1.0'?><!-- a comment --><title>no {field}</title>\n\
+         <text x='2' y='9' font-size='5' text-anchor='middle' textLength='60'>{title} &amp; \n\
+         {{{ scale }, {sheet}/{sheets} &#x41;</text><text>{projection}</text>",
+    );
+    let template = template.expect("a template");
+    let texts = TitleBlockText { sheet: Some([2, 5]), ..TitleBlockText::default() };
+    let values =
+        FieldValues { texts: &texts, title: "Bearing", scale: "1:2", paper: "A4", unit: "mm" };
+    let [text, symbol] = &template.texts[..] else { panic!("{:?}", template.texts) };
+    assert_eq!(text.content(&values), "Bearing &  {1:2, 2/5 A");
+    assert_eq!((text.align, text.most_width), (TextAlign::Middle, Some(60.0)));
+    assert!((text.height - 3.5).abs() < 1e-12);
+    assert!(symbol.is_symbol() && !text.is_symbol());
+    for (name, field) in FIELDS {
+        assert_eq!(field.to_string(), name);
+    }
+}
+
+#[test]
+fn what_is_not_read_is_told_with_its_place() {
+    for (content, place, words) in [
+        ("<circle r='2'/>", (2, 1), "`circle` is not read"),
+        ("<path d='M0 0 C1 1 2 2 3 3'/>", (2, 15), "the command `C` is not read"),
+        ("<path d='M0 0 L1'/>", (2, 17), "a number is missing"),
+        ("<path d='L1 1'/>", (2, 10), "begins with M"),
+        ("<path d='M0 0 L1 x'/>", (2, 18), "a number is missing"),
+        ("<path d='5 5'/>", (2, 10), "follows no command"),
+        ("<rect x='1e9'/>", (2, 10), "no number for `x`"),
+        ("<rect transform='scale(2)'/>", (2, 18), "`transform` of `rect` is not read"),
+        ("<text style='font-size:3'>a</text>", (2, 14), "as attributes"),
+        ("<text>{titel}</text>", (2, 1), "there is no field `titel`"),
+        ("<text>{title</text>", (2, 1), "without its `}`"),
+        ("<text>{projection} {title}</text>", (2, 1), "a text element of its own"),
+        ("<text><tspan>a</tspan></text>", (2, 7), "within a text"),
+        ("<text text-anchor='left'>a</text>", (2, 1), "no text-anchor"),
+        ("<text>a &b</text>", (2, 7), "write &amp;"),
+        ("<text>a &b; c</text>", (2, 7), "`&b;` is unknown"),
+        ("<g><rect/>", (3, 1), "closed where it is not open"),
+        ("<g", (3, 1), "a name is missing"),
+        ("<g id=3>", (2, 7), "quotes"),
+        ("<!DOCTYPE svg>", (2, 1), "document type"),
+        ("<!-- never closed", (2, 1), "`-->` is missing"),
+    ] {
+        let error = parse(content).expect_err(content);
+        assert_eq!((error.line, error.column), place, "{content}: {error}");
+        assert!(error.message.contains(words), "{content}: {error}");
+    }
+    for (svg, words) in [
+        ("", "an SVG file"),
+        ("<html/>", "an SVG file"),
+        ("<svg/>", "viewBox"),
+        ("<svg viewBox='0 0 0 9'/>", "from 1 to 1000"),
+        ("<svg viewBox='0 5 9 9'/>", "begins at 0 0"),
+        ("<svg viewBox='0 0 9 9'>", "`svg` is not closed"),
+    ] {
+        let error = TitleBlockTemplate::parse(svg).expect_err(svg);
+        assert!(error.to_string().contains(words), "{svg}: {error}");
+    }
+    let deep = "<g>".repeat(1000);
+    assert!(parse(&deep).expect_err("too deep").message.contains("too deeply"));
+}

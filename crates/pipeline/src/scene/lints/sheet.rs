@@ -1,0 +1,33 @@
+//! Lints of sheets: views without a place, sections that no view shows, letters without a glyph.
+
+use super::{Lint, Linter};
+use crate::scene::Style;
+use crate::scene::sheet::{SheetContent, resolve_sheet};
+use crate::scene::syntax::PathStep::Field;
+use drawing::Warning;
+
+/// The warnings that `alberti sheet` would give about the layout of the scene's sheet.
+pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
+    let Linter { origin, file, scene, .. } = *adviser;
+    let Some(sheet_file) = &file.sheet else { return Vec::new() };
+    let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
+    let content = SheetContent { models: &scene.models, sections: &scene.sections, style };
+    let sheet = resolve_sheet(origin, sheet_file, content).ok();
+    let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
+    let to_lint = |warning: Warning| {
+        let (code, help) = match &warning {
+            Warning::ViewLeftOut { .. } => ("sheet-view-missing", "or leave the view out"),
+            Warning::SectionOblique { .. } => {
+                ("section-oblique", "turn the section, or look at it by `alberti render`")
+            }
+            Warning::GlyphsMissing { .. } => {
+                ("missing-glyph", "letters are those of Latin alphabets, with digits and signs")
+            }
+            // Planes beside the models are told of where they stand.
+            _ => return None,
+        };
+        let error = origin.error_at(&[Field("sheet")], warning.to_string(), Some(help.to_owned()));
+        Some(Lint { code, error })
+    };
+    warnings.into_iter().flatten().filter_map(to_lint).collect()
+}
