@@ -48,6 +48,7 @@ mod sandbox;
 mod scene;
 mod sections;
 mod sequences;
+mod sheet_options;
 mod sweep;
 mod thumbnailer;
 mod variants;

@@ -24,7 +24,10 @@ use viewport::{DrawingScale, Rectangle};
 const BLOCK_WIDTH: f64 = 180.0;
 
 /// The height of a block with three rows and of one with four, in millimeters.
-const BLOCK_HEIGHTS: [f64; 2] = [32.0, 47.0];
+const BLOCK_HEIGHTS: [f64; 2] = [32.0, 48.0];
+
+/// The most of the drawing area's height that these take.
+const MOST_OF_HEIGHT: [f64; 2] = [0.3, 0.38];
 
 /// The height of letters of field names and the width of their strokes, in millimeters.
 const NAME_HEIGHT: f64 = 1.8;
@@ -71,8 +74,9 @@ pub(super) fn title_block_area(sheet: &Sheet, frame: Rectangle) -> Rectangle {
     if let Some(template) = &sheet.title_block_template {
         return template.area(frame);
     }
-    let own = BLOCK_HEIGHTS[usize::from(sheet.title_block.has_all_fields())];
-    let (width, height) = (BLOCK_WIDTH.min(frame.width()), own.min(frame.height() * 0.3));
+    let rows = usize::from(sheet.title_block.has_all_fields());
+    let most = frame.height() * MOST_OF_HEIGHT[rows];
+    let (width, height) = (BLOCK_WIDTH.min(frame.width()), BLOCK_HEIGHTS[rows].min(most));
     let (right, bottom) = (frame.x() + frame.width(), frame.y() + frame.height());
     rectangle_from_size(right - width, bottom - height, width, height)
 }
@@ -120,7 +124,7 @@ pub(super) fn title_block_layers(
         let below = if field.second_value.is_empty() { 0.19 } else { 0.14 };
         let foot = corner + DVec2::new(FIELD_INSET, size.y - size.y * below);
         let second = Label::new(&field.second_value, foot, second_height);
-        let up = if field.second_value.is_empty() { 0.0 } else { 1.45 * second_height };
+        let up = if field.second_value.is_empty() { 0.0 } else { 1.6 * second_height };
         let value = Label::new(&field.value, foot - DVec2::Y * up, height);
         let layer = if field.field == FieldName::Title { &mut heading } else { &mut values };
         layer.groups.push(value.fit_to_width(text_width).group());

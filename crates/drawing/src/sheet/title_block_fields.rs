@@ -91,7 +91,7 @@ pub(super) struct TitleBlockField {
 
 /// The heights of the rows as fractions of the block: with three and with four rows.
 const THREE_ROWS: [f64; 3] = [0.31, 0.69, 1.0];
-const FOUR_ROWS: [f64; 4] = [10.0 / 47.0, 20.0 / 47.0, 37.0 / 47.0, 1.0];
+const FOUR_ROWS: [f64; 4] = [10.0 / 48.0, 20.0 / 48.0, 38.0 / 48.0, 1.0];
 
 /// The fields in reading order.
 ///

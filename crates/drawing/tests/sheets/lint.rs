@@ -21,7 +21,7 @@ fn is_text_layer(id: &str) -> bool {
         "title-block-title",
         "title-block-text",
     ];
-    TEXTS.contains(&id)
+    TEXTS.contains(&id) || id.starts_with("title-block-text-")
 }
 
 /// The rectangle around lines, `None` without any.

@@ -16,3 +16,4 @@ mod parts_models;
 mod sections;
 mod styles;
 mod views;
+mod title_blocks;

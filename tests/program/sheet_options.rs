@@ -1,0 +1,178 @@
+//! Options of sheets: paper, title blocks, resolution, and what is said about their layout; texts
+//! of a PDF as another reader finds them.
+
+use crate::drawings::{assert_near, assert_succeeds, read_drawing, write_box};
+use crate::sandbox::Sandbox;
+use std::io::Write as _;
+use std::process::Command;
+
+/// A sheet of a box of 100 × 50 × 30 mm with these fields.
+fn write_scene(sandbox: &Sandbox, name: &str, fields: &str) {
+    let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields}))");
+    sandbox.write_file(name, text);
+}
+
+#[test]
+fn paper_is_chosen_by_the_size_of_the_model() {
+    let sandbox = Sandbox::new("sheet_paper");
+    for (sides, flags, page) in [
+        ([0.1, 0.05, 0.03], &[][..], [297.0, 210.0]),
+        ([0.4, 0.15, 0.1], &[], [594.0, 420.0]),
+        ([0.1, 0.15, 0.4], &["--orientation", "portrait"], [594.0, 841.0]),
+        ([0.4, 0.15, 0.1], &["--scale", "1:5"], [297.0, 210.0]),
+        ([40.0, 15.0, 10.0], &[], [297.0, 210.0]),
+    ] {
+        write_box(&sandbox, "box", sides);
+        let arguments = ["sheet", "box.gltf", "--paper", "auto", "-o", "out.svg"];
+        assert_succeeds(&sandbox, &[&arguments[..], flags].concat());
+        assert_eq!(read_drawing(&sandbox, "out.svg").0, page, "{sides:?} {flags:?}");
+    }
+}
+
+#[test]
+fn the_scale_is_explained() {
+    let sandbox = Sandbox::new("sheet_scale");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let explain = |flags: &[&str]| {
+        let arguments = ["sheet", "box.gltf", "-o", "out.pdf", "--explain-scale"];
+        let run = sandbox.run(&[&arguments[..], flags].concat());
+        assert_eq!((run.code, run.stdout.as_str()), (0, ""), "{}", run.stderr);
+        run.stderr
+    };
+    let told = explain(&["--paper", "a4"]);
+    assert!(told.starts_with("the views fill ") && told.contains(" at 1:1; at 2:1, the"), "{told}");
+    let told = explain(&["--scale", "1:2"]);
+    assert!(told.ends_with(" at 1:2; this scale was asked for\n"), "{told}");
+}
+
+#[test]
+fn the_resolution_of_a_png_is_chosen() {
+    let sandbox = Sandbox::new("sheet_dpi");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    for (flags, size) in [(&[][..], (1240, 1754)), (&["--dpi", "50"], (413, 585))] {
+        let arguments =
+            ["sheet", "box.gltf", "--paper", "a4", "--orientation", "portrait", "-o", "out.png"];
+        assert_succeeds(&sandbox, &[&arguments[..], flags].concat());
+        let (width, height, _) = sandbox.read_picture("out.png");
+        assert_eq!((width, height), size, "{flags:?}");
+    }
+    assert_eq!(sandbox.run(&["sheet", "box.gltf", "--dpi", "0"]).code, 2);
+}
+
+#[test]
+fn texts_of_a_pdf_are_found_by_another_reader() {
+    let sandbox = Sandbox::new("sheet_text");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    write_scene(
+        &sandbox,
+        "scene.ron",
+        "paper: A4, orientation: Landscape, scale: (1, 1), title: \"Größe 轴承\", author: \"Zoë\", decimal: Comma, \
+         owner: \"Alberti\", language: Chinese",
+    );
+    let run = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
+    // The letters are not drawn, but they are found.
+    assert!(run.code == 0 && run.stderr.contains("lack 轴承 of"), "{}", run.stderr);
+    let read = |flags: &[&str]| {
+        let path = sandbox.path_of("out.pdf").display().to_string();
+        let run = Command::new("pdftotext").args(flags).args([path.as_str(), "-"]).output();
+        run.ok().map(|run| {
+            assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+            assert_eq!(String::from_utf8_lossy(&run.stderr), "");
+            String::from_utf8(run.stdout).expect("text")
+        })
+    };
+    let Some(text) = read(&["-raw"]) else {
+        // Not by a macro: the harness would hide it.
+        let _ = writeln!(std::io::stderr(), "SKIPPED texts of a PDF: pdftotext is not installed");
+        return;
+    };
+    for word in ["Größe 轴承", "Zoë", "Alberti", "100", "50", "30", "单位名称", "1:1", "A4", "zh"]
+    {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    // A word stands where its letters are: the title begins 1.5 mm from the border of the block.
+    let boxes = read(&["-bbox"]).expect("a reader");
+    let line = boxes.lines().find(|line| line.contains(">Größe<")).expect("the title");
+    let attribute = |name: &str| {
+        let (_, rest) = line.split_once(&format!("{name}=\"")).expect(name);
+        rest.split('"').next().and_then(|text| text.parse::<f64>().ok()).expect("a number")
+    };
+    assert_near(attribute("xMin") * 25.4 / 72.0, 287.0 - 180.0 + 1.5);
+    let upper = attribute("yMin") * 25.4 / 72.0;
+    assert!((152.0 + 20.0..200.0 - 10.0).contains(&upper), "{upper}");
+}
+
+#[test]
+fn a_title_block_of_ones_own_is_read_or_its_mistake_is_shown() {
+    let sandbox = Sandbox::new("sheet_block");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    write_scene(&sandbox, "scene.ron", "title: \"Box\", title_block: \"block.svg\"");
+    let good = "<svg viewBox=\"0 0 90 20\"><rect width=\"90\" height=\"20\"/>\n\
+                <text x=\"2\" y=\"8\">{title}, {scale}</text></svg>";
+    sandbox.write_file("block.svg", good);
+    assert_succeeds(&sandbox, &["sheet", "scene.ron", "-o", "out.svg"]);
+    let (_, layers) = read_drawing(&sandbox, "out.svg");
+    let block = layers.get("title-block").expect("a block");
+    assert_eq!(block[0][..2], [[320.0, 267.0], [410.0, 267.0]]);
+    for (svg, told) in [
+        (
+            good.replace("title}", "titel}"),
+            "block.svg, line 2, column 1: there is no field `titel`",
+        ),
+        (good.replace("<rect", "<ellipse"), "block.svg, line 1, column 27: `ellipse` is not read"),
+        ("\u{0}".to_owned(), "a title block is an SVG file"),
+    ] {
+        sandbox.write_file("block.svg", svg);
+        for command in
+            [&["sheet", "scene.ron", "-o", "no.svg"][..], &["scene", "check", "scene.ron"]]
+        {
+            let run = sandbox.run(command);
+            let message = run.stdout + &run.stderr;
+            assert!(run.code == 1 && message.contains(told), "{command:?}: {message}");
+            assert!(message.contains("scene.ron:1:"), "{message}");
+        }
+    }
+    write_scene(&sandbox, "scene.ron", "title_block: \"../block.svg\"");
+    let run = sandbox.run(&["sheet", "scene.ron", "-o", "no.svg"]);
+    assert!(run.code == 1 && run.stderr.contains("leads out of the scene's folder"));
+    assert!(!sandbox.file_names().contains(&"no.svg".to_owned()));
+}
+
+#[test]
+fn numbers_that_make_no_sense_are_mistakes() {
+    let sandbox = Sandbox::new("sheet_numbers");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    for (fields, told) in [
+        ("precision: 7", "7 decimals are more than 6"),
+        ("sheet_number: (3, 2)", "there is no sheet 3 of 2"),
+        ("sheet_number: (0, 2)", "there is no sheet 0 of 2"),
+    ] {
+        write_scene(&sandbox, "scene.ron", fields);
+        let run = sandbox.run(&["scene", "check", "scene.ron"]);
+        assert!(run.code == 1 && run.stdout.contains(told), "{fields}: {}", run.stdout);
+    }
+}
+
+#[test]
+fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
+    let sandbox = Sandbox::new("sheet_check");
+    write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    for (fields, code, told) in [
+        (
+            "paper: A5, scale: (1, 1)), sections: [Section(normal: (1, 1, 1), point: (0.05, 0.02, 0.02))]",
+            "section-oblique",
+            "neither a cut line",
+        ),
+        ("author: \"a\u{202e}\u{5d0}\u{7}\")", "missing-glyph", "lack \\u{202e}\u{5d0}\\u{7} of"),
+        ("paper: A5, scale: (1, 1))", "sheet-view-missing", "no place for the isometric view"),
+    ] {
+        let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields})");
+        sandbox.write_file("scene.ron", text);
+        let checked = sandbox.run(&["scene", "check", "scene.ron"]);
+        let drawn = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
+        assert!(checked.code == 0 && drawn.code == 0, "{}{}", checked.stdout, drawn.stderr);
+        let head = format!("warning[{code}]: ");
+        assert!(checked.stdout.contains(&head), "{code}: {}", checked.stdout);
+        assert!(checked.stdout.contains(told) && drawn.stderr.contains(told), "{}", drawn.stderr);
+    }
+}
