@@ -66,7 +66,7 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
     write_scene(
         &sandbox,
         "scene.ron",
-        "paper: A4, orientation: Landscape, scale: (1, 1), title: \"Größe 轴承\", author: \"Zoë\", decimal: Comma, \
+        "paper: A4, orientation: Landscape, scale: (1, 1), title: \"Größe 轴承\", author: \"Zoë\", decimal_mark: Comma, \
          owner: \"Alberti\", language: Chinese",
     );
     let run = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
@@ -143,7 +143,7 @@ fn numbers_that_make_no_sense_are_mistakes() {
     let sandbox = Sandbox::new("sheet_numbers");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     for (fields, told) in [
-        ("precision: 7", "7 decimals are more than 6"),
+        ("decimals: 7", "7 decimals are more than 6"),
         ("sheet_number: (3, 2)", "there is no sheet 3 of 2"),
         ("sheet_number: (0, 2)", "there is no sheet 0 of 2"),
     ] {
