@@ -31,6 +31,9 @@ const DEFAULT_LINE_WIDTH: f64 = 0.35;
 /// The height of letters without `font-size`, in millimeters.
 const DEFAULT_TEXT_HEIGHT: f64 = 3.5;
 
+/// The longest text of a file, in bytes.
+const MAX_LENGTH: usize = 1 << 20;
+
 /// The longest side of a block in millimeters.
 const MAX_SIDE: f64 = 1000.0;
 
@@ -161,6 +164,10 @@ impl TitleBlockTemplate {
     /// If the file is no SVG, or has something that is not read: other shapes, transforms, styles,
     /// unknown fields.
     pub fn parse(svg: &str) -> Result<Self, TemplateError> {
+        if svg.len() > MAX_LENGTH {
+            let message = format!("a title block has at most {MAX_LENGTH} bytes");
+            return Err(TemplateError::at(svg, 0, message));
+        }
         let mut reader = MarkupReader::new(svg);
         let root = match reader.next()? {
             Some(Event::Start(root)) if root.name == "svg" => root,
@@ -227,7 +234,7 @@ impl TitleBlockTemplate {
             }
         };
         element.check_attributes(svg)?;
-        let width = element.number(svg, "stroke-width", DEFAULT_LINE_WIDTH)?;
+        let width = element.size(svg, "stroke-width", DEFAULT_LINE_WIDTH)?;
         let of_width = |(points, closed)| TemplateLine { points, closed, width };
         self.lines.extend(lines.into_iter().map(of_width));
         Ok(())
@@ -244,7 +251,7 @@ impl TitleBlockTemplate {
         let parts =
             text_parts(content).map_err(|message| TemplateError::at(svg, element.at, message))?;
         let anchor = DVec2::new(element.number(svg, "x", 0.0)?, element.number(svg, "y", 0.0)?);
-        let height = element.number(svg, "font-size", DEFAULT_TEXT_HEIGHT)?;
+        let height = element.size(svg, "font-size", DEFAULT_TEXT_HEIGHT)?;
         let align = match element.attribute("text-anchor").map_or("start", |(value, _)| value) {
             "start" => TextAlign::Start,
             "middle" => TextAlign::Middle,

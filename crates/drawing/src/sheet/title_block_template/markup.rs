@@ -97,6 +97,21 @@ impl<'a> Element<'a> {
         })
     }
 
+    /// The number of an attribute that is to be greater than 0.
+    pub(super) fn size(
+        &self,
+        source: &str,
+        name: &str,
+        default: f64,
+    ) -> Result<f64, TemplateError> {
+        let number = self.number(source, name, default)?;
+        if number > 0.0 {
+            return Ok(number);
+        }
+        let at = self.attribute(name).map_or(self.at, |(_, at)| at);
+        Err(TemplateError::at(source, at, format!("`{name}` is greater than 0")))
+    }
+
     /// Whether there is nothing that changes the drawing and is not read, such as a transform.
     pub(super) fn check_attributes(&self, source: &str) -> Result<(), TemplateError> {
         let is_known =

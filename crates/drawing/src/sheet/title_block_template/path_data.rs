@@ -3,9 +3,6 @@
 use super::TemplateError;
 use glam::DVec2;
 
-/// The most commands and numbers of a path.
-const MAX_WORDS: usize = 100_000;
-
 /// The largest coordinate, in millimeters: far beyond any paper.
 const MAX_COORDINATE: f64 = 1e5;
 
@@ -26,7 +23,7 @@ fn words(text: &str, start: usize) -> Vec<(&str, usize)> {
     let mut words = Vec::new();
     let bytes = text.as_bytes();
     let mut at = 0;
-    while at < bytes.len() && words.len() <= MAX_WORDS {
+    while at < bytes.len() {
         let begin = at;
         let c = bytes[at];
         if c.is_ascii_whitespace() || c == b',' {

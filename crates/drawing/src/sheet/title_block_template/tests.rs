@@ -71,6 +71,8 @@ fn what_is_not_read_is_told_with_its_place() {
         ("<text text-anchor='left'>a</text>", (2, 1), "no text-anchor"),
         ("<text>a &b</text>", (2, 7), "write &amp;"),
         ("<text>a &b; c</text>", (2, 7), "`&b;` is unknown"),
+        ("<rect stroke-width='0'/>", (2, 21), "greater than 0"),
+        ("<text font-size='-3'>a</text>", (2, 18), "greater than 0"),
         ("<g><rect/>", (3, 1), "closed where it is not open"),
         ("<g", (3, 1), "a name is missing"),
         ("<g id=3>", (2, 7), "quotes"),
@@ -92,6 +94,8 @@ fn what_is_not_read_is_told_with_its_place() {
         let error = TitleBlockTemplate::parse(svg).expect_err(svg);
         assert!(error.to_string().contains(words), "{svg}: {error}");
     }
+    let long = parse(&" ".repeat(2 << 20)).expect_err("too long");
+    assert!(long.message.contains("at most 1048576 bytes"), "{long}");
     let deep = "<g>".repeat(1000);
     assert!(parse(&deep).expect_err("too deep").message.contains("too deeply"));
 }
