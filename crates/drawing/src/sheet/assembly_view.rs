@@ -21,8 +21,8 @@ use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
 use viewport::{DrawingScale, Rectangle};
 
-/// From the view to the frame without balloons, and from balloons to it, in millimeters.
-const BORDER_GAP: f64 = 5.0;
+/// From the view or its balloons to the frame, in millimeters: beyond the centering marks.
+const BORDER_GAP: f64 = 6.0;
 
 /// From the view to the balloons, in millimeters.
 const VIEW_GAP: f64 = 5.0;

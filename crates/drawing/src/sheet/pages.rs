@@ -252,10 +252,8 @@ impl<'a> DrawnAssembly<'a> {
         for item in &self.list.items {
             let number = |object: &u32| self.parts.binary_search_by_key(object, |p| p.object).ok();
             let of_item = item.objects.iter().filter_map(number).filter_map(|at| spots[at]);
-            let clearer = |a: VisibleSpot, b: VisibleSpot| {
-                if b.clearance > a.clearance { b } else { a }
-            };
-            match of_item.reduce(clearer) {
+            let of_item: Vec<VisibleSpot> = of_item.collect();
+            match outermost_clear_spot(&of_item, view) {
                 Some(spot) => {
                     targets.push(BalloonTarget { item, spot: layout.on_page(&spot, view) });
                 }
@@ -356,6 +354,18 @@ impl Sheet {
             remedy: "; use larger paper, or set the unit of the model".to_owned(),
         }
     }
+}
+
+/// The spot of equal parts to which the leader goes: of those that are about as clear as the
+/// clearest, the one nearest to the border of the view.
+fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
+    let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
+    let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();
+    let outward = |spot: &VisibleSpot| (spot.at / view.size.max(DVec2::splat(1e-300))).abs();
+    let farther = |a: VisibleSpot, b: VisibleSpot| {
+        if outward(&b).max_element() > outward(&a).max_element() { b } else { a }
+    };
+    clear.reduce(farther)
 }
 
 /// Takes the paths of the parts out of a drawing; they belong to its last object.

@@ -29,8 +29,9 @@ const INSET: f64 = 1.2;
 /// is cut off.
 const LEAST_REDUCTION: f64 = 0.7;
 
-/// From the lowest row of a page to the title block, in millimeters.
-const GAP: f64 = 5.0;
+/// From a table on a page of its own to the frame and to the title block, in millimeters: beyond
+/// the centering marks.
+const GAP: f64 = 6.0;
 
 /// The layout of a parts list on the paper of a sheet.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +48,7 @@ pub(super) struct TableColumn {
     pub(super) rows: Range<usize>,
     /// The upper left corner.
     corner: DVec2,
+    width: f64,
     /// Whether the heading is below, and the list is read upward.
     is_upward: bool,
 }
@@ -71,9 +73,13 @@ impl<'a> PartsTable<'a> {
     pub(super) fn above_title_block(&self, most: f64) -> Option<TableColumn> {
         let (block, rows) = (self.sheet.title_block_area(), self.list.items.len());
         let corner = DVec2::new(block.x(), block.y() - self.height(rows));
-        (self.height(rows) <= most).then_some(TableColumn {
+        // The centering mark at the middle of the side stays clear.
+        let is_below_mark = corner.y > 0.5 * self.sheet.paper.height() + 1.0;
+        let width = block.width();
+        (self.height(rows) <= most && is_below_mark).then_some(TableColumn {
             rows: 0..rows,
             corner,
+            width,
             is_upward: true,
         })
     }
@@ -85,10 +91,12 @@ impl<'a> PartsTable<'a> {
         let (frame, block) = (self.sheet.drawing_area(), self.sheet.title_block_area());
         let beside = ((block.x() - frame.x()) / block.width() + 1e-9).floor() as usize;
         let rows_in = |height: f64| ((height / self.row_height()).floor() as usize).max(2) - 1;
-        let mut column_places: Vec<(f64, usize)> = (0..beside)
-            .map(|column| (frame.x() + block.width() * column as f64, rows_in(frame.height())))
-            .collect();
-        column_places.push((block.x(), rows_in(block.y() - frame.y() - GAP)));
+        let width = (block.width() - 2.0 * GAP).max(0.5 * block.width());
+        let inset = 0.5 * (block.width() - width);
+        let below = rows_in(frame.height() - 2.0 * GAP);
+        let mut column_places: Vec<(f64, usize)> =
+            (0..beside).map(|column| (frame.x() + block.width() * column as f64, below)).collect();
+        column_places.push((block.x(), rows_in(block.y() - frame.y() - 2.0 * GAP)));
         let count = self.list.items.len();
         let (mut pages, mut next) = (Vec::new(), 0);
         while next < count || pages.is_empty() {
@@ -97,8 +105,8 @@ impl<'a> PartsTable<'a> {
                 let rows = next..count.min(next + most);
                 if !rows.is_empty() || columns.is_empty() {
                     next = rows.end;
-                    let corner = DVec2::new(x, frame.y());
-                    columns.push(TableColumn { rows, corner, is_upward: false });
+                    let corner = DVec2::new(x + inset, frame.y() + GAP);
+                    columns.push(TableColumn { rows, corner, width, is_upward: false });
                 }
             }
             pages.push(columns);
@@ -108,8 +116,8 @@ impl<'a> PartsTable<'a> {
 
     /// The area of a column, with its heading.
     pub(super) fn area(&self, column: &TableColumn) -> Rectangle {
-        let width = self.sheet.title_block_area().width();
-        rectangle_from_size(column.corner.x, column.corner.y, width, self.height(column.rows.len()))
+        let [x, y] = column.corner.to_array();
+        rectangle_from_size(x, y, column.width, self.height(column.rows.len()))
     }
 
     /// The borders of the cells, and the texts in them.
@@ -141,16 +149,15 @@ impl<'a> PartsTable<'a> {
             let y = top + self.row_height() * row as f64;
             push([DVec2::new(left, y), DVec2::new(right, y)]);
         }
-        for (start, _) in &self.cells()[1..] {
+        for (start, _) in &self.cells(column.width)[1..] {
             let x = left + start;
             push([DVec2::new(x, top), DVec2::new(x, bottom)]);
         }
         Group { strokes, ..Group::default() }
     }
 
-    /// The start and the width of each cell of a row, in millimeters.
-    fn cells(&self) -> Vec<(f64, f64)> {
-        let width = self.sheet.title_block_area().width();
+    /// The start and the width of each cell of a row of this width, in millimeters.
+    fn cells(&self, width: f64) -> Vec<(f64, f64)> {
         let parts: &[f64] = if self.list.has_masses {
             &[0.08, 0.09, 0.42, 0.27, 0.14]
         } else {
@@ -199,7 +206,9 @@ impl<'a> PartsTable<'a> {
     fn add_row(&self, layer: &mut Layer, (column, row): (&TableColumn, usize), texts: &[String]) {
         let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
         let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
-        for (index, ((start, width), text)) in self.cells().iter().zip(texts).enumerate() {
+        for (index, ((start, width), text)) in
+            self.cells(column.width).iter().zip(texts).enumerate()
+        {
             let room = width - 2.0 * INSET;
             let text = cut_to_width(text, self.letters * LEAST_REDUCTION, room);
             let (align, x) = match index {

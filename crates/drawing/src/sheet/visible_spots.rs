@@ -191,3 +191,63 @@ impl PartImage {
         distances
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::gather_parts;
+    use camera::NamedView;
+    use homog::Affine;
+    use model::{Mesh, Model, Node, Primitive, world_points};
+    use std::sync::Arc;
+
+    /// A model of triangles, each a part of its own.
+    fn triangles(corners: &[[[f32; 3]; 3]]) -> ModelInstance {
+        let mut model = Model::default();
+        for (index, positions) in corners.iter().enumerate() {
+            let (positions, indices) = (positions.to_vec(), vec![0, 1, 2]);
+            let primitive = Primitive { positions, indices, ..Primitive::default() };
+            model.meshes.push(Mesh { primitives: vec![primitive], ..Mesh::default() });
+            model.nodes.push(Node { mesh: Some(index), ..Node::default() });
+            model.roots.push(index);
+        }
+        ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }
+    }
+
+    #[test]
+    fn spots_lie_on_the_nearest_part() {
+        let mut state = 11_u64;
+        let mut fraction = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888);
+            (state >> 40) as f32 / (1_u32 << 24) as f32
+        };
+        let corners: Vec<[[f32; 3]; 3]> =
+            (0..60).map(|_| [(); 3].map(|()| [(); 3].map(|()| fraction() * 10.0))).collect();
+        let models = [triangles(&corners)];
+        let parts = gather_parts(&models);
+        let moves: Vec<DVec3> = (0..60).map(|k| DVec3::X * f64::from(k % 4)).collect();
+        let points = world_points(&models);
+        let view = SheetView::frame_points(&points, NamedView::Isometric, 1.0).expect("a view");
+        let moved = MovedParts { parts: &parts, models: &models, moves: &moves };
+        let spots = find_visible_spots(&moved, &view);
+        assert!(spots.iter().flatten().count() > 40);
+        let to_view = view.camera.world_to_view();
+        for (part, spot) in spots.iter().enumerate() {
+            let Some(VisibleSpot { at, .. }) = spot else { continue };
+            // The nearest triangle at the spot, by barycentric coordinates.
+            let depth = |number: usize| {
+                let [a, b, c] = corners[number].map(|corner| {
+                    let world = DVec3::from(corner.map(f64::from)) + moves[number];
+                    to_view.transform_point(Point::from_raw(world)).raw()
+                });
+                let p = DVec2::new(at.x, -at.y) - a.truncate();
+                let (u, v) = ((b - a).truncate(), (c - a).truncate());
+                let [s, t] = [p.perp_dot(v), u.perp_dot(p)].map(|area| area / u.perp_dot(v));
+                let is_inside = s >= 0.0 && t >= 0.0 && s + t <= 1.0;
+                is_inside.then_some(a.z + (b.z - a.z) * s + (c.z - a.z) * t)
+            };
+            let own = depth(part).expect("the spot is on its part");
+            assert!((0..60).filter_map(depth).all(|other| other <= own + 1e-9), "{part}");
+        }
+    }
+}

@@ -39,7 +39,8 @@ fn check_density_names(
     file: &SheetFile,
     models: &[ModelInstance],
 ) -> Result<(), SceneError> {
-    if file.densities.iter().all(|density| density.of == "*") {
+    // Without models a scene file is checked for what is wrong whatever they are.
+    if models.is_empty() || file.densities.iter().all(|density| density.of == "*") {
         return Ok(());
     }
     let list = PartsList::new(models, &[], 1.0);

@@ -167,14 +167,17 @@ fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, Sc
     Ok(NumberFormat { decimals, decimal_mark: file.decimal_mark })
 }
 
-/// The error of a sheet whose views are larger than its paper; `None` without one, or if it is
-/// wrong in itself.
+/// The error of a sheet whose views are larger than its paper, or that names parts which the models
+/// do not have; `None` without one, or if it is wrong in itself.
 pub(super) fn check_sheet_layout(
     origin: &Origin,
     file: Option<&SheetFile>,
     content: SheetContent<'_>,
 ) -> Option<SceneError> {
     let file = file?;
+    if let Err(error) = resolve_assembly(origin, file, content.models) {
+        return Some(error);
+    }
     let sheet = resolve_sheet(origin, file, content).ok()?;
     let error = sheet.check_layout(content.models, content.sections).err()?;
     if let Some(error) = sheet_view_error(origin, &error) {
