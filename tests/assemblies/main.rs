@@ -95,8 +95,10 @@ fn check_model(path: &Path) -> Result<Option<String>, String> {
                     return Err(format!("{name} {is_exploded} page {number}: {count}: {fault}"));
                 }
             }
-            let balloons = pages.iter().map(|page| balloons::texts(page, "balloon-numbers").len());
-            summary += &format!("  {name} {}/{}", balloons.sum::<usize>(), pages.len());
+            let numbers = pages.iter().map(|page| balloons::texts(page, "balloon-numbers").len());
+            let crossing = pages.iter().map(|page| balloons::crossing_leaders(page).len());
+            let (numbers, crossing): (usize, usize) = (numbers.sum(), crossing.sum());
+            summary += &format!("  {name} {numbers}/{} ({crossing})", pages.len());
         }
     }
     let axes = [ExplosionAxis::Auto, ExplosionAxis::X, ExplosionAxis::All];

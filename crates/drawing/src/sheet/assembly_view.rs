@@ -12,7 +12,7 @@
 //! ```
 
 use super::annotation::Extent;
-use super::balloon_ring::{assign_places, ring_places};
+use super::balloon_ring::{clear_places, ring_places, shortest_places};
 use super::sheet_view::SheetView;
 use super::visible_spots::VisibleSpot;
 use super::{Sheet, rectangle_from_size};
@@ -31,7 +31,11 @@ const VIEW_GAP: f64 = 5.0;
 const BALLOON_GAP: f64 = 2.5;
 
 /// The number of rings that are tried, from the view to the border.
-const RING_STEPS: u32 = 8;
+const RING_STEPS: u32 = 5;
+
+/// The distances of balloons that are tried on each ring, as multiples of the least: where they
+/// stand farther apart, leaders pass between them at flatter angles.
+const SPREADS: [f64; 3] = [1.0, 1.4, 2.0];
 
 /// The radius of the dot at the end of a leader as a multiple of the height of letters.
 const DOT_RADIUS: f64 = 0.15;
@@ -116,30 +120,40 @@ impl AssemblyLayout {
         self.center + spot.at * (view.millimeters_per_unit * self.scale.ratio())
     }
 
-    /// The layers of balloons and of their numbers, and the items that found no place.
+    /// The centers of the balloons of spots; `None` for those that find no place.
     ///
-    /// The ring that is nearest to the view and has a place for all of them is taken.
+    /// The ring that is nearest to the view and has a place for all of them is taken, if there is
+    /// one; else the one with most places whose leaders pass other balloons at a distance.
+    fn choose_places(&self, spots: &[DVec2]) -> Vec<Option<DVec2>> {
+        let clearance = self.radius + 0.5 * BALLOON_GAP;
+        let rings = (0..=RING_STEPS).map(|step| self.ring(f64::from(step) / f64::from(RING_STEPS)));
+        let rings: Vec<Extent> = rings.collect();
+        for ring in &rings {
+            for spread in SPREADS {
+                let places = ring_places(*ring, self.pitch() * spread);
+                if let Some(centers) = shortest_places(spots, &places, clearance) {
+                    return centers.into_iter().map(Some).collect();
+                }
+            }
+        }
+        let mut best = vec![None; spots.len()];
+        for ring in &rings {
+            let centers = clear_places(spots, &ring_places(*ring, self.pitch()), clearance);
+            if centers.iter().flatten().count() > best.iter().flatten().count() {
+                best = centers;
+            }
+        }
+        best
+    }
+
+    /// The layers of balloons and of their numbers, and the items that found no place.
     pub(super) fn balloon_layers<'a>(
         &self,
         targets: &[BalloonTarget<'a>],
         (width, ink): (f64, Ink),
     ) -> ([Layer; 2], Vec<&'a PartsListItem>) {
         let spots: Vec<DVec2> = targets.iter().map(|target| target.spot).collect();
-        let mut best: Option<(usize, Vec<Option<DVec2>>)> = None;
-        for step in 0..=RING_STEPS {
-            let ring = self.ring(f64::from(step) / f64::from(RING_STEPS));
-            let places = ring_places(ring, self.pitch());
-            let assigned = assign_places(&spots, &places, self.radius + 0.5 * BALLOON_GAP);
-            let placed = assigned.iter().flatten().count();
-            if best.as_ref().is_none_or(|(most, _)| placed > *most) {
-                let centers = assigned.iter().map(|place| place.map(|place| places[place]));
-                best = Some((placed, centers.collect()));
-            }
-            if placed == targets.len() {
-                break;
-            }
-        }
-        let centers = best.map(|(_, centers)| centers).unwrap_or_default();
+        let centers = self.choose_places(&spots);
         let pen = Pen { cap: crate::Cap::Butt, ..Pen::solid(width, ink) };
         let mut lines = Layer::new("balloons", "balloons", pen);
         let lettering = Pen::solid(self.letters * 0.1, ink);

@@ -42,15 +42,36 @@ pub(super) fn ring_places([low, high]: Extent, pitch: f64) -> Vec<DVec2> {
     places
 }
 
-/// The place of each spot, none used twice, with the shortest leaders; `None` for a spot whose
-/// leader would come nearer than `clearance` to another place.
-///
-/// There are at least as many places as spots.
-pub(super) fn assign_places(
+/// The place of each spot, none used twice, with the shortest leaders: they do not cross. `None` if
+/// there are too few places, or a leader comes nearer than `clearance` to the place of another.
+pub(super) fn shortest_places(
     spots: &[DVec2],
     places: &[DVec2],
     clearance: f64,
-) -> Vec<Option<usize>> {
+) -> Option<Vec<DVec2>> {
+    if spots.len() > places.len() {
+        return None;
+    }
+    let lengths = |spot: &DVec2| places.iter().map(|place| (*place - *spot).length()).collect();
+    let costs: Vec<Vec<f64>> = spots.iter().map(lengths).collect();
+    let assigned: Vec<DVec2> =
+        least_assignment(&costs).into_iter().map(|place| places[place]).collect();
+    let passes = |(spot, place): (&DVec2, &DVec2)| {
+        let is_near = |other: &DVec2| distance_to_segment(*other, [*spot, *place]) < clearance;
+        assigned.iter().any(|other| other != place && is_near(other))
+    };
+    (!spots.iter().zip(&assigned).any(passes)).then_some(assigned)
+}
+
+/// The place of each spot, none used twice, with the shortest leaders of those that come no nearer
+/// than `clearance` to any other place; `None` for a spot without such a leader.
+///
+/// Where some places are ruled out, leaders may cross.
+pub(super) fn clear_places(
+    spots: &[DVec2],
+    places: &[DVec2],
+    clearance: f64,
+) -> Vec<Option<DVec2>> {
     if spots.len() > places.len() {
         return vec![None; spots.len()];
     }
@@ -67,12 +88,13 @@ pub(super) fn assign_places(
         .map(|spot| (0..places.len()).map(|place| cost(*spot, place)).collect())
         .collect();
     let assigned = least_assignment(&costs);
-    let is_free = |(spot, place): (usize, usize)| (costs[spot][place] < FORBIDDEN).then_some(place);
+    let is_free =
+        |(spot, place): (usize, usize)| (costs[spot][place] < FORBIDDEN).then_some(places[place]);
     assigned.into_iter().enumerate().map(is_free).collect()
 }
 
 /// The distance of a point to a segment.
-pub(super) fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+fn distance_to_segment(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let length = along.length_squared();
     let t = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
@@ -156,12 +178,9 @@ mod tests {
         };
         let spots: Vec<DVec2> =
             (0..30).map(|_| DVec2::new(fraction() - 0.5, fraction() - 0.5) * 90.0).collect();
-        let assigned = assign_places(&spots, &places, 4.0);
-        let leaders: Vec<[DVec2; 2]> = spots
-            .iter()
-            .zip(&assigned)
-            .map(|(spot, place)| [*spot, places[place.expect("a place")]])
-            .collect();
+        let assigned = shortest_places(&spots, &places, 0.0).expect("places");
+        let leaders: Vec<[DVec2; 2]> =
+            spots.iter().zip(&assigned).map(|(spot, place)| [*spot, *place]).collect();
         let side = |[a, b]: [DVec2; 2], p: DVec2| (b - a).perp_dot(p - a);
         for (index, a) in leaders.iter().enumerate() {
             for b in &leaders[index + 1..] {
@@ -170,6 +189,22 @@ mod tests {
                 assert!(!crosses, "{a:?} {b:?}");
             }
         }
+    }
+
+    #[test]
+    fn leaders_pass_other_places_at_a_distance() {
+        // All spots near one corner: most of the places beside it are seen at a flat angle.
+        let places = ring_places([DVec2::ZERO, DVec2::splat(100.0)], 11.0);
+        let spots: Vec<DVec2> =
+            (0..20).map(|k| DVec2::new(8.0 + f64::from(k % 5), 8.0 + f64::from(k / 5))).collect();
+        let assigned = clear_places(&spots, &places, 5.0);
+        assert!(assigned.iter().flatten().count() > 10);
+        for (spot, place) in spots.iter().zip(&assigned) {
+            let Some(place) = place else { continue };
+            let mut others = places.iter().filter(|other| *other != place);
+            assert!(others.all(|other| distance_to_segment(*other, [*spot, *place]) >= 5.0));
+        }
+        assert_eq!(shortest_places(&spots, &places[..10], 5.0), None);
     }
 
     #[test]

@@ -275,8 +275,8 @@ impl<'a> DrawnAssembly<'a> {
         warnings: &mut Vec<Warning>,
     ) -> Vec<[Layer; 2]> {
         let width = self.sheet.line_width_group().narrow_width();
-        // Some places are crossed by leaders to others.
-        let capacity = (layout.capacity() * 4 / 5).max(1);
+        // Some places are in the way of leaders to others.
+        let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
         let each = targets.len().div_ceil(page_count).max(1);
         let mut pages = Vec::new();

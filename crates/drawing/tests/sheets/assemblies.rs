@@ -1,6 +1,6 @@
 //! Assemblies: parts lists, balloons, exploded views and sheets of parts.
 
-use crate::balloons::{balloon_faults, layer, texts, view_extent};
+use crate::balloons::{balloon_faults, crossing_leaders, layer, texts, view_extent};
 use crate::boxes::sheet;
 use crate::lint::faults;
 use crate::parts_models::{
@@ -48,6 +48,7 @@ fn an_assembly_of_fifty_parts_has_a_right_list_and_legible_pages() {
                 sheet.assembly.explosion = explosion;
                 let pages = sheet.draw_pages(&models, &[], 2).unwrap();
                 assert_eq!(faults_of_pages(&pages), [""; 0], "{name}");
+                assert_eq!(crossing_leaders(&pages[1]), [""; 0], "{name}");
                 let list: Vec<String> =
                     pages.iter().flat_map(|page| texts(page, "parts-list-text")).collect();
                 for kind in 0..10 {
@@ -85,6 +86,7 @@ fn fifty_different_parts_take_three_pages() {
     sheet.assembly.explosion = Some(ExplosionSettings { axis: ExplosionAxis::Y, distance: None });
     let pages = sheet.draw_pages(&models, &[], 2).unwrap();
     assert_eq!((pages.len(), faults_of_pages(&pages)), (3, Vec::new()));
+    assert_eq!(crossing_leaders(&pages[1]), [""; 0]);
     assert_eq!(texts(&pages[1], "balloon-numbers").len(), 50, "{:?}", pages[1].warnings);
     // Heading and 50 rows, in two columns of the third page.
     assert_eq!(texts(&pages[2], "parts-list-text").len(), 2 * 4 + 50 * 4);

@@ -78,12 +78,12 @@ pub fn balloon_faults(page: &Page) -> Vec<String> {
             }
         }
     }
-    faults.extend(crossing_leaders(balloons));
     faults
 }
 
-/// Leaders that cross.
-fn crossing_leaders(balloons: &Layer) -> Vec<String> {
+/// Leaders of a page that cross.
+pub fn crossing_leaders(page: &Page) -> Vec<String> {
+    let Some(balloons) = layer(page, "balloons") else { return Vec::new() };
     let leaders: Vec<(&str, [DVec2; 2])> = balloons
         .groups
         .iter()
