@@ -142,7 +142,12 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let options = ResolveOptions { import: args.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
     let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
-    let content = SheetContent { models: &scene.models, sections: &scene.sections, style };
+    let content = SheetContent {
+        models: &scene.models,
+        sections: &scene.sections,
+        uncut: &scene.uncut,
+        style,
+    };
     let mut sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, content)
         .map_err(pipeline::ResolveError::from)?;
     if let Some(degrees) = args.load_options.crease {

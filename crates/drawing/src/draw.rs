@@ -44,7 +44,7 @@ pub fn draw(
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
     subject.viewport()?;
-    let surface = WeldedSurface::new(subject.models, subject.sections);
+    let surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
     let mut drawing =
         draw_surface(&surface, &subject.view_projection, subject.size, options, threads)?;
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));

@@ -52,7 +52,7 @@ impl<'a> FeaturePicker<'a> {
     /// The features of the welded surface, found at the first request.
     fn features(&self) -> &Features {
         self.features.get_or_init(|| {
-            let surface = WeldedSurface::new(self.models, &[]);
+            let surface = WeldedSurface::new(self.models, &[], &[]);
             let edges = surface.feature_edges(self.crease_angle);
             let circles = surface.circles(&edges);
             Features { surface, edges, circles }

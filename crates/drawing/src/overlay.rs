@@ -275,7 +275,7 @@ fn model_occluders(subject: &Subject<'_>, hidden: HiddenLines) -> Option<Occlude
     let view_to_clip = Projective::from_raw(deep * subject.view_projection.view_to_clip.raw());
     let projector =
         Projector::new(&ViewProjection { view_to_clip, ..subject.view_projection }, &viewport);
-    let surface = WeldedSurface::new(subject.models, subject.sections);
+    let surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
     Some(Occluders::new(surface.occluder_triangles(), projector, surface.touch_tolerance()))
 }
 

@@ -10,11 +10,16 @@ use model::ModelInstance;
 const TOUCHING: f64 = 1e-9;
 
 /// The points of models that section planes retain: corners of what is left of their triangles and
-/// lines. All points if nothing is left.
+/// lines. Objects that are `uncut`, in ascending order, are retained whole. All points if nothing is
+/// left.
 ///
 /// A view that frames them shows the cut models as large as possible.
 #[must_use]
-pub fn retained_points(models: &[ModelInstance], sections: &[Plane<World>]) -> Vec<Point<World>> {
+pub fn retained_points(
+    models: &[ModelInstance],
+    sections: &[Plane<World>],
+    uncut: &[u32],
+) -> Vec<Point<World>> {
     let mesh = WorldMesh::from_models(models);
     let position = |vertex: u32| Point::from_raw(mesh.points[vertex as usize]);
     let mut retained = Vec::new();
@@ -22,13 +27,15 @@ pub fn retained_points(models: &[ModelInstance], sections: &[Plane<World>]) -> V
     for face in &mesh.faces {
         pieces.clear();
         pieces.push(face.vertices.map(position));
-        for plane in sections {
+        let is_cut = uncut.binary_search(&face.object).is_err();
+        for plane in sections.iter().filter(|_| is_cut) {
             pieces = pieces.iter().flat_map(|piece| cut_pieces(*piece, *plane)).collect();
         }
         retained.extend(pieces.as_flattened());
     }
     for line in &mesh.line_edges {
-        let ends = sections.iter().try_fold(line.ends.map(position), cut_line);
+        let is_cut = uncut.binary_search(&line.object).is_err();
+        let ends = sections.iter().filter(|_| is_cut).try_fold(line.ends.map(position), cut_line);
         retained.extend(ends.into_iter().flatten());
     }
     if retained.is_empty() { model::world_points(models) } else { retained }

@@ -131,6 +131,8 @@ pub struct Sheet {
     pub measures: Vec<Dimension>,
     /// Whether circles and the axes of round parts have center lines.
     pub center_lines: bool,
+    /// The objects that section planes do not cut: nodes with a mesh, counted over all models.
+    pub uncut: Vec<u32>,
     /// The texts of the title block.
     pub title_block: TitleBlockText,
     /// The pages that show the models as an assembly of parts: see
@@ -233,6 +235,7 @@ impl Sheet {
             dimensions: true,
             measures: Vec::new(),
             center_lines: false,
+            uncut: Vec::new(),
             title_block: TitleBlockText::default(),
             assembly: AssemblyPages::default(),
             views: Vec::new(),
@@ -253,7 +256,7 @@ impl Sheet {
         sections: &[Plane<World>],
         threads: usize,
     ) -> Result<Page, SheetError> {
-        self.draw_views(models, sections, (&mut SurfaceCache::new(models), threads))
+        self.draw_views(models, sections, (&mut SurfaceCache::new(models, &self.uncut), threads))
     }
 
     /// As [`draw`](Self::draw), with surfaces that other pages use as well.

@@ -19,6 +19,8 @@ pub struct Subject<'a> {
     pub caption_height: u32,
     /// Section planes; the side to which their unit normals point is retained.
     pub sections: &'a [Plane<World>],
+    /// The objects that they do not cut: nodes with a mesh, counted over all models.
+    pub uncut: &'a [u32],
 }
 
 impl Subject<'_> {

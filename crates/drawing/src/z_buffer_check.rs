@@ -141,7 +141,7 @@ impl ZBufferImage {
         let (width, height) = (width * finer, height * finer);
         let projector = Projector::new(&subject.view_projection, &Viewport::image(width, height)?);
         let to_world = drawing_projector.world_to_screen().inverse();
-        let surface = WeldedSurface::new(subject.models, subject.sections);
+        let surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
         let mut planes = Vec::new();
         let triangles = surface.occluder_triangles().map(|triangle| {
             let vertices = triangle.map(Point::raw);

@@ -36,6 +36,7 @@ mod material_overrides;
 mod mistake;
 #[cfg(test)]
 mod mistakes;
+mod named_nodes;
 mod number;
 pub mod options;
 mod origin;
@@ -54,6 +55,7 @@ mod style;
 mod suggest;
 mod surrounding_light;
 mod syntax;
+mod uncut;
 mod validate;
 mod view_projection;
 mod vocabulary;
@@ -117,6 +119,9 @@ pub struct Scene {
     pub caption: Option<String>,
     /// Planes that cut the models open in line drawings; their unit normals point to what is kept.
     pub sections: Vec<Plane<World>>,
+    /// The objects that the planes do not cut, in ascending order: nodes with a mesh, counted over
+    /// all models.
+    pub uncut: Vec<u32>,
 }
 
 impl Scene {
@@ -147,6 +152,7 @@ impl Scene {
             size: [self.image.width, self.image.height],
             caption_height: self.image.caption_height,
             sections: &self.sections,
+            uncut: &self.uncut,
         }
     }
 }

@@ -48,12 +48,18 @@ pub(super) fn cut_mesh(
     let mut openings = Vec::new();
     let mut retained = Vec::with_capacity(mesh.faces.len());
     for face in std::mem::take(&mut mesh.faces) {
-        cut_face(mesh, &face, plane, &mut retained, &mut openings);
+        if mesh.is_cut(face.object) {
+            cut_face(mesh, &face, plane, &mut retained, &mut openings);
+        } else {
+            retained.push(face);
+        }
     }
     let mut discarded = Vec::new();
     for face in fillings {
-        discarded.clear();
-        cut_face(mesh, face, plane, &mut discarded, &mut openings);
+        if mesh.is_cut(face.object) {
+            discarded.clear();
+            cut_face(mesh, face, plane, &mut discarded, &mut openings);
+        }
     }
     mesh.faces = retained;
     cut_line_edges(mesh, plane);
@@ -171,6 +177,7 @@ fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
         let ends = line.ends.map(|end| mesh.points[end as usize]);
         let heights = ends.map(|end| plane.evaluate(Point::from_raw(end)));
         let retained = match heights.map(|height| height >= 0.0) {
+            _ if !mesh.is_cut(line.object) => line.ends,
             [true, true] => line.ends,
             [false, false] => continue,
             [first, _] => {

@@ -82,12 +82,14 @@ pub(crate) struct WeldedSurface {
 }
 
 impl WeldedSurface {
-    /// Gathers and welds models, and cuts them open by section planes.
+    /// Gathers and welds models, and cuts them open by section planes, but for the objects that are
+    /// `uncut`, in ascending order.
     ///
     /// While bodies are being cut, coincident faces of different objects are both retained, since
     /// each body must be closed by itself; the last welding removes them.
-    pub(crate) fn new(models: &[ModelInstance], sections: &[Plane<World>]) -> Self {
+    pub(crate) fn new(models: &[ModelInstance], sections: &[Plane<World>], uncut: &[u32]) -> Self {
         let mut mesh = WorldMesh::from_models(models);
+        mesh.uncut = uncut.to_vec();
         mesh.keeps_duplicates = !sections.is_empty();
         weld_equal_vertices(&mut mesh);
         let mut half_edges = HalfEdges::new(&mesh.faces, mesh.points.len());

@@ -59,6 +59,8 @@ pub(crate) struct WorldMesh {
     pub(crate) keeps_duplicates: bool,
     /// The names of the objects.
     pub(crate) objects: Vec<String>,
+    /// The objects that section planes leave whole, in ascending order.
+    pub(crate) uncut: Vec<u32>,
 }
 
 impl WorldMesh {
@@ -144,6 +146,11 @@ impl WorldMesh {
             edge_visibility: listed(index).or(unlisted),
         });
         self.faces.extend(faces.filter(|face| are_finite(&self.points, &face.vertices)));
+    }
+
+    /// Whether section planes cut an object.
+    pub(crate) fn is_cut(&self, object: u32) -> bool {
+        self.uncut.binary_search(&object).is_err()
     }
 
     /// The diagonal of the bounding box of all finite points, 0 if there are none.

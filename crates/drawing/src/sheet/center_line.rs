@@ -116,18 +116,18 @@ fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)>
 fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
     let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
     for (center, along) in sides {
-        let is_full = lines.len() >= MAX_LINES;
-        let own = lines.iter_mut().find(|(point, direction, _)| {
+        let own = lines.iter().position(|(point, direction, _)| {
             direction.perp_dot(along).abs() < 1e-3
                 && (center - *point).perp_dot(*direction).abs() <= same
         });
         match own {
-            Some((point, direction, [low, high])) => {
+            Some(index) => {
+                let (point, direction, [low, high]) = &mut lines[index];
                 let at = (center - *point).dot(*direction);
                 (*low, *high) = (low.min(at), high.max(at));
             }
-            None if is_full => {}
-            None => lines.push((center, along, [0.0; 2])),
+            None if lines.len() < MAX_LINES => lines.push((center, along, [0.0; 2])),
+            None => {}
         }
     }
     let long = lines.into_iter().filter(|(_, _, [low, high])| high - low > same);

@@ -17,6 +17,9 @@ use glam::DVec2;
 /// The margin around texts, in heights of letters.
 const TEXT_MARGIN: f64 = 0.2;
 
+/// The margin around texts towards the lines of their own dimension, in heights of letters.
+const OWN_MARGIN: f64 = 0.15;
+
 /// Dimension lines that run beside each other are at least so far apart, in heights of letters.
 const LINE_SPACING: f64 = 1.8;
 
@@ -46,6 +49,25 @@ pub(super) struct DimensionBoard {
 }
 
 impl Candidate {
+    /// Whether its texts are clear of its own lines and of each other.
+    fn is_legible(&self, margin: f64) -> bool {
+        let parts: Vec<(bool, Vec<DVec2>)> = self
+            .shapes
+            .iter()
+            .flat_map(|(_, shape)| {
+                let is_text = matches!(shape, AnnotationShape::Text(_));
+                convex_parts(shape, margin).into_iter().map(move |part| (is_text, part))
+            })
+            .collect();
+        let texts = parts.iter().enumerate().filter(|(_, (is_text, _))| *is_text);
+        texts.into_iter().all(|(at, (_, text))| {
+            let others = parts.iter().enumerate().filter(|(other, _)| *other != at);
+            !others
+                .into_iter()
+                .any(|(_, (_, other))| boxes_overlap(text, other) && convex_overlap(text, other))
+        })
+    }
+
     /// Adds a shape.
     pub(super) fn push(&mut self, layer: AnnotationLayer, shape: AnnotationShape) {
         self.shapes.push((layer, shape));
@@ -102,7 +124,9 @@ impl DimensionBoard {
             let beside = |other: &[DVec2; 2]| self.run_beside(span, *other);
             !self.spans.iter().any(beside)
         });
-        is_span_free && candidate.shapes.iter().all(|(_, shape)| is_shape_free(shape))
+        is_span_free
+            && candidate.is_legible(OWN_MARGIN * self.settings.letters)
+            && candidate.shapes.iter().all(|(_, shape)| is_shape_free(shape))
     }
 
     /// Whether two dimension lines run so near to each other that they could be taken for one.

@@ -91,7 +91,7 @@ impl Sheet {
             page.warnings.push(Warning::NoParts);
             return Ok(vec![page]);
         }
-        let mut surfaces = SurfaceCache::new(models);
+        let mut surfaces = SurfaceCache::new(models, &self.uncut);
         let table = PartsTable::new(self, &assembly.list);
         let options = &self.assembly;
         let most = (self.title_block_area().y() - self.drawing_area().y()) * LIST_PART;
@@ -205,7 +205,7 @@ impl<'a> DrawnAssembly<'a> {
         let layout = AssemblyLayout::arrange(sheet, &view, list, count)
             .ok_or_else(|| sheet.assembly_too_large(&view))?;
         let style = LineStyle { hidden_lines: HiddenLines::Removed, ..sheet.style };
-        let mut own_surfaces = SurfaceCache::new(drawn_models);
+        let mut own_surfaces = SurfaceCache::new(drawn_models, &[]);
         let surface = match exploded {
             Some(_) => own_surfaces.cut_by(&[]),
             None => surfaces.cut_by(&[]),

@@ -10,21 +10,24 @@ use model::ModelInstance;
 /// Welded surfaces of the same models by the section planes that cut them.
 pub(super) struct SurfaceCache<'a> {
     models: &'a [ModelInstance],
+    /// The objects that no section cuts.
+    uncut: &'a [u32],
     /// In the order of their first use; a sheet has four views, so a search is cheap.
     surfaces: Vec<(Vec<Plane<World>>, WeldedSurface)>,
 }
 
 impl<'a> SurfaceCache<'a> {
     /// An empty cache for these models.
-    pub(super) fn new(models: &'a [ModelInstance]) -> Self {
-        Self { models, surfaces: Vec::new() }
+    pub(super) fn new(models: &'a [ModelInstance], uncut: &'a [u32]) -> Self {
+        Self { models, uncut, surfaces: Vec::new() }
     }
 
     /// The surface cut by these planes, welded at the first request.
     pub(super) fn cut_by(&mut self, sections: &[Plane<World>]) -> &WeldedSurface {
         let cached = self.surfaces.iter().position(|(planes, _)| planes == sections);
         let index = cached.unwrap_or_else(|| {
-            self.surfaces.push((sections.to_vec(), WeldedSurface::new(self.models, sections)));
+            self.surfaces
+                .push((sections.to_vec(), WeldedSurface::new(self.models, sections, self.uncut)));
             self.surfaces.len() - 1
         });
         &self.surfaces[index].1
@@ -39,7 +42,7 @@ mod tests {
     #[test]
     fn views_with_equal_sections_share_a_surface() {
         let plane = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
-        let mut cache = SurfaceCache::new(&[]);
+        let mut cache = SurfaceCache::new(&[], &[]);
         for sections in [&[][..], &[plane], &[], &[plane]] {
             assert!(cache.cut_by(sections).object_names().is_empty());
         }

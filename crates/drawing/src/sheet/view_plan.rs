@@ -152,7 +152,8 @@ impl<'a> PlanSubject<'a> {
     /// The axonometric view of what all sections leave.
     fn cut_view(&self, name: NamedView) -> Result<SheetView, SheetError> {
         let planes = self.planes();
-        let retained = (!planes.is_empty()).then(|| retained_points(self.models, &planes));
+        let retained =
+            (!planes.is_empty()).then(|| retained_points(self.models, &planes, &self.sheet.uncut));
         let points = retained.as_ref().unwrap_or(&self.points);
         Ok(SheetView::frame_points(points, name, self.unit())?.cut_by(planes))
     }
@@ -204,7 +205,7 @@ impl<'a> PlanSubject<'a> {
                 facing.view.sections.push(plane);
                 facing.letter = Some(letter);
             } else if views.iter().any(|one| one.view.sees_edge_of(plane)) {
-                let retained = retained_points(self.models, &[plane]);
+                let retained = retained_points(self.models, &[plane], &self.sheet.uncut);
                 let view = SheetView::frame_section(&retained, (plane, letter), self.unit())?;
                 free.push(PlannedView::plain(view).with_letter(letter));
             } else {
@@ -241,7 +242,7 @@ impl<'a> PlanSubject<'a> {
         if !mark_direction(views, level, auxiliary) {
             return Ok(None);
         }
-        let retained = retained_points(self.models, &[plane]);
+        let retained = retained_points(self.models, &[plane], &self.sheet.uncut);
         let section = SheetView::frame_section(&retained, (plane, letter), self.unit())?;
         let mut auxiliary = self.auxiliary_view(level, auxiliary)?;
         auxiliary.section_lines = vec![(plane, letter)];

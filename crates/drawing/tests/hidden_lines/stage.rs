@@ -30,6 +30,7 @@ pub struct TestScene {
     pub models: Vec<ModelInstance>,
     pub view_projection: ViewProjection,
     pub sections: Vec<Plane<World>>,
+    pub uncut: Vec<u32>,
 }
 
 impl TestScene {
@@ -40,6 +41,7 @@ impl TestScene {
             size: [IMAGE_SIDE; 2],
             caption_height: 0,
             sections: &self.sections,
+            uncut: &self.uncut,
         }
     }
 }
@@ -47,7 +49,7 @@ impl TestScene {
 pub fn drawing_scene(model: Model, view_projection: ViewProjection) -> TestScene {
     let instance =
         ModelInstance { model: Arc::new(model), model_to_world: Affine::scale(1.0, 1.0, 1.0) };
-    TestScene { models: vec![instance], view_projection, sections: Vec::new() }
+    TestScene { models: vec![instance], view_projection, sections: Vec::new(), uncut: Vec::new() }
 }
 
 /// Looks along −z from the origin.

@@ -15,5 +15,5 @@ mod lint;
 mod parts_models;
 mod sections;
 mod styles;
-mod views;
 mod title_blocks;
+mod views;

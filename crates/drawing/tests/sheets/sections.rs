@@ -116,3 +116,33 @@ fn the_models_of_the_scenes_are_legible_with_three_sections() {
         }
     }
 }
+
+#[test]
+fn shafts_and_bolts_are_neither_cut_nor_hatched() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/models/bearing.glb");
+    let model = Arc::new(load(&path, &ImportOptions::default()).unwrap());
+    let models = [ModelInstance { model, model_to_world: Affine::scale(1.0, 1.0, 1.0) }];
+    let cut = plane(DVec3::ZERO, -DVec3::Z);
+    // The fourth object is the shaft; bolts follow.
+    let hatched = |uncut: &[u32]| -> Vec<String> {
+        let sheet = Sheet { uncut: uncut.to_vec(), ..a3(SheetAngle::First) };
+        let page = sheet.draw(&models, &[cut], 1).unwrap();
+        let layer = page.layers.iter().find(|layer| layer.id == "front-visible-hatching");
+        layer.expect("hatching").groups.iter().map(|group| group.title.clone()).collect()
+    };
+    let parts = ["housing", "bush", "ring", "shaft", "bolt 1", "bolt 2"];
+    assert_eq!(hatched(&[]), parts);
+    assert_eq!(hatched(&[3, 4, 5, 6, 7]), parts[..3]);
+    // What is whole stands out of what is cut: all of the shaft is seen from the front.
+    let sheet = Sheet { uncut: vec![3], ..a3(SheetAngle::First) };
+    let page = sheet.draw(&models, &[cut], 1).unwrap();
+    let shaft = |layer: &drawing::Layer| -> f64 {
+        let own = layer.groups.iter().filter(|group| group.title == "shaft");
+        own.flat_map(|group| &group.strokes).map(drawing::Polyline::length).sum()
+    };
+    let of_view = page.layers.iter().filter(|layer| layer.id.starts_with("front-visible"));
+    assert!(of_view.map(shaft).sum::<f64>() > 0.0);
+    assert!(
+        page.layers.iter().all(|layer| layer.id != "front-visible-section" || shaft(layer) == 0.0)
+    );
+}

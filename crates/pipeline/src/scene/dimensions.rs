@@ -8,7 +8,6 @@
 //! ```
 
 mod angle;
-mod named_nodes;
 mod picking;
 
 use super::file::{DimensionFile, DimensionView, PickFile, PlaceFile, SheetFile};

@@ -18,6 +18,7 @@ use super::style::resolve_style;
 use super::suggest::{closest_name, suggest_name};
 use super::surrounding_light::{has_lights, resolve_environment};
 use super::syntax::PathStep::{Field, Index};
+use super::uncut::resolve_uncut;
 use super::validate::{errors_around_models, errors_of_resolution};
 use super::view_projection::{resolve_view_of_points, resolve_view_projection};
 use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile, Style};
@@ -127,8 +128,9 @@ impl Scene {
         let caption = resolve_caption(origin, file.caption.as_ref())?;
         let style = resolve_style(origin, &file.style)?;
         let sections = resolve_sections(origin, &file.sections)?;
+        let uncut = resolve_uncut(origin, &file.sections, &models)?;
         let camera = &file.camera;
-        let framed = (&*models, framed_points(&models, style, &sections));
+        let framed = (&*models, framed_points(&models, style, (&sections, &uncut)));
         let mut view_projection =
             resolve_view_of_points(origin, camera, framed, image, Vec::new())?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
@@ -174,6 +176,7 @@ impl Scene {
             overlays,
             caption,
             sections,
+            uncut,
         })
     }
 }
@@ -182,12 +185,12 @@ impl Scene {
 fn framed_points(
     models: &[ModelInstance],
     style: Style,
-    sections: &[Plane<World>],
+    (sections, uncut): (&[Plane<World>], &[u32]),
 ) -> Vec<Point<World>> {
     if sections.is_empty() || style.draws_surfaces() {
         return world_points(models);
     }
-    drawing::retained_points(models, sections)
+    drawing::retained_points(models, sections, uncut)
 }
 
 /// The image that a scene renders.

@@ -24,6 +24,8 @@ pub struct SheetContent<'a> {
     pub models: &'a [ModelInstance],
     /// The section planes.
     pub sections: &'a [Plane<World>],
+    /// The objects that they do not cut.
+    pub uncut: &'a [u32],
     /// The line style of the scene, if it is a line drawing.
     pub style: Option<LineStyle>,
 }
@@ -108,6 +110,7 @@ fn resolve_sheet_on(
         frame: file.frame,
         numbers: resolve_numbers(origin, file)?,
         title_block_template: resolve_template(origin, file)?,
+        uncut: content.uncut.to_vec(),
         ..default_sheet
     })
 }

@@ -28,6 +28,7 @@ use super::sheet::{SheetContent, check_sheet_layout, resolve_sheet};
 use super::style::resolve_style;
 use super::surrounding_light::resolve_environment;
 use super::syntax::PathStep::Field;
+use super::uncut::resolve_uncut;
 use super::view_projection::{check_camera, resolve_view_projection};
 use super::{CameraPath, Outputs, ResolveError, ResolveOptions, Scene, Style, instances};
 use model::ModelInstance;
@@ -174,11 +175,12 @@ fn errors_of_scene(
 /// elsewhere.
 fn sheet_error(origin: &Origin, file: &SceneFile, models: &[ModelInstance]) -> Option<SceneError> {
     let sections = resolve_sections(origin, &file.sections).unwrap_or_default();
+    let uncut = resolve_uncut(origin, &file.sections, models).unwrap_or_default();
     let style = match resolve_style(origin, &file.style) {
         Ok(Style::Lines(style)) => Some(style),
         _ => None,
     };
-    let content = SheetContent { models, sections: &sections, style };
+    let content = SheetContent { models, sections: &sections, uncut: &uncut, style };
     check_sheet_layout(origin, file.sheet.as_ref(), content)
 }
 
@@ -208,7 +210,7 @@ fn errors_of_description(
         errors.extend(resolve_section(origin, index, section).err());
     }
     errors.extend(check_section_count(origin, &file.sections).err());
-    let nothing = SheetContent { models: &[], sections: &[], style: None };
+    let nothing = SheetContent { models: &[], sections: &[], uncut: &[], style: None };
     let sheets = file.sheet.iter();
     errors.extend(sheets.filter_map(|sheet| resolve_sheet(origin, sheet, nothing).err()));
     errors.extend(CameraPath::from_scene_file(origin, file).err());

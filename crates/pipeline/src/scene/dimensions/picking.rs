@@ -1,10 +1,10 @@
 //! Picking: points, edges, faces and circles by place and name, or an error that points at them.
 
 use super::super::file::{PickFile, PlaceFile};
+use super::super::named_nodes::{node_names, objects_below};
 use super::super::suggest::suggest_name;
 use super::super::syntax::PathStep::{self, Field};
 use super::super::{Origin, SceneError};
-use super::named_nodes::{node_names, objects_below};
 use drawing::{FeaturePicker, PickedFeature, WorldCircle};
 use glam::DVec3;
 use homog::{Bounds, Point, World};
@@ -198,7 +198,7 @@ impl<'a> Picking<'a> {
         number: usize,
         (path, field): (&[PathStep<'_>], &str),
     ) -> Result<Vec<u32>, SceneError> {
-        let mut nodes = objects_below(self.models, name);
+        let mut nodes = objects_below(self.models, |own| own == name);
         let count = nodes.len();
         let error = |field, message: String, help| {
             let path: Vec<PathStep<'_>> = path.iter().copied().chain([Field(field)]).collect();

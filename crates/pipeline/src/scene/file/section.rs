@@ -12,6 +12,10 @@ scene_struct! {
         /// The direction of the half that is removed, perpendicular to the plane; its length does
         /// not matter, but is not 0.
         pub normal: Triple,
+        /// The names of nodes that no section cuts, with everything below them, such as shafts,
+        /// bolts and ribs: they are drawn whole, without hatching. `*` stands for any characters.
+        /// The lists of all sections count together. Default: none.
+        pub uncut: Vec<String> = Vec::new(),
     }
 }
 
@@ -22,7 +26,10 @@ impl SectionFile {
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Option<Self> {
         let is_finite = point.iter().chain(&normal).all(|number| number.is_finite());
         let has_direction = normal.iter().any(|number| *number != 0.0);
-        (is_finite && has_direction)
-            .then_some(Self { point: Triple(point), normal: Triple(normal) })
+        (is_finite && has_direction).then_some(Self {
+            point: Triple(point),
+            normal: Triple(normal),
+            uncut: Vec::new(),
+        })
     }
 }

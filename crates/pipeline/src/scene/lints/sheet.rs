@@ -11,7 +11,12 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let Some(sheet_file) = &file.sheet else { return Vec::new() };
     let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
-    let content = SheetContent { models: &scene.models, sections: &scene.sections, style };
+    let content = SheetContent {
+        models: &scene.models,
+        sections: &scene.sections,
+        uncut: &scene.uncut,
+        style,
+    };
     let sheet = resolve_sheet(origin, sheet_file, content).ok();
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
     let to_lint = |warning: Warning| {

@@ -2,18 +2,22 @@
 
 use model::{Model, ModelInstance};
 
-/// All objects below the nodes of a name: one list for each such node, in the order of the models
-/// and their nodes.
+/// All objects below the nodes whose name is meant: one list for each such node, in the order of the
+/// models and their nodes.
 ///
-/// A node without a name goes by that of its mesh.
-pub(super) fn objects_below(models: &[ModelInstance], name: &str) -> Vec<Vec<u32>> {
+/// A node without a name goes by that of its mesh. Objects are counted as in line drawings: nodes
+/// with a mesh, one model after the other.
+pub(super) fn objects_below(
+    models: &[ModelInstance],
+    is_meant: impl Fn(&str) -> bool,
+) -> Vec<Vec<u32>> {
     let mut first_object = 0;
     let mut found = Vec::new();
     for ModelInstance { model, .. } in models {
         let objects: Vec<(usize, u32)> =
             model.mesh_instances().zip(first_object..).map(|(at, o)| (at.node, o)).collect();
         for instance in model.node_instances() {
-            if node_name(model, instance.node) == Some(name) {
+            if node_name(model, instance.node).is_some_and(&is_meant) {
                 let below = nodes_below(model, instance.node);
                 let own = objects.iter().filter(|(node, _)| below[*node]);
                 found.push(own.map(|(_, object)| *object).collect());
