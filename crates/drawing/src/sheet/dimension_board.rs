@@ -107,6 +107,11 @@ impl DimensionBoard {
         }
     }
 
+    /// Keeps texts off a line that is yet to come.
+    pub(super) fn reserve_line(&mut self, line: [DVec2; 2]) {
+        self.lines.push(line.to_vec());
+    }
+
     /// Whether a candidate touches nothing that it must not touch.
     pub(super) fn is_free(&self, candidate: &Candidate) -> bool {
         let margin = self.text_margin();

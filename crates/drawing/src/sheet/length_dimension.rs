@@ -30,6 +30,12 @@ const MAX_ROWS: u32 = 30;
 /// The least length between arrowheads, in their lengths.
 const LEAST_BETWEEN_ARROWS: f64 = 3.5;
 
+/// Half of the side of the square whose diagonal an oblique stroke is, in heights of letters.
+const STROKE: f64 = 0.3;
+
+/// How far extension lines that are yet to come may reach, in heights of letters.
+const FAR: f64 = 200.0;
+
 /// The number of levels for numbers above the line.
 const TEXT_LEVELS: u32 = 6;
 
@@ -69,16 +75,35 @@ impl DimensionBoard {
             let [a, b] = [a, b].map(|foot| (*foot - base).dot(along).abs());
             a.total_cmp(&b)
         });
-        // Later rows must find the room of the earlier ones taken.
-        let mut trial = self.clone();
+        let on_side = |outward: &DVec2| {
+            let rows = self.baseline_rows(dimension, (base, &feet), along, *outward);
+            rows.into_iter().collect::<Option<Vec<Candidate>>>()
+        };
+        match sides.iter().find_map(on_side) {
+            Some(rows) => rows.into_iter().map(Some).collect(),
+            None => vec![None],
+        }
+    }
+
+    /// The free places of the lengths from a baseline on one side, the shortest next to the part.
+    fn baseline_rows(
+        &self,
+        dimension: &ViewDimension,
+        (base, feet): (DVec2, &[DVec2]),
+        along: DVec2,
+        outward: DVec2,
+    ) -> Vec<Option<Candidate>> {
+        let mut board = self.clone();
+        let reach = outward * (FAR * self.settings.letters);
         let mut rows = Vec::new();
-        for foot in feet {
-            let mut pair = [base, foot];
+        for (index, foot) in feet.iter().enumerate() {
+            let mut pair = [base, *foot];
             pair.sort_by(|a, b| a.dot(along).total_cmp(&b.dot(along)));
-            let row = trial.row_candidate(dimension, &pair, along, &sides);
-            if let Some(row) = &row {
-                trial.take(row);
-            }
+            // The extension lines of later rows pass this one.
+            let mut trial = board.clone();
+            feet[index + 1..].iter().for_each(|foot| trial.reserve_line([*foot, *foot + reach]));
+            let row = trial.row_candidate(dimension, &pair, along, &[outward]);
+            row.iter().for_each(|row| board.take(row));
             rows.push(row);
         }
         rows
@@ -185,6 +210,12 @@ impl LengthRow<'_> {
         self.interval(at) <= LEAST_BETWEEN_ARROWS * self.arrow()
     }
 
+    /// Whether a point of a chain has an oblique stroke, because arrowheads do not fit beside it.
+    fn is_stroke(&self, at: usize) -> bool {
+        let is_inside = at > 0 && at + 1 < self.feet.len();
+        is_inside && (self.is_narrow(at - 1) || self.is_narrow(at))
+    }
+
     /// All lines and texts; `None` if numbers above the line find no level.
     fn candidate(&self) -> Option<Candidate> {
         let mut candidate = Candidate::default();
@@ -195,7 +226,8 @@ impl LengthRow<'_> {
         let mut tails = [outside(self.is_narrow(0)), outside(self.is_narrow(last))];
         for (at, text) in self.texts.iter().enumerate() {
             let width = Label::new(text, DVec2::ZERO, self.letters).width();
-            if width <= self.interval(at) - 0.5 * self.letters {
+            let beside = if self.is_stroke(at) || self.is_stroke(at + 1) { 1.0 } else { 0.5 };
+            if width <= self.interval(at) - beside * self.letters {
                 let middle = (self.line_point(at) + self.line_point(at + 1)) * 0.5;
                 self.add_text(&mut candidate, text, middle, TextAlign::Middle);
                 continue;

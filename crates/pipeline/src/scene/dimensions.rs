@@ -267,6 +267,3 @@ const fn named_view(view: DimensionView) -> NamedView {
         DimensionView::Bottom => NamedView::Bottom,
     }
 }
-
-#[cfg(test)]
-mod tests;

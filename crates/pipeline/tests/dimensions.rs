@@ -1,10 +1,12 @@
 //! Dimensions from the text of a scene: what they measure, and where mistakes are shown.
 
-use super::super::resolve_sheet;
-use super::super::{Origin, ResolveOptions, Scene, SceneError, SheetContent, parse_scene};
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test may fail by a panic")]
+
 use drawing::{Dimension, Measure, Sheet};
 use homog::{Point, World};
 use model::import::MemoryFolder;
+use pipeline::scene::{ResolveOptions, SceneError, SheetContent, parse_scene, resolve_sheet};
+use pipeline::{Origin, Scene};
 
 /// A box of 4 × 2 × 1 and a roof over it, with an angle of 90° at the ridge.
 const HOUSE: &str = "\
