@@ -103,6 +103,7 @@ pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Resu
         backdrop: None,
         overlays: Vec::new(),
         sections: Vec::new(),
+        uncut: Vec::new(),
     })
 }
 
