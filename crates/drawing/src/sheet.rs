@@ -46,6 +46,7 @@ mod scale_bar;
 mod section_line;
 mod sheet_fill;
 mod sheet_view;
+mod stepped_line;
 mod surface_cache;
 mod title_block;
 mod title_block_fields;

@@ -13,6 +13,7 @@ use super::SheetError;
 use super::composition::{Break, Composition};
 use super::section_line::PARALLEL_TOLERANCE;
 use super::sheet_view::{SheetView, ViewName};
+use super::stepped_line::{SteppedLine, check_steps};
 use super::view_mark::ViewMark;
 use super::view_plan::{PlanSubject, PlannedView, ViewPlan};
 use super::view_request::{ViewPlace, ViewRequest, ViewSide};
@@ -24,9 +25,6 @@ use projection::SheetAngle;
 
 /// The most requests of a sheet: more are a slip, and each costs room and time.
 const MAX_REQUESTS: usize = 24;
-
-/// The most corners of a stepped section, for the same reason.
-const MAX_CORNERS: usize = 32;
 
 /// Requests in the making: the views so far, and the letters that are left.
 struct RequestPlanner<'a> {
@@ -320,7 +318,7 @@ impl RequestPlanner<'_> {
         let planes: Vec<Plane<World>> = pieces.collect();
         let borders: Vec<Point<World>> =
             corners[1..corners.len() - 1].iter().step_by(2).copied().collect();
-        let line = ViewLine { corners, removed, across: removed.cross(along), letter };
+        let line = SteppedLine { corners, removed, across: removed.cross(along), letter };
         let marks = self.views.iter_mut().map(|one| line.mark(one)).filter(|marked| *marked);
         if marks.count() == 0 {
             self.warnings.push(Warning::CutLineNotShown { section: format!("{letter}-{letter}") });
@@ -347,52 +345,6 @@ impl RequestPlanner<'_> {
     }
 }
 
-/// The line of a stepped section in space.
-struct ViewLine<'a> {
-    corners: &'a [Point<World>],
-    removed: Vector<World>,
-    /// The direction of the steps' edges: along it the line is seen as a line.
-    across: Vector<World>,
-    letter: char,
-}
-
-impl ViewLine<'_> {
-    /// Marks the line in a view that looks along the edges of the steps; says whether it does.
-    fn mark(&self, one: &mut PlannedView) -> bool {
-        let sees = one.view.camera.gaze().dot(self.across).abs() > 1.0 - PARALLEL_TOLERANCE;
-        if !sees || !one.is_along_axis() {
-            return false;
-        }
-        let whole = one.drawn_view();
-        let shown = |point: &Point<World>| match &one.composition {
-            Composition::Broken(part) => part.shortened(whole.image_of(*point)),
-            _ => Some(whole.image_of(*point)),
-        };
-        let Some(mut corners) = self.corners.iter().map(shown).collect::<Option<Vec<DVec2>>>()
-        else {
-            return false;
-        };
-        let half = one.view.size * 0.5;
-        let last = corners.len() - 1;
-        corners[0] = end_at_border(corners[1], corners[0], half);
-        corners[last] = end_at_border(corners[last - 1], corners[last], half);
-        let retained = -one.view.direction_of(self.removed);
-        one.marks.push(ViewMark::SteppedLine { corners, retained, letter: self.letter });
-        true
-    }
-}
-
-/// The end of a line that begins within a rectangle about the origin, moved to its border.
-fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
-    let direction = (end - from).normalize_or_zero();
-    let to_side = |axis: usize| match direction[axis] {
-        step if step.abs() < PARALLEL_TOLERANCE => f64::INFINITY,
-        step => (half[axis] * step.signum() - from[axis]) / step,
-    };
-    let length = to_side(0).min(to_side(1));
-    if length > 0.0 && length.is_finite() { from + direction * length } else { end }
-}
-
 /// Marks a viewing direction in the view that sees it least shortened; says whether there is one.
 pub(super) fn mark_direction(views: &mut [PlannedView], gaze: Vector<World>, letter: char) -> bool {
     let shortening = |one: &PlannedView| one.view.camera.gaze().dot(gaze).abs();
@@ -402,43 +354,6 @@ pub(super) fn mark_direction(views: &mut [PlannedView], gaze: Vector<World>, let
     let gaze = one.view.direction_of(gaze).normalize_or(DVec2::X);
     one.marks.push(ViewMark::Direction { gaze, letter });
     true
-}
-
-/// The direction of the pieces of a stepped section, if its corners are those of one.
-fn check_steps(removed: Vector<World>, corners: &[Point<World>]) -> Result<Vector<World>, Fault> {
-    if corners.len() < 4 || !corners.len().is_multiple_of(2) {
-        let count = corners.len();
-        return Err(fault(format!(
-            "its line has {count} corners: two for each plane are needed, and two planes at least"
-        )));
-    }
-    if corners.len() > MAX_CORNERS {
-        return Err(fault(format!("its line has more than {MAX_CORNERS} corners")));
-    }
-    let sides: Vec<Vector<World>> = corners.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let along = unit_vector(sides[0]).ok_or_else(|| fault("its first two corners are the same"))?;
-    let total: f64 = sides.iter().map(|side| side.length()).sum();
-    for (index, side) in sides.iter().enumerate() {
-        let direction = if index % 2 == 0 { along } else { removed };
-        let aside = *side - direction * side.dot(direction);
-        let is_straight = aside.length() <= 1e-6 * total;
-        let goes_on = index % 2 == 1 || side.dot(along) > 0.0;
-        if !is_straight || !goes_on {
-            let (from, to) = (index + 1, index + 2);
-            return Err(fault(format!(
-                "its line from corner {from} to corner {to} must run {}",
-                if index % 2 == 0 {
-                    "on in the direction of the first two corners, at right angles to `removed`"
-                } else {
-                    "in the direction of `removed` or against it: a step"
-                }
-            )));
-        }
-    }
-    if along.dot(removed).abs() > PARALLEL_TOLERANCE {
-        return Err(fault("its first two corners must lie at right angles to `removed`"));
-    }
-    Ok(along)
 }
 
 /// A radius that is a length.
@@ -456,7 +371,7 @@ pub(super) fn unit_vector(direction: Vector<World>) -> Option<Vector<World>> {
 }
 
 /// Why a request cannot be fulfilled.
-enum Fault {
+pub(super) enum Fault {
     Request(String),
     Sheet(SheetError),
 }
@@ -468,7 +383,7 @@ impl From<SheetError> for Fault {
 }
 
 /// A fault of the request itself.
-fn fault(reason: impl Into<String>) -> Fault {
+pub(super) fn fault(reason: impl Into<String>) -> Fault {
     Fault::Request(reason.into())
 }
 
@@ -485,34 +400,5 @@ mod tests {
         assert_eq!(place(NamedView::Bottom), [Some([0, -1]), Some([0, 1])]);
         assert_eq!(place(NamedView::Back), [Some([2, 0]); 2]);
         assert_eq!(place(NamedView::Isometric), [None; 2]);
-    }
-
-    #[test]
-    fn lines_of_stepped_sections_are_checked() {
-        let check = |corners: &[[f64; 3]]| {
-            let corners: Vec<Point<World>> = corners.iter().map(|c| Point::from(*c)).collect();
-            match check_steps(Vector::Z, &corners) {
-                Ok(along) => Ok(along.raw()),
-                Err(Fault::Request(reason)) => Err(reason),
-                Err(Fault::Sheet(error)) => Err(error.to_string()),
-            }
-        };
-        let (a, b) = ([-5.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
-        let steps = [a, b, [0.0, 0.0, 3.0], [5.0, 0.0, 3.0]];
-        assert_eq!(check(&steps), Ok(DVec3::X));
-        assert!(check(&[a, b]).is_err_and(|reason| reason.contains("2 corners")));
-        let back = [a, b, [0.0, 0.0, 3.0], [-5.0, 0.0, 3.0]];
-        assert!(check(&back).is_err_and(|reason| reason.contains("corner 3 to corner 4")));
-        let askew = [a, b, [1.0, 0.0, 3.0], [5.0, 0.0, 3.0]];
-        assert!(check(&askew).is_err_and(|reason| reason.contains("a step")));
-        assert!(check(&[a, a, b, b]).is_err_and(|reason| reason.contains("the same")));
-    }
-
-    #[test]
-    fn ends_move_to_the_border() {
-        let half = DVec2::new(10.0, 5.0);
-        let at = |x: f64, y: f64| DVec2::new(x, y);
-        assert_eq!(end_at_border(at(2.0, 1.0), at(4.0, 1.0), half), at(10.0, 1.0));
-        assert_eq!(end_at_border(at(2.0, 1.0), at(2.0, -90.0), half), at(2.0, -5.0));
     }
 }

@@ -1,0 +1,139 @@
+//! The line of a stepped section: its corners, checked, and its mark in the views along the steps.
+//!
+//! ```text
+//!   1 ────── 2                pieces perpendicular to the normal, from corner 1 to 2, 3 to 4 …
+//!            │
+//!            3 ────── 4       steps along it
+//! ```
+
+use super::composition::Composition;
+use super::requested_views::{Fault, fault, unit_vector};
+use super::section_line::PARALLEL_TOLERANCE;
+use super::view_mark::ViewMark;
+use super::view_plan::PlannedView;
+use glam::DVec2;
+use homog::{Point, Vector, World};
+
+/// The most corners: more are a slip, and each pair costs a drawing.
+const MAX_CORNERS: usize = 32;
+
+/// The line of a stepped section in space.
+pub(super) struct SteppedLine<'a> {
+    pub(super) corners: &'a [Point<World>],
+    pub(super) removed: Vector<World>,
+    /// The direction of the steps' edges: along it the line is seen as a line.
+    pub(super) across: Vector<World>,
+    pub(super) letter: char,
+}
+
+impl SteppedLine<'_> {
+    /// Marks the line in a view that looks along the edges of the steps; says whether it does.
+    pub(super) fn mark(&self, one: &mut PlannedView) -> bool {
+        let sees = one.view.camera.gaze().dot(self.across).abs() > 1.0 - PARALLEL_TOLERANCE;
+        if !sees || !one.is_along_axis() {
+            return false;
+        }
+        let whole = one.drawn_view();
+        let shown = |point: &Point<World>| match &one.composition {
+            Composition::Broken(part) => part.shortened(whole.image_of(*point)),
+            _ => Some(whole.image_of(*point)),
+        };
+        let Some(mut corners) = self.corners.iter().map(shown).collect::<Option<Vec<DVec2>>>()
+        else {
+            return false;
+        };
+        let half = one.view.size * 0.5;
+        let last = corners.len() - 1;
+        corners[0] = end_at_border(corners[1], corners[0], half);
+        corners[last] = end_at_border(corners[last - 1], corners[last], half);
+        let retained = -one.view.direction_of(self.removed);
+        one.marks.push(ViewMark::SteppedLine { corners, retained, letter: self.letter });
+        true
+    }
+}
+
+/// The end of a line that begins within a rectangle about the origin, moved to its border.
+fn end_at_border(from: DVec2, end: DVec2, half: DVec2) -> DVec2 {
+    let direction = (end - from).normalize_or_zero();
+    let to_side = |axis: usize| match direction[axis] {
+        step if step.abs() < PARALLEL_TOLERANCE => f64::INFINITY,
+        step => (half[axis] * step.signum() - from[axis]) / step,
+    };
+    let length = to_side(0).min(to_side(1));
+    if length > 0.0 && length.is_finite() { from + direction * length } else { end }
+}
+
+/// The direction of the pieces of a stepped section, if its corners are those of one.
+pub(super) fn check_steps(
+    removed: Vector<World>,
+    corners: &[Point<World>],
+) -> Result<Vector<World>, Fault> {
+    if corners.len() < 4 || !corners.len().is_multiple_of(2) {
+        let count = corners.len();
+        return Err(fault(format!(
+            "its line has {count} corners: two for each plane are needed, and two planes at least"
+        )));
+    }
+    if corners.len() > MAX_CORNERS {
+        return Err(fault(format!("its line has more than {MAX_CORNERS} corners")));
+    }
+    let sides: Vec<Vector<World>> = corners.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let along = unit_vector(sides[0]).ok_or_else(|| fault("its first two corners are the same"))?;
+    let total: f64 = sides.iter().map(|side| side.length()).sum();
+    for (index, side) in sides.iter().enumerate() {
+        let direction = if index % 2 == 0 { along } else { removed };
+        let aside = *side - direction * side.dot(direction);
+        let is_straight = aside.length() <= 1e-6 * total;
+        let goes_on = index % 2 == 1 || side.dot(along) > 0.0;
+        if !is_straight || !goes_on {
+            let (from, to) = (index + 1, index + 2);
+            return Err(fault(format!(
+                "its line from corner {from} to corner {to} must run {}",
+                if index % 2 == 0 {
+                    "on in the direction of the first two corners, at right angles to `removed`"
+                } else {
+                    "in the direction of `removed` or against it: a step"
+                }
+            )));
+        }
+    }
+    if along.dot(removed).abs() > PARALLEL_TOLERANCE {
+        return Err(fault("its first two corners must lie at right angles to `removed`"));
+    }
+    Ok(along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn lines_of_stepped_sections_are_checked() {
+        let check = |corners: &[[f64; 3]]| {
+            let corners: Vec<Point<World>> = corners.iter().map(|c| Point::from(*c)).collect();
+            match check_steps(Vector::Z, &corners) {
+                Ok(along) => Ok(along.raw()),
+                Err(Fault::Request(reason)) => Err(reason),
+                Err(Fault::Sheet(error)) => Err(error.to_string()),
+            }
+        };
+        let (a, b) = ([-5.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
+        let steps = [a, b, [0.0, 0.0, 3.0], [5.0, 0.0, 3.0]];
+        assert_eq!(check(&steps), Ok(DVec3::X));
+        assert!(check(&[a, b]).is_err_and(|reason| reason.contains("2 corners")));
+        let back = [a, b, [0.0, 0.0, 3.0], [-5.0, 0.0, 3.0]];
+        assert!(check(&back).is_err_and(|reason| reason.contains("corner 3 to corner 4")));
+        let askew = [a, b, [1.0, 0.0, 3.0], [5.0, 0.0, 3.0]];
+        assert!(check(&askew).is_err_and(|reason| reason.contains("a step")));
+        assert!(check(&[a, a, b, b]).is_err_and(|reason| reason.contains("the same")));
+    }
+
+    #[test]
+    fn ends_move_to_the_border() {
+        let half = DVec2::new(10.0, 5.0);
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        assert_eq!(end_at_border(at(2.0, 1.0), at(4.0, 1.0), half), at(10.0, 1.0));
+        assert_eq!(end_at_border(at(2.0, 1.0), at(2.0, -90.0), half), at(2.0, -5.0));
+    }
+}
