@@ -180,11 +180,13 @@ pub enum SheetError {
     },
     /// A view reaches beyond the frame from the place that it was given.
     #[error(
-        "the {view} reaches beyond the frame at its place: its center must be from {:.0} to {:.0} mm \
+        "view {number} of the sheet, the {view}, reaches beyond the frame at its place: its center must be from {:.0} to {:.0} mm \
          from the left and from {:.0} to {:.0} mm from the top",
         x[0], x[1], y[0], y[1]
     )]
     Outside {
+        /// The number of the request, from 1.
+        number: usize,
         /// The name of the view.
         view: String,
         /// The least and the greatest distance from the left, in millimeters.

@@ -17,6 +17,7 @@ use super::view_layout::{
     extent_of_rectangle, snap_to_grid,
 };
 use super::view_plan::{PlannedView, ViewPlan};
+use super::view_request::ViewRequest;
 use super::{Sheet, SheetError};
 use crate::Warning;
 use glam::DVec2;
@@ -199,7 +200,10 @@ fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), Shee
         let remedy = format!("; choose a smaller scale for the {view}");
         SheetError::TooLarge { paper, scale, need, available, remedy }
     } else {
-        SheetError::Outside { view, x: [least.x, most.x], y: [least.y, most.y] }
+        let place = &cell.planned.place;
+        let is_it = |request: &ViewRequest| request.place() == Some(place);
+        let number = sheet.views.iter().position(is_it).map_or(1, |index| index + 1);
+        SheetError::Outside { number, view, x: [least.x, most.x], y: [least.y, most.y] }
     })
 }
 

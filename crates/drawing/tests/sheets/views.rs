@@ -361,7 +361,7 @@ fn misplaced_views_are_named() {
     let error = draw([25.0, 80.0]).expect_err("outside");
     // The frame begins at 20 mm, and the view is 40 mm wide.
     assert!(
-        matches!(&error, SheetError::Outside { view, x, .. }
+        matches!(&error, SheetError::Outside { number: 2, view, x, .. }
         if view == "top view" && (x[0] - 40.0).abs() < 20.0),
         "{error}"
     );

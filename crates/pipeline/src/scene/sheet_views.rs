@@ -83,14 +83,21 @@ fn resolve_view(
 /// views.
 #[must_use]
 pub fn sheet_view_error(origin: &Origin, error: &SheetError) -> Option<SceneError> {
-    let views = [Field("sheet"), Field("views")];
-    let (path, message): (&[PathStep<'_>], String) = match error {
+    let (number, path, message) = match error {
         SheetError::Request { number, view, reason } => {
-            let path = [views[0], views[1], Index(number - 1)];
-            return Some(origin.error_at(&path, format!("the {view}: {reason}"), None));
+            (number, None, format!("the {view}: {reason}"))
         }
-        SheetError::Outside { .. } => (&views, error.to_string()),
+        SheetError::Outside { number, view, x, y } => {
+            let message = format!(
+                "the {view} reaches beyond the frame: its center must be from {:.0} to {:.0} mm \
+                 from the left and from {:.0} to {:.0} mm from the top",
+                x[0], x[1], y[0], y[1]
+            );
+            (number, Some(Field("at")), message)
+        }
         _ => return None,
     };
-    Some(origin.error_at(path, message, None))
+    let view = [Field("sheet"), Field("views"), Index(number.saturating_sub(1))];
+    let path: Vec<PathStep<'_>> = view.into_iter().chain(path).collect();
+    Some(origin.error_at(&path, message, None))
 }
