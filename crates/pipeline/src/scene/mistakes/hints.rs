@@ -7,7 +7,7 @@ use crate::scene::parse_scene;
 /// The field of a scene, the help, and the field that follows it.
 const FIELDS: &[(&str, &str, &str)] = &[
     (
-        "sheet: Sheet(views: 4)",
+        "sheet: Sheet(layout: 4)",
         "side_view: Left or Right, and axonometric_view: Isometric",
         "sheet: (side_view: Left, axonometric_view: Isometric)",
     ),

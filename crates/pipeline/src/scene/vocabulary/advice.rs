@@ -5,8 +5,8 @@
 const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Sheet",
-        "views view layout arrangement",
-        "a sheet has a front, a top and a side view and a fourth one: choose side_view: Left or Right, and axonometric_view: Isometric, Dimetric, Trimetric, ThreeQuarter or None",
+        "view layout arrangement",
+        "a sheet has a front, a top and a side view and a fourth one: choose side_view: Left or Right, and axonometric_view: Isometric, Dimetric, Trimetric, ThreeQuarter or None; or name all of them: views: [View(from: Front), View(from: Top)]",
     ),
     (
         "CameraPath",
