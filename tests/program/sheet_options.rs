@@ -16,11 +16,12 @@ fn write_scene(sandbox: &Sandbox, name: &str, fields: &str) {
 fn paper_is_chosen_by_the_size_of_the_model() {
     let sandbox = Sandbox::new("sheet_paper");
     for (sides, flags, page) in [
-        ([0.1, 0.05, 0.03], &[][..], [297.0, 210.0]),
+        ([0.1, 0.05, 0.03], &[][..], [210.0, 297.0]),
         ([0.4, 0.15, 0.1], &[], [594.0, 420.0]),
         ([0.1, 0.15, 0.4], &["--orientation", "portrait"], [594.0, 841.0]),
-        ([0.4, 0.15, 0.1], &["--scale", "1:5"], [297.0, 210.0]),
-        ([40.0, 15.0, 10.0], &[], [297.0, 210.0]),
+        ([0.4, 0.15, 0.1], &["--scale", "1:5"], [210.0, 297.0]),
+        ([40.0, 15.0, 10.0], &[], [594.0, 420.0]),
+        ([7.43, 3.0, 2.0], &[], [297.0, 210.0]),
     ] {
         write_box(&sandbox, "box", sides);
         let arguments = ["sheet", "box.gltf", "--paper", "auto", "-o", "out.svg"];
@@ -119,7 +120,7 @@ fn a_title_block_of_ones_own_is_read_or_its_mistake_is_shown() {
             good.replace("title}", "titel}"),
             "block.svg, line 2, column 1: there is no field `titel`",
         ),
-        (good.replace("<rect", "<ellipse"), "block.svg, line 1, column 27: `ellipse` is not read"),
+        (good.replace("<rect", "<ellipse"), "block.svg, line 1, column 26: `ellipse` is not read"),
         ("\u{0}".to_owned(), "a title block is an SVG file"),
     ] {
         sandbox.write_file("block.svg", svg);
@@ -157,14 +158,21 @@ fn numbers_that_make_no_sense_are_mistakes() {
 fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
     let sandbox = Sandbox::new("sheet_check");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
+    let section = |normal: &str| format!("Section(normal: {normal}, point: (0.05, 0.02, 0.02))");
+    let oblique = section("(1, 1, 1)");
+    let many: Vec<String> = (1..=12).map(|k| section(&format!("(1, {k}, 0)"))).collect();
     for (fields, code, told) in [
+        (format!("paper: A4), sections: [{oblique}]"), "section-oblique", "neither a cut line"),
         (
-            "paper: A5, scale: (1, 1)), sections: [Section(normal: (1, 1, 1), point: (0.05, 0.02, 0.02))]",
-            "section-oblique",
-            "neither a cut line",
+            "author: \"a\u{202e}\u{5d0}\u{7}\")".to_owned(),
+            "missing-glyph",
+            "lack \\u{202e}\u{5d0}\\u{7} of",
         ),
-        ("author: \"a\u{202e}\u{5d0}\u{7}\")", "missing-glyph", "lack \\u{202e}\u{5d0}\\u{7} of"),
-        ("paper: A5, scale: (1, 1))", "sheet-view-missing", "no place for the isometric view"),
+        (
+            format!("paper: A4, scale: (4, 3)), sections: [{}]", many.join(", ")),
+            "sheet-view-missing",
+            "there is no place for the section",
+        ),
     ] {
         let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: Sheet({fields})");
         sandbox.write_file("scene.ron", text);

@@ -210,7 +210,8 @@ pub(super) fn rasterize_page(page: &Page, dpi: u32) -> Result<Picture, CliError>
         page.to_picture(width, height)
     };
     size().ok_or_else(|| {
-        CliError::Usage("the paper is too large for a picture: use fewer --dpi".to_owned())
+        let message = format!("the paper is too large for a picture of {dpi} dots to the inch");
+        CliError::Usage(message)
     })
 }
 

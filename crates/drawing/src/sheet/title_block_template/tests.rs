@@ -99,3 +99,28 @@ fn what_is_not_read_is_told_with_its_place() {
     let deep = "<g>".repeat(1000);
     assert!(parse(&deep).expect_err("too deep").message.contains("too deeply"));
 }
+
+#[test]
+fn damaged_files_are_errors_and_never_more() {
+    let good = "<svg viewBox='0 0 90 30'><!-- é --><g><path d='M0 0h5.5.5z'/></g>\
+                <text x='2' font-size='5'>{title} &amp; {{ü</text></svg>";
+    let pieces =
+        ["<", ">", "/", "'", "{", "}", "&", ";", "é", "=", "-", ".", "e", " ", "M", "</g>"];
+    let (mut state, mut read) = (1_u64, 0);
+    let mut below = |limit: usize| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % limit
+    };
+    for _ in 0..20_000 {
+        let mut characters: Vec<char> = good.chars().collect();
+        for _ in 0..=below(3) {
+            let (at, length) = (below(characters.len()), below(4));
+            let end = (at + length).min(characters.len());
+            characters.splice(at..end, pieces[below(pieces.len())].chars());
+        }
+        let text: String = characters.into_iter().collect();
+        read += usize::from(TitleBlockTemplate::parse(&text).is_ok());
+    }
+    assert!((100..10_000).contains(&read), "{read}");
+}
