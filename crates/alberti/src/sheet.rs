@@ -162,10 +162,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
             None => CliError::Sheet(error),
         })?;
     progress.enter_stage("writing");
-    let mut warnings: Vec<Warning> =
-        pages.iter().flat_map(|page| &page.warnings).cloned().collect();
-    warnings.sort_unstable();
-    warnings.dedup();
+    let mut warnings = warnings_of_pages(&pages);
     if !matches!(scene.style, Style::Lines(_) | Style::Shaded) {
         warnings.push(Warning::StyleIgnored);
     }
@@ -187,6 +184,15 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     }
     print_warnings(&scene, &warnings);
     Ok(())
+}
+
+/// The warnings of all pages, each once.
+fn warnings_of_pages(pages: &[Page]) -> Vec<Warning> {
+    let all = pages.iter().flat_map(|page| &page.warnings);
+    let mut warnings: Vec<Warning> = all.cloned().collect();
+    warnings.sort_unstable();
+    warnings.dedup();
+    warnings
 }
 
 /// The input's name with the extension `.pdf`, in the current folder.

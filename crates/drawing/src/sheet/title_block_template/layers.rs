@@ -76,25 +76,27 @@ impl TitleBlockTemplate {
                 texts.entry(key(0.1 * label.height)).or_default().push(label.group());
             }
         }
-        let pen =
-            |width: u32, cap, join| Pen { cap, join, ..Pen::solid(f64::from(width) / 1000.0, ink) };
-        let id = |name: &str, index: usize| match index {
-            0 => name.to_owned(),
-            _ => format!("{name}-{}", index + 1),
-        };
         let mut layers = Vec::new();
         for (index, (width, strokes)) in lines.into_iter().enumerate() {
-            let pen = pen(width, Cap::Butt, Join::Miter);
-            let mut layer = Layer::new(id("title-block", index), "title block", pen);
+            let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..pen_of_width(width, ink) };
+            let mut layer = Layer::new(layer_id("title-block", index), "title block", pen);
             layer.groups.push(Group { strokes, ..Group::default() });
             layers.push(layer);
         }
         for (index, (width, groups)) in texts.into_iter().enumerate() {
-            let pen = pen(width, Cap::Round, Join::Round);
-            let mut layer = Layer::new(id("title-block-text", index), "title block: text", pen);
-            layer.groups = groups;
-            layers.push(layer);
+            let (id, pen) = (layer_id("title-block-text", index), pen_of_width(width, ink));
+            layers.push(Layer { groups, ..Layer::new(id, "title block: text", pen) });
         }
         layers
     }
+}
+
+/// A pen with a width in micrometers.
+fn pen_of_width(width: u32, ink: Ink) -> Pen {
+    Pen::solid(f64::from(width) / 1000.0, ink)
+}
+
+/// The id of a layer: its name, and from the second layer on a number.
+fn layer_id(name: &str, index: usize) -> String {
+    if index == 0 { name.to_owned() } else { format!("{name}-{}", index + 1) }
 }

@@ -1,3 +1,5 @@
+//! Templates that are read, and the places of mistakes in others.
+
 use super::*;
 
 /// A template with this content.
