@@ -178,7 +178,9 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
         sandbox.write_file("scene.ron", text);
         let checked = sandbox.run(&["scene", "check", "scene.ron"]);
         let drawn = sandbox.run(&["sheet", "scene.ron", "-o", "out.pdf"]);
-        assert!(checked.code == 0 && drawn.code == 0, "{}{}", checked.stdout, drawn.stderr);
+        // The model has errors of its own, which do not keep it from being drawn.
+        assert!(checked.stdout.contains("scene.ron: no mistakes, "), "{}", checked.stdout);
+        assert_eq!(drawn.code, 0, "{}", drawn.stderr);
         let head = format!("warning[{code}]: ");
         assert!(checked.stdout.contains(&head), "{code}: {}", checked.stdout);
         assert!(checked.stdout.contains(told) && drawn.stderr.contains(told), "{}", drawn.stderr);
