@@ -159,10 +159,8 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
     let sandbox = Sandbox::new("sheet_check");
     write_box(&sandbox, "box", [0.1, 0.05, 0.03]);
     let section = |normal: &str| format!("Section(normal: {normal}, point: (0.05, 0.02, 0.02))");
-    let oblique = section("(1, 1, 1)");
     let many: Vec<String> = (1..=12).map(|k| section(&format!("(1, {k}, 0)"))).collect();
     for (fields, code, told) in [
-        (format!("paper: A4), sections: [{oblique}]"), "section-oblique", "neither a cut line"),
         (
             "author: \"a\u{202e}\u{5d0}\u{7}\")".to_owned(),
             "missing-glyph",
