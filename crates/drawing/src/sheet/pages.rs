@@ -335,8 +335,9 @@ impl<'a> DrawnAssembly<'a> {
             number => format!("{number}-{}", item.number),
         };
         sheet.scale = None;
-        // They are views of the whole.
+        // They name nodes and places of the assembly.
         sheet.views.clear();
+        sheet.measures.clear();
         sheet.draw(&[part_model(part, self.models)], &[], threads)
     }
 }
