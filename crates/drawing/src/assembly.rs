@@ -17,6 +17,7 @@ mod part;
 mod part_model;
 mod parts_list;
 mod volume;
+mod warning;
 
 pub(crate) use explosion::MAX_EXPLODED_PARTS;
 pub use explosion::{ExplosionAxis, ExplosionSettings};
@@ -24,6 +25,7 @@ pub(crate) use part::{Part, gather_parts};
 pub use part_model::explode_models;
 pub(crate) use part_model::{PATHS, exploded_models, part_model};
 pub use parts_list::{PartDensity, PartsList, PartsListItem};
+pub use warning::AssemblyWarning;
 
 /// The pages of a sheet that show its models as an assembly of parts. Default: none.
 #[derive(Clone, PartialEq, Debug, Default)]

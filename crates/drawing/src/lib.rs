@@ -73,8 +73,8 @@ mod warning;
 mod z_buffer_check;
 
 pub use assembly::{
-    AssemblyPages, ExplosionAxis, ExplosionSettings, PartDensity, PartsList, PartsListItem,
-    explode_models,
+    AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, PartDensity, PartsList,
+    PartsListItem, explode_models,
 };
 pub use canvas::draw_layers_over;
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};

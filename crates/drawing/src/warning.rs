@@ -1,6 +1,7 @@
 //! Warnings: what a drawing leaves out, returned along with it.
 
 use crate::DimensionFault;
+use crate::assembly::AssemblyWarning;
 use crate::overlay::LabelFault;
 use core::fmt;
 
@@ -83,46 +84,8 @@ pub enum Warning {
         /// The characters, each once.
         characters: String,
     },
-    /// An assembly was asked for of models without lines and triangles.
-    NoParts,
-    /// The mass of a part does not follow from its density.
-    MassUnknown {
-        /// The name of the part.
-        part: String,
-    },
-    /// Names of parts have characters that the stroke font lacks.
-    PartNamesUnreadable {
-        /// The first of the names.
-        name: String,
-        /// How many there are.
-        count: usize,
-    },
-    /// Parts are hidden in the view of the assembly, and have no balloons.
-    PartsNotVisible {
-        /// The number of the first in the list.
-        number: usize,
-        /// Its name.
-        part: String,
-        /// How many items there are of which no part is seen.
-        count: usize,
-    },
-    /// Balloons find no place around the view of the assembly.
-    BalloonsLeftOut {
-        /// The number of the first.
-        number: usize,
-        /// How many there are.
-        count: usize,
-    },
-    /// There are too many parts for an exploded view.
-    TooManyPartsToExplode {
-        /// How many there may be.
-        most: usize,
-    },
-    /// There are too many parts for a sheet of each.
-    PartSheetsLeftOut {
-        /// How many have none.
-        count: usize,
-    },
+    /// Something that the pages of an assembly leave out.
+    Assembly(AssemblyWarning),
     /// The search for intersection edges was cut off.
     IntersectionsIncomplete,
     /// The hatching was cut off.
@@ -193,38 +156,8 @@ impl fmt::Display for Warning {
                      boxes are in their place"
                 )
             }
-            Self::MassUnknown { part } => write!(
-                f,
-                "the mass of `{part}` is not known: its mesh is not closed, so it has no volume"
-            ),
-            Self::PartNamesUnreadable { name, count } => write!(
-                f,
-                "the letters of drawings lack characters of {count} names in the parts list, \
-                 such as \"{name}\": boxes are in their place"
-            ),
-            Self::PartsNotVisible { number, part, count } => write!(
-                f,
-                "{count} {} no balloon, since other parts hide what they name in the view of the \
-                 assembly, such as item {number}, `{part}`: \
-                 an exploded view, or another axonometric view, may show it",
-                if *count == 1 { "item has" } else { "items have" }
-            ),
-            Self::BalloonsLeftOut { number, count } => write!(
-                f,
-                "{count} {} no place around the view, the first of them {number}: use larger paper",
-                if *count == 1 { "balloon finds" } else { "balloons find" }
-            ),
-            Self::TooManyPartsToExplode { most } => write!(
-                f,
-                "the assembly has more than {most} parts, and is not exploded: \
-                 draw a part of the model"
-            ),
-            Self::PartSheetsLeftOut { count } => write!(
-                f,
-                "there are too many parts for a sheet of each: the last {count} items have none"
-            ),
-            Self::NoParts
-            | Self::SectionsIgnored
+            Self::Assembly(warning) => warning.fmt(f),
+            Self::SectionsIgnored
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
             | Self::IntersectionsIncomplete
@@ -250,9 +183,6 @@ impl Warning {
     /// The text of a warning without a value; empty for the others.
     const fn fixed_text(&self) -> &'static str {
         match self {
-            Self::NoParts => {
-                "there are no parts to list or to number: the models have no lines or triangles"
-            }
             Self::SectionsIgnored => {
                 "sections cut line drawings only: this style shows whole models; \
                  choose another, such as `--style lines`"

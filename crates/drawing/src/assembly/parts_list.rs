@@ -3,6 +3,7 @@
 use super::geometry::PartClasses;
 use super::part::{Part, drawn_primitives, gather_parts, one_line};
 use super::volume::part_volume;
+use super::warning::AssemblyWarning;
 use crate::Warning;
 use model::ModelInstance;
 use std::collections::BTreeMap;
@@ -84,7 +85,8 @@ impl PartsList {
             let density = find_density(densities, &name, &materials);
             let volume = density.and_then(|_| part_volume(group[0], models));
             if density.is_some() && volume.is_none() {
-                warnings.push(Warning::MassUnknown { part: name.clone() });
+                warnings
+                    .push(Warning::Assembly(AssemblyWarning::MassUnknown { part: name.clone() }));
             }
             items.push(PartsListItem {
                 number,

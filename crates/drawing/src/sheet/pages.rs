@@ -17,8 +17,8 @@ use super::view_layout::extent_of_rectangle;
 use super::visible_spots::{MovedParts, VisibleSpot, add_spots_on_edges, find_visible_spots};
 use super::{Sheet, SheetError, title_block};
 use crate::assembly::{
-    AssemblyPages, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem, exploded_models,
-    gather_parts, part_model,
+    AssemblyPages, AssemblyWarning, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem,
+    exploded_models, gather_parts, part_model,
 };
 use crate::line_style::HiddenLines;
 use crate::line_type::LineType;
@@ -88,7 +88,7 @@ impl Sheet {
         let assembly = DrawnAssembly::new(self, models);
         if assembly.parts.is_empty() {
             let mut page = self.draw(models, sections, threads)?;
-            page.warnings.push(Warning::NoParts);
+            page.warnings.push(Warning::Assembly(AssemblyWarning::NoParts));
             return Ok(vec![page]);
         }
         let mut surfaces = SurfaceCache::new(models, &self.uncut);
@@ -163,12 +163,14 @@ impl<'a> DrawnAssembly<'a> {
         warnings.extend(unreadable_names(&list));
         let mut explosion = explosion.as_ref();
         if explosion.is_some() && parts.len() > MAX_EXPLODED_PARTS {
-            warnings.push(Warning::TooManyPartsToExplode { most: MAX_EXPLODED_PARTS });
+            warnings.push(Warning::Assembly(AssemblyWarning::TooManyPartsToExplode {
+                most: MAX_EXPLODED_PARTS,
+            }));
             explosion = None;
         }
         if *part_sheets && list.items.len() > MAX_PART_SHEETS {
             let count = list.items.len() - MAX_PART_SHEETS;
-            warnings.push(Warning::PartSheetsLeftOut { count });
+            warnings.push(Warning::Assembly(AssemblyWarning::PartSheetsLeftOut { count }));
         }
         let boxes: Vec<Bounds<World>> = parts.iter().map(|part| part.bounds).collect();
         let moves = explosion.map(|settings| settings.moves(&boxes));
@@ -262,7 +264,7 @@ impl<'a> DrawnAssembly<'a> {
         }
         if let Some(first) = hidden.first() {
             let (number, part, count) = (first.number, first.name.clone(), hidden.len());
-            warnings.push(Warning::PartsNotVisible { number, part, count });
+            warnings.push(Warning::Assembly(AssemblyWarning::NotVisible { number, part, count }));
         }
         targets
     }
@@ -292,7 +294,7 @@ impl<'a> DrawnAssembly<'a> {
         }
         if let Some(first) = left_out.first() {
             let (number, count) = (first.number, left_out.len());
-            warnings.push(Warning::BalloonsLeftOut { number, count });
+            warnings.push(Warning::Assembly(AssemblyWarning::BalloonsLeftOut { number, count }));
         }
         pages
     }
@@ -393,5 +395,6 @@ fn unreadable_names(list: &PartsList) -> Option<Warning> {
         .flat_map(|item| [&item.name, &item.material])
         .filter(|text| is_unreadable(text));
     let name = names.next()?.clone();
-    Some(Warning::PartNamesUnreadable { name, count: 1 + names.count() })
+    let count = 1 + names.count();
+    Some(Warning::Assembly(AssemblyWarning::NamesUnreadable { name, count }))
 }

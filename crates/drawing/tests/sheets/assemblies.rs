@@ -7,8 +7,8 @@ use crate::parts_models::{
     assembly, box_primitive, letters, placed, prism_primitive, scattered_parts, stacked_assembly,
 };
 use drawing::{
-    AssemblyPages, ExplosionAxis, ExplosionSettings, Page, PartDensity, PartsList, Sheet, Warning,
-    explode_models,
+    AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, Page, PartDensity, PartsList,
+    Sheet, Warning, explode_models,
 };
 use glam::DVec3;
 use homog::Affine;
@@ -63,7 +63,7 @@ fn an_assembly_of_fifty_parts_has_a_right_list_and_legible_pages() {
                     pages.iter().flat_map(|page| texts(page, "balloon-numbers")).collect();
                 let warnings = pages[1].warnings.iter();
                 let hidden = warnings.map(|warning| match warning {
-                    Warning::PartsNotVisible { count, .. } => *count,
+                    Warning::Assembly(AssemblyWarning::NotVisible { count, .. }) => *count,
                     _ => 0,
                 });
                 let hidden: usize = hidden.sum();
@@ -150,7 +150,10 @@ fn masses_are_volume_times_density() {
             (mass, known) => assert_eq!(mass, known),
         }
     }
-    assert_eq!(list.warnings, [Warning::MassUnknown { part: "tray".to_owned() }]);
+    assert_eq!(
+        list.warnings,
+        [Warning::Assembly(AssemblyWarning::MassUnknown { part: "tray".to_owned() })]
+    );
     let csv = list.to_csv();
     assert!(
         csv.starts_with("item,quantity,name,material,mass_grams\r\n1,1,block,steel,48.000\r\n")
@@ -304,7 +307,7 @@ fn names_from_anywhere_are_drawn_or_named() {
         assert!(list.iter().any(|cell| cell == text), "{text} is not in {list:?}");
     }
     assert!(list.iter().any(|cell| cell.starts_with("a name of many") && cell.ends_with("...")));
-    let unreadable = |warning: &Warning| matches!(warning, Warning::PartNamesUnreadable { name, count: 2 } if name.starts_with('\u{5d1}'));
+    let unreadable = |warning: &Warning| matches!(warning, Warning::Assembly(AssemblyWarning::NamesUnreadable { name, count: 2 }) if name.starts_with('\u{5d1}'));
     assert!(pages[0].warnings.iter().any(unreadable), "{:?}", pages[0].warnings);
 }
 
@@ -333,7 +336,10 @@ fn models_without_parts_have_a_message() {
     points.topology = Topology::Points;
     let models = [assembly(vec![(points, "")], vec![("cloud".to_owned(), 0, Affine::IDENTITY)])];
     let pages = assembly_sheet((Paper::A4, "A4")).draw_pages(&models, &[], 1).unwrap();
-    assert_eq!((pages.len(), pages[0].warnings.contains(&Warning::NoParts)), (1, true));
+    assert_eq!(
+        (pages.len(), pages[0].warnings.contains(&Warning::Assembly(AssemblyWarning::NoParts))),
+        (1, true)
+    );
 }
 
 #[test]
