@@ -16,9 +16,9 @@ use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program};
 use alberti_tests::manifest::read_manifest;
 use drawing::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
 use glam::DVec3;
-use homog::Affine;
+use homog::{Affine, Bounds};
 use model::import::{ImportOptions, load};
-use model::{ModelInstance, Topology};
+use model::{ModelInstance, Topology, world_points};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -26,6 +26,9 @@ use viewport::Paper;
 
 /// Models with more triangles are left to the benchmarks.
 const MAX_TRIANGLES: usize = 60_000;
+
+/// The diagonal of every model in millimeters: what they measure differs by a factor of a million.
+const DIAGONAL: f64 = 700.0;
 
 fn main() -> ExitCode {
     run_program("assemblies", |arguments| {
@@ -77,6 +80,7 @@ fn check_model(path: &Path) -> Result<Option<String>, String> {
     if parts > nodes {
         return Err(format!("{parts} parts of {nodes} nodes"));
     }
+    let diagonal = Bounds::from_points(world_points(&models)).map_or(1.0, Bounds::diagonal);
     let mut summary = format!("{parts:5} parts {:5} items", list.items.len());
     for (paper, name) in [(Paper::A3.rotated(), "A3"), (Paper::A4, "A4")] {
         for explosion in [None, Some(ExplosionSettings::default())] {
@@ -87,7 +91,11 @@ fn check_model(path: &Path) -> Result<Option<String>, String> {
                 explosion,
                 ..AssemblyPages::default()
             };
-            let sheet = Sheet { assembly: pages, ..Sheet::for_paper(paper, name) };
+            let sheet = Sheet {
+                assembly: pages,
+                millimeters_per_unit: DIAGONAL / diagonal.max(1e-9),
+                ..Sheet::for_paper(paper, name)
+            };
             let pages = sheet.draw_pages(&models, &[], 1).map_err(|error| error.to_string())?;
             for (page, number) in pages.iter().zip(1..) {
                 let mut faults = lint::faults(page);
