@@ -20,7 +20,8 @@ fn read_text(sandbox: &Sandbox, name: &str) -> String {
 #[test]
 fn pages_are_numbered_files_or_one_pdf() {
     let sandbox = bearing("assembly_pages");
-    let flags = ["sheet", "bearing.glb", "--unit", "mm", "--balloons", "--part-sheets"];
+    let explode = "--exploded";
+    let flags = ["sheet", "bearing.glb", "--unit", "mm", "--balloons", explode, "--part-sheets"];
     assert_succeeds(&sandbox, &[&flags[..], &["-o", "out.svg"]].concat());
     // Views, balloons and five different parts.
     for page in 1..=7 {

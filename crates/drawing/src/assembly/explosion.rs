@@ -4,8 +4,8 @@
 //!   ┌──┐                      the largest part stays; every other one moves away from it along
 //!   └──┘        up, in the    its axis, those near first, beyond all boxes that are in its way
 //!    ┆          order of
-//!   ┌──┐        their         a box is in the way if it meets the column in which the part moves
-//!   └──┘        centers
+//!   ┌──┐        their ends    a box is in the way if it meets the column in which the part moves
+//!   └──┘
 //!  ┌────┐
 //!  └────┘  base
 //! ```
@@ -125,9 +125,10 @@ impl Direction {
         DVec3::AXES[self.axis] * self.sign
     }
 
-    /// How far the center of a part is from that of the base.
-    fn distance(self, [low, high]: Corners) -> f64 {
-        ((low + high)[self.axis] * 0.5 - self.base).abs()
+    /// How far the farther end of a part is from the center of the base: a part that ends beyond
+    /// another one is in its way, as a bolt with its head is in the way of what it holds.
+    fn distance(self, part: Corners) -> f64 {
+        (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
 
     /// The way that a part has to go beyond all boxes in its column, 0 or more.
@@ -210,8 +211,8 @@ mod tests {
         ];
         let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(1.0) };
         let heights: Vec<f64> = settings.moves(&boxes).iter().map(|by| by.y).collect();
-        // The pin's center is nearest to that of the plate: it goes first, to 3, then the ring to 10.
-        assert_eq!(heights, [8.0, 0.0, 4.0, -1.0]);
+        // The pin ends beyond the ring: the ring goes first, to 3, then the pin to 5.
+        assert_eq!(heights, [1.0, 0.0, 6.0, -1.0]);
     }
 
     #[test]
