@@ -87,7 +87,10 @@ fn angles_are_between_edges_faces_and_points() {
     ] {
         let [vertex, a, b] = points(&format!("Angle({sides})"))[..] else { panic!("{sides}") };
         let [u, v] = [a, b].map(|end| glam::DVec3::from(end) - glam::DVec3::from(vertex));
-        assert!(u.angle_between(v).to_degrees() - 90.0 < 1e-3, "{sides}: {vertex:?} {a:?} {b:?}");
+        assert!(
+            (u.angle_between(v).to_degrees() - 90.0).abs() < 1e-3,
+            "{sides}: {vertex:?} {a:?} {b:?}"
+        );
     }
 }
 

@@ -272,9 +272,8 @@ impl LengthRow<'_> {
             let tip = self.line_point(at);
             let before = at.checked_sub(1).map(|before| self.is_narrow(before));
             let after = (at < last).then(|| self.is_narrow(at));
-            if before.is_some() && after.is_some() && (before == Some(true) || after == Some(true))
-            {
-                let half = (self.along + self.above()) * (0.35 * self.letters);
+            if self.is_stroke(at) {
+                let half = (self.along + self.above()) * (STROKE * self.letters);
                 candidate.push_line([tip - half, tip + half]);
                 continue;
             }
