@@ -31,6 +31,7 @@ const MAX_ROWS: u32 = 30;
 const LEAST_BETWEEN_ARROWS: f64 = 3.5;
 
 /// Half of the side of the square whose diagonal an oblique stroke is, in heights of letters.
+const STROKE: f64 = 0.3;
 
 /// How far extension lines that are yet to come may reach, in heights of letters.
 const FAR: f64 = 200.0;

@@ -15,10 +15,10 @@ use super::sheet_view::SheetView;
 use super::surface_cache::SurfaceCache;
 use super::view_layout::extent_of_rectangle;
 use super::visible_spots::{MovedParts, VisibleSpot, add_spots_on_edges, find_visible_spots};
-use super::{Sheet, SheetError, frame, title_block};
+use super::{Sheet, SheetError, title_block};
 use crate::assembly::{
-    AssemblyPages, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem, exploded_models,
-    gather_parts, part_model,
+    AssemblyPages, AssemblyWarning, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem,
+    exploded_models, gather_parts, part_model,
 };
 use crate::line_style::HiddenLines;
 use crate::line_type::LineType;
@@ -88,7 +88,7 @@ impl Sheet {
         let assembly = DrawnAssembly::new(self, models);
         if assembly.parts.is_empty() {
             let mut page = self.draw(models, sections, threads)?;
-            page.warnings.push(Warning::NoParts);
+            page.warnings.push(Warning::Assembly(AssemblyWarning::NoParts));
             return Ok(vec![page]);
         }
         let mut surfaces = SurfaceCache::new(models, &self.uncut);
@@ -146,7 +146,7 @@ impl Sheet {
         let block = self.title_block_area();
         // Tables and views reach up to the frame, so the centering marks stop there.
         let contents = [extent_of_rectangle(self.drawing_area())];
-        page.layers.push(frame::frame_layer(self.paper, &contents, ink));
+        page.layers.extend(self.frame_layers(&contents, ink));
         let title = page.title.clone();
         page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
     }
@@ -163,12 +163,14 @@ impl<'a> DrawnAssembly<'a> {
         warnings.extend(unreadable_names(&list));
         let mut explosion = explosion.as_ref();
         if explosion.is_some() && parts.len() > MAX_EXPLODED_PARTS {
-            warnings.push(Warning::TooManyPartsToExplode { most: MAX_EXPLODED_PARTS });
+            warnings.push(Warning::Assembly(AssemblyWarning::TooManyPartsToExplode {
+                most: MAX_EXPLODED_PARTS,
+            }));
             explosion = None;
         }
         if *part_sheets && list.items.len() > MAX_PART_SHEETS {
             let count = list.items.len() - MAX_PART_SHEETS;
-            warnings.push(Warning::PartSheetsLeftOut { count });
+            warnings.push(Warning::Assembly(AssemblyWarning::PartSheetsLeftOut { count }));
         }
         let boxes: Vec<Bounds<World>> = parts.iter().map(|part| part.bounds).collect();
         let moves = explosion.map(|settings| settings.moves(&boxes));
@@ -252,10 +254,8 @@ impl<'a> DrawnAssembly<'a> {
         for item in &self.list.items {
             let number = |object: &u32| self.parts.binary_search_by_key(object, |p| p.object).ok();
             let of_item = item.objects.iter().filter_map(number).filter_map(|at| spots[at]);
-            let clearer = |a: VisibleSpot, b: VisibleSpot| {
-                if b.clearance > a.clearance { b } else { a }
-            };
-            match of_item.reduce(clearer) {
+            let of_item: Vec<VisibleSpot> = of_item.collect();
+            match outermost_clear_spot(&of_item, view) {
                 Some(spot) => {
                     targets.push(BalloonTarget { item, spot: layout.on_page(&spot, view) });
                 }
@@ -264,7 +264,7 @@ impl<'a> DrawnAssembly<'a> {
         }
         if let Some(first) = hidden.first() {
             let (number, part, count) = (first.number, first.name.clone(), hidden.len());
-            warnings.push(Warning::PartsNotVisible { number, part, count });
+            warnings.push(Warning::Assembly(AssemblyWarning::NotVisible { number, part, count }));
         }
         targets
     }
@@ -277,8 +277,8 @@ impl<'a> DrawnAssembly<'a> {
         warnings: &mut Vec<Warning>,
     ) -> Vec<[Layer; 2]> {
         let width = self.sheet.line_width_group().narrow_width();
-        // Some places are crossed by leaders to others.
-        let capacity = (layout.capacity() * 4 / 5).max(1);
+        // Some places are in the way of leaders to others.
+        let capacity = (layout.capacity() * 2 / 3).max(1);
         let page_count = targets.len().div_ceil(capacity).max(1);
         let each = targets.len().div_ceil(page_count).max(1);
         let mut pages = Vec::new();
@@ -294,7 +294,7 @@ impl<'a> DrawnAssembly<'a> {
         }
         if let Some(first) = left_out.first() {
             let (number, count) = (first.number, left_out.len());
-            warnings.push(Warning::BalloonsLeftOut { number, count });
+            warnings.push(Warning::Assembly(AssemblyWarning::BalloonsLeftOut { number, count }));
         }
         pages
     }
@@ -359,6 +359,18 @@ impl Sheet {
     }
 }
 
+/// The spot of equal parts to which the leader goes: of those that are about as clear as the
+/// clearest, the one nearest to the border of the view.
+fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<VisibleSpot> {
+    let clearest = spots.iter().map(|spot| spot.clearance).fold(0.0, f64::max);
+    let clear = spots.iter().filter(|spot| spot.clearance >= 0.6 * clearest).copied();
+    let outward = |spot: &VisibleSpot| (spot.at / view.size.max(DVec2::splat(1e-300))).abs();
+    let farther = |a: VisibleSpot, b: VisibleSpot| {
+        if outward(&b).max_element() > outward(&a).max_element() { b } else { a }
+    };
+    clear.reduce(farther)
+}
+
 /// Takes the paths of the parts out of a drawing; they belong to its last object.
 fn take_paths(drawing: &mut LineDrawing, is_exploded: bool) -> LineDrawing {
     let last = drawing.objects.len().wrapping_sub(1) as u32;
@@ -383,5 +395,6 @@ fn unreadable_names(list: &PartsList) -> Option<Warning> {
         .flat_map(|item| [&item.name, &item.material])
         .filter(|text| is_unreadable(text));
     let name = names.next()?.clone();
-    Some(Warning::PartNamesUnreadable { name, count: 1 + names.count() })
+    let count = 1 + names.count();
+    Some(Warning::Assembly(AssemblyWarning::NamesUnreadable { name, count }))
 }
