@@ -90,6 +90,8 @@ pub enum Warning {
     IntersectionsIncomplete,
     /// The hatching was cut off.
     HatchingIncomplete,
+    /// The search for hidden lines was cut off.
+    VisibilityIncomplete,
 }
 
 impl fmt::Display for Warning {
@@ -161,7 +163,8 @@ impl fmt::Display for Warning {
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
             | Self::IntersectionsIncomplete
-            | Self::HatchingIncomplete => f.write_str(self.fixed_text()),
+            | Self::HatchingIncomplete
+            | Self::VisibilityIncomplete => f.write_str(self.fixed_text()),
         }
     }
 }
@@ -201,6 +204,11 @@ impl Warning {
             }
             Self::HatchingIncomplete => {
                 "there are too many hatch lines, and some are missing: increase their spacing"
+            }
+            Self::VisibilityIncomplete => {
+                "so many faces lie before and behind each other that not all lines were compared \
+                 with all of them, and some hidden lines are drawn: leave out parts of the model, \
+                 or simplify its meshes"
             }
             _ => "",
         }
