@@ -155,8 +155,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     let mut sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, content)
         .map_err(pipeline::ResolveError::from)?;
     if let Some(degrees) = args.load_options.crease {
-        sheet.style.crease_angle = degrees.to_radians();
-        sheet.style.asks_normals = false;
+        (sheet.style.crease_angle, sheet.style.asks_normals) = (degrees.to_radians(), false);
     }
     progress.enter_stage("drawing");
     let pages = sheet.draw_pages(&scene.models, &scene.sections, thread_count(args.threads));

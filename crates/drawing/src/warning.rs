@@ -94,8 +94,9 @@ pub enum Warning {
     VisibilityIncomplete,
 }
 
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Warning {
+    /// The text of a warning about a section plane; of others nothing.
+    fn fmt_section(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::SectionOpen { object } => write!(
                 f,
@@ -120,6 +121,19 @@ impl fmt::Display for Warning {
                 "section {number} has neither a cut line nor a view of its own on the sheet: its plane is \
                  oblique to the front, the top and the side view, and only an axonometric view shows it"
             ),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SectionOpen { .. }
+            | Self::SectionTooComplex { .. }
+            | Self::SectionMisses { .. }
+            | Self::SectionRemovesAll { .. }
+            | Self::SectionOblique { .. } => self.fmt_section(f),
             Self::ViewLeftOut { view } => write!(
                 f,
                 "there is no place for the {view} beside the other views, and it is left out: \

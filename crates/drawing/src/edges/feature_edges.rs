@@ -106,8 +106,7 @@ fn chains_of_object(edges: &[FeatureEdge], points: &[DVec3]) -> Vec<FeatureChain
         let next = straightest(edge, at)?;
         (straightest(next, at) == Some(edge)).then_some(next)
     };
-    let mut is_used = vec![false; edges.len()];
-    let mut chains = Vec::new();
+    let (mut is_used, mut chains) = (vec![false; edges.len()], Vec::new());
     for first in 0..edges.len() {
         if is_used[first] {
             continue;
@@ -115,7 +114,7 @@ fn chains_of_object(edges: &[FeatureEdge], points: &[DVec3]) -> Vec<FeatureChain
         is_used[first] = true;
         let [start, end] = edges[first].ends;
         let mut vertices = vec![start, end];
-        let mut is_closed = false;
+        let (object, mut is_closed) = (edges[first].object, false);
         for forward in [true, false] {
             let (mut edge, mut at) = (first, if forward { end } else { start });
             while let Some(following) = next(edge, at) {
@@ -137,7 +136,7 @@ fn chains_of_object(edges: &[FeatureEdge], points: &[DVec3]) -> Vec<FeatureChain
             vertices.pop();
         }
         let points = vertices.into_iter().map(|vertex| points[vertex as usize]).collect();
-        chains.push(FeatureChain { points, is_closed, object: edges[first].object });
+        chains.push(FeatureChain { points, is_closed, object });
     }
     chains
 }

@@ -212,7 +212,7 @@ impl Bvh {
                 bounds.extend(&item.bounds);
                 centers.extend_to(item.bounds.box_center());
             }
-            tree.build_node(&mut items, 0, &Extents { bounds, centers, count: 0 }, 0);
+            tree.build_node(&mut items, 0, &BoundsOfItems { bounds, centers, count: 0 }, 0);
         }
         // A new vector: collected in place, the numbers would keep the memory of the items.
         tree.order.reserve_exact(items.len());
@@ -332,7 +332,7 @@ impl Bvh {
     ///
     /// A node is pushed as a leaf first and turned into an inner node when the index of its second
     /// child is known.
-    fn build_node(&mut self, items: &mut [Item], first: u32, extents: &Extents, depth: u32) {
+    fn build_node(&mut self, items: &mut [Item], first: u32, extents: &BoundsOfItems, depth: u32) {
         let node = self.nodes.len();
         let bounds = extents.bounds;
         self.nodes.push(Node { bounds, first, count: items.len() as u32 });
@@ -356,13 +356,13 @@ impl Bvh {
 
 /// The boxes around some items and around their centers, and their number.
 #[derive(Clone, Copy)]
-struct Extents {
+struct BoundsOfItems {
     bounds: Bounds,
     centers: Bounds,
     count: usize,
 }
 
-impl Extents {
+impl BoundsOfItems {
     const EMPTY: Self = Self { bounds: Bounds::EMPTY, centers: Bounds::EMPTY, count: 0 };
 
     fn of_items(items: &[Item]) -> Self {
@@ -398,20 +398,20 @@ impl Extents {
 fn partition_by_sah<const BINS: usize>(
     items: &mut [Item],
     centers: &Bounds,
-) -> Option<[Extents; 2]> {
+) -> Option<[BoundsOfItems; 2]> {
     let (axis, extent) = longest_axis(centers);
     if extent <= 0.0 || !extent.is_finite() {
         return None;
     }
     let (from, scale) = (centers.min[axis], BINS as f32 / extent);
     let bin = |center: f32| (((center - from) * scale) as usize).min(BINS - 1);
-    let mut bins = [Extents::EMPTY; BINS];
+    let mut bins = [BoundsOfItems::EMPTY; BINS];
     for item in &*items {
         let center = item.bounds.box_center();
         bins[bin(center[axis])].insert(item, center);
     }
     let cut = cheapest_bin_split(&bins)?;
-    let mut split = [Extents::EMPTY; 2];
+    let mut split = [BoundsOfItems::EMPTY; 2];
     for (at, extents) in bins.iter().enumerate() {
         split[usize::from(at > cut)].extend(extents);
     }
@@ -428,14 +428,14 @@ fn partition_by_sah<const BINS: usize>(
 
 /// The last bin of the left side at the cheapest split: one sweep from the right for the costs
 /// there, one from the left. `None` if no box has an area.
-fn cheapest_bin_split<const BINS: usize>(bins: &[Extents; BINS]) -> Option<usize> {
+fn cheapest_bin_split<const BINS: usize>(bins: &[BoundsOfItems; BINS]) -> Option<usize> {
     let mut right = [0.0; BINS];
-    let mut extents = Extents::EMPTY;
+    let mut extents = BoundsOfItems::EMPTY;
     for at in (1..BINS).rev() {
         extents.extend(&bins[at]);
         right[at - 1] = extents.sah_cost();
     }
-    extents = Extents::EMPTY;
+    extents = BoundsOfItems::EMPTY;
     let mut best = None;
     for at in 0..BINS - 1 {
         extents.extend(&bins[at]);
@@ -448,14 +448,14 @@ fn cheapest_bin_split<const BINS: usize>(bins: &[Extents; BINS]) -> Option<usize
 }
 
 /// Partitions items into halves of equal count along the longest axis.
-fn partition_at_median(items: &mut [Item], centers: &Bounds) -> [Extents; 2] {
+fn partition_at_median(items: &mut [Item], centers: &Bounds) -> [BoundsOfItems; 2] {
     let (axis, _) = longest_axis(centers);
     let half = items.len() / 2;
     let key = |item: &Item| item.bounds.box_center()[axis];
     items
         .select_nth_unstable_by(half, |a, b| key(a).total_cmp(&key(b)).then(a.index.cmp(&b.index)));
     let (left, right) = items.split_at(half);
-    [left, right].map(Extents::of_items)
+    [left, right].map(BoundsOfItems::of_items)
 }
 
 /// The longest side of a box: its axis and its length.

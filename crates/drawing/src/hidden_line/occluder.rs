@@ -24,7 +24,7 @@ pub(super) struct Occluder {
 
 /// The plane of a face in the world: the unit normal on the side of the viewer, and the distance
 /// from the origin along it. Points of the plane have `normal · p = offset`.
-pub(super) type FacePlane = (DVec3, f64);
+pub(super) type NormalAndOffset = (DVec3, f64);
 
 /// The interval of s in which a face hides an edge, and how: by its interior or only along a side.
 ///
@@ -63,7 +63,7 @@ impl Occluder {
         &self,
         edge: &ProjectedEdge,
         tolerance: &Tolerance,
-        plane: Option<impl FnOnce() -> Option<FacePlane>>,
+        plane: Option<impl FnOnce() -> Option<NormalAndOffset>>,
         mut found: impl FnMut(Occlusion),
     ) {
         let [a, b, c] = self.vertices;

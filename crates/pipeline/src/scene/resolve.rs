@@ -129,10 +129,9 @@ impl Scene {
         let style = resolve_style(origin, &file.style)?;
         let sections = resolve_sections(origin, &file.sections)?;
         let uncut = resolve_uncut(origin, &file.sections, &models)?;
-        let camera = &file.camera;
         let framed = (&*models, framed_points(&models, style, (&sections, &uncut)));
         let mut view_projection =
-            resolve_view_of_points(origin, camera, framed, image, Vec::new())?;
+            resolve_view_of_points(origin, &file.camera, framed, image, Vec::new())?;
         let lights = resolve_lights(origin, file, &models, &view_projection)?;
         let has_environment = file.effective_environment(origin, &models).is_some();
         let ground = resolve_ground(file, &models, &lights, has_environment);
@@ -141,7 +140,7 @@ impl Scene {
             // The key light stands by the direction of view, which framing keeps.
             let shadows = shadow_points(ground, &models, &lights);
             let framed = (&*models, world_points(&models));
-            view_projection = resolve_view_of_points(origin, camera, framed, image, shadows)?;
+            view_projection = resolve_view_of_points(origin, &file.camera, framed, image, shadows)?;
         }
         let occlusion_radius = file.ambient_occlusion.map(|file| {
             let usual = || {
