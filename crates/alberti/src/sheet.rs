@@ -20,7 +20,6 @@ use drawing::{
     DecimalMark, DimensionUnit, DxfOptions, HiddenLines, Page, SheetFrame, TitleBlockLanguage,
     Warning,
 };
-use model::import::{ImageLoading, ImportOptions};
 use page_files::{PageNames, write_all};
 use pipeline::scene::file::{
     AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
@@ -140,10 +139,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     file.camera = pipeline::scene::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
-    // Lines have no textures.
-    let import =
-        ImportOptions { images: ImageLoading::Headers, ..args.load_options.import_options() };
-    let options = ResolveOptions { import };
+    let options = ResolveOptions { import: args.load_options.import_options() };
     let scene = Scene::resolve(&origin, &file, &options)?;
     let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
     let content = SheetContent {

@@ -90,8 +90,6 @@ pub enum Warning {
     IntersectionsIncomplete,
     /// The hatching was cut off.
     HatchingIncomplete,
-    /// The search for hidden lines was cut off.
-    VisibilityIncomplete,
 }
 
 impl Warning {
@@ -177,8 +175,7 @@ impl fmt::Display for Warning {
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
             | Self::IntersectionsIncomplete
-            | Self::HatchingIncomplete
-            | Self::VisibilityIncomplete => f.write_str(self.fixed_text()),
+            | Self::HatchingIncomplete => f.write_str(self.fixed_text()),
         }
     }
 }
@@ -218,11 +215,6 @@ impl Warning {
             }
             Self::HatchingIncomplete => {
                 "there are too many hatch lines, and some are missing: increase their spacing"
-            }
-            Self::VisibilityIncomplete => {
-                "so many faces lie before and behind each other that not all lines were compared \
-                 with all of them, and some hidden lines are drawn: leave out parts of the model, \
-                 or simplify its meshes"
             }
             _ => "",
         }

@@ -217,21 +217,35 @@ impl WeldedSurface {
         faces.filter(|(_, face)| face.cap_section.is_none()).map(|(colored, _)| colored)
     }
 
-    /// Drops the half-edges, which only [`Self::mesh_edges`] needs.
-    pub(crate) fn forget_half_edges(&mut self) {
-        self.half_edges = HalfEdges::default();
-    }
-
-    /// The edges of the wanted classes for one viewer that are sides of faces, or lines by
-    /// themselves.
+    /// The edges of the wanted classes for one viewer, sorted by object and within an object by
+    /// their vertices; `true` if intersections are missing because there were too many.
     ///
     /// The viewer matters for silhouettes only, but their test runs over all faces: O(faces +
-    /// edges).
-    pub(crate) fn mesh_edges(
+    /// edges), apart from the intersections, which are found once.
+    pub(crate) fn candidate_edges(
         &self,
         projector: &Projector,
         options: &DrawOptions,
-    ) -> Vec<CandidateEdge> {
+        threads: usize,
+    ) -> (Vec<CandidateEdge>, bool) {
+        let mut candidates = self.mesh_edges(projector, options);
+        let mut is_cut_off = false;
+        if options.classes.contains(EdgeClass::Intersection) {
+            let intersections = self.intersections(threads);
+            is_cut_off = intersections.is_cut_off;
+            let class = EdgeClass::Intersection;
+            candidates.extend(intersections.segments.iter().map(|&(ends, object)| CandidateEdge {
+                ends,
+                class,
+                object,
+            }));
+        }
+        candidates.sort_by_key(|candidate| candidate.object);
+        (candidates, is_cut_off)
+    }
+
+    /// The edges of the wanted classes that are sides of faces, or lines by themselves.
+    fn mesh_edges(&self, projector: &Projector, options: &DrawOptions) -> Vec<CandidateEdge> {
         let mesh = &self.mesh;
         let mut candidates = Vec::new();
         let mut add_candidate = |ends: [u32; 2], class, object| {
@@ -262,24 +276,6 @@ impl WeldedSurface {
             candidates.extend(contours.into_iter().map(candidate));
         }
         candidates
-    }
-
-    /// Adds the edges in which faces intersect, if they are wanted; `true` if some are missing
-    /// because there were too many.
-    pub(crate) fn add_intersections(
-        &self,
-        candidates: &mut Vec<CandidateEdge>,
-        options: &DrawOptions,
-        threads: usize,
-    ) -> bool {
-        if !options.classes.contains(EdgeClass::Intersection) {
-            return false;
-        }
-        let Intersections { segments, is_cut_off } = self.intersections(threads);
-        let class = EdgeClass::Intersection;
-        let edge = |&(ends, object): &_| CandidateEdge { ends, class, object };
-        candidates.extend(segments.iter().map(edge));
-        *is_cut_off
     }
 
     /// Where faces intersect; the number of threads does not change them.

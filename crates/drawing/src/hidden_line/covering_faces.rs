@@ -10,7 +10,7 @@
 //! lines are legible behind one wall, whose two sides are two faces, and a black cloud behind all.
 
 use super::occluder::Occlusion;
-use super::occluders::{MeshOccluders, OcclusionScratch, Tolerance};
+use super::occluders::MeshOccluders;
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
 use super::screen_bvh::{ScreenEdge, TriangleMesh};
@@ -57,35 +57,24 @@ impl FaceCount {
 
 impl<M: TriangleMesh> MeshOccluders<M> {
     /// The intervals of s in which more than `most` faces are in front of an edge; slivers shorter
-    /// than the tolerance are removed. Incomplete if no work is left in `scratch`.
+    /// than the tolerance are removed.
     pub(crate) fn intervals_behind_faces(
         &self,
         edge: &ProjectedEdge,
         most: u32,
-        scratch: &mut OcclusionScratch,
     ) -> OcclusionIntervals {
-        // A face that is only near would count beside the one that hides.
-        let tolerance = Tolerance { crack: 0.0, ..self.tolerance };
         let on_screen = ScreenEdge::new(edge, self.respects_depth);
         let mut count = FaceCount::default();
         let mut nodes: Vec<u32> = self.screen.root_node().into_iter().collect();
         while let Some(node) = nodes.pop() {
-            if !scratch.take_work(1) {
-                break;
-            }
             if self.screen.interval_behind(node, &on_screen).is_none() {
                 continue;
             }
             match self.screen.contents(node) {
                 Ok(children) => nodes.extend(children),
                 Err(triangles) => {
-                    if !scratch.take_work(triangles.len()) {
-                        break;
-                    }
-                    for &triangle in triangles {
-                        let view = (&on_screen, &tolerance);
-                        self.occlude_edge(triangle, edge, view, |one| count.insert(one));
-                    }
+                    let hide = |&triangle| self.occlude_edge(triangle, edge, &on_screen);
+                    triangles.iter().filter_map(hide).for_each(|one| count.insert(one));
                 }
             }
         }

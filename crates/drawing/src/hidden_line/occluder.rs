@@ -50,136 +50,46 @@ fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
 }
 
 impl Occluder {
-    /// Finds the parts of an edge that this face hides, by itself or together with another.
+    /// The part of an edge that this face hides, `None` if there is none.
     ///
     /// Three steps, the cheapest rejection first: a triangle side with the whole edge outside; the
     /// interval inside the triangle; the part of it behind the plane, which is asked for only then.
     /// A side that the edge runs along is left out of the second step, because rounding decides on
     /// which side of it the edge lies. Without a plane there is no third step.
-    ///
-    /// Where an edge runs outside a side, no farther than the width of a crack, it is hidden if
-    /// another face is as near on its other side: together they leave a crack that shows nothing.
     pub(super) fn occlude_edge(
         &self,
         edge: &ProjectedEdge,
         tolerance: &Tolerance,
         plane: Option<impl FnOnce() -> Option<NormalAndOffset>>,
-        mut found: impl FnMut(Occlusion),
-    ) {
+    ) -> Option<Occlusion> {
         let [a, b, c] = self.vertices;
+        let side_vectors = [b - a, c - b, a - c];
         let sides = [[a, b], [b, c], [c, a]].map(|side| side_function(side, edge));
-        let triangle = TriangleSides { values: sides, vectors: [b - a, c - b, a - c] };
-        let is_outside = triangle.have_outside(tolerance.screen);
-        if is_outside && triangle.have_outside(tolerance.crack.max(tolerance.screen)) {
-            return;
-        }
-        let along = if is_outside { None } else { triangle.side_along(edge, tolerance.screen) };
-        let inside = if is_outside { None } else { triangle.interval_inside(along) };
-        let beside = match (along, inside) {
-            (Some(side), Some(interval)) => Some((side, interval)),
-            (Some(_), None) => None,
-            _ if tolerance.crack <= tolerance.screen => None,
-            (None, _) => triangle.interval_beside(edge, tolerance),
-        };
-        if inside.is_none() && beside.is_none() {
-            return;
-        }
-        let heights = match plane.map(|plane| plane()) {
-            Some(None) => return,
-            Some(Some((normal, offset))) => Some(edge.world.map(|end| normal.dot(end) - offset)),
-            None => None,
-        };
-        let behind = |interval| match heights {
-            Some(heights) => interval_behind_plane(heights, edge, interval, tolerance),
-            None => Some(interval),
-        };
-        if along.is_none() {
-            inside.and_then(behind).into_iter().for_each(|part| found(Occlusion::Interior(part)));
-        }
-        let beside = beside.and_then(|(side, interval)| Some((side, behind(interval)?)));
-        if let Some((side, part)) = beside {
-            let runs_with = triangle.vectors[side].dot(edge.screen[1] - edge.screen[0]) > 0.0;
-            found(if runs_with { Occlusion::FaceLeft(part) } else { Occlusion::FaceRight(part) });
-        }
-    }
-}
-
-/// The sides of a triangle against an edge.
-struct TriangleSides {
-    /// The signed distances of the edge from each side, times the length of the side: that spares a
-    /// division, and tolerances are times the length instead.
-    values: [LinearFunction; 3],
-    /// From the start of each side to its end, in pixels.
-    vectors: [DVec2; 3],
-}
-
-impl TriangleSides {
-    /// Whether all of the edge is outside one of the sides, by more than some pixels.
-    fn have_outside(&self, distance: f64) -> bool {
-        (0..3).any(|k| {
-            let [start, end] = self.values[k];
-            let most = if start > end { start } else { end };
-            most < 0.0 && most < -distance * self.vectors[k].length()
-        })
-    }
-
-    /// The first side that the edge runs along: within `distance` in pixels as long as it is inside
-    /// the two others.
-    ///
-    /// The stretch must be longer than eight times the distance; shorter ones occur where the edge
-    /// crosses a vertex, and say nothing about its direction.
-    fn side_along(&self, edge: &ProjectedEdge, distance: f64) -> Option<usize> {
-        (0..3).find(|&k| {
-            let [start, end] = self.values[k];
-            let vector = self.vectors[k].abs();
-            // The sum of both components is not less than the length: few sides need the root.
-            let widest = distance * (vector.x + vector.y);
-            let (least, most) = if start < end { (start, end) } else { (end, start) };
-            if least > widest || most < -widest {
-                return false;
-            }
-            let near = distance * self.vectors[k].length();
-            if least > near || most < -near {
-                return false;
-            }
-            self.interval_inside(Some(k)).is_some_and(|interval| {
-                let is_long = (interval[1] - interval[0]) * edge.screen_length() > 8.0 * distance;
-                let is_near = |&s: &f64| evaluate_linear(self.values[k], s).abs() <= near;
-                is_long && interval.iter().all(is_near)
-            })
-        })
-    }
-
-    /// The first side that the edge runs beside on the outside, no farther than the width of a
-    /// crack, and the interval of s in which it does.
-    ///
-    /// It must be longer than four times that width, and so the angle between both is small.
-    fn interval_beside(
-        &self,
-        edge: &ProjectedEdge,
-        tolerance: &Tolerance,
-    ) -> Option<(usize, [f64; 2])> {
-        (0..3).find_map(|k| {
-            let [start, end] = self.values[k];
-            let vector = self.vectors[k].abs();
-            let widest = tolerance.crack * (vector.x + vector.y);
-            let (least, most) = if start < end { (start, end) } else { (end, start) };
-            if least > 0.0 || most < -widest {
+        // The distances from the sides are times their lengths, which spares a division; tolerances
+        // are times the length instead.
+        let near = |k: usize| tolerance.screen * side_vectors[k].length();
+        for (k, [start, end]) in sides.iter().enumerate() {
+            let most = if start > end { *start } else { *end };
+            if most < 0.0 && most < -near(k) {
                 return None;
             }
-            let length = self.vectors[k].length();
-            let (far, near) = (tolerance.crack * length, tolerance.screen * length);
-            let band = [[start + far, end + far], [near - start, near - end]];
-            let others = [self.values[(k + 1) % 3], self.values[(k + 2) % 3]];
-            let interval = positive_interval(band.into_iter().chain(others))?;
-            let stretch = (interval[1] - interval[0]) * edge.screen_length();
-            (stretch > 4.0 * tolerance.crack).then_some((k, interval))
-        })
-    }
-
-    /// The open interval of s in which the edge is inside all sides but one.
-    fn interval_inside(&self, but: Option<usize>) -> Option<[f64; 2]> {
-        positive_interval((0..3).filter(|&k| Some(k) != but).map(|k| self.values[k]))
+        }
+        let side_along_edge = (0..3).find(|&k| {
+            let [start, end] = sides[k];
+            let vector = side_vectors[k].abs();
+            // The sum of both components is not less than the length: few sides need the root.
+            let is_far = start.min(end) > tolerance.screen * (vector.x + vector.y);
+            !is_far && runs_along_side(k, &sides, near(k), edge, tolerance)
+        });
+        let interval =
+            positive_interval((0..3).filter(|&k| Some(k) != side_along_edge).map(|k| sides[k]))?;
+        let interval = match plane {
+            Some(plane) => interval_behind_plane(plane()?, edge, interval, tolerance)?,
+            None => interval,
+        };
+        let Some(k) = side_along_edge else { return Some(Occlusion::Interior(interval)) };
+        let runs_with = side_vectors[k].dot(edge.screen[1] - edge.screen[0]) > 0.0;
+        Some(if runs_with { Occlusion::FaceLeft(interval) } else { Occlusion::FaceRight(interval) })
     }
 }
 
@@ -196,14 +106,13 @@ impl TriangleSides {
 /// The height is linear in u, not in s: its zero is found in the world and mapped to the screen
 /// by IN-1. An edge that nowhere gets farther behind the plane than `tolerance.world` lies in
 /// it and is not hidden at all.
-///
-/// `height` is that of the ends of the edge over the plane.
 fn interval_behind_plane(
-    height: [f64; 2],
+    (normal, offset): NormalAndOffset,
     edge: &ProjectedEdge,
     interval: [f64; 2],
     tolerance: &Tolerance,
 ) -> Option<[f64; 2]> {
+    let height = edge.world.map(|end| normal.dot(end) - offset);
     let ends = interval.map(|s| evaluate_linear(height, edge.world_fraction(s)));
     if ends[0].min(ends[1]) >= -tolerance.world {
         return None;
@@ -245,4 +154,27 @@ fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<
         }
     }
     (interval[0] < interval[1]).then_some(interval)
+}
+
+/// Whether the edge runs along side `k`: within `near`, which is `tolerance.screen` times the
+/// length of the side, as long as it is inside the two other sides.
+///
+/// The stretch must be longer than eight tolerances; shorter ones occur where the edge crosses a
+/// vertex, and say nothing about its direction.
+fn runs_along_side(
+    k: usize,
+    sides: &[LinearFunction; 3],
+    near: f64,
+    edge: &ProjectedEdge,
+    tolerance: &Tolerance,
+) -> bool {
+    let [start, end] = sides[k];
+    if start.min(end) > near || start.max(end) < -near {
+        return false;
+    }
+    let others = [sides[(k + 1) % 3], sides[(k + 2) % 3]];
+    positive_interval(others.into_iter()).is_some_and(|interval| {
+        let is_long = (interval[1] - interval[0]) * edge.screen_length() > 8.0 * tolerance.screen;
+        is_long && interval.iter().all(|&s| evaluate_linear(sides[k], s).abs() <= near)
+    })
 }

@@ -26,9 +26,6 @@ pub struct Tolerance {
     /// The least length of a visible or hidden part, in pixels; shorter ones are merged with their
     /// neighbors.
     pub min_part: f64,
-    /// The width of cracks between faces through which nothing is seen, in pixels. An edge that runs
-    /// along a crack has a face on both sides that is no farther.
-    pub crack: f64,
 }
 
 impl Tolerance {
@@ -36,16 +33,10 @@ impl Tolerance {
     ///
     /// `world` is diagonal / 2²¹: a few units in the last place of coordinates stored in single
     /// precision. `screen` is 1/4096 pixel and `min_part` 1/1024 pixel, far below what any output
-    /// resolves. `crack` is 3/16 pixel, 0.05 mm on paper: less than any pen is wide, so that lines
-    /// behind a crack could not be told from its sides.
+    /// resolves.
     #[must_use]
     pub fn for_scene(diagonal: f64) -> Self {
-        Self {
-            screen: 1.0 / 4096.0,
-            world: diagonal / 2_097_152.0,
-            min_part: 1.0 / 1024.0,
-            crack: 3.0 / 16.0,
-        }
+        Self { screen: 1.0 / 4096.0, world: diagonal / 2_097_152.0, min_part: 1.0 / 1024.0 }
     }
 }
 
@@ -177,19 +168,9 @@ pub(crate) struct OcclusionScratch {
     face_right: OcclusionIntervals,
     /// Nodes of the hierarchy that are still to be visited.
     node_stack: Vec<u32>,
-    /// How many boxes and triangles may still be compared with edges; `None` for any number.
-    pub(crate) work_left: Option<u64>,
 }
 
 impl OcclusionScratch {
-    /// Takes some work from what is left; `false` if that is less.
-    pub(super) fn take_work(&mut self, count: usize) -> bool {
-        let Some(left) = &mut self.work_left else { return true };
-        let is_left = *left >= count as u64;
-        *left = left.saturating_sub(count as u64);
-        is_left
-    }
-
     /// Starts a query at a node.
     fn restart(&mut self, root: Option<u32>) {
         self.hidden.clear();
@@ -197,11 +178,6 @@ impl OcclusionScratch {
         self.face_right.clear();
         self.node_stack.clear();
         self.node_stack.extend(root);
-    }
-
-    /// The result of the last query.
-    pub(crate) const fn last_result(&self) -> &OcclusionIntervals {
-        &self.hidden
     }
 
     /// The result where there is no face.
@@ -223,8 +199,7 @@ impl OcclusionScratch {
 impl<M: TriangleMesh> MeshOccluders<M> {
     /// Projects a mesh whose hierarchy in the world is `bvh`.
     pub(crate) fn new(mesh: M, bvh: &Bvh, projector: Projector, tolerance: Tolerance) -> Self {
-        let margins = [tolerance.screen, tolerance.screen.max(tolerance.crack)];
-        let screen = ScreenBvh::new(&mesh, bvh, &projector, margins);
+        let screen = ScreenBvh::new(&mesh, bvh, &projector, tolerance.screen);
         Self { mesh, projector, tolerance, screen, respects_depth: true }
     }
 
@@ -237,7 +212,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
     ///
     /// This is the inner loop of hidden-line removal. Children are visited front to back, because a
     /// near face is more likely to hide the whole interval and so end the descent. The result is
-    /// borrowed from `scratch`. It is incomplete if no work is left there.
+    /// borrowed from `scratch`.
     pub(crate) fn hidden_intervals<'a>(
         &self,
         edge: &ProjectedEdge,
@@ -246,9 +221,6 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         scratch.restart(self.screen.root_node());
         let on_screen = ScreenEdge::new(edge, self.respects_depth);
         while let Some(node) = scratch.node_stack.pop() {
-            if !scratch.take_work(1) {
-                break;
-            }
             let Some(interval) = self.screen.interval_behind(node, &on_screen) else { continue };
             if scratch.hidden.contains_interval(interval) {
                 continue;
@@ -256,12 +228,9 @@ impl<M: TriangleMesh> MeshOccluders<M> {
             match self.screen.contents(node) {
                 Ok(children) => scratch.node_stack.extend(children),
                 Err(triangles) => {
-                    if !scratch.take_work(triangles.len()) {
-                        break;
-                    }
                     for &triangle in triangles {
-                        let view = (&on_screen, &self.tolerance);
-                        self.occlude_edge(triangle, edge, view, |part| scratch.insert(part));
+                        let occlusion = self.occlude_edge(triangle, edge, &on_screen);
+                        occlusion.into_iter().for_each(|occlusion| scratch.insert(occlusion));
                     }
                 }
             }
@@ -270,28 +239,25 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         // Where faces meet at a side that the edge runs behind, they hide it together.
         hidden.insert_intersection(face_left, face_right);
         if !hidden.is_empty() {
-            let length = edge.screen_length();
-            hidden.close_gaps(self.tolerance.crack / length);
-            hidden.remove_slivers(self.tolerance.min_part / length);
+            hidden.remove_slivers(self.tolerance.min_part / edge.screen_length());
         }
         hidden
     }
 
-    /// Finds what a triangle of the hierarchy hides of an edge.
+    /// What a triangle of the hierarchy hides of an edge.
     pub(super) fn occlude_edge(
         &self,
         packed: u32,
         edge: &ProjectedEdge,
-        (on_screen, tolerance): (&ScreenEdge<'_>, &Tolerance),
-        found: impl FnMut(Occlusion),
-    ) {
+        on_screen: &ScreenEdge<'_>,
+    ) -> Option<Occlusion> {
         let (vertices, triangle) = self.screen.triangle(packed, &self.mesh);
-        if on_screen.is_beside(vertices, tolerance.crack.max(tolerance.screen)) {
-            return;
+        if on_screen.is_beside(vertices, self.tolerance.screen) {
+            return None;
         }
+        let occluder = Occluder { vertices };
         let plane = || self.plane_towards_viewer(triangle);
-        let plane = self.respects_depth.then_some(plane);
-        Occluder { vertices }.occlude_edge(edge, tolerance, plane, found);
+        occluder.occlude_edge(edge, &self.tolerance, self.respects_depth.then_some(plane))
     }
 
     /// The plane of a triangle: its unit normal on the side of the viewer, and its distance from

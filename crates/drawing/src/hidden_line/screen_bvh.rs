@@ -129,13 +129,13 @@ impl ProjectedVertices {
 impl ScreenBvh {
     /// Projects a mesh, and finds the boxes of its hierarchy on the screen: O(n).
     ///
-    /// `thinnest` is the height in pixels up to which a triangle hides nothing, `margin` that of
+    /// `thinnest` is the height in pixels up to which a triangle hides nothing, and the margin of
     /// the boxes.
     pub(super) fn new(
         mesh: &impl TriangleMesh,
         bvh: &Bvh,
         projector: &Projector,
-        [thinnest, margin]: [f64; 2],
+        thinnest: f64,
     ) -> Self {
         let projected = ProjectedVertices::new(mesh, projector);
         let empty = ScreenNode {
@@ -167,7 +167,7 @@ impl ScreenBvh {
                         );
                     }
                     let count = tree.triangles.len() as u32 - first;
-                    area.to_leaf(first, count, margin)
+                    area.to_leaf(first, count, thinnest)
                 }
             };
         }

@@ -7,9 +7,7 @@
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
 
 mod edges;
-mod nearly_touching;
 mod sections;
 mod smoothness;
 mod solids;
 mod stage;
-mod work;
