@@ -1,7 +1,7 @@
 //! Drawing sheets: every view has a place or is named, and nothing is written over anything.
 
 #![allow(unreachable_pub, reason = "in a test `pub` means: used by another file")]
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail by a panic")]
 
 mod assemblies;
 mod balloons;
