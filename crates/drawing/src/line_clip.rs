@@ -179,7 +179,7 @@ impl LineDrawing {
             let source = |index: usize| {
                 let (x, y) = (index as i64 % width - dx, index as i64 / width - dy);
                 let is_there = (0..width).contains(&x) && (0..height).contains(&y);
-                is_there.then(|| fill.pixels[(y * width + x) as usize]).unwrap_or_default()
+                if is_there { fill.pixels[(y * width + x) as usize] } else { [0; 4] }
             };
             fill.pixels = (0..fill.pixels.len()).map(source).collect();
         }

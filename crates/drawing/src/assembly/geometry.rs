@@ -16,6 +16,9 @@ const SHAPE_TOLERANCE: f64 = 1e-5;
 /// Sizes of one mesh beyond this number are not compared: each is a part of its own.
 const MAX_SIZES: usize = 1000;
 
+/// A size of a content: its linear map, whether it is mirrored, and the number of its class.
+type SizeClass = (DMat3, bool, usize);
+
 /// Finds equal parts: two parts have the same number if they are equal.
 pub(super) struct PartClasses<'a> {
     models: &'a [ModelInstance],
@@ -24,7 +27,7 @@ pub(super) struct PartClasses<'a> {
     /// The digests of meshes that nothing deforms, by the first model that has them.
     rigid: BTreeMap<(usize, usize), (u64, usize)>,
     /// The sizes of a content, and the number of each class.
-    sizes: BTreeMap<(u64, usize), Vec<(DMat3, bool, usize)>>,
+    sizes: BTreeMap<(u64, usize), Vec<SizeClass>>,
     count: usize,
 }
 

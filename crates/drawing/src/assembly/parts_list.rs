@@ -78,7 +78,8 @@ impl PartsList {
             }
             groups[group].push(part);
         }
-        let cubic_centimeters = (millimeters_per_unit / 10.0).powi(3);
+        let centimeters = millimeters_per_unit / 10.0;
+        let cubic_centimeters = centimeters * centimeters * centimeters;
         let (mut items, mut warnings) = (Vec::new(), Vec::new());
         for (group, number) in groups.iter().zip(1..) {
             let (name, materials) = (common_name(group), material_names(group[0], models));

@@ -110,9 +110,9 @@ impl<'a> RequestedGrid<'a> {
 
 /// Why requested views cannot be arranged at the sheet's scale, or at the smallest standard scale.
 pub(super) fn requested_fault(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
-    let scales = scales_of_sheet(sheet);
-    let faults = scales.into_iter().filter_map(|scale| arrange_requested(sheet, plan, scale).err());
-    faults.last().unwrap_or(SheetError::Empty)
+    let mut scales = scales_of_sheet(sheet).into_iter().rev();
+    let fault = scales.find_map(|scale| arrange_requested(sheet, plan, scale).err());
+    fault.unwrap_or(SheetError::Empty)
 }
 
 /// Warnings of views that lie over others at the places that they were given.

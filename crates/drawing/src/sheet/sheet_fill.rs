@@ -16,7 +16,7 @@
 
 use super::annotation::Extent;
 use super::view_layout::ViewLayout;
-use super::view_plan::ViewPlan;
+use super::view_plan::{PlannedView, ViewPlan};
 use super::{Sheet, SheetError};
 use core::fmt;
 use homog::{Plane, World};
@@ -125,7 +125,7 @@ impl Sheet {
         let larger = DrawingScale::STANDARD.into_iter().rev().find(|s| s.ratio() > scale.ratio());
         let Some(larger) = larger else { return ScaleLimit::Largest };
         if let Some(layout) = ViewLayout::arrange_at_scale(self, plan, larger) {
-            let views = layout.cramped_views().map(|view| view.title()).collect();
+            let views = layout.cramped_views().map(PlannedView::title).collect();
             return ScaleLimit::NoRoom { scale: larger, views };
         }
         let need = ViewLayout::least_size(self, plan, larger).to_array();

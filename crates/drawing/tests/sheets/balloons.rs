@@ -87,7 +87,7 @@ pub fn crossing_leaders(page: &Page) -> Vec<String> {
     let leaders: Vec<(&str, [DVec2; 2])> = balloons
         .groups
         .iter()
-        .flat_map(|group| group.strokes.get(1).map(|line| (group.id.as_str(), line)))
+        .filter_map(|group| group.strokes.get(1).map(|line| (group.id.as_str(), line)))
         .flat_map(|(id, line)| pieces(line).map(move |piece| (id, piece)))
         .collect();
     let side = |[a, b]: [DVec2; 2], p: DVec2| (b - a).perp_dot(p - a);

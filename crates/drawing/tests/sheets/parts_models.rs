@@ -1,15 +1,15 @@
 //! Assemblies made for tests: known parts, copies and places.
 
 use crate::boxes::{Random, box_model};
-use glam::{DVec3, Quat};
+use glam::{DQuat, DVec3};
 use homog::{Affine, Model as ModelSpace, Vector};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive};
 use std::sync::Arc;
 
 /// A place of a part: a turn about an axis, then a move.
 pub fn placed(at: DVec3, turn: f64) -> Affine<ModelSpace, ModelSpace> {
-    let turn = Quat::from_axis_angle(glam::Vec3::new(0.6, 0.0, 0.8), turn as f32);
-    let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion(turn.to_array().map(f64::from));
+    let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), turn);
+    let turn = Affine::<ModelSpace, ModelSpace>::from_quaternion(turn.to_array());
     turn.expect("a turn").then(Affine::translation(Vector::from_raw(at)))
 }
 

@@ -26,7 +26,7 @@ pub(super) fn resolve_assembly(
         balloons: file.balloons,
         explosion: file.exploded.as_ref().map(|exploded| ExplosionSettings {
             axis: exploded.axis,
-            distance: exploded.distance.map(|distance| distance.value()),
+            distance: exploded.distance.map(super::number::NonNegative::value),
         }),
         part_sheets: file.part_sheets,
         densities: file.densities.iter().map(density).collect(),
