@@ -11,14 +11,15 @@
 mod balloons;
 #[path = "../../crates/drawing/tests/sheets/lint.rs"]
 mod lint;
+#[path = "../../crates/drawing/tests/sheets/separation.rs"]
+mod separation;
 
 use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program};
 use alberti_tests::manifest::read_manifest;
 use drawing::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
-use glam::DVec3;
 use homog::{Affine, Bounds};
 use model::import::{ImportOptions, load};
-use model::{ModelInstance, Topology, world_points};
+use model::{ModelInstance, world_points};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -119,32 +120,10 @@ fn check_model(path: &Path) -> Result<Option<String>, String> {
     Ok(Some(summary))
 }
 
-/// Whether no two objects come near each other: boxes around their triangles that do not meet.
+/// Whether no two objects intersect, by their triangles.
 fn check_apart(models: &[ModelInstance]) -> Result<(), String> {
-    let mut boxes: Vec<(String, DVec3, DVec3)> = Vec::new();
-    for placed in models {
-        for (instance, primitive) in placed.model.scene_primitives() {
-            if primitive.topology != Topology::Triangles || primitive.indices.is_empty() {
-                continue;
-            }
-            let skinned = placed.model.skin_primitive(instance, primitive);
-            let to_world = skinned.to_model.then(placed.model_to_world);
-            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-            for &index in &primitive.indices {
-                let position = skinned.positions[index as usize].map(f64::from);
-                let point = to_world.transform_point(position.into()).raw();
-                (low, high) = (low.min(point), high.max(point));
-            }
-            boxes.push((format!("{}", instance.node), low, high));
-        }
+    match separation::intersecting_parts(&separation::part_triangles(models)).first() {
+        Some([part, other]) => Err(format!("parts {part} and {other} meet")),
+        None => Ok(()),
     }
-    for (index, (node, low, high)) in boxes.iter().enumerate() {
-        for (other, other_low, other_high) in &boxes[index + 1..] {
-            let apart = high.cmplt(*other_low).any() || other_high.cmplt(*low).any();
-            if node != other && !apart {
-                return Err(format!("parts {node} and {other} meet"));
-            }
-        }
-    }
-    Ok(())
 }

@@ -71,7 +71,17 @@ fn parts_lists_are_drawn_and_written() {
     assert!(!rows[4][4].is_empty() && rows[1][4].is_empty(), "{rows:?}");
     assert!(read_text(&sandbox, "out-2.svg").contains("id=\"parts-list\""));
     let run = sandbox.run(&["sheet", "scene.ron", "--parts-list=list.txt"]);
-    assert!(run.code == 2 && run.stderr.contains("ends in .csv"), "{}", run.stderr);
+    assert!(run.code == 2 && run.stderr.contains("ends in .csv or .json"), "{}", run.stderr);
+    assert_succeeds(&sandbox, &["sheet", "scene.ron", "--parts-list=list.json", "-o", "out.svg"]);
+    let json: serde_json::Value =
+        serde_json::from_str(&read_text(&sandbox, "list.json")).expect("JSON");
+    let bolt = &json["items"][4];
+    assert_eq!((&bolt["quantity"], &bolt["name"]), (&4.into(), &"bolt".into()));
+    assert_eq!(bolt["mass_grams"].as_f64(), rows[5][4].parse().ok());
+    assert!(json["items"][0]["mass_grams"].is_null(), "{json}");
+    let parts = bolt["parts"].as_array().expect("the places of the bolts");
+    let paths: Vec<String> = parts.iter().map(|part| part["path"].to_string()).collect();
+    assert!(paths.len() == 4 && paths[0].ends_with("\"bolt 1\"]"), "{paths:?}");
     sandbox.write_file(
         "wrong.ron",
         "Scene(\n    models: [(path: \"bearing.glb\")],\n    sheet: Sheet(\n        \

@@ -51,5 +51,6 @@ mod sequences;
 mod sheet_options;
 mod sweep;
 mod thumbnailer;
+mod unusual_sheets;
 mod variants;
 mod vector_files;

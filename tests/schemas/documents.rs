@@ -160,6 +160,10 @@ fn other_calls() -> Vec<Call> {
     .into();
     let curve = Call::new("depth-curve", "curve depth --near 0.1 --far 1000 -o curve.json");
     calls.push(Call { place: Place::File("curve.json"), ..curve });
+    let list = "sheet @ --parts-list=list.json --balloons -o assembly.pdf";
+    let bearing = project_root().join("scenes/models/bearing.glb");
+    let list = Call::with_paths("parts-list", list, &[&bearing]);
+    calls.push(Call { place: Place::File("list.json"), ..list });
     let batch = Call::new("batch-record", "batch batch --out-dir out --size 32x24");
     calls.push(Call { place: Place::Reports("out"), ..batch });
     calls

@@ -28,7 +28,7 @@ fn check_hidden_lines(input: &Value, out: &Value) -> Result<(), String> {
             Ok([[a, b, c], [d, e, f], [g, h, i]].map(Point::from))
         })
         .collect::<Result<_, String>>()?;
-    let tolerance = Tolerance { screen: 1e-4, world: 1e-10, min_part: 1e-7 };
+    let tolerance = Tolerance { screen: 1e-4, world: 1e-10, min_part: 1e-7, crack: 1e-4 };
     let obstacles = Occluders::new(triangles, sight, tolerance);
     for (number, (edge, visible)) in zip_arrays(&input["edges"], &out["visible"])?.enumerate() {
         let [a, b, c, d, e, f] = parse_numbers::<6>(edge)?;

@@ -16,7 +16,7 @@ use super::progress::Progress;
 use super::render_job::RenderJob;
 use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
-use model::import::{FileFormat, ImportOptions};
+use model::import::{FileFormat, ImageLoading, ImportOptions};
 use pipeline::scene::file::SceneFile;
 use pipeline::scene::{Outputs, ResolveOptions, closest_name};
 use pipeline::{Origin, Scene, Timings};
@@ -84,7 +84,11 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;
-    let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+    // Lines have no textures.
+    let is_drawing = job.format != OutputFormat::Png && outputs.passes.is_empty();
+    let images = if is_drawing { ImageLoading::Headers } else { import.images };
+    let options = ResolveOptions { import: ImportOptions { images, ..import } };
+    let mut scene = Scene::resolve(&origin, &file, &options)?;
     job.overrides.place_camera(&origin, &file, &mut scene)?;
     if args.same_scale {
         shared_scale::share_scale(&args.views, &origin, &file, &mut scene)?;

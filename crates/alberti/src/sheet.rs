@@ -5,6 +5,7 @@
 
 mod assembly;
 mod page_files;
+mod parts_list_json;
 
 use super::CliError;
 use super::format::{DxfArgs, OutputFormat, image_warning};
@@ -17,15 +18,16 @@ use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use assembly::AssemblyArgs;
 use drawing::{
-    DecimalMark, DimensionUnit, DxfOptions, HiddenLines, Page, SheetFrame, TitleBlockLanguage,
-    Warning,
+    DecimalMark, DimensionUnit, DxfOptions, FaceFill, HiddenLines, Page, SheetFrame,
+    TitleBlockLanguage, Warning,
 };
+use model::import::{ImageLoading, ImportOptions};
 use page_files::{PageNames, write_all};
 use pipeline::scene::file::{
     AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
 };
 use pipeline::scene::{ResolveOptions, SheetContent, Style};
-use pipeline::{Picture, Scene};
+use pipeline::{Origin, Picture, Scene};
 use projection::SheetAngle;
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
@@ -66,6 +68,10 @@ pub(crate) struct SheetArgs {
     /// style, else dashed]
     #[arg(long, value_parser = option_parser::<HiddenLines>())]
     hidden_lines: Option<HiddenLines>,
+    /// Fill of the faces under the lines: grays or hatchings tell parts apart [default: as in the
+    /// scene's line style, else none]
+    #[arg(long, value_name = "FILL", value_parser = option_parser::<FaceFill>())]
+    face_fill: Option<FaceFill>,
     /// Omit all dimensions
     #[arg(long)]
     no_dimensions: bool,
@@ -139,27 +145,25 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     file.camera = pipeline::scene::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
-    let options = ResolveOptions { import: args.load_options.import_options() };
+    // Lines have no textures.
+    let import =
+        ImportOptions { images: ImageLoading::Headers, ..args.load_options.import_options() };
+    let options = ResolveOptions { import };
     let scene = Scene::resolve(&origin, &file, &options)?;
     let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
-    let content = SheetContent {
-        models: &scene.models,
-        sections: &scene.sections,
-        uncut: &scene.uncut,
-        style,
-    };
+    let (models, overlays) = (&*scene.models, &*scene.overlays);
+    let (sections, uncut) = (&*scene.sections, &*scene.uncut);
+    let allowed_folders = &*options.import.allow_outside;
+    let content = SheetContent { models, sections, uncut, style, overlays, allowed_folders };
     let mut sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, content)
         .map_err(pipeline::ResolveError::from)?;
     if let Some(degrees) = args.load_options.crease {
         (sheet.style.crease_angle, sheet.style.asks_normals) = (degrees.to_radians(), false);
     }
     progress.enter_stage("drawing");
-    let pages = sheet.draw_pages(&scene.models, &scene.sections, thread_count(args.threads));
-    let pages =
-        pages.map_err(|error| match pipeline::scene::sheet_view_error(&origin, &error) {
-            Some(mistake) => CliError::Scene(mistake),
-            None => CliError::Sheet(error),
-        })?;
+    let pages = sheet
+        .draw_pages(&scene.models, &scene.sections, thread_count(args.threads))
+        .map_err(|error| sheet_error(&origin, error))?;
     progress.enter_stage("writing");
     let mut warnings = warnings_of_pages(&pages);
     if !matches!(scene.style, Style::Lines(_) | Style::Shaded) {
@@ -183,6 +187,14 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     }
     print_warnings(&scene, &warnings);
     Ok(())
+}
+
+/// The error of a sheet that cannot be drawn: at its place in the scene file, if it has one there.
+fn sheet_error(origin: &Origin, error: drawing::SheetError) -> CliError {
+    match pipeline::scene::sheet_view_error(origin, &error) {
+        Some(mistake) => CliError::Scene(mistake),
+        None => CliError::Sheet(error),
+    }
 }
 
 /// The warnings of all pages, each once.
@@ -231,6 +243,7 @@ fn apply_overrides(sheet: &mut SheetFile, args: &SheetArgs) {
     sheet.unit = args.load_options.unit.or(sheet.unit);
     args.axonometric.into_iter().for_each(|view| sheet.axonometric_view = view);
     args.hidden_lines.into_iter().for_each(|hidden| sheet.hidden = Some(hidden));
+    sheet.face_fill = args.face_fill.or(sheet.face_fill);
     sheet.scale = args.scale.or(sheet.scale);
     if args.no_dimensions {
         sheet.dimensions = DimensionsFile::none();

@@ -5,7 +5,7 @@ use glam::{DVec3, DVec4, Vec4Swizzles};
 use homog::{Clip, HPoint, Projective, View, World};
 
 /// Where the picture is taken from, and by which projection.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ViewProjection {
     /// The camera.
     pub camera: Camera,

@@ -15,7 +15,9 @@ mod explosion;
 mod geometry;
 mod part;
 mod part_model;
+mod part_shapes;
 mod parts_list;
+mod removal;
 mod volume;
 mod warning;
 
@@ -24,7 +26,8 @@ pub use explosion::{ExplosionAxis, ExplosionSettings};
 pub(crate) use part::{Part, gather_parts};
 pub use part_model::explode_models;
 pub(crate) use part_model::{PATHS, exploded_models, part_model};
-pub use parts_list::{PartDensity, PartsList, PartsListItem};
+pub(crate) use part_shapes::PartShapes;
+pub use parts_list::{PartDensity, PartPlace, PartsList, PartsListItem};
 pub use warning::AssemblyWarning;
 
 /// The pages of a sheet that show its models as an assembly of parts. Default: none.

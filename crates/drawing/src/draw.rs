@@ -17,7 +17,7 @@
 //! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
 use super::edges::{CandidateEdge, SectionCap, WeldedSurface};
-use super::face_fill::{KeyLight, rasterize_flat_fill};
+use super::face_fill::{KeyLight, rasterize_fill};
 use super::hatching::Hatching;
 use super::hidden_line::{MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge};
 use super::options::{DrawOptions, HiddenEdges};
@@ -30,6 +30,8 @@ use crate::{DrawError, Subject};
 use camera::ViewProjection;
 use glam::DVec2;
 use homog::Point;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use viewport::Viewport;
 
 /// Draws the edges of a subject with hidden-line removal, with up to `threads` threads.
@@ -43,10 +45,14 @@ pub fn draw(
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
-    subject.viewport()?;
-    let surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
-    let mut drawing =
-        draw_surface(&surface, &subject.view_projection, subject.size, options, threads)?;
+    let projector = Projector::new(&subject.view_projection, &subject.viewport()?);
+    let mut surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
+    let mut candidates = surface.mesh_edges(&projector, options);
+    // There is no other view: memory of millions of edges is free for what follows.
+    surface.forget_half_edges();
+    let is_cut_off = surface.add_intersections(&mut candidates, options, threads);
+    let view = (&subject.view_projection, subject.size);
+    let mut drawing = draw_candidates(&surface, (candidates, is_cut_off), view, options, threads)?;
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
     drawing.warnings.sort_unstable();
     Ok(drawing)
@@ -63,8 +69,23 @@ pub(crate) fn draw_surface(
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
+    let mut candidates = surface.mesh_edges(&projector, options);
+    let is_cut_off = surface.add_intersections(&mut candidates, options, threads);
+    let view = (view_projection, size);
+    draw_candidates(surface, (candidates, is_cut_off), view, options, threads)
+}
+
+/// Draws the candidate edges of a surface, and its hatching, as far as they are visible;
+/// `is_cut_off` says whether intersections are missing.
+fn draw_candidates(
+    surface: &WeldedSurface,
+    (mut edges, is_cut_off): (Vec<CandidateEdge>, bool),
+    (view_projection, size): (&ViewProjection, [u32; 2]),
+    options: &DrawOptions,
+    threads: usize,
+) -> Result<LineDrawing, DrawError> {
+    let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
     let key_light = KeyLight::new(view_projection, projector);
-    let (mut edges, is_cut_off) = surface.candidate_edges(&projector, options, threads);
     let mut warnings = surface.warnings().to_vec();
     warnings.extend(is_cut_off.then_some(Warning::IntersectionsIncomplete));
     let mut regions = outlines(surface, &projector, options);
@@ -76,19 +97,25 @@ pub(crate) fn draw_surface(
         edges.extend(segments.map(|(ends, object)| CandidateEdge { ends, class, object }));
     }
     edges.sort_by_key(|candidate| candidate.object);
-    warnings.sort_unstable();
-    warnings.dedup();
     let face_fill = match options.face_fill {
-        FaceFill::Flat => {
-            let faces = surface.colored_faces().map(|(vertices, _, color)| (vertices, color));
-            Some(rasterize_flat_fill(faces, view_projection, size, options)?)
+        FaceFill::Flat | FaceFill::Gray => {
+            let faces = surface.colored_faces().zip(&surface.mesh().faces);
+            let faces = faces.map(|((vertices, _, color), face)| {
+                (vertices, face.cap_section.is_none().then_some(color))
+            });
+            Some(rasterize_fill(faces, view_projection, size, options)?)
         }
         _ => None,
     };
+    let divider = EdgeDivider::new(surface, projector, options);
+    let (segments, is_complete) = divider.divide_edges(&edges, threads);
+    warnings.extend((!is_complete).then_some(Warning::VisibilityIncomplete));
+    warnings.sort_unstable();
+    warnings.dedup();
     Ok(LineDrawing {
         size: DVec2::from(size.map(f64::from)),
         objects: surface.object_names().to_vec(),
-        segments: EdgeDivider::new(surface, projector, options).divide_edges(&edges, threads),
+        segments,
         regions,
         face_fill,
         warnings,
@@ -128,17 +155,28 @@ fn hatch_surface(
     let (spacing, touching) = (options.hatch_spacing, surface.touch_tolerance().world);
     let caps = Hatching::hatch_caps(&surface.section_caps(), projector, spacing, touching);
     let mut hatchings = vec![caps];
-    if options.face_fill == FaceFill::Hatching {
+    let colors_count = options.face_fill == FaceFill::Hatching;
+    if colors_count || options.face_fill == FaceFill::ShadeHatching {
         let faces = surface.colored_faces_without_caps().map(|(vertices, object, color)| {
+            let color = if colors_count { color } else { [1.0; 3] };
             (vertices, object, key_light.face_luma(vertices, color))
         });
         hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
+    }
+    // Beside cuts, whose sign it is, a hatching of other faces would be misread.
+    if options.face_fill == FaceFill::PartHatching && !surface.is_cut() {
+        let faces = surface.colored_faces().map(|(vertices, object, _)| (vertices, object));
+        let boxes = surface.part_boxes();
+        hatchings.push(Hatching::hatch_parts(faces, boxes, projector, spacing, touching));
     }
     hatchings
 }
 
 /// The faces of a wall: lines behind more are not drawn if only the first layer is.
 const FACES_OF_A_WALL: u32 = 2;
+
+/// Each edge may have this many comparisons, whatever the number of edges.
+const MIN_COMPARISONS: u64 = 1024;
 
 /// Divides edges into visible and hidden segments against the occluders of one view.
 ///
@@ -149,6 +187,8 @@ struct EdgeDivider<'a> {
     occluders: Option<MeshOccluders<&'a WeldedSurface>>,
     /// Which hidden segments are part of the drawing.
     hidden_edges: HiddenEdges,
+    /// About how many comparisons there may be.
+    max_comparisons: u64,
 }
 
 impl<'a> EdgeDivider<'a> {
@@ -164,16 +204,29 @@ impl<'a> EdgeDivider<'a> {
         });
         let hidden_edges =
             if options.outline_only { HiddenEdges::Removed } else { options.hidden_edges };
-        Self { projector, occluders, hidden_edges }
+        let max_comparisons = options.max_comparisons;
+        Self { projector, occluders, hidden_edges, max_comparisons }
     }
 
-    /// The segments of all edges, in the order of the edges.
-    fn divide_edges(&self, edges: &[CandidateEdge], threads: usize) -> Vec<EdgeSegment> {
-        map_in_order(edges.len(), threads, |range, scratch, segments| {
-            for index in range {
-                self.divide_edge(&edges[index], index as u32, scratch, segments);
-            }
-        })
+    /// The segments of all edges, in the order of the edges; `false` if there was too much work.
+    ///
+    /// The work is divided among groups of edges that do not depend on the number of threads, so
+    /// that what is left out does not either.
+    fn divide_edges(&self, edges: &[CandidateEdge], threads: usize) -> (Vec<EdgeSegment>, bool) {
+        let is_complete = AtomicBool::new(true);
+        let for_each = (self.max_comparisons / edges.len().max(1) as u64).max(MIN_COMPARISONS);
+        let divide =
+            |range: Range<usize>, scratch: &mut OcclusionScratch, segments: &mut Vec<_>| {
+                scratch.work_left = Some(for_each.saturating_mul(range.len() as u64));
+                for index in range {
+                    self.divide_edge(&edges[index], index as u32, scratch, segments);
+                }
+                if scratch.work_left == Some(0) {
+                    is_complete.store(false, Ordering::Relaxed);
+                }
+            };
+        let segments = map_in_order(edges.len(), threads, divide);
+        (segments, is_complete.into_inner())
     }
 
     /// Cuts one edge where hidden lines begin and end: pushes its visible segments, and the hidden
@@ -190,10 +243,6 @@ impl<'a> EdgeDivider<'a> {
         let Some(projected) = ProjectedEdge::clip_and_project(edge.ends, &self.projector) else {
             return;
         };
-        let hidden = match &self.occluders {
-            Some(occluders) => occluders.hidden_intervals(&projected, scratch),
-            None => scratch.nothing_hidden(),
-        };
         let hidden_edges = match edge.class {
             EdgeClass::Hatching => HiddenEdges::Removed,
             _ => self.hidden_edges,
@@ -208,11 +257,16 @@ impl<'a> EdgeDivider<'a> {
                 edge: edge_index,
             });
         };
-        let deep = match &self.occluders {
-            Some(occluders) if hidden_edges == HiddenEdges::FirstLayer && !hidden.is_empty() => {
-                occluders.intervals_behind_faces(&projected, FACES_OF_A_WALL)
+        let mut deep = OcclusionIntervals::default();
+        let hidden = match &self.occluders {
+            Some(occluders) if hidden_edges == HiddenEdges::FirstLayer => {
+                if !occluders.hidden_intervals(&projected, scratch).is_empty() {
+                    deep = occluders.intervals_behind_faces(&projected, FACES_OF_A_WALL, scratch);
+                }
+                scratch.last_result()
             }
-            _ => OcclusionIntervals::default(),
+            Some(occluders) => occluders.hidden_intervals(&projected, scratch),
+            None => scratch.nothing_hidden(),
         };
         for (interval, hidden) in hidden.divide_unit_interval() {
             match hidden_edges {

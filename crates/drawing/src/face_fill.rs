@@ -5,7 +5,9 @@
 //! be cut out. So a z-buffer resolves them, at a higher resolution than any screen, and the exact
 //! lines go over it.
 
+use super::FaceFill;
 use super::face_raster::rasterize_faces;
+use super::gray_fill::gray_pixel;
 use super::options::DrawOptions;
 use super::projector::Projector;
 use crate::DrawError;
@@ -66,16 +68,17 @@ impl KeyLight {
     }
 }
 
-/// Renders faces in one flat color each: an image of their visible parts, transparent where there
-/// is none.
+/// Renders faces in one flat color each, or in the gray of their materials: an image of their
+/// visible parts, transparent where there is none.
 ///
-/// The image has `fill_scale` pixels for each pixel of the drawing, but no side above
+/// Faces come with the linear color of their material, `None` for section caps, which are white, or
+/// have no gray. The image has `fill_scale` pixels for each pixel of the drawing, but no side above
 /// [`MAX_FILL_SIDE`]; nothing is filtered, as its pixels are finer than those of the output.
 ///
 /// # Errors
 /// If the image has no viewport, or there are more faces than ids.
-pub(super) fn rasterize_flat_fill(
-    faces: impl Iterator<Item = ([DVec3; 3], [f32; 3])>,
+pub(super) fn rasterize_fill(
+    faces: impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)>,
     view_projection: &ViewProjection,
     size: [u32; 2],
     options: &DrawOptions,
@@ -85,10 +88,15 @@ pub(super) fn rasterize_flat_fill(
     let [width, height] = size.map(|side| (f64::from(side) * scale).ceil().max(1.0) as u32);
     let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
     let key_light = KeyLight::new(view_projection, projector);
+    let is_gray = options.face_fill == FaceFill::Gray;
     let mut colors: Vec<[u8; 4]> = Vec::new();
     let triangles = faces.map(|(vertices, surface)| {
-        let [r, g, b] = key_light.shade_face(vertices, surface);
-        colors.push(SrgbEncoder::shared().encode_pixel([r, g, b, 1.0]));
+        colors.push(if is_gray {
+            gray_pixel(surface)
+        } else {
+            let [r, g, b] = key_light.shade_face(vertices, surface.unwrap_or([1.0; 3]));
+            SrgbEncoder::shared().encode_pixel([r, g, b, 1.0])
+        });
         vertices
     });
     let ids = rasterize_faces(triangles, &projector, [width, height])?;

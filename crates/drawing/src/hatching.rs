@@ -12,7 +12,8 @@
 //! it is an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
 //! Section caps are hatched at 45°. Each part has a direction or a spacing of its own, the same
-//! wherever it is cut, so that neighbors differ. Faces under a
+//! wherever it is cut, so that neighbors differ; whole parts under a
+//! [`FaceFill::PartHatching`](crate::FaceFill) have such patterns too. Faces under a
 //! [`FaceFill::Hatching`](crate::FaceFill) are hatched by luma: the darker, the denser.
 
 use super::edges::SectionCap;
@@ -21,6 +22,7 @@ use super::projector::Projector;
 use super::region::{Region, RegionHatching, region_edges};
 use clip::{Volume, clip_triangle};
 use glam::{DVec2, DVec3, DVec4};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// The greatest number of segments of one hatching.
@@ -28,6 +30,13 @@ const MAX_SEGMENTS: usize = 1 << 22;
 
 /// The spacings that distinguish parts with the same direction, as multiples of the first.
 const SPACING_FACTORS: [f64; 4] = [1.0, 1.5, 0.75, 2.0];
+
+/// The cosine of 30°.
+const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
+
+/// Parts whose hatchings are compared with those of their neighbors: comparisons grow by the
+/// square.
+const MAX_COMPARED_PARTS: usize = 1 << 13;
 
 /// A family of parallel lines on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -45,17 +54,25 @@ impl HatchPattern {
         Self { normal, spacing }
     }
 
-    /// The pattern of a part by its index: alternating directions first, then other spacings.
+    /// The number of patterns that differ.
+    const COUNT: usize = 6 * SPACING_FACTORS.len();
+
+    /// The pattern of a part by its index: alternating directions first, then other spacings, then
+    /// lines under 30° and 60°.
     ///
     /// ```text
     ///   part      0      1      2        3        4         5         6      7
     ///   lines     ╱      ╲      ╱ 1.5×   ╲ 1.5×   ╱ 0.75×   ╲ 0.75×   ╱ 2×   ╲ 2×
     /// ```
     fn for_part(kind: usize, distance: f64) -> Self {
-        Self::diagonal_lines(
-            kind.is_multiple_of(2),
-            distance * SPACING_FACTORS[kind / 2 % SPACING_FACTORS.len()],
-        )
+        let spacing = distance * SPACING_FACTORS[kind / 2 % SPACING_FACTORS.len()];
+        let diagonal = Self::diagonal_lines(kind.is_multiple_of(2), spacing);
+        let [x, y] = match kind / (2 * SPACING_FACTORS.len()) % 3 {
+            0 => return diagonal,
+            1 => [0.5, HALF_SQRT_3],
+            _ => [HALF_SQRT_3, 0.5],
+        };
+        Self { normal: DVec2::new(x * diagonal.normal.x.signum(), y), spacing }
     }
 
     /// The pattern in a region of the screen.
@@ -123,6 +140,39 @@ impl Hatching {
         hatching
     }
 
+    /// Hatches the faces of each part by a pattern that its neighbors do not have, the same for
+    /// every viewer; neighbors are those whose boxes touch.
+    pub(super) fn hatch_parts(
+        faces: impl Iterator<Item = ([DVec3; 3], u32)>,
+        boxes: BTreeMap<u32, Aabb>,
+        projector: &Projector,
+        spacing: f64,
+        touching: f64,
+    ) -> Self {
+        let part = |(object, bounds): (u32, Aabb)| {
+            let boxes = vec![bounds.expanded_by(DVec3::splat(touching))];
+            HatchedPart { object, boxes, pattern: 0 }
+        };
+        let mut parts: Vec<HatchedPart> = boxes.into_iter().map(part).collect();
+        choose_patterns(&mut parts);
+        let patterns: BTreeMap<u32, HatchPattern> = parts
+            .iter()
+            .map(|part| (part.object, HatchPattern::for_part(part.pattern, spacing)))
+            .collect();
+        let mut hatching = Self::default();
+        for (vertices, object) in faces {
+            if hatching.segments.len() > MAX_SEGMENTS {
+                hatching.is_cut_off = true;
+                break;
+            }
+            let push = |_, ends| hatching.segments.push((ends, object));
+            if let Some(pattern) = patterns.get(&object) {
+                hatch_triangle(vertices, projector, pattern, |_| true, push);
+            }
+        }
+        hatching
+    }
+
     /// Hatches faces by their luma, 0 for black to 1 for white: the darker, the denser; the darkest
     /// in both directions.
     pub(super) fn hatch_faces_by_luma(
@@ -166,17 +216,15 @@ fn line_luma_factor(line: i64) -> f64 {
     }
 }
 
-/// The caps of one object, with the index of its pattern.
+/// The faces of one object that are hatched, with the index of its pattern.
 struct HatchedPart {
     object: u32,
-    /// The boxes around its caps, each with a margin of the touching distance.
+    /// The boxes around its faces, or around each cap, with a margin of the touching distance.
     boxes: Vec<Aabb>,
     pattern: usize,
 }
 
 /// A pattern index for each cap: greedy coloring such that objects whose caps may touch differ.
-///
-/// Each object takes the least index that no earlier object near it has.
 fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
     let mut parts: Vec<HatchedPart> = Vec::new();
     for SectionCap { object, triangles, .. } in caps {
@@ -187,7 +235,20 @@ fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
             None => parts.push(HatchedPart { object: *object, boxes: vec![bounds], pattern: 0 }),
         }
     }
+    choose_patterns(&mut parts);
+    let pattern_of = |object: u32| parts.iter().find(|part| part.object == object);
+    caps.iter().map(|cap| pattern_of(cap.object).map_or(0, |part| part.pattern)).collect()
+}
+
+/// Gives each part the least pattern index that no earlier part near it has.
+///
+/// Of more than [`MAX_COMPARED_PARTS`] parts the rest take turns.
+fn choose_patterns(parts: &mut [HatchedPart]) {
     for index in 0..parts.len() {
+        if index >= MAX_COMPARED_PARTS {
+            parts[index].pattern = index % HatchPattern::COUNT;
+            continue;
+        }
         let (colored, rest) = parts.split_at_mut(index);
         let part = &mut rest[0];
         let touches = |other: &&HatchedPart| {
@@ -198,8 +259,6 @@ fn assign_cap_patterns(caps: &[SectionCap], touching: f64) -> Vec<usize> {
         used.dedup();
         part.pattern = used.iter().zip(0..).take_while(|(used, free)| **used == *free).count();
     }
-    let pattern_of = |object: u32| parts.iter().find(|part| part.object == object);
-    caps.iter().map(|cap| pattern_of(cap.object).map_or(0, |part| part.pattern)).collect()
 }
 
 /// Calls `push` with the index and the segment in the world of each line that crosses a triangle.

@@ -28,10 +28,12 @@
 //!   stays visible; [`Tolerance`] gives the distances below which an edge touches.
 //! - Two faces that share a side hide together what runs exactly behind the side, although each
 //!   alone would only touch it. Such intervals are collected by the side of the edge on which the
-//!   face lies, and their intersection is hidden.
+//!   face lies, and their intersection is hidden. A crack between two objects that is narrower than
+//!   a pen hides in the same way what runs along it.
 
 mod bvh;
 mod covering_faces;
+mod crack_intervals;
 mod occluder;
 mod occluders;
 mod occlusion_intervals;

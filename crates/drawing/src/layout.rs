@@ -24,7 +24,7 @@ use super::page::{
     Group, GroupContent, HatchArea, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage,
     Polyline, to_micrometers,
 };
-use super::palette::ink_on_paper;
+use super::palette::{WHITE, ink_on_paper};
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::region::{Region, RegionHatching};
 use super::region_outline::outline_loops;
@@ -100,8 +100,11 @@ impl LineDrawing {
     #[must_use]
     pub fn to_page(&self, style: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
-        page.images.extend(self.face_fill_image(Placement::PICTURE, ""));
-        page.layers = self.to_layers(style, Placement::PICTURE, "", page.ink_for_style(style));
+        let ink = page.ink_for_style(style);
+        let inks = [ink, paper.or(style.paper).unwrap_or(WHITE)];
+        page.images.extend(self.face_fill_image(style, Placement::PICTURE, ""));
+        page.layers = self.face_fill_layers(style, Placement::PICTURE, "", inks);
+        page.layers.extend(self.to_layers(style, Placement::PICTURE, "", ink));
         page.warnings.clone_from(&self.warnings);
         page
     }
@@ -111,8 +114,13 @@ impl LineDrawing {
     /// Its rectangle is that of the whole drawing, rounded to micrometers, so that lines and fill
     /// stay in register.
     #[must_use]
-    pub fn face_fill_image(&self, placement: Placement, prefix: &str) -> Option<PlacedImage> {
-        let picture = self.face_fill.clone()?;
+    pub fn face_fill_image(
+        &self,
+        style: &LineStyle,
+        placement: Placement,
+        prefix: &str,
+    ) -> Option<PlacedImage> {
+        let picture = self.face_fill.clone().filter(|_| style.face_fill == FaceFill::Flat)?;
         let (corner, end) = (to_micrometers(placement.corner), placement.pixels_to_page(self.size));
         let end = to_micrometers(end);
         let size = [0, 1].map(|axis| (end[axis] - corner[axis]).max(1));

@@ -10,7 +10,8 @@
 //!  --- | --- |
 //!  `edges` | vertex welding, T-junctions, silhouettes and creases, section cuts with caps |
 //!  `hidden_line` | hidden-line removal by interval arithmetic over a BVH (Roberts, Appel 1967) |
-//!  `hatching` | ISO 128-50 hatching of caps, hatching by luma of faces |
+//!  `hatching` | ISO 128-50 hatching of caps and of parts, hatching by luma of faces |
+//!  `face_fill`, `gray_fill`, `color_areas` | fills of visible faces by a z-buffer; areas traced from it |
 //!  `layout`, `overlap_removal`, `polyline_chain` | from segments to layers of polylines |
 //!  `line_style`, `line_type`, `dash_pattern` | pens, line widths and dashes of ISO 128 |
 //!  `region`, `region_outline` | outlines of what faces cover, by winding numbers and snap rounding |
@@ -30,6 +31,7 @@ mod assembly;
 mod canvas;
 mod chart;
 mod circles;
+mod color_areas;
 mod dash_pattern;
 mod draw;
 mod dxf;
@@ -39,6 +41,7 @@ mod face_fill;
 mod face_raster;
 mod feature_picker;
 mod fixed_decimal;
+mod gray_fill;
 mod hand_drawn;
 mod hatching;
 mod hidden_line;
@@ -73,8 +76,8 @@ mod warning;
 mod z_buffer_check;
 
 pub use assembly::{
-    AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, PartDensity, PartsList,
-    PartsListItem, explode_models,
+    AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, PartDensity, PartPlace,
+    PartsList, PartsListItem, explode_models,
 };
 pub use canvas::draw_layers_over;
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};

@@ -62,8 +62,16 @@ pub struct LineDrawing {
     pub segments: Vec<EdgeSegment>,
     /// The cut faces with their hatch lines, and the outlines if the options ask for them.
     pub regions: Vec<Region>,
-    /// The flat fill under the lines, if the options ask for it: an image that fills the drawing.
+    /// The flat or gray fill under the lines, if the options ask for one: an image that fills the
+    /// drawing. Of a gray fill its pixels are levels of gray, not colors.
     pub face_fill: Option<Picture>,
     /// Warnings of the drawing, each once.
     pub warnings: Vec<Warning>,
+}
+
+impl LineDrawing {
+    /// Whether there is nothing to see.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.segments.is_empty() && self.regions.is_empty() && self.face_fill.is_none()
+    }
 }

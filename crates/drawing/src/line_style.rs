@@ -100,6 +100,12 @@ pub enum FaceFill {
     /// Hatch lines on the faces that the key light leaves dark, whatever the colors of the
     /// materials.
     ShadeHatching,
+    /// Areas of one gray for each brightness of the materials, whatever the light: tints of the ink.
+    /// Section cuts stay blank.
+    Gray,
+    /// Hatch lines on all faces of an object, at an angle and a spacing that its neighbors do not
+    /// have. Where section planes cut, only their cuts are hatched.
+    PartHatching,
 }
 
 /// The widths of lines.
@@ -206,6 +212,8 @@ impl LineStyle {
             outline_only: self.edges == EdgeSelection::Silhouette,
             hatch_spacing: self.hatch_spacing / MILLIMETERS_PER_PIXEL,
             face_fill: self.face_fill,
+            // Borders of areas must lie under the lines, which are a pixel wide or more.
+            fill_scale: if self.face_fill == FaceFill::Gray { 6.0 } else { 3.0 },
             ..DrawOptions::default()
         }
     }

@@ -39,6 +39,11 @@ pub struct DrawOptions {
     pub face_fill: FaceFill,
     /// Pixels of the fill image for each pixel of the drawing. Default: 3.
     pub fill_scale: f64,
+    /// About the greatest number of comparisons of edges with faces, and with boxes around faces:
+    /// where it is reached, parts of edges that would be hidden are visible, and the drawing has
+    /// the warning [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). Each edge may
+    /// have 1024, whatever the number of edges. Default: 2³², minutes of work.
+    pub max_comparisons: u64,
 }
 
 /// The treatment of the hidden parts of edges.
@@ -91,6 +96,7 @@ impl DrawOptions {
             outlines: false,
             face_fill: FaceFill::None,
             fill_scale: 3.0,
+            max_comparisons: 1 << 32,
         }
     }
 

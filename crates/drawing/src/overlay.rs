@@ -32,7 +32,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use homog::{Bounds, Clip, Point, Projective, Vector, World};
 
 /// Something drawn over a picture to explain it.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Overlay {
     /// The axes of the world from its origin, of this length; `None` for a length relative to the
     /// models.
@@ -53,7 +53,7 @@ pub enum Overlay {
 }
 
 /// The axes of the world, their names and their colors.
-const AXES: [(Vector<World>, &str, Ink); 3] =
+pub(crate) const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
 /// The width of lines, the height of letters, the length of arrowheads, in millimeters.

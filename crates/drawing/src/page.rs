@@ -77,11 +77,11 @@ pub struct Group {
     pub strokes: Vec<Polyline>,
     /// Areas filled with the pen's ink, such as arrowheads, by the even-odd rule.
     pub fills: Vec<Polyline>,
-    /// What the strokes are, for formats with a name for it.
+    /// The meaning of the strokes, for formats that have texts or hatches.
     pub content: GroupContent,
 }
 
-/// What the strokes of a group are: all of them together.
+/// The meaning of a group of strokes: all of them are one text, one hatch, or lines.
 ///
 /// Every format can draw the strokes. DXF has texts and hatches, which programs edit as such.
 #[derive(Clone, PartialEq, Debug, Default)]

@@ -279,7 +279,7 @@ impl SideRows {
     }
 }
 
-/// What a side adds to the winding number about a point, by a ray to the right.
+/// The change of the winding number about a point at a side, by a ray to the right.
 fn crossing_of_ray(point: Point, [a, b]: [Point; 2], sign: i32) -> i32 {
     let rises = b[1] > a[1];
     let (low, high) = if rises { (a, b) } else { (b, a) };

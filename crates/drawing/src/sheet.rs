@@ -36,6 +36,7 @@ mod freehand;
 mod length_dimension;
 mod length_format;
 mod measure;
+mod overlay_marks;
 mod pages;
 mod paper_choice;
 mod parts_table;
@@ -61,12 +62,12 @@ mod view_request;
 mod visible_spots;
 
 use super::layout::Placement;
-use super::line_style::{HiddenLines, LineStyle, LineWidths};
+use super::line_style::{FaceFill, HiddenLines, LineStyle, LineWidths};
 use super::line_type::IsoLineGroup;
 use super::page::{Group, Ink, Layer, Page, Pen, Polyline};
 use super::palette::{BLACK, WHITE};
 use crate::assembly::AssemblyPages;
-use crate::{DrawError, Warning, missing_glyph_warning};
+use crate::{DrawError, Overlay, Warning, missing_glyph_warning};
 use annotation::{AnnotationLayer, Extent};
 use camera::NamedView;
 use composition::ComposedDrawing;
@@ -148,6 +149,9 @@ pub struct Sheet {
     pub numbers: NumberFormat,
     /// A title block of one's own; `None` for that of the program.
     pub title_block_template: Option<TitleBlockTemplate>,
+    /// Labels of points, and axes of the world, in every view of the first page that shows the
+    /// whole; other overlays are warned of.
+    pub overlays: Vec<Overlay>,
 }
 
 /// A sheet that cannot be drawn.
@@ -245,6 +249,7 @@ impl Sheet {
             frame: SheetFrame::Plain,
             numbers: NumberFormat::default(),
             title_block_template: None,
+            overlays: Vec::new(),
         }
     }
 
@@ -276,11 +281,14 @@ impl Sheet {
         let mut page = Page::new(size, self.title_of(models), paper);
         let ink = self.style.ink.unwrap_or(BLACK);
         page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
+        let mut is_empty = true;
         for placed in &layout.views {
             let style = self.style_of_view(placed);
             let composed = placed.planned.draw(surfaces, &style, placed.scale, threads)?;
+            is_empty &= composed.drawing.is_empty();
             self.add_view(&mut page, placed, composed, &style);
         }
+        page.warnings.extend(is_empty.then_some(Warning::NothingDrawn));
         page.warnings.sort_unstable();
         page.warnings.dedup();
         self.draw_annotations(&mut page, &layout, ink);
@@ -323,6 +331,11 @@ impl Sheet {
             dimension: dimension.clone(),
             fault: DimensionFault::NoRoom,
         }));
+        for placed in &layout.views {
+            let view = || placed.planned.title();
+            let labels = placed.annotations.labels_left_out.iter().cloned();
+            warnings.extend(labels.map(|text| Warning::LabelNotInView { text, view: view() }));
+        }
         warnings.extend(layout.overlaps.iter().cloned());
         match &self.title_block_template {
             Some(template) => {
@@ -342,11 +355,16 @@ impl Sheet {
     /// The style of a view's lines.
     ///
     /// Hidden lines are removed from axonometric views and from sectional views, where they would
-    /// only confuse (ISO 128-3).
+    /// only confuse (ISO 128-3). Hatchings of parts are removed where something is cut: there they
+    /// are the sign of the cut.
     fn style_of_view(&self, placed: &PlacedView<'_>) -> LineStyle {
         let is_outside = placed.planned.is_outside_view();
         let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
-        LineStyle { hidden_lines, ..self.style }
+        let face_fill = match self.style.face_fill {
+            FaceFill::PartHatching if placed.planned.is_cut() => FaceFill::None,
+            fill => fill,
+        };
+        LineStyle { hidden_lines, face_fill, ..self.style }
     }
 
     /// Puts the drawing of a view onto the page, with the name of the view before its layers' ids.
@@ -360,7 +378,9 @@ impl Sheet {
         let view = &placed.planned.drawn_view();
         let placement: Placement = view.placement(&drawing, placed.scale, placed.center);
         let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(BLACK));
-        page.images.extend(drawing.face_fill_image(placement, &prefix));
+        let inks = [ink, self.style.paper.unwrap_or(WHITE)];
+        page.images.extend(drawing.face_fill_image(style, placement, &prefix));
+        page.layers.extend(drawing.face_fill_layers(style, placement, &prefix, inks));
         page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));
         let pen = Pen::solid(self.line_width_group().narrow_width(), ink);
         let mut layer = Layer::new(format!("{prefix}break-lines"), "break lines", pen);

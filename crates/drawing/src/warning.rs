@@ -59,8 +59,20 @@ pub enum Warning {
     ViewOverlaps {
         /// The name of the view, such as `isometric view`.
         view: String,
-        /// What it lies over.
+        /// The other view, or the title block.
         other: String,
+    },
+    /// Sheets do not show an overlay of the scene.
+    OverlayNotOnSheets {
+        /// The kind of overlay, such as `grid`.
+        overlay: String,
+    },
+    /// The label of a point, or the name of an axis, is not in a view of a sheet.
+    LabelNotInView {
+        /// The text of the label.
+        text: String,
+        /// The name of the view, such as `front view`.
+        view: String,
     },
     /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
@@ -90,6 +102,10 @@ pub enum Warning {
     IntersectionsIncomplete,
     /// The hatching was cut off.
     HatchingIncomplete,
+    /// The models have no size, or points only: no view of a sheet has a line.
+    NothingDrawn,
+    /// The search for hidden lines was cut off.
+    VisibilityIncomplete,
 }
 
 impl Warning {
@@ -98,13 +114,15 @@ impl Warning {
         match self {
             Self::SectionOpen { object } => write!(
                 f,
-                "the cut through `{object}` does not close, because its surface is open: \
-                 the section has no cap and no hatching there"
+                "the cut through `{}` does not close, because its surface is open: \
+                 the section has no cap and no hatching there",
+                visible_text(object)
             ),
             Self::SectionTooComplex { object } => write!(
                 f,
-                "the cut through `{object}` has too many points: \
-                 the section has no cap and no hatching"
+                "the cut through `{}` has too many points: \
+                 the section has no cap and no hatching",
+                visible_text(object)
             ),
             Self::SectionMisses { number } => {
                 write!(f, "section {number} cuts nothing: its plane lies beside the models")
@@ -118,6 +136,31 @@ impl Warning {
                 f,
                 "section {number} has neither a cut line nor a view of its own on the sheet: its plane is \
                  oblique to the front, the top and the side view, and only an axonometric view shows it"
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes a warning about an overlay of the scene.
+    fn fmt_overlay(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LabelNotDrawn { text, fault } => write!(
+                f,
+                "the label \"{text}\" is not drawn: its point is {}",
+                match fault {
+                    LabelFault::BehindEye => "behind the eye",
+                    LabelFault::Outside => "outside of the picture",
+                }
+            ),
+            Self::OverlayNotOnSheets { overlay } => write!(
+                f,
+                "sheets show labels and axes of the scene's overlays, but not the {overlay}"
+            ),
+            Self::LabelNotInView { text, view } => write!(
+                f,
+                "the label \"{}\" is not in the {view}: its point is too far from the models, or \
+                 there is no place for it",
+                visible_text(text)
             ),
             _ => Ok(()),
         }
@@ -154,14 +197,9 @@ impl fmt::Display for Warning {
                 "DXF has lines, areas and texts, but no images: \
                  backgrounds and fills of faces are left out",
             ),
-            Self::LabelNotDrawn { text, fault } => write!(
-                f,
-                "the label \"{text}\" is not drawn: its point is {}",
-                match fault {
-                    LabelFault::BehindEye => "behind the eye",
-                    LabelFault::Outside => "outside of the picture",
-                }
-            ),
+            Self::LabelNotDrawn { .. }
+            | Self::OverlayNotOnSheets { .. }
+            | Self::LabelNotInView { .. } => self.fmt_overlay(f),
             Self::GlyphsMissing { text, characters } => {
                 let [characters, text] = [characters, text].map(|text| visible_text(text));
                 write!(
@@ -175,14 +213,19 @@ impl fmt::Display for Warning {
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
             | Self::IntersectionsIncomplete
-            | Self::HatchingIncomplete => f.write_str(self.fixed_text()),
+            | Self::HatchingIncomplete
+            | Self::NothingDrawn
+            | Self::VisibilityIncomplete => f.write_str(self.fixed_text()),
         }
     }
 }
 
+/// Characters of a text beyond this number are left out of messages: names of parts have any length.
+const MAX_QUOTED: usize = 60;
+
 /// A text in which characters without a sign of their own, such as controls and those that change
-/// the direction of writing, are written by their code: `\u{202e}`.
-fn visible_text(text: &str) -> String {
+/// the direction of writing, are written by their code: `\u{202e}`. A long one is cut off.
+pub(crate) fn visible_text(text: &str) -> String {
     let is_invisible = |c: char| {
         c.is_control()
             || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
@@ -190,7 +233,9 @@ fn visible_text(text: &str) -> String {
     };
     let shown =
         |c: char| if is_invisible(c) { c.escape_unicode().to_string() } else { c.to_string() };
-    text.chars().map(shown).collect()
+    let start = text.chars().take(MAX_QUOTED).map(shown);
+    let is_longer = text.chars().nth(MAX_QUOTED).is_some();
+    start.chain(is_longer.then(|| "...".to_owned())).collect()
 }
 
 impl Warning {
@@ -215,6 +260,14 @@ impl Warning {
             }
             Self::HatchingIncomplete => {
                 "there are too many hatch lines, and some are missing: increase their spacing"
+            }
+            Self::NothingDrawn => {
+                "the views are empty: the models have neither lines nor faces, or these have no size"
+            }
+            Self::VisibilityIncomplete => {
+                "so many faces lie before and behind each other that not all lines were compared \
+                 with all of them, and some hidden lines are drawn: leave out parts of the model, \
+                 or simplify its meshes"
             }
             _ => "",
         }

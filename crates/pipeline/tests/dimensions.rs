@@ -26,7 +26,14 @@ fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
     let file = parse_scene("scene.ron", &text).expect("a scene");
     let origin = Origin::from_text_in_memory("scene.ron", &text, folder);
     let scene = Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("models");
-    let content = SheetContent { models: &scene.models, sections: &[], uncut: &[], style: None };
+    let content = SheetContent {
+        models: &scene.models,
+        sections: &[],
+        uncut: &[],
+        style: None,
+        overlays: &[],
+        allowed_folders: &[],
+    };
     resolve_sheet(&origin, &file.sheet.expect("a sheet"), content)
 }
 

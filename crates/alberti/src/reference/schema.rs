@@ -17,6 +17,8 @@ pub(super) enum SchemaName {
     Explain,
     /// The table of `alberti curve depth -o FILE.json`
     DepthCurve,
+    /// `alberti sheet --parts-list=FILE.json`
+    PartsList,
     /// `alberti exercise --json`
     Exercise,
     /// A line of the reports of `alberti batch`
@@ -41,6 +43,7 @@ impl SchemaName {
             Self::SceneCheck => include_str!("../../schemas/scene-check.schema.json"),
             Self::Explain => include_str!("../../schemas/explain.schema.json"),
             Self::DepthCurve => include_str!("../../schemas/depth-curve.schema.json"),
+            Self::PartsList => include_str!("../../schemas/parts-list.schema.json"),
             Self::Exercise => include_str!("../../schemas/exercise.schema.json"),
             Self::BatchRecord => include_str!("../../schemas/batch-record.schema.json"),
             Self::ExploreLessons => include_str!("../../schemas/explore-lessons.schema.json"),

@@ -1,5 +1,6 @@
 //! Flags of assemblies: parts list, balloons, exploded view, a sheet for each part.
 
+use super::parts_list_json::parts_list_document;
 use crate::options::option_parser;
 use crate::page_output::has_extension;
 use drawing::{ExplosionAxis, PartsList, Sheet};
@@ -10,10 +11,11 @@ use std::path::PathBuf;
 /// Flags of the pages that show the models as an assembly of parts.
 #[derive(Debug, clap::Args)]
 pub(super) struct AssemblyArgs {
-    /// Add a list of the parts: equal nodes with meshes, counted; with a name also as CSV
+    /// Add a list of the parts: equal nodes with meshes, counted; with a name also as a file, .csv
+    /// or .json
     #[arg(
         long,
-        value_name = "FILE.csv",
+        value_name = "FILE",
         num_args = 0..=1,
         require_equals = true,
         value_parser = parse_list_file
@@ -57,16 +59,18 @@ impl AssemblyArgs {
         let path = self.parts_list.clone().flatten()?;
         let densities = &sheet.assembly.densities;
         let list = PartsList::new(models, densities, sheet.millimeters_per_unit);
-        Some((path, list.to_csv().into_bytes()))
+        let text =
+            if has_extension(&path, "json") { parts_list_document(&list) } else { list.to_csv() };
+        Some((path, text.into_bytes()))
     }
 }
 
-/// Parses the name of a parts list, which ends in `.csv`.
+/// Parses the name of a parts list, which ends in `.csv` or `.json`.
 fn parse_list_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    if has_extension(&path, "csv") {
+    if has_extension(&path, "csv") || has_extension(&path, "json") {
         Ok(path)
     } else {
-        Err("expected a name that ends in .csv".to_owned())
+        Err("expected a name that ends in .csv or .json".to_owned())
     }
 }

@@ -1,26 +1,27 @@
-//! Exploded views: how far each part moves along an axis until no boxes of parts meet.
+//! Exploded views: how far each part moves along an axis until it is apart from all others.
 //!
 //! ```text
-//!   ┌──┐                      the largest part stays; every other one moves away from it along
-//!   └──┘        up, in the    its axis, those near first, beyond all boxes that are in its way
-//!    ┆          order of
-//!   ┌──┐        their ends    a box is in the way if it meets the column in which the part moves
+//!   ┌──┐                      the largest part stays; every other one leaves on the side where its
+//!   └──┘        up, in the    way is free, those near first, beyond all that is in its way: what
+//!    ┆          order of      of other parts is in the column of its box
+//!   ┌──┐        their ends
 //!   └──┘
 //!  ┌────┐
 //!  └────┘  base
 //! ```
 //!
-//! Boxes of moved parts are disjoint, and so are the parts. The moves depend on the boxes and their
-//! order alone: there is no iteration that might not end.
+//! The box of a moved part does not meet the parts that were placed before it, and so no two parts
+//! intersect. There is no iteration that might not end.
 
+use super::part_shapes::{Column, Corners, PartShapes};
+use super::removal::removal_sides;
 use glam::DVec3;
-use homog::{Bounds, World};
 
 /// More parts than these stay in their places: each is compared with all before it.
 pub(crate) const MAX_EXPLODED_PARTS: usize = 5000;
 
 /// The distance between two parts, as a fraction of the diagonal of the assembly.
-const DEFAULT_DISTANCE: f64 = 0.04;
+const DEFAULT_DISTANCE: f64 = 0.08;
 
 /// Parts whose centers are no farther from a line, as a fraction of that diagonal, are in line.
 const IN_LINE: f64 = 0.01;
@@ -47,52 +48,57 @@ pub enum ExplosionAxis {
 pub struct ExplosionSettings {
     /// The direction.
     pub axis: ExplosionAxis,
-    /// The least distance of two parts along it, in units of the scene, not negative; `None` for a
-    /// twenty-fifth of the diagonal of the assembly.
+    /// The least distance of two parts along it, in units of the scene, not negative; `None` for
+    /// 0.08 of the diagonal of the assembly.
     pub distance: Option<f64>,
 }
 
-/// A box by its least and its greatest corner.
-type Corners = [DVec3; 2];
-
 impl ExplosionSettings {
-    /// The move of each part by its bounding box in the world: 0 for the largest.
-    pub(crate) fn moves(&self, boxes: &[Bounds<World>]) -> Vec<DVec3> {
-        let boxes: Vec<Corners> =
-            boxes.iter().map(|bounds| [bounds.min().raw(), bounds.max().raw()]).collect();
+    /// The move of each part: 0 for the largest.
+    pub(crate) fn moves(&self, shapes: &PartShapes) -> Vec<DVec3> {
+        let boxes = &shapes.boxes;
         let whole = boxes.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         let Some([low, high]) = whole else { return Vec::new() };
         let size = high - low;
         let gap = self.distance.unwrap_or(size.length() * DEFAULT_DISTANCE).max(0.0);
-        // Boxes that touch would be one for rounding.
+        // Parts that touch would be one for rounding.
         let gap = gap.max(size.length() * 1e-6);
-        let base = largest(&boxes);
+        let base = largest(boxes);
         let axis = match self.axis {
             ExplosionAxis::X => Some(0),
             ExplosionAxis::Y => Some(1),
             ExplosionAxis::Z => Some(2),
-            ExplosionAxis::Auto => Some(axis_of_assembly(&boxes, base, (size, gap))),
+            ExplosionAxis::Auto => Some(axis_of_assembly(shapes, base, (size, gap))),
             ExplosionAxis::All => None,
         };
-        moves_along(&boxes, base, (axis, gap))
+        moves_along(shapes, base, (axis, gap))
     }
 }
 
 /// The moves of all parts away from the base, along an axis or each along its own.
-fn moves_along(boxes: &[Corners], base: usize, (axis, gap): (Option<usize>, f64)) -> Vec<DVec3> {
-    let mut order: Vec<(Corners, Direction, usize)> = (0..boxes.len())
+fn moves_along(shapes: &PartShapes, base: usize, (axis, gap): (Option<usize>, f64)) -> Vec<DVec3> {
+    let boxes = &shapes.boxes;
+    let directions: Vec<Direction> =
+        boxes.iter().map(|part| Direction::away_from_base(*part, boxes[base], axis)).collect();
+    let axes: Vec<usize> = directions.iter().map(|direction| direction.axis).collect();
+    let preferred: Vec<usize> = directions.iter().map(|one| usize::from(one.sign > 0.0)).collect();
+    let sides = removal_sides(shapes, base, &axes, &preferred);
+    let mut order: Vec<(Direction, usize)> = (0..boxes.len())
         .filter(|&part| part != base)
-        .map(|part| (boxes[part], Direction::of_part(boxes[part], boxes[base], axis), part))
+        .map(|part| {
+            let sign = if sides[part] == 0 { -1.0 } else { 1.0 };
+            (Direction { sign, ..directions[part] }, part)
+        })
         .collect();
-    order.sort_by(|(a, way, i), (b, other, k)| {
-        way.distance(*a).total_cmp(&other.distance(*b)).then(i.cmp(k))
+    order.sort_by(|(way, i), (other, k)| {
+        way.distance(boxes[*i]).total_cmp(&other.distance(boxes[*k])).then(i.cmp(k))
     });
     let mut moves = vec![DVec3::ZERO; boxes.len()];
-    let mut placed = vec![boxes[base]];
-    for (corners, direction, part) in order {
-        let by = direction.clearance(corners, &placed, gap);
+    let mut placed = vec![(base, DVec3::ZERO)];
+    for (direction, part) in order {
+        let by = direction.clearance(boxes[part], (shapes, &placed), gap);
         moves[part] = direction.unit() * by;
-        placed.push(corners.map(|corner| corner + moves[part]));
+        placed.push((part, moves[part]));
     }
     moves
 }
@@ -108,7 +114,9 @@ struct Direction {
 impl Direction {
     /// The direction of a part away from the base: on its axis, or on that on which it is farthest
     /// from the base, measured by the size of the base.
-    fn of_part(part: Corners, base: Corners, axis: Option<usize>) -> Self {
+    ///
+    /// On that side a part ends farther out of the base than on the other.
+    fn away_from_base(part: Corners, base: Corners, axis: Option<usize>) -> Self {
         let away = (part[0] + part[1] - base[0] - base[1]) * 0.5;
         let half = (base[1] - base[0]) * 0.5;
         let relative = |axis: usize| {
@@ -131,22 +139,18 @@ impl Direction {
         (part[usize::from(self.sign > 0.0)][self.axis] - self.base) * self.sign
     }
 
-    /// The way that a part has to go beyond all boxes in its column, 0 or more.
-    fn clearance(self, part: Corners, placed: &[Corners], gap: f64) -> f64 {
-        let across = [(self.axis + 1) % 3, (self.axis + 2) % 3];
-        let (near, far) = if self.sign > 0.0 { (0, 1) } else { (1, 0) };
+    /// The way that the box of a part has to go beyond all parts in its column, 0 or more.
+    fn clearance(
+        self,
+        part: Corners,
+        (shapes, placed): (&PartShapes, &[(usize, DVec3)]),
+        gap: f64,
+    ) -> f64 {
         // Where a column ends, rounding must not decide.
-        let margin = gap * 1e-3;
-        let in_column = |other: &&Corners| {
-            across.iter().all(|&axis| {
-                other[0][axis] < part[1][axis] + margin && part[0][axis] < other[1][axis] + margin
-            })
-        };
-        let ways = placed
-            .iter()
-            .filter(in_column)
-            .map(|other| (other[far][self.axis] - part[near][self.axis]) * self.sign + gap);
-        ways.fold(0.0, f64::max)
+        let column = Column::new(part, self.axis, gap * 1e-3);
+        let near = part[usize::from(self.sign < 0.0)][self.axis] * self.sign;
+        let reaches = placed.iter().filter_map(|other| shapes.reach(*other, &column, self.sign));
+        reaches.map(|reach| reach - near + gap).fold(0.0, f64::max)
     }
 }
 
@@ -166,7 +170,8 @@ fn largest(boxes: &[Corners]) -> usize {
 
 /// The axis on which most parts are in line with the base; among equal ones that on which parts move
 /// least, y before x before z.
-fn axis_of_assembly(boxes: &[Corners], base: usize, (size, gap): (DVec3, f64)) -> usize {
+fn axis_of_assembly(shapes: &PartShapes, base: usize, (size, gap): (DVec3, f64)) -> usize {
+    let boxes = &shapes.boxes;
     let center = |[low, high]: Corners| (low + high) * 0.5;
     let near = size.length() * IN_LINE;
     let in_line = |axis: usize| {
@@ -177,7 +182,8 @@ fn axis_of_assembly(boxes: &[Corners], base: usize, (size, gap): (DVec3, f64)) -
         };
         boxes.iter().filter(is_in_line).count()
     };
-    let way = |axis| moves_along(boxes, base, (Some(axis), gap)).iter().map(|by| by.length()).sum();
+    let way =
+        |axis| moves_along(shapes, base, (Some(axis), gap)).iter().map(|by| by.length()).sum();
     let scored = [1, 0, 2].map(|axis| (axis, in_line(axis)));
     let most = scored.iter().map(|(_, count)| *count).max();
     let mut best: Option<(usize, f64)> = None;
@@ -193,11 +199,15 @@ fn axis_of_assembly(boxes: &[Corners], base: usize, (size, gap): (DVec3, f64)) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use homog::Point;
 
-    fn boxed(low: [f64; 3], high: [f64; 3]) -> Bounds<World> {
-        Bounds::from_points([low, high].map(|corner| Point::from_raw(corner.into())))
-            .expect("corners")
+    fn boxed(low: [f64; 3], high: [f64; 3]) -> Corners {
+        [low.into(), high.into()]
+    }
+
+    /// The moves of solid boxes.
+    fn moves_of(settings: ExplosionSettings, boxes: &[Corners]) -> Vec<DVec3> {
+        let triangles = vec![Vec::new(); boxes.len()];
+        settings.moves(&PartShapes::from_raw(boxes.to_vec(), triangles))
     }
 
     #[test]
@@ -210,7 +220,7 @@ mod tests {
             boxed([-1.0, -1.0, -1.0], [1.0, 0.0, 1.0]),
         ];
         let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(1.0) };
-        let heights: Vec<f64> = settings.moves(&boxes).iter().map(|by| by.y).collect();
+        let heights: Vec<f64> = moves_of(settings, &boxes).iter().map(|by| by.y).collect();
         // The pin ends beyond the ring: the ring goes first, to 3, then the pin to 5.
         assert_eq!(heights, [1.0, 0.0, 6.0, -1.0]);
     }
@@ -221,9 +231,9 @@ mod tests {
         let boxes = [boxed([-9.0, 0.0, -9.0], [9.0, 2.0, 9.0]), bolt(-5.0), bolt(0.0), bolt(5.0)];
         let settings = ExplosionSettings { axis: ExplosionAxis::Auto, distance: Some(0.5) };
         // One bolt is in line with the plate along y; they move by the same way.
-        assert_eq!(settings.moves(&boxes)[1..], [DVec3::Y * 1.5; 3]);
-        let up = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(0.5) }.moves(&boxes);
-        assert_eq!(up[1..], [DVec3::Y * 1.5; 3]);
+        assert_eq!(moves_of(settings, &boxes)[1..], [DVec3::Y * 1.5; 3]);
+        let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(0.5) };
+        assert_eq!(moves_of(settings, &boxes)[1..], [DVec3::Y * 1.5; 3]);
     }
 
     #[test]
@@ -233,7 +243,7 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888);
             (state >> 40) as f64 / (1_u64 << 24) as f64
         };
-        let boxes: Vec<Bounds<World>> = (0..120)
+        let boxes: Vec<Corners> = (0..120)
             .map(|_| {
                 let low = [(); 3].map(|()| fraction() * 10.0);
                 boxed(low, low.map(|c| c + 0.1 + 3.0 * fraction()))
@@ -241,12 +251,9 @@ mod tests {
             .collect();
         use ExplosionAxis::{All, Auto, X, Y, Z};
         for axis in [Auto, X, Y, Z, All] {
-            let moves = ExplosionSettings { axis, distance: None }.moves(&boxes);
-            let moved: Vec<Corners> = boxes
-                .iter()
-                .zip(&moves)
-                .map(|(one, by)| [one.min().raw() + *by, one.max().raw() + *by])
-                .collect();
+            let moves = moves_of(ExplosionSettings { axis, distance: None }, &boxes);
+            let moved: Vec<Corners> =
+                boxes.iter().zip(&moves).map(|(one, by)| one.map(|corner| corner + *by)).collect();
             for (index, a) in moved.iter().enumerate() {
                 for b in &moved[index + 1..] {
                     assert!(a[1].cmplt(b[0]).any() || b[1].cmplt(a[0]).any(), "{axis:?}");
@@ -258,7 +265,7 @@ mod tests {
     #[test]
     fn one_part_or_none_stays() {
         let settings = ExplosionSettings::default();
-        assert!(settings.moves(&[]).is_empty());
-        assert_eq!(settings.moves(&[boxed([0.0; 3], [0.0; 3])]), [DVec3::ZERO]);
+        assert!(moves_of(settings, &[]).is_empty());
+        assert_eq!(moves_of(settings, &[boxed([0.0; 3], [0.0; 3])]), [DVec3::ZERO]);
     }
 }

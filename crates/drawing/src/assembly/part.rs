@@ -85,6 +85,12 @@ impl Part {
         (linear.transpose() * linear, linear.determinant() < 0.0)
     }
 
+    /// Whether some of it are lines.
+    pub(crate) fn has_lines(&self, models: &[ModelInstance]) -> bool {
+        let mut primitives = drawn_primitives(&models[self.model].model, self.instance);
+        primitives.any(|primitive| primitive.topology != Topology::Triangles)
+    }
+
     /// Calls `visit` with each triangle of the part in the world.
     pub(crate) fn for_each_triangle(
         &self,

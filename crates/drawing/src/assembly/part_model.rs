@@ -2,6 +2,7 @@
 
 use super::explosion::ExplosionSettings;
 use super::part::{Part, drawn_primitives, gather_parts};
+use super::part_shapes::PartShapes;
 use glam::{DMat3, DMat4, DVec3};
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
@@ -31,15 +32,15 @@ pub(crate) fn part_model(part: &Part, models: &[ModelInstance]) -> ModelInstance
 /// Models with their parts moved apart, as an exploded view shows them: an object for each part, and
 /// one more, the last, for the straight paths of the parts that moved.
 ///
-/// The bounding boxes of the moved parts do not meet.
+/// The largest part stays. Each other one leaves on the side where the fewest parts are in its way;
+/// afterwards no two parts intersect.
 #[must_use]
 pub fn explode_models(
     models: &[ModelInstance],
     settings: &ExplosionSettings,
 ) -> Vec<ModelInstance> {
     let parts = gather_parts(models);
-    let boxes: Vec<_> = parts.iter().map(|part| part.bounds).collect();
-    exploded_models(models, &parts, &settings.moves(&boxes))
+    exploded_models(models, &parts, &settings.moves(&PartShapes::new(&parts, models)))
 }
 
 /// Models with every part moved, in the order of the parts, and the straight paths of those that

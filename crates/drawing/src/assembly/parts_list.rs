@@ -43,6 +43,37 @@ pub struct PartsListItem {
     pub mass: Option<f64>,
     /// The numbers of their objects in drawings of the models.
     pub objects: Vec<u32>,
+    /// Where they are in the models, in the order of `objects`.
+    pub places: Vec<PartPlace>,
+}
+
+/// The place of a part in the scene graph of its model.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct PartPlace {
+    /// The number of the model, from 0.
+    pub model: usize,
+    /// The number of the node in the model, from 0. Instances of one node share it.
+    pub node: usize,
+    /// The names of the nodes from the root to this one; `node 3` for the fourth node if it has
+    /// none.
+    pub path: Vec<String>,
+}
+
+impl PartPlace {
+    /// The place of a part of these models.
+    fn from_part(part: &Part, models: &[ModelInstance]) -> Self {
+        let nodes = &models[part.model].model.nodes;
+        let name = |node: usize| {
+            let own = nodes[node].name.as_deref().filter(|name| !name.is_empty());
+            own.map_or_else(|| format!("node {node}"), str::to_owned)
+        };
+        let above = |node: &usize| nodes[*node].parent.filter(|parent| *parent < nodes.len());
+        // The importer refuses cycles; the count is a bound all the same.
+        let chain = core::iter::successors(Some(part.instance.node), above).take(nodes.len());
+        let mut path: Vec<String> = chain.map(name).collect();
+        path.reverse();
+        Self { model: part.model, node: part.instance.node, path }
+    }
 }
 
 impl PartsList {
@@ -97,6 +128,7 @@ impl PartsList {
                     density.grams_per_cubic_centimeter * volume * cubic_centimeters
                 }),
                 objects: group.iter().map(|part| part.object).collect(),
+                places: group.iter().map(|part| PartPlace::from_part(part, models)).collect(),
                 name,
             });
         }

@@ -1,5 +1,6 @@
 //! Warnings of assemblies: what their pages leave out.
 
+use crate::warning::visible_text;
 use core::fmt;
 
 /// Something that the pages of an assembly leave out, with the reason in its `Display` text.
@@ -56,20 +57,23 @@ impl fmt::Display for AssemblyWarning {
             ),
             Self::MassUnknown { part } => write!(
                 f,
-                "the mass of `{part}` is not known: its mesh is not closed, so it has no volume"
+                "the mass of `{}` is not known: its mesh is not closed, so it has no volume",
+                visible_text(part)
             ),
             Self::NamesUnreadable { name, count } => write!(
                 f,
                 "the letters of drawings lack characters of {count} {} in the parts list, \
-                 such as \"{name}\": boxes are in their place",
-                if *count == 1 { "name" } else { "names" }
+                 such as \"{}\": boxes are in their place",
+                if *count == 1 { "name" } else { "names" },
+                visible_text(name)
             ),
             Self::NotVisible { number, part, count } => write!(
                 f,
-                "{count} {} no balloon, since other parts hide what they name in the view of the \
-                 assembly, such as item {number}, `{part}`: \
-                 an exploded view, or another axonometric view, may show it",
-                if *count == 1 { "item has" } else { "items have" }
+                "{count} {} no balloon, such as item {number}, `{}`: nothing is seen of it in the \
+                 view of the assembly, because other parts hide it or it has no size; \
+                 an exploded view, or another axonometric view, may show what is hidden",
+                if *count == 1 { "item has" } else { "items have" },
+                visible_text(part)
             ),
             Self::BalloonsLeftOut { number, count } => write!(
                 f,

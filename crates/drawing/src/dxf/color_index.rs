@@ -3,6 +3,7 @@
 //! ```text
 //!   1 … 6      red, yellow, green, cyan, blue, magenta
 //!   7          black on white screens, white on black ones
+//!   8, 9       grays
 //!   10 … 249   24 hues, each in five values and two saturations
 //!   250 … 255  grays
 //! ```
@@ -18,28 +19,38 @@ const MAX_GRAY_SPREAD: u8 = 32;
 const MAX_BLACK: u8 = 64;
 const MIN_WHITE: u8 = 224;
 
-/// The index of the color that is nearest to an ink.
+/// The index of the color that is nearest to an ink; grays are grays, for a brown that is as bright
+/// may be nearer.
 pub(super) fn color_index(ink: Ink) -> u8 {
     let [least, most] = ink.iter().fold([255, 0], |[low, high], &c| [c.min(low), c.max(high)]);
-    if most - least < MAX_GRAY_SPREAD && (most < MAX_BLACK || least > MIN_WHITE) {
+    let is_gray = most - least < MAX_GRAY_SPREAD;
+    if is_gray && (most < MAX_BLACK || least > MIN_WHITE) {
         return CONTRAST;
     }
     let distance = |index: &u8| -> u32 {
         let other = index_color(*index);
         (0..3).map(|k| u32::from(ink[k].abs_diff(other[k])).pow(2)).sum()
     };
-    (1..=6).chain(10..=255).min_by_key(distance).unwrap_or(CONTRAST)
+    let grays = (250..=255).chain([8, 9]);
+    let nearest = if is_gray {
+        grays.min_by_key(distance)
+    } else {
+        (1..=6).chain(10..=255).min_by_key(distance)
+    };
+    nearest.unwrap_or(CONTRAST)
 }
 
-/// The color of an index from 1 to 6, or from 10 on.
+/// The color of an index other than 7.
 fn index_color(index: u8) -> Ink {
     match index {
         0..=6 => {
             let bits = [0, 0b001, 0b011, 0b010, 0b110, 0b100, 0b101][usize::from(index)];
             [0, 1, 2].map(|channel| if bits >> channel & 1 == 1 { 255 } else { 0 })
         }
+        8 => [128; 3],
+        9 => [192; 3],
         250..=255 => {
-            [[51; 3], [80; 3], [105; 3], [130; 3], [190; 3], [255; 3]][usize::from(index - 250)]
+            [[51; 3], [91; 3], [132; 3], [173; 3], [214; 3], [255; 3]][usize::from(index - 250)]
         }
         _ => hue_color(u32::from(index) - 10),
     }
@@ -83,7 +94,10 @@ mod tests {
             ([255, 255, 255], 7),
             ([20, 24, 30], 7),
             ([255, 127, 0], 30),
-            ([130, 130, 130], 253),
+            ([130, 130, 130], 252),
+            // A brown is nearer.
+            ([163, 163, 163], 253),
+            ([186, 190, 194], 9),
         ];
         for (ink, index) in named {
             assert_eq!(color_index(ink), index, "{ink:?}");

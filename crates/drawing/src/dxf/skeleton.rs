@@ -1,4 +1,4 @@
-//! What every DXF file of version R2000 must have around its entities.
+//! The sections and tables that every DXF file of version R2000 has around its entities.
 //!
 //! The handles of tables, dictionaries and layouts are fixed: they are those that other programs
 //! give them. Layers, line types and entities have handles from [`FIRST_LINE_TYPE`] on.

@@ -21,17 +21,25 @@ use model::EdgeVisibility;
 
 /// The unit normal of each face, and whether the face is front-facing.
 #[derive(Clone, Debug)]
-struct FaceNormals(Vec<(DVec3, bool)>);
+struct FaceNormals {
+    normals: Vec<DVec3>,
+    is_front: Vec<bool>,
+}
 
 impl FaceNormals {
     /// Computes normals, and their signs towards the viewer, for all faces.
     fn new(mesh: &WorldMesh, projector: &Projector) -> Self {
-        let normal = |face: &Face| {
-            let [a, b, c] = face.vertices.map(|vertex| mesh.points[vertex as usize]);
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            (normal, normal.dot(projector.towards_viewer(a)) > 0.0)
+        let corners = |face: &Face| face.vertices.map(|vertex| mesh.points[vertex as usize]);
+        let unit_normal = |face: &Face| {
+            let [a, b, c] = corners(face);
+            (b - a).cross(c - a).normalize_or_zero()
         };
-        Self(mesh.faces.iter().map(normal).collect())
+        let normals: Vec<DVec3> = mesh.faces.iter().map(unit_normal).collect();
+        let is_front = |(face, normal): (&Face, &DVec3)| {
+            normal.dot(projector.towards_viewer(corners(face)[0])) > 0.0
+        };
+        let is_front = mesh.faces.iter().zip(&normals).map(is_front).collect();
+        Self { normals, is_front }
     }
 
     /// The normal and facing of the face at a half-edge, flipped where the half-edge runs backward.
@@ -39,7 +47,8 @@ impl FaceNormals {
     /// Seen along the edge from its lower to its higher end, the faces at both sides then need no
     /// common orientation: meshes with inconsistent winding classify like others.
     fn normal_along(&self, side: HalfEdge) -> (DVec3, bool) {
-        let (normal, is_front) = self.0[side.face() as usize];
+        let face = side.face() as usize;
+        let (normal, is_front) = (self.normals[face], self.is_front[face]);
         if side.is_forward() { (normal, is_front) } else { (-normal, !is_front) }
     }
 }

@@ -77,7 +77,7 @@ pub(super) fn intersect_faces(
                     if pairs.len() - first >= search.most_per_leaf {
                         is_complete = false;
                     } else if is_own {
-                        own.extend(search.leaf_triangles(items));
+                        own.extend(search.leaf_triangles(items, None));
                         *bounds = own.iter().map(|triangle| triangle.bounds).reduce(Aabb::union);
                         search.intersect_own(own, pairs);
                     } else if let Some(bounds) = bounds {
@@ -109,7 +109,7 @@ struct LeafMemory {
     bounds: Option<Aabb>,
 }
 
-/// What a search for intersections depends on.
+/// A search for intersections, with all that it depends on.
 struct IntersectionSearch<'a> {
     mesh: &'a WorldMesh,
     borders: FaceBorders,
@@ -119,10 +119,15 @@ struct IntersectionSearch<'a> {
 }
 
 impl IntersectionSearch<'_> {
-    /// The faces among the items of a leaf; others are fillings.
-    fn leaf_triangles(&self, items: &[u32]) -> impl Iterator<Item = IntersectionTriangle> {
+    /// The faces among the items of a leaf whose boxes overlap another, if there is one; other items
+    /// are fillings.
+    fn leaf_triangles(
+        &self,
+        items: &[u32],
+        within: Option<&Aabb>,
+    ) -> impl Iterator<Item = IntersectionTriangle> {
         let faces = items.iter().filter(|item| (**item as usize) < self.mesh.faces.len());
-        faces.map(|face| IntersectionTriangle::from_face(self.mesh, *face))
+        faces.filter_map(move |face| IntersectionTriangle::from_face(self.mesh, *face, within))
     }
 
     /// Intersects the triangles of a leaf with each other.
@@ -139,7 +144,7 @@ impl IntersectionSearch<'_> {
         items: &[u32],
         pairs: &mut Vec<IntersectingPair>,
     ) {
-        for other in self.leaf_triangles(items).filter(|other| bounds.intersects(&other.bounds)) {
+        for other in self.leaf_triangles(items, Some(bounds)) {
             pairs.extend(own.iter().filter_map(|one| self.intersect_pair(one, &other)));
         }
     }
@@ -150,7 +155,10 @@ impl IntersectionSearch<'_> {
         a: &IntersectionTriangle,
         b: &IntersectionTriangle,
     ) -> Option<IntersectingPair> {
-        if !a.bounds.intersects(&b.bounds) {
+        let is_apart = !a.bounds.intersects(&b.bounds)
+            || a.is_beside_plane(b, self.touching)
+            || b.is_beside_plane(a, self.touching);
+        if is_apart {
             return None;
         }
         let faces = [a, b].map(|triangle| &self.mesh.faces[triangle.face as usize]);
@@ -214,32 +222,42 @@ struct IntersectionTriangle {
     face: u32,
     vertices: [DVec3; 3],
     bounds: Aabb,
+    /// The unit normal.
+    normal: DVec3,
 }
 
 impl IntersectionTriangle {
-    /// The triangle of a face.
-    fn from_face(mesh: &WorldMesh, face: u32) -> Self {
+    /// The triangle of a face; `None` if its box does not overlap the one that is given.
+    fn from_face(mesh: &WorldMesh, face: u32, within: Option<&Aabb>) -> Option<Self> {
         let corners = mesh.faces[face as usize].vertices;
         let vertices = corners.map(|vertex| mesh.points[vertex as usize]);
-        Self { face, vertices, bounds: Aabb::around_triangle(vertices) }
+        let bounds = Aabb::around_triangle(vertices);
+        if within.is_some_and(|within| !within.intersects(&bounds)) {
+            return None;
+        }
+        let [a, b, c] = vertices;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        Some(Self { face, vertices, bounds, normal })
     }
 
-    /// The unit normal.
-    fn unit_normal(&self) -> DVec3 {
-        let [a, b, c] = self.vertices;
-        (b - a).cross(c - a).normalize_or_zero()
+    /// Whether no vertex is farther than `touching` on one side of another triangle's plane.
+    ///
+    /// This is what ends most comparisons.
+    fn is_beside_plane(&self, other: &Self, touching: f64) -> bool {
+        let heights = self.vertices.map(|vertex| other.normal.dot(vertex - other.vertices[0]));
+        let [p, q, r] = heights.map(|height| height >= -touching);
+        let [u, v, w] = heights.map(|height| height <= touching);
+        p && q && r || u && v && w
     }
 
     /// The segment in which two triangles intersect; `None` if they do not, touch, or are coplanar.
     fn intersect_triangle(&self, other: &Self, touching: f64) -> Option<[DVec3; 2]> {
-        let other_normal = other.unit_normal();
-        let our_heights = self.distances_to_plane(other, other_normal, touching);
+        let our_heights = self.distances_to_plane(other, touching);
         let ours = self.cut_at_zero(our_heights)?;
-        let normal = self.unit_normal();
-        let their_heights = other.distances_to_plane(self, normal, touching);
+        let their_heights = other.distances_to_plane(self, touching);
         let theirs = other.cut_at_zero(their_heights)?;
         let heights = [our_heights, their_heights];
-        let line = normal.cross(other_normal);
+        let line = self.normal.cross(other.normal);
         let is_flat =
             heights.as_flattened().iter().all(|height| height.abs() < COPLANAR_FACTOR * touching);
         if is_flat || line.length() < MIN_PLANE_SINE {
@@ -256,11 +274,11 @@ impl IntersectionTriangle {
         is_long.then_some([from.1, to.1])
     }
 
-    /// The signed distances of the vertices from another triangle's plane, whose unit normal is
-    /// given, with those below `touching` made zero.
-    fn distances_to_plane(&self, other: &Self, normal: DVec3, touching: f64) -> [f64; 3] {
+    /// The signed distances of the vertices from another triangle's plane, with those below
+    /// `touching` made zero.
+    fn distances_to_plane(&self, other: &Self, touching: f64) -> [f64; 3] {
         self.vertices.map(|vertex| {
-            let height = normal.dot(vertex - other.vertices[0]);
+            let height = other.normal.dot(vertex - other.vertices[0]);
             if height.abs() <= touching { 0.0 } else { height }
         })
     }

@@ -17,12 +17,13 @@ use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, we
 use super::section_cut::cut_mesh;
 use super::weld::weld_equal_vertices;
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::{Bvh, Tolerance, TriangleMesh, mesh_bvh};
+use crate::hidden_line::{Aabb, Bvh, Tolerance, TriangleMesh, mesh_bvh};
 use crate::projector::Projector;
 use crate::{DrawOptions, EdgeClass, SilhouetteMethod, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
 use model::ModelInstance;
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// An edge that will be drawn as far as it is visible.
@@ -79,6 +80,8 @@ pub(crate) struct WeldedSurface {
     intersections: OnceLock<Intersections>,
     /// The boxes around the faces and fillings: made at the first request.
     face_bvh: OnceLock<Bvh>,
+    /// The boxes by which objects are neighbors, if they are not where they belong.
+    assembled_boxes: Option<BTreeMap<u32, Aabb>>,
 }
 
 impl WeldedSurface {
@@ -111,6 +114,7 @@ impl WeldedSurface {
             warnings: Vec::new(),
             intersections: OnceLock::new(),
             face_bvh: OnceLock::new(),
+            assembled_boxes: None,
         };
         for (index, &plane) in sections.iter().enumerate() {
             surface.cut_by_plane(plane, index as u16);
@@ -121,6 +125,25 @@ impl WeldedSurface {
             surface.reweld();
         }
         surface
+    }
+
+    /// The surface of parts that have moved from these boxes, one for each of the first objects:
+    /// their hatchings remain those of the assembly.
+    pub(crate) fn exploded_from(self, boxes: impl Iterator<Item = Aabb>) -> Self {
+        Self { assembled_boxes: Some((0..).zip(boxes).collect()), ..self }
+    }
+
+    /// The box around the faces of each object, where it belongs.
+    pub(crate) fn part_boxes(&self) -> BTreeMap<u32, Aabb> {
+        if let Some(boxes) = &self.assembled_boxes {
+            return boxes.clone();
+        }
+        let mut boxes: BTreeMap<u32, Aabb> = BTreeMap::new();
+        for (vertices, object, _) in self.colored_faces() {
+            let bounds = Aabb::around_triangle(vertices);
+            boxes.entry(object).and_modify(|all| *all = all.union(bounds)).or_insert(bounds);
+        }
+        boxes
     }
 
     /// Cuts the mesh by a section plane, caps it, and welds it again.
@@ -217,35 +240,21 @@ impl WeldedSurface {
         faces.filter(|(_, face)| face.cap_section.is_none()).map(|(colored, _)| colored)
     }
 
-    /// The edges of the wanted classes for one viewer, sorted by object and within an object by
-    /// their vertices; `true` if intersections are missing because there were too many.
+    /// Drops the half-edges, which only [`Self::mesh_edges`] needs.
+    pub(crate) fn forget_half_edges(&mut self) {
+        self.half_edges = HalfEdges::default();
+    }
+
+    /// The edges of the wanted classes for one viewer that are sides of faces, or lines by
+    /// themselves.
     ///
     /// The viewer matters for silhouettes only, but their test runs over all faces: O(faces +
-    /// edges), apart from the intersections, which are found once.
-    pub(crate) fn candidate_edges(
+    /// edges).
+    pub(crate) fn mesh_edges(
         &self,
         projector: &Projector,
         options: &DrawOptions,
-        threads: usize,
-    ) -> (Vec<CandidateEdge>, bool) {
-        let mut candidates = self.mesh_edges(projector, options);
-        let mut is_cut_off = false;
-        if options.classes.contains(EdgeClass::Intersection) {
-            let intersections = self.intersections(threads);
-            is_cut_off = intersections.is_cut_off;
-            let class = EdgeClass::Intersection;
-            candidates.extend(intersections.segments.iter().map(|&(ends, object)| CandidateEdge {
-                ends,
-                class,
-                object,
-            }));
-        }
-        candidates.sort_by_key(|candidate| candidate.object);
-        (candidates, is_cut_off)
-    }
-
-    /// The edges of the wanted classes that are sides of faces, or lines by themselves.
-    fn mesh_edges(&self, projector: &Projector, options: &DrawOptions) -> Vec<CandidateEdge> {
+    ) -> Vec<CandidateEdge> {
         let mesh = &self.mesh;
         let mut candidates = Vec::new();
         let mut add_candidate = |ends: [u32; 2], class, object| {
@@ -278,6 +287,24 @@ impl WeldedSurface {
         candidates
     }
 
+    /// Adds the edges in which faces intersect, if they are wanted; `true` if some are missing
+    /// because there were too many.
+    pub(crate) fn add_intersections(
+        &self,
+        candidates: &mut Vec<CandidateEdge>,
+        options: &DrawOptions,
+        threads: usize,
+    ) -> bool {
+        if !options.classes.contains(EdgeClass::Intersection) {
+            return false;
+        }
+        let Intersections { segments, is_cut_off } = self.intersections(threads);
+        let class = EdgeClass::Intersection;
+        let edge = |&(ends, object): &_| CandidateEdge { ends, class, object };
+        candidates.extend(segments.iter().map(edge));
+        *is_cut_off
+    }
+
     /// Where faces intersect; the number of threads does not change them.
     fn intersections(&self, threads: usize) -> &Intersections {
         self.intersections.get_or_init(|| {
@@ -285,6 +312,12 @@ impl WeldedSurface {
             let touching = self.touch_tolerance().world;
             intersect_faces(&self.mesh, self.face_bvh(), borders, touching, threads)
         })
+    }
+
+    /// A triangle that hides, by its index among the faces, which come first, and the fillings.
+    fn face_or_filling(&self, triangle: u32) -> &Face {
+        let (triangle, count) = (triangle as usize, self.mesh.faces.len());
+        self.mesh.faces.get(triangle).unwrap_or_else(|| &self.fillings[triangle - count])
     }
 
     /// The hierarchy of the triangles that hide: the faces, then the fillings.
@@ -304,12 +337,14 @@ impl TriangleMesh for &WeldedSurface {
     }
 
     fn vertex_indices(&self, triangle: u32) -> [u32; 3] {
-        let (triangle, count) = (triangle as usize, self.mesh.faces.len());
-        let face = self.mesh.faces.get(triangle);
-        face.unwrap_or_else(|| &self.fillings[triangle - count]).vertices
+        self.face_or_filling(triangle).vertices
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
         self.mesh.points[vertex as usize]
+    }
+
+    fn object(&self, triangle: u32) -> u32 {
+        self.face_or_filling(triangle).object
     }
 }

@@ -214,7 +214,9 @@ impl Bvh {
             }
             tree.build_node(&mut items, 0, &BoundsOfItems { bounds, centers, count: 0 }, 0);
         }
-        tree.order = items.into_iter().map(|item| item.index).collect();
+        // A new vector: collected in place, the numbers would keep the memory of the items.
+        tree.order.reserve_exact(items.len());
+        tree.order.extend(items.iter().map(|item| item.index));
         tree
     }
 

@@ -10,7 +10,7 @@
 //! lines are legible behind one wall, whose two sides are two faces, and a black cloud behind all.
 
 use super::occluder::Occlusion;
-use super::occluders::MeshOccluders;
+use super::occluders::{MeshOccluders, OcclusionScratch, Tolerance};
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
 use super::screen_bvh::{ScreenEdge, TriangleMesh};
@@ -29,7 +29,10 @@ impl FaceCount {
     fn insert(&mut self, occlusion: Occlusion) {
         let (interval, halves) = match occlusion {
             Occlusion::Interior(interval) => (interval, 2),
-            Occlusion::FaceLeft(interval) | Occlusion::FaceRight(interval) => (interval, 1),
+            Occlusion::Along(side) => (side.interval, 1),
+            // The tolerance leaves no cracks: a face that is only near would count beside the one
+            // that hides.
+            Occlusion::Beside(_) => return,
         };
         self.changes.extend([(interval[0], halves), (interval[1], -halves)]);
     }
@@ -57,24 +60,34 @@ impl FaceCount {
 
 impl<M: TriangleMesh> MeshOccluders<M> {
     /// The intervals of s in which more than `most` faces are in front of an edge; slivers shorter
-    /// than the tolerance are removed.
+    /// than the tolerance are removed. Incomplete if no work is left in `scratch`.
     pub(crate) fn intervals_behind_faces(
         &self,
         edge: &ProjectedEdge,
         most: u32,
+        scratch: &mut OcclusionScratch,
     ) -> OcclusionIntervals {
+        let tolerance = Tolerance { crack: 0.0, ..self.tolerance };
         let on_screen = ScreenEdge::new(edge, self.respects_depth);
         let mut count = FaceCount::default();
         let mut nodes: Vec<u32> = self.screen.root_node().into_iter().collect();
         while let Some(node) = nodes.pop() {
+            if !scratch.take_work(1) {
+                break;
+            }
             if self.screen.interval_behind(node, &on_screen).is_none() {
                 continue;
             }
             match self.screen.contents(node) {
                 Ok(children) => nodes.extend(children),
                 Err(triangles) => {
-                    let hide = |&triangle| self.occlude_edge(triangle, edge, &on_screen);
-                    triangles.iter().filter_map(hide).for_each(|one| count.insert(one));
+                    if !scratch.take_work(triangles.len()) {
+                        break;
+                    }
+                    for &triangle in triangles {
+                        let view = (&on_screen, &tolerance);
+                        self.occlude_edge(triangle, edge, view, |one| count.insert(one));
+                    }
                 }
             }
         }
@@ -86,6 +99,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::occluder::SideInterval;
     use super::*;
 
     #[test]
@@ -93,10 +107,11 @@ mod tests {
         let mut count = FaceCount::default();
         count.insert(Occlusion::Interior([0.1, 0.9]));
         count.insert(Occlusion::Interior([0.3, 0.6]));
-        count.insert(Occlusion::FaceLeft([0.4, 1.0]));
+        let side = |interval, is_left| SideInterval { interval, is_left, is_wide: true, object: 0 };
+        count.insert(Occlusion::Along(side([0.4, 1.0], true)));
         assert_eq!(count.intervals_above(1).as_slice(), [[0.3, 0.6]]);
         assert_eq!(count.intervals_above(2).as_slice(), [[0.0; 2]; 0]);
-        count.insert(Occlusion::FaceRight([0.5, 0.8]));
+        count.insert(Occlusion::Along(side([0.5, 0.8], false)));
         assert_eq!(count.intervals_above(2).as_slice(), [[0.5, 0.6]]);
         assert_eq!(count.intervals_above(1).as_slice(), [[0.3, 0.8]]);
         assert_eq!(count.intervals_above(0).as_slice(), [[0.1, 0.9]]);

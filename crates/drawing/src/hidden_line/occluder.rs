@@ -11,7 +11,11 @@
 //! a meaning that neither the projection nor the slope of the face changes: an edge a thousandth of
 //! a pixel inside a side runs along it, and an edge a millionth of the model behind a plane lies in
 //! it.
+//!
+//! [`Occluder::overlap`] finds where both overlap on the screen, and
+//! [`OccluderInWorld::interval_behind`] the part of it in which the edge is behind.
 
+use super::super::projector::Projector;
 use super::{ProjectedEdge, Tolerance};
 use glam::{DVec2, DVec3};
 
@@ -24,21 +28,58 @@ pub(super) struct Occluder {
 
 /// The plane of a face in the world: the unit normal on the side of the viewer, and the distance
 /// from the origin along it. Points of the plane have `normal · p = offset`.
-pub(super) type NormalAndOffset = (DVec3, f64);
+type NormalAndOffset = (DVec3, f64);
 
-/// The interval of s in which a face hides an edge, and how: by its interior or only along a side.
+/// The interval of s in which a face hides an edge, and how.
 ///
-/// An edge exactly behind a side is hidden only if another face continues on the other side of it;
-/// a single face would only touch it. Left and right are those of a viewer who follows the edge on
-/// a screen with y up.
+/// An edge behind a side is hidden only if another face continues on the other side of it; a single
+/// face would only touch it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Occlusion {
     /// The edge passes behind the interior of the face: the interval is hidden without a condition.
     Interior([f64; 2]),
-    /// The edge runs exactly behind a side, and the face is on its left.
-    FaceLeft([f64; 2]),
-    /// The edge runs exactly behind a side, and the face is on its right.
-    FaceRight([f64; 2]),
+    /// The edge runs exactly behind a side of the face.
+    Along(SideInterval),
+    /// The edge runs outside a side of the face, no farther than the width of a crack.
+    Beside(SideInterval),
+}
+
+/// Where an edge runs behind a side of a face.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct SideInterval {
+    /// The interval of s.
+    pub(super) interval: [f64; 2],
+    /// Whether the face is on the left of one who follows the edge on a screen with y up.
+    pub(super) is_left: bool,
+    /// Whether the face is wider than a crack, measured from the side: a narrower one leaves to be
+    /// seen what is beyond it.
+    pub(super) is_wide: bool,
+    /// The object of the face.
+    pub(super) object: u32,
+}
+
+/// The overlap of a face and an edge on the screen, whichever is in front.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct ScreenOverlap {
+    /// Where the edge passes over the interior.
+    pub(super) interior: Option<[f64; 2]>,
+    /// Where it runs along a side, or beside it.
+    pub(super) side: Option<SideOverlap>,
+}
+
+/// Where an edge runs along or beside a side of a face on the screen.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct SideOverlap {
+    /// The side: from this vertex to the next.
+    pub(super) side: usize,
+    /// The interval of s.
+    pub(super) interval: [f64; 2],
+    /// Whether it is exactly the side, rather than a place near it on the outside.
+    pub(super) is_along: bool,
+    /// Whether the face is on the left of the edge.
+    pub(super) is_left: bool,
+    /// Whether the face is wider than a crack.
+    pub(super) is_wide: bool,
 }
 
 /// A function that is linear along the edge: its values at the start and at the end.
@@ -50,46 +91,212 @@ fn evaluate_linear([start, end]: LinearFunction, s: f64) -> f64 {
 }
 
 impl Occluder {
-    /// The part of an edge that this face hides, `None` if there is none.
+    /// The parts of an edge that pass over this face or beside it; `None` if there are none.
     ///
-    /// Three steps, the cheapest rejection first: a triangle side with the whole edge outside; the
-    /// interval inside the triangle; the part of it behind the plane, which is asked for only then.
-    /// A side that the edge runs along is left out of the second step, because rounding decides on
-    /// which side of it the edge lies. Without a plane there is no third step.
-    pub(super) fn occlude_edge(
+    /// The cheapest rejection comes first: a side with the whole edge outside. A side that the edge
+    /// runs along does not bound the interval inside, because rounding decides on which side of it
+    /// the edge lies.
+    pub(super) fn overlap(
         &self,
         edge: &ProjectedEdge,
         tolerance: &Tolerance,
-        plane: Option<impl FnOnce() -> Option<NormalAndOffset>>,
-    ) -> Option<Occlusion> {
+    ) -> Option<ScreenOverlap> {
+        let (triangle, is_outside) = self.sides_near(edge, tolerance)?;
+        let parallel = triangle.parallel_sides(edge);
+        let along = || triangle.side_along(edge, tolerance.screen, parallel);
+        let along = if is_outside { None } else { along() };
+        let inside = if is_outside { None } else { triangle.interval_inside(along) };
+        let beside = || triangle.interval_beside(edge, tolerance, parallel);
+        let (interior, side) = match along {
+            Some(side) => (None, inside.map(|interval| (side, interval))),
+            None if tolerance.crack <= tolerance.screen => (inside, None),
+            None => (inside, beside()),
+        };
+        let direction = edge.screen[1] - edge.screen[0];
+        let side = side.map(|(side, interval)| SideOverlap {
+            side,
+            interval,
+            is_along: along.is_some(),
+            is_left: triangle.vectors[side].dot(direction) > 0.0,
+            is_wide: triangle.is_wider_than(2.0 * tolerance.crack, side),
+        });
+        (interior.is_some() || side.is_some()).then_some(ScreenOverlap { interior, side })
+    }
+
+    /// The sides against an edge, and whether all of the edge is outside one of them; `None` if it
+    /// is so by more than the width of a crack.
+    fn sides_near(
+        &self,
+        edge: &ProjectedEdge,
+        tolerance: &Tolerance,
+    ) -> Option<(TriangleSides, bool)> {
         let [a, b, c] = self.vertices;
-        let side_vectors = [b - a, c - b, a - c];
-        let sides = [[a, b], [b, c], [c, a]].map(|side| side_function(side, edge));
-        // The distances from the sides are times their lengths, which spares a division; tolerances
-        // are times the length instead.
-        let near = |k: usize| tolerance.screen * side_vectors[k].length();
-        for (k, [start, end]) in sides.iter().enumerate() {
-            let most = if start > end { *start } else { *end };
-            if most < 0.0 && most < -near(k) {
-                return None;
+        let vectors = [b - a, c - b, a - c];
+        let sides = [[a, b], [b, c], [c, a]];
+        let near = tolerance.screen * tolerance.screen;
+        let farthest = near.max(tolerance.crack * tolerance.crack);
+        let mut values = [[0.0; 2]; 3];
+        let mut is_outside = false;
+        for k in 0..3 {
+            let [start, end] = side_function(sides[k], edge);
+            values[k] = [start, end];
+            let most = if start > end { start } else { end };
+            if most < 0.0 {
+                // Squares spare the root.
+                let (area, length) = (most * most, vectors[k].length_squared());
+                if area > farthest * length {
+                    return None;
+                }
+                is_outside |= area > near * length;
             }
         }
-        let side_along_edge = (0..3).find(|&k| {
-            let [start, end] = sides[k];
-            let vector = side_vectors[k].abs();
+        Some((TriangleSides { values, vectors }, is_outside))
+    }
+}
+
+/// The triangle of an occluder in the world, as far as it says what is behind it.
+pub(super) struct OccluderInWorld<'a> {
+    /// For sides in the order of the vertices on the screen.
+    pub(super) vertices: [DVec3; 3],
+    /// The viewer.
+    pub(super) projector: &'a Projector,
+}
+
+impl OccluderInWorld<'_> {
+    /// The part of an interval of an edge that is behind the plane of the triangle.
+    ///
+    /// It is `None` as well if the triangle is seen edge-on.
+    pub(super) fn interval_behind(
+        &self,
+        edge: &ProjectedEdge,
+        interval: [f64; 2],
+        tolerance: &Tolerance,
+    ) -> Option<[f64; 2]> {
+        let [a, b, c] = self.vertices;
+        let plane = self.plane_towards_viewer((b - a).cross(c - a), a)?;
+        interval_behind_plane(plane, edge, interval, tolerance)
+    }
+
+    /// The part of an interval of an edge beside a side that is behind the side.
+    ///
+    /// The plane of the triangle says nothing about what is outside of it, the less the more it is
+    /// tilted. Among the planes through the side this takes the one that faces the viewer most.
+    pub(super) fn interval_behind_side(
+        &self,
+        side: usize,
+        edge: &ProjectedEdge,
+        interval: [f64; 2],
+        tolerance: &Tolerance,
+    ) -> Option<[f64; 2]> {
+        let [from, to] = [side, (side + 1) % 3].map(|k| self.vertices[k]);
+        let towards = self.projector.towards_viewer(from);
+        let along = to - from;
+        let plane = self.plane_towards_viewer(along.cross(towards).cross(along), from)?;
+        interval_behind_plane(plane, edge, interval, tolerance)
+    }
+
+    /// The plane through a point with this normal, or the opposite one.
+    fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<NormalAndOffset> {
+        let normal = normal.normalize_or_zero();
+        let towards = normal.dot(self.projector.towards_viewer(point));
+        let normal = normal * towards.signum();
+        (towards != 0.0).then(|| (normal, normal.dot(point)))
+    }
+}
+
+/// The sides of a triangle against an edge.
+struct TriangleSides {
+    /// The signed distances of the edge from each side, times the length of the side: that spares a
+    /// division, and tolerances are times the length instead.
+    values: [LinearFunction; 3],
+    /// From the start of each side to its end, in pixels.
+    vectors: [DVec2; 3],
+}
+
+impl TriangleSides {
+    /// Whether the vertex opposite of a side is farther from it than some pixels.
+    fn is_wider_than(&self, pixels: f64, side: usize) -> bool {
+        let doubled_area = self.vectors[2].perp_dot(self.vectors[0]);
+        doubled_area > pixels * self.vectors[side].length()
+    }
+
+    /// Whether the edge runs along each side at an angle whose sine is less than a quarter: no other
+    /// edge is near a side for long enough.
+    fn parallel_sides(&self, edge: &ProjectedEdge) -> [bool; 3] {
+        let length = (edge.screen[1] - edge.screen[0]).length_squared();
+        [0, 1, 2].map(|k| {
+            let [start, end] = self.values[k];
+            let change = end - start;
+            16.0 * change * change <= 1.001 * length * self.vectors[k].length_squared()
+        })
+    }
+
+    /// The first side that the edge runs along: within `distance` in pixels as long as it is inside
+    /// the two others.
+    ///
+    /// The stretch must be longer than eight times the distance; shorter ones occur where the edge
+    /// crosses a vertex, and say nothing about its direction.
+    fn side_along(
+        &self,
+        edge: &ProjectedEdge,
+        distance: f64,
+        parallel: [bool; 3],
+    ) -> Option<usize> {
+        (0..3).filter(|&k| parallel[k]).find(|&k| {
+            let [start, end] = self.values[k];
+            let vector = self.vectors[k].abs();
             // The sum of both components is not less than the length: few sides need the root.
-            let is_far = start.min(end) > tolerance.screen * (vector.x + vector.y);
-            !is_far && runs_along_side(k, &sides, near(k), edge, tolerance)
-        });
-        let interval =
-            positive_interval((0..3).filter(|&k| Some(k) != side_along_edge).map(|k| sides[k]))?;
-        let interval = match plane {
-            Some(plane) => interval_behind_plane(plane()?, edge, interval, tolerance)?,
-            None => interval,
-        };
-        let Some(k) = side_along_edge else { return Some(Occlusion::Interior(interval)) };
-        let runs_with = side_vectors[k].dot(edge.screen[1] - edge.screen[0]) > 0.0;
-        Some(if runs_with { Occlusion::FaceLeft(interval) } else { Occlusion::FaceRight(interval) })
+            let widest = distance * (vector.x + vector.y);
+            let (least, most) = if start < end { (start, end) } else { (end, start) };
+            if least > widest || most < -widest {
+                return false;
+            }
+            let near = distance * self.vectors[k].length();
+            if least > near || most < -near {
+                return false;
+            }
+            self.interval_inside(Some(k)).is_some_and(|interval| {
+                let is_long = (interval[1] - interval[0]) * edge.screen_length() > 8.0 * distance;
+                let is_near = |&s: &f64| evaluate_linear(self.values[k], s).abs() <= near;
+                is_long && interval.iter().all(is_near)
+            })
+        })
+    }
+
+    /// The first side that the edge runs beside on the outside, no farther than the width of a
+    /// crack, and the interval of s in which it does.
+    ///
+    /// It must be longer than four times that width, and so the angle between both is small.
+    fn interval_beside(
+        &self,
+        edge: &ProjectedEdge,
+        tolerance: &Tolerance,
+        parallel: [bool; 3],
+    ) -> Option<(usize, [f64; 2])> {
+        (0..3).filter(|&k| parallel[k]).find_map(|k| {
+            let [start, end] = self.values[k];
+            let vector = self.vectors[k].abs();
+            let widest = tolerance.crack * (vector.x + vector.y);
+            let (least, most) = if start < end { (start, end) } else { (end, start) };
+            if least > 0.0 || most < -widest {
+                return None;
+            }
+            if !self.is_wider_than(2.0 * tolerance.crack, k) {
+                return None;
+            }
+            let length = self.vectors[k].length();
+            let (far, near) = (tolerance.crack * length, tolerance.screen * length);
+            let band = [[start + far, end + far], [near - start, near - end]];
+            let others = [self.values[(k + 1) % 3], self.values[(k + 2) % 3]];
+            let interval = positive_interval(band.into_iter().chain(others))?;
+            let stretch = (interval[1] - interval[0]) * edge.screen_length();
+            (stretch > 4.0 * tolerance.crack).then_some((k, interval))
+        })
+    }
+
+    /// The open interval of s in which the edge is inside all sides but one.
+    fn interval_inside(&self, but: Option<usize>) -> Option<[f64; 2]> {
+        positive_interval((0..3).filter(|&k| Some(k) != but).map(|k| self.values[k]))
     }
 }
 
@@ -154,27 +361,4 @@ fn positive_interval(functions: impl Iterator<Item = LinearFunction>) -> Option<
         }
     }
     (interval[0] < interval[1]).then_some(interval)
-}
-
-/// Whether the edge runs along side `k`: within `near`, which is `tolerance.screen` times the
-/// length of the side, as long as it is inside the two other sides.
-///
-/// The stretch must be longer than eight tolerances; shorter ones occur where the edge crosses a
-/// vertex, and say nothing about its direction.
-fn runs_along_side(
-    k: usize,
-    sides: &[LinearFunction; 3],
-    near: f64,
-    edge: &ProjectedEdge,
-    tolerance: &Tolerance,
-) -> bool {
-    let [start, end] = sides[k];
-    if start.min(end) > near || start.max(end) < -near {
-        return false;
-    }
-    let others = [sides[(k + 1) % 3], sides[(k + 2) % 3]];
-    positive_interval(others.into_iter()).is_some_and(|interval| {
-        let is_long = (interval[1] - interval[0]) * edge.screen_length() > 8.0 * tolerance.screen;
-        is_long && interval.iter().all(|&s| evaluate_linear(sides[k], s).abs() <= near)
-    })
 }

@@ -8,7 +8,8 @@
 
 use super::super::projector::Projector;
 use super::bvh::{Aabb, Bvh};
-use super::occluder::{Occluder, Occlusion};
+use super::crack_intervals::{CrackIntervals, SideIntervals};
+use super::occluder::{Occluder, OccluderInWorld, Occlusion, SideInterval, SideOverlap};
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
 use super::screen_bvh::{ScreenBvh, ScreenEdge, TriangleMesh};
@@ -26,6 +27,9 @@ pub struct Tolerance {
     /// The least length of a visible or hidden part, in pixels; shorter ones are merged with their
     /// neighbors.
     pub min_part: f64,
+    /// The width of cracks between objects through which nothing is seen, in pixels. An edge that
+    /// runs behind a crack has faces on both sides that are no farther, of two objects.
+    pub crack: f64,
 }
 
 impl Tolerance {
@@ -33,10 +37,16 @@ impl Tolerance {
     ///
     /// `world` is diagonal / 2²¹: a few units in the last place of coordinates stored in single
     /// precision. `screen` is 1/4096 pixel and `min_part` 1/1024 pixel, far below what any output
-    /// resolves.
+    /// resolves. `crack` is 3/16 pixel, 0.05 mm on paper: less than any pen is wide, so that lines
+    /// behind a crack could not be told from its sides.
     #[must_use]
     pub fn for_scene(diagonal: f64) -> Self {
-        Self { screen: 1.0 / 4096.0, world: diagonal / 2_097_152.0, min_part: 1.0 / 1024.0 }
+        Self {
+            screen: 1.0 / 4096.0,
+            world: diagonal / 2_097_152.0,
+            min_part: 1.0 / 1024.0,
+            crack: 3.0 / 16.0,
+        }
     }
 }
 
@@ -96,6 +106,10 @@ impl TriangleMesh for TriangleList {
 
     fn position(&self, vertex: u32) -> DVec3 {
         self.0[vertex as usize / 3][vertex as usize % 3]
+    }
+
+    fn object(&self, _: u32) -> u32 {
+        0
     }
 }
 
@@ -162,22 +176,37 @@ pub(crate) struct MeshOccluders<M> {
 pub(crate) struct OcclusionScratch {
     /// The result.
     hidden: OcclusionIntervals,
-    /// Where the edge runs exactly behind a side with its face on the left.
-    face_left: OcclusionIntervals,
-    /// Where the edge runs exactly behind a side with its face on the right.
-    face_right: OcclusionIntervals,
+    /// Where the edge runs exactly behind a side.
+    along: SideIntervals,
+    /// Where it runs behind a side or beside it.
+    cracks: CrackIntervals,
     /// Nodes of the hierarchy that are still to be visited.
     node_stack: Vec<u32>,
+    /// How many boxes and triangles may still be compared with edges; `None` for any number.
+    pub(crate) work_left: Option<u64>,
 }
 
 impl OcclusionScratch {
+    /// Takes some work from what is left; `false` if that is less.
+    pub(super) fn take_work(&mut self, count: usize) -> bool {
+        let Some(left) = &mut self.work_left else { return true };
+        let is_left = *left >= count as u64;
+        *left = left.saturating_sub(count as u64);
+        is_left
+    }
+
     /// Starts a query at a node.
     fn restart(&mut self, root: Option<u32>) {
         self.hidden.clear();
-        self.face_left.clear();
-        self.face_right.clear();
+        self.along.clear();
+        self.cracks.clear();
         self.node_stack.clear();
         self.node_stack.extend(root);
+    }
+
+    /// The result of the last query.
+    pub(crate) const fn last_result(&self) -> &OcclusionIntervals {
+        &self.hidden
     }
 
     /// The result where there is no face.
@@ -190,16 +219,29 @@ impl OcclusionScratch {
     fn insert(&mut self, occlusion: Occlusion) {
         match occlusion {
             Occlusion::Interior(interval) => self.hidden.insert_interval(interval),
-            Occlusion::FaceLeft(interval) => self.face_left.insert_interval(interval),
-            Occlusion::FaceRight(interval) => self.face_right.insert_interval(interval),
+            Occlusion::Along(side) => {
+                self.along.insert(side);
+                if side.is_wide {
+                    self.cracks.insert(side);
+                }
+            }
+            Occlusion::Beside(side) => self.cracks.insert(side),
         }
+    }
+
+    /// Adds what faces hide together: those that meet at a side behind which the edge runs, and
+    /// those of two objects with a crack between them.
+    fn join_sides(&mut self) {
+        self.hidden.insert_intersection(&self.along.left, &self.along.right);
+        self.cracks.insert_into(&mut self.hidden);
     }
 }
 
 impl<M: TriangleMesh> MeshOccluders<M> {
     /// Projects a mesh whose hierarchy in the world is `bvh`.
     pub(crate) fn new(mesh: M, bvh: &Bvh, projector: Projector, tolerance: Tolerance) -> Self {
-        let screen = ScreenBvh::new(&mesh, bvh, &projector, tolerance.screen);
+        let margins = [tolerance.screen, tolerance.screen.max(tolerance.crack)];
+        let screen = ScreenBvh::new(&mesh, bvh, &projector, margins);
         Self { mesh, projector, tolerance, screen, respects_depth: true }
     }
 
@@ -212,7 +254,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
     ///
     /// This is the inner loop of hidden-line removal. Children are visited front to back, because a
     /// near face is more likely to hide the whole interval and so end the descent. The result is
-    /// borrowed from `scratch`.
+    /// borrowed from `scratch`. It is incomplete if no work is left there.
     pub(crate) fn hidden_intervals<'a>(
         &self,
         edge: &ProjectedEdge,
@@ -221,6 +263,9 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         scratch.restart(self.screen.root_node());
         let on_screen = ScreenEdge::new(edge, self.respects_depth);
         while let Some(node) = scratch.node_stack.pop() {
+            if !scratch.take_work(1) {
+                break;
+            }
             let Some(interval) = self.screen.interval_behind(node, &on_screen) else { continue };
             if scratch.hidden.contains_interval(interval) {
                 continue;
@@ -228,47 +273,59 @@ impl<M: TriangleMesh> MeshOccluders<M> {
             match self.screen.contents(node) {
                 Ok(children) => scratch.node_stack.extend(children),
                 Err(triangles) => {
+                    if !scratch.take_work(triangles.len()) {
+                        break;
+                    }
                     for &triangle in triangles {
-                        let occlusion = self.occlude_edge(triangle, edge, &on_screen);
-                        occlusion.into_iter().for_each(|occlusion| scratch.insert(occlusion));
+                        let view = (&on_screen, &self.tolerance);
+                        self.occlude_edge(triangle, edge, view, |part| scratch.insert(part));
+                    }
+                    if scratch.hidden.contains_interval([0.0, 1.0]) {
+                        break;
                     }
                 }
             }
         }
-        let OcclusionScratch { hidden, face_left, face_right, .. } = scratch;
-        // Where faces meet at a side that the edge runs behind, they hide it together.
-        hidden.insert_intersection(face_left, face_right);
-        if !hidden.is_empty() {
-            hidden.remove_slivers(self.tolerance.min_part / edge.screen_length());
+        scratch.join_sides();
+        if !scratch.hidden.is_empty() {
+            scratch.hidden.remove_slivers(self.tolerance.min_part / edge.screen_length());
         }
-        hidden
+        &scratch.hidden
     }
 
-    /// What a triangle of the hierarchy hides of an edge.
+    /// Finds what a triangle of the hierarchy hides of an edge.
     pub(super) fn occlude_edge(
         &self,
         packed: u32,
         edge: &ProjectedEdge,
-        on_screen: &ScreenEdge<'_>,
-    ) -> Option<Occlusion> {
+        (on_screen, tolerance): (&ScreenEdge<'_>, &Tolerance),
+        mut found: impl FnMut(Occlusion),
+    ) {
         let (vertices, triangle) = self.screen.triangle(packed, &self.mesh);
-        if on_screen.is_beside(vertices, self.tolerance.screen) {
-            return None;
+        if on_screen.is_beside(vertices, tolerance.crack.max(tolerance.screen)) {
+            return;
         }
-        let occluder = Occluder { vertices };
-        let plane = || self.plane_towards_viewer(triangle);
-        occluder.occlude_edge(edge, &self.tolerance, self.respects_depth.then_some(plane))
-    }
-
-    /// The plane of a triangle: its unit normal on the side of the viewer, and its distance from
-    /// the origin along it. `None` if it is seen edge-on.
-    ///
-    /// It is that of the triangle before clipping, which must not tilt it.
-    fn plane_towards_viewer(&self, triangle: u32) -> Option<(DVec3, f64)> {
-        let [a, b, c] = self.mesh.positions(triangle);
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        let towards = normal.dot(self.projector.towards_viewer(a));
-        let normal = normal * towards.signum();
-        (towards != 0.0).then(|| (normal, normal.dot(a)))
+        let Some(overlap) = (Occluder { vertices }).overlap(edge, tolerance) else { return };
+        let object = self.mesh.object(triangle);
+        let in_world = |vertices| OccluderInWorld { vertices, projector: &self.projector };
+        // The plane is that of the triangle before clipping, which must not tilt it.
+        let whole = || in_world(self.mesh.positions(triangle));
+        let clipped = || in_world(self.screen.world_vertices(packed, &self.mesh));
+        let interior = overlap.interior.and_then(|interval| match self.respects_depth {
+            true => whole().interval_behind(edge, interval, tolerance),
+            false => Some(interval),
+        });
+        interior.into_iter().for_each(|interval| found(Occlusion::Interior(interval)));
+        let Some(overlap) = overlap.side else { return };
+        let SideOverlap { side, interval, is_along, is_left, is_wide } = overlap;
+        let interval = match (self.respects_depth, is_along) {
+            (false, _) => Some(interval),
+            (true, true) => whole().interval_behind(edge, interval, tolerance),
+            (true, false) => clipped().interval_behind_side(side, edge, interval, tolerance),
+        };
+        if let Some(interval) = interval {
+            let part = SideInterval { interval, is_left, is_wide, object };
+            found(if is_along { Occlusion::Along(part) } else { Occlusion::Beside(part) });
+        }
     }
 }

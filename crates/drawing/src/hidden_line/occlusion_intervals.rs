@@ -77,7 +77,8 @@ impl OcclusionIntervals {
     /// 0 and 1.
     ///
     /// Rounding leaves such slivers where faces meet. Gaps go first, or a hidden part that many
-    /// small faces make together would vanish.
+    /// small faces make together would vanish. What takes half of an edge remains, however short
+    /// the edge is.
     pub(crate) fn remove_slivers(&mut self, least: f64) {
         self.0.dedup_by(|next, last| {
             let closes = next[0] - last[1] < least;
@@ -86,6 +87,7 @@ impl OcclusionIntervals {
             }
             closes
         });
+        let least = least.min(0.5);
         self.0.retain(|interval| interval[1] - interval[0] >= least);
         if let Some(first) = self.0.first_mut().filter(|first| first[0] < least) {
             first[0] = 0.0;
@@ -170,6 +172,10 @@ mod tests {
             interval_set(&[[0.001, 0.2], [0.201, 0.4], [0.6, 0.601], [0.8, 0.9999]]);
         intervals.remove_slivers(0.01);
         assert_eq!(intervals.as_slice(), [[0.0, 0.4], [0.8, 1.0]]);
+        // An edge far shorter than the least part keeps what hides most of it.
+        let mut intervals = interval_set(&[[0.1, 1.0]]);
+        intervals.remove_slivers(40.0);
+        assert_eq!(intervals.as_slice(), [[0.0, 1.0]]);
     }
 
     #[test]

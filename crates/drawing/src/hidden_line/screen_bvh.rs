@@ -16,9 +16,8 @@
 use super::super::projector::Projector;
 use super::bvh::{Bvh, NodeContents, greatest, least, round_down, round_up};
 use super::projected_edge::ProjectedEdge;
-use clip::{Outcode, Volume, clip_triangle};
+use clip::{ClipVertex, Outcode, Volume, clip_triangle};
 use glam::{DVec2, DVec3};
-use homog::{Clip, HPoint};
 
 /// Triangles that share vertices.
 pub(crate) trait TriangleMesh: Sync {
@@ -30,6 +29,8 @@ pub(crate) trait TriangleMesh: Sync {
     fn vertex_indices(&self, triangle: u32) -> [u32; 3];
     /// The position of a vertex in the world.
     fn position(&self, vertex: u32) -> DVec3;
+    /// The object that a triangle is part of.
+    fn object(&self, triangle: u32) -> u32;
 
     /// The positions of the vertices of a triangle.
     fn positions(&self, triangle: u32) -> [DVec3; 3] {
@@ -68,11 +69,13 @@ impl ScreenTriangle {
     }
 }
 
-/// What clipping to the view volume left of a triangle.
+/// A part of a triangle that clipping to the view volume left.
 #[derive(Clone, Copy, Debug)]
 struct ClippedPiece {
     triangle: u32,
     vertices: [DVec2; 3],
+    /// How much of each vertex of the triangle is in each of these vertices.
+    weights: [[f64; 3]; 3],
 }
 
 /// A node: its box on the screen, with the nearest depth in it.
@@ -129,13 +132,13 @@ impl ProjectedVertices {
 impl ScreenBvh {
     /// Projects a mesh, and finds the boxes of its hierarchy on the screen: O(n).
     ///
-    /// `thinnest` is the height in pixels up to which a triangle hides nothing, and the margin of
+    /// `thinnest` is the height in pixels up to which a triangle hides nothing, `margin` that of
     /// the boxes.
     pub(super) fn new(
         mesh: &impl TriangleMesh,
         bvh: &Bvh,
         projector: &Projector,
-        thinnest: f64,
+        [thinnest, margin]: [f64; 2],
     ) -> Self {
         let projected = ProjectedVertices::new(mesh, projector);
         let empty = ScreenNode {
@@ -167,7 +170,7 @@ impl ScreenBvh {
                         );
                     }
                     let count = tree.triangles.len() as u32 - first;
-                    area.to_leaf(first, count, thinnest)
+                    area.to_leaf(first, count, margin)
                 }
             };
         }
@@ -207,8 +210,7 @@ impl ScreenBvh {
         } else if Outcode::trivially_rejects(&outcodes).is_inside() {
             let clip = mesh.positions(triangle).map(|at| projector.world_to_clip_point(at));
             for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-                let points = piece.map(|vertex| vertex.point);
-                self.push_piece(triangle, points, (projector, thinnest), area);
+                self.push_piece(triangle, piece, (projector, thinnest), area);
             }
         }
     }
@@ -217,23 +219,22 @@ impl ScreenBvh {
     fn push_piece(
         &mut self,
         triangle: u32,
-        points: [HPoint<Clip>; 3],
+        corners: [ClipVertex; 3],
         (projector, thinnest): (&Projector, f64),
         area: &mut ScreenArea,
     ) {
-        let [Some(a), Some(b), Some(c)] = points.map(|point| projector.project_to_screen(point))
-        else {
-            return;
-        };
+        let to_screen = |corner: ClipVertex| projector.project_to_screen(corner.point);
+        let [Some(a), Some(b), Some(c)] = corners.map(to_screen) else { return };
         let [p, q, r] = [a, b, c].map(DVec3::truncate);
         let Some(is_reversed) = orientation([p, q, r], thinnest) else { return };
         for corner in [a, b, c] {
             area.extend_to(corner.truncate());
             area.extend_to_depth(round_up(corner.z));
         }
-        let vertices = if is_reversed { [p, r, q] } else { [p, q, r] };
+        let vertices = reverse_if(is_reversed, [p, q, r]);
+        let weights = reverse_if(is_reversed, corners.map(|corner| corner.weights));
         self.triangles.push(ScreenTriangle::Clipped(self.pieces.len() as u32).pack());
-        self.pieces.push(ClippedPiece { triangle, vertices });
+        self.pieces.push(ClippedPiece { triangle, vertices, weights });
     }
 
     /// The vertices of a triangle of a leaf in pixels, ordered so that `(b − a) × (c − a)` is
@@ -241,13 +242,27 @@ impl ScreenBvh {
     pub(super) fn triangle(&self, packed: u32, mesh: &impl TriangleMesh) -> ([DVec2; 3], u32) {
         match ScreenTriangle::unpack(packed) {
             ScreenTriangle::Whole { triangle, is_reversed } => {
-                let [a, b, c] =
-                    mesh.vertex_indices(triangle).map(|vertex| self.vertices[vertex as usize]);
-                (if is_reversed { [a, c, b] } else { [a, b, c] }, triangle)
+                let corners = mesh.vertex_indices(triangle);
+                let vertices = corners.map(|vertex| self.vertices[vertex as usize]);
+                (reverse_if(is_reversed, vertices), triangle)
             }
             ScreenTriangle::Clipped(piece) => {
                 let piece = &self.pieces[piece as usize];
                 (piece.vertices, piece.triangle)
+            }
+        }
+    }
+
+    /// The vertices of a triangle of a leaf in the world, in the order of [`Self::triangle`].
+    pub(super) fn world_vertices(&self, packed: u32, mesh: &impl TriangleMesh) -> [DVec3; 3] {
+        match ScreenTriangle::unpack(packed) {
+            ScreenTriangle::Whole { triangle, is_reversed } => {
+                reverse_if(is_reversed, mesh.positions(triangle))
+            }
+            ScreenTriangle::Clipped(piece) => {
+                let ClippedPiece { triangle, weights, .. } = self.pieces[piece as usize];
+                let [a, b, c] = mesh.positions(triangle);
+                weights.map(|[u, v, w]| a * u + b * v + c * w)
             }
         }
     }
@@ -305,6 +320,11 @@ impl ScreenArea {
             count,
         }
     }
+}
+
+/// Vertices with the last two exchanged, if they are in reverse.
+fn reverse_if<T>(is_reversed: bool, [a, b, c]: [T; 3]) -> [T; 3] {
+    if is_reversed { [a, c, b] } else { [a, b, c] }
 }
 
 /// Whether two vertices have to be exchanged so that the signed area of a triangle is positive;

@@ -45,6 +45,10 @@ pub(super) enum AnnotationLayer {
     ViewMarks,
     /// Letters of details and of viewing directions, and the names of views.
     ViewNames,
+    /// Axes of the world, and leader lines of the labels of points.
+    OverlayLines,
+    /// The names of axes, and the labels.
+    OverlayTexts,
 }
 
 /// A line of text beside a view.
@@ -66,7 +70,7 @@ pub(super) enum AnnotationShape {
     Line([DVec2; 2]),
     /// Straight lines from point to point, such as the parts of an arc.
     Path(Vec<DVec2>),
-    /// The same, back to the first point.
+    /// A polyline that ends at its first point.
     Loop(Vec<DVec2>),
     /// A filled triangle: an arrowhead.
     Head([DVec2; 3]),
@@ -82,6 +86,8 @@ pub(super) struct ViewAnnotations {
     dimensions: Vec<PlacedDimension>,
     /// The names of dimensions without a place.
     pub(super) left_out: Vec<String>,
+    /// The texts of overlays without a place.
+    pub(super) labels_left_out: Vec<String>,
 }
 
 /// A dimension with its place.
@@ -278,7 +284,7 @@ impl PlacedDimension {
 
 impl AnnotationLayer {
     /// All layers in drawing order.
-    pub(super) const ALL: [Self; 11] = [
+    pub(super) const ALL: [Self; 13] = [
         Self::SymmetryLines,
         Self::ViewMarks,
         Self::ViewNames,
@@ -290,6 +296,8 @@ impl AnnotationLayer {
         Self::Dimensions,
         Self::DimensionTexts,
         Self::ScaleNotes,
+        Self::OverlayLines,
+        Self::OverlayTexts,
     ];
 
     /// The empty layer, with the pens of a line group and letters of a height.
@@ -317,6 +325,8 @@ impl AnnotationLayer {
             Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
             Self::SymmetryLines => ("symmetry-lines", "center lines of half sections", chain()),
             Self::ViewMarks => ("view-marks", "marks of other views", butt(group.narrow_width())),
+            Self::OverlayLines => ("overlay-lines", "overlays", butt(group.narrow_width())),
+            Self::OverlayTexts => ("overlay-text", "overlays: text", lettering()),
             Self::ViewNames => {
                 ("view-names", "names of views", Pen::solid(group.lettering_width(), ink))
             }

@@ -76,7 +76,7 @@ pub(super) struct ComposedDrawing {
     pub(super) break_lines: Vec<Vec<DVec2>>,
 }
 
-/// What the parts of a view are drawn with.
+/// The surfaces, style and view with which the parts of a view are drawn.
 pub(super) struct PartDrawing<'a, 'm> {
     pub(super) view: &'a SheetView,
     pub(super) surfaces: &'a mut SurfaceCache<'m>,
@@ -127,7 +127,7 @@ impl Composition {
 }
 
 impl ComposedDrawing {
-    /// What is within a radius, in pixels, of the center of the drawing.
+    /// The part of the drawing within a radius, in pixels, of its center.
     pub(super) fn within_disc(self, radius: f64) -> Self {
         let area = ClipArea::Disc { center: self.drawing.size * 0.5, radius };
         let parts = |line: &Vec<DVec2>| {

@@ -23,7 +23,7 @@ const TRUE_SINE: f64 = 1e-4;
 /// A dimension that a sheet is to have.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Dimension {
-    /// What is measured.
+    /// The lengths, the angle or the circle that it measures.
     pub measure: Measure,
     /// The view that shows it; `None` for the first that shows it true.
     pub view: Option<NamedView>,
@@ -36,7 +36,7 @@ pub struct Dimension {
     pub name: String,
 }
 
-/// What a dimension measures.
+/// The lengths, the angle or the circle that a dimension measures.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Measure {
     /// Lengths between neighboring points, on one line.

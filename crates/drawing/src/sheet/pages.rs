@@ -17,9 +17,12 @@ use super::view_layout::extent_of_rectangle;
 use super::visible_spots::{MovedParts, VisibleSpot, add_spots_on_edges, find_visible_spots};
 use super::{Sheet, SheetError, title_block};
 use crate::assembly::{
-    AssemblyPages, AssemblyWarning, MAX_EXPLODED_PARTS, PATHS, Part, PartsList, PartsListItem,
-    exploded_models, gather_parts, part_model,
+    AssemblyPages, AssemblyWarning, MAX_EXPLODED_PARTS, PATHS, Part, PartShapes, PartsList,
+    PartsListItem, exploded_models, gather_parts, part_model,
 };
+use crate::edges::WeldedSurface;
+use crate::hidden_line::Aabb;
+use crate::layout::Placement;
 use crate::line_style::HiddenLines;
 use crate::line_type::LineType;
 use crate::palette::{BLACK, WHITE};
@@ -29,7 +32,7 @@ use crate::{
 };
 use camera::NamedView;
 use glam::{DVec2, DVec3};
-use homog::{Bounds, Plane, World};
+use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
 use viewport::DrawingScale;
 
@@ -172,8 +175,7 @@ impl<'a> DrawnAssembly<'a> {
             let count = list.items.len() - MAX_PART_SHEETS;
             warnings.push(Warning::Assembly(AssemblyWarning::PartSheetsLeftOut { count }));
         }
-        let boxes: Vec<Bounds<World>> = parts.iter().map(|part| part.bounds).collect();
-        let moves = explosion.map(|settings| settings.moves(&boxes));
+        let moves = explosion.map(|settings| settings.moves(&PartShapes::new(&parts, models)));
         let title = match sheet.title_block.title.as_str() {
             "" => model_names(models),
             title => title.to_owned(),
@@ -207,21 +209,19 @@ impl<'a> DrawnAssembly<'a> {
         let layout = AssemblyLayout::arrange(sheet, &view, list, count)
             .ok_or_else(|| sheet.assembly_too_large(&view))?;
         let style = LineStyle { hidden_lines: HiddenLines::Removed, ..sheet.style };
-        let mut own_surfaces = SurfaceCache::new(drawn_models, &[]);
-        let surface = match exploded {
-            Some(_) => own_surfaces.cut_by(&[]),
-            None => surfaces.cut_by(&[]),
+        let mut drawing = match &exploded {
+            Some(models) => {
+                let corners = |part: &Part| [part.bounds.min().raw(), part.bounds.max().raw()];
+                let boxes = self.parts.iter().map(|part| Aabb::from_points(corners(part)));
+                let surface = WeldedSurface::new(models, &[], &[]).exploded_from(boxes);
+                view.draw(&surface, &style, layout.scale, threads)?
+            }
+            None => view.draw(surfaces.cut_by(&[]), &style, layout.scale, threads)?,
         };
-        let mut drawing = view.draw(surface, &style, layout.scale, threads)?;
         let paths = take_paths(&mut drawing, exploded.is_some());
         let placement = view.placement(&drawing, layout.scale, layout.center);
         let prefix = if exploded.is_some() { "exploded-" } else { "assembly-" };
-        let mut layers = paths.to_layers(&style, placement, "path-", self.ink);
-        let width = sheet.line_width_group().narrow_width();
-        for layer in &mut layers {
-            "paths of parts".clone_into(&mut layer.title);
-            layer.pen = LineType::LongDashedDotted.to_pen(width, self.ink, Cap::Butt, Join::Miter);
-        }
+        let mut layers = self.path_layers(&paths, &style, placement);
         layers.extend(drawing.to_layers(&style, placement, prefix, self.ink));
         let mut warnings = drawing.warnings.clone();
         let mut balloons = Vec::new();
@@ -238,8 +238,26 @@ impl<'a> DrawnAssembly<'a> {
             let targets = self.balloon_targets(&spots, (&layout, &view), &mut warnings);
             balloons = self.place_balloons(&layout, &targets, &mut warnings);
         }
-        let images = drawing.face_fill_image(placement, prefix).into_iter().collect();
+        let inks = [self.ink, sheet.style.paper.unwrap_or(WHITE)];
+        layers.splice(0..0, drawing.face_fill_layers(&style, placement, prefix, inks));
+        let images = drawing.face_fill_image(&style, placement, prefix).into_iter().collect();
         Ok(DrawnView { images, layers, balloons, scale: layout.scale, warnings })
+    }
+
+    /// The layers of the paths of parts: narrow chain lines.
+    fn path_layers(
+        &self,
+        paths: &LineDrawing,
+        style: &LineStyle,
+        placement: Placement,
+    ) -> Vec<Layer> {
+        let mut layers = paths.to_layers(style, placement, "path-", self.ink);
+        let width = self.sheet.line_width_group().narrow_width();
+        for layer in &mut layers {
+            "paths of parts".clone_into(&mut layer.title);
+            layer.pen = LineType::LongDashedDotted.to_pen(width, self.ink, Cap::Butt, Join::Miter);
+        }
+        layers
     }
 
     /// The items with the spots of their leaders, each the best of its parts; warns of those that
@@ -337,8 +355,9 @@ impl<'a> DrawnAssembly<'a> {
             number => format!("{number}-{}", item.number),
         };
         sheet.scale = None;
-        // They are views and dimensions of the whole.
+        // They are views, overlays and dimensions of the whole.
         sheet.views.clear();
+        sheet.overlays.clear();
         sheet.measures.clear();
         sheet.draw(&[part_model(part, self.models)], &[], threads)
     }

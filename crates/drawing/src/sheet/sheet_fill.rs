@@ -36,14 +36,14 @@ pub struct SheetFill {
     /// The area of the views with their annotations, each as a rectangle, as a part of the area
     /// within the frame without title block and scale bar.
     pub fraction: f64,
-    /// What keeps the views from a larger scale.
+    /// The reason why the scale is not larger.
     pub limit: ScaleLimit,
     /// The largest scale between this one and the next standard one at which all views fit, such
     /// as 1:3; `None` if there is none.
     pub between: Option<DrawingScale>,
 }
 
-/// What keeps the views of a sheet from the next larger standard scale.
+/// The reason why the views of a sheet are not at the next larger standard scale.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum ScaleLimit {
@@ -117,7 +117,7 @@ impl Sheet {
         between.into_iter().find(holds_all)
     }
 
-    /// What keeps the views from the scale after this one.
+    /// The reason why the views are not at the scale after this one.
     fn scale_limit(&self, plan: &ViewPlan, scale: DrawingScale) -> ScaleLimit {
         if self.scale.is_some() {
             return ScaleLimit::Given;

@@ -12,7 +12,7 @@
 use super::{Placement, SheetError};
 use crate::draw::draw_surface;
 use crate::edges::WeldedSurface;
-use crate::{DrawOptions, LineDrawing, LineStyle};
+use crate::{DrawOptions, FaceFill, LineDrawing, LineStyle};
 use camera::{Basis, Camera, CameraError, FramingError, NamedView, ViewProjection, frame_parallel};
 use core::fmt;
 use glam::DVec2;
@@ -25,6 +25,10 @@ const LONG_SIDE_PIXELS: f64 = 8192.0;
 
 /// The resolution of flat fills: 300 dots to the inch.
 const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
+
+/// The resolution at which the areas of gray fills are traced: their borders lie well under the
+/// narrowest wide line.
+const GRAY_DOTS_PER_MILLIMETER: f64 = 2.0 * FILL_DOTS_PER_MILLIMETER;
 
 /// The factor by which the window is larger than the object, so that nothing touches its border.
 const WINDOW_MARGIN: f64 = 1.02;
@@ -204,9 +208,13 @@ impl SheetView {
         // Millimeters of paper for a pixel.
         let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
             / LONG_SIDE_PIXELS;
+        let dots = match style.face_fill {
+            FaceFill::Gray => GRAY_DOTS_PER_MILLIMETER,
+            _ => FILL_DOTS_PER_MILLIMETER,
+        };
         let options = DrawOptions {
             hatch_spacing: style.hatch_spacing / pixel,
-            fill_scale: FILL_DOTS_PER_MILLIMETER * pixel,
+            fill_scale: dots * pixel,
             ..style.to_draw_options()
         };
         Ok(draw_surface(surface, &view_projection, size, &options, threads)?)

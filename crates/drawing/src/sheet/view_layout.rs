@@ -250,7 +250,7 @@ impl<'a> ViewLayout<'a> {
         own.into_iter().zip(others).find(differs).is_some_and(|(a, b)| a > b)
     }
 
-    /// What stands within the frame: views with their annotations, title block and scale bar.
+    /// The contents of the frame: views with their annotations, title block and scale bar.
     pub(super) fn contents(&self, title_block: Rectangle) -> Vec<Extent> {
         let blocks = [title_block, self.scale_bar].map(extent_of_rectangle);
         self.views.iter().map(PlacedView::extent).chain(blocks).collect()

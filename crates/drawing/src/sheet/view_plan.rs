@@ -14,6 +14,7 @@
 use super::annotation::{AnnotationLayer, ViewAnnotations};
 use super::composition::{ComposedDrawing, Composition, PartDrawing};
 use super::dimension::{DimensionSettings, OverallSide, add_overall_dimensions};
+use super::overlay_marks::ViewOverlays;
 use super::requested_views::{mark_direction, unit_vector};
 use super::section_line::{SectionLine, add_caption, section_line_reserve};
 use super::sheet_view::{SheetView, ViewName};
@@ -52,6 +53,8 @@ pub(super) struct PlannedView {
     pub(super) detail_radius: Option<f64>,
     /// Marks of other views.
     pub(super) marks: Vec<ViewMark>,
+    /// Points and axes of the scene's overlays.
+    pub(super) overlays: ViewOverlays,
     /// Where the view is to stand.
     pub(super) place: ViewPlace,
     /// The column and the row about the front view, of requested views.
@@ -71,7 +74,7 @@ pub(super) struct ViewPlan {
     pub(super) warnings: Vec<Warning>,
 }
 
-/// What a plan is made for.
+/// The subject of a plan: a sheet and its models.
 pub(super) struct PlanSubject<'a> {
     pub(super) sheet: &'a Sheet,
     models: &'a [ModelInstance],
@@ -115,6 +118,7 @@ impl ViewPlan {
         let mut plan = Self { principal, free, requested: Vec::new(), warnings };
         plan.add_requests(&subject)?;
         plan.add_measures(sheet, models);
+        plan.add_overlays(sheet, models);
         Ok(plan)
     }
 }
@@ -303,6 +307,7 @@ impl PlannedView {
             composition: Composition::Whole,
             detail_radius: None,
             marks: Vec::new(),
+            overlays: ViewOverlays::default(),
             place: ViewPlace::default(),
             grid: None,
         }
@@ -335,6 +340,13 @@ impl PlannedView {
         is_outside && self.view.sections.is_empty() && !self.composition.is_section()
     }
 
+    /// Whether something is cut open in the view.
+    pub(super) fn is_cut(&self) -> bool {
+        !self.view.sections.is_empty()
+            || self.composition.is_section()
+            || matches!(self.composition, Composition::Local { .. })
+    }
+
     /// Whether the view can have dimensions and center lines: it is neither axonometric nor put
     /// together from pieces that have moved, and shows the whole object.
     pub(super) fn takes_measures(&self) -> bool {
@@ -358,7 +370,7 @@ impl PlannedView {
         self.view.with_size(self.view.size + self.left_out())
     }
 
-    /// What is left out of the view, in millimeters of the object.
+    /// The lengths across and up that are left out of the view, in millimeters of the object.
     fn left_out(&self) -> DVec2 {
         match &self.composition {
             Composition::Broken(part) => part.length(),
@@ -392,6 +404,7 @@ impl PlannedView {
         for (layer, caption) in self.captions(scale) {
             add_caption(&mut annotations, layer, &caption, (object, letters));
         }
+        self.overlays.annotate(&mut annotations, (scale.ratio(), object, letters));
         annotations
     }
 

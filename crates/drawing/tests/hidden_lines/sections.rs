@@ -205,7 +205,7 @@ fn cut_drawings_agree_with_their_z_buffer_images() {
         let mut scene = cut_scene(build_model(solids), &[tilted]);
         let camera = camera::Camera::look_at(eye.into(), Point::ORIGIN, homog::Vector::Y).unwrap();
         scene.view_projection = camera::ViewProjection { camera, view_to_clip };
-        for tone in [FaceFill::None, FaceFill::Hatching] {
+        for tone in [FaceFill::None, FaceFill::Hatching, FaceFill::PartHatching] {
             let options = DrawOptions {
                 face_fill: tone,
                 hatch_spacing: 8.0,

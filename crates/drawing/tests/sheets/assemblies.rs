@@ -6,13 +6,14 @@ use crate::lint::faults;
 use crate::parts_models::{
     assembly, box_primitive, letters, placed, prism_primitive, scattered_parts, stacked_assembly,
 };
+use crate::separation::{intersecting_parts, part_triangles};
 use drawing::{
     AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, Page, PartDensity, PartsList,
     Sheet, Warning, explode_models,
 };
 use glam::DVec3;
 use homog::Affine;
-use model::{ModelInstance, Node, Topology};
+use model::{Node, Topology};
 use projection::SheetAngle;
 use std::sync::Arc;
 use viewport::Paper;
@@ -204,62 +205,39 @@ fn exploded_parts_do_not_intersect() {
     use ExplosionAxis::{All, Auto, X, Y, Z};
     // Pins through plates, turned, so that many parts intersect where they stand.
     let models = [stacked_assembly(12, 4)];
-    assert!(intersecting_parts(&part_triangles(&models)) > 10);
+    assert!(intersecting_parts(&part_triangles(&models)).len() > 10);
     for axis in [Auto, X, Y, Z, All] {
         let exploded = explode_models(&models, &ExplosionSettings { axis, distance: None });
         let parts = part_triangles(&exploded);
-        assert_eq!((parts.len(), intersecting_parts(&parts)), (48, 0), "{axis:?}");
+        // The paths are the last object.
+        assert_eq!((parts.len(), intersecting_parts(&parts)), (49, Vec::new()), "{axis:?}");
     }
 }
 
-/// The triangles of each object in the world.
-fn part_triangles(models: &[ModelInstance]) -> Vec<Vec<[DVec3; 3]>> {
-    let mut parts = Vec::new();
-    for placed in models {
-        for (instance, primitive) in placed.model.scene_primitives() {
-            if primitive.topology != Topology::Triangles {
-                continue;
-            }
-            let skinned = placed.model.skin_primitive(instance, primitive);
-            let to_world = skinned.to_model.then(placed.model_to_world);
-            let point = |index: &u32| {
-                let position = skinned.positions[*index as usize].map(f64::from);
-                to_world.transform_point(position.into()).raw()
-            };
-            let corners: Vec<DVec3> = primitive.indices.iter().map(point).collect();
-            parts.push(corners.as_chunks::<3>().0.to_vec());
-        }
+#[test]
+fn bolts_leave_on_the_side_that_is_free() {
+    // A hub on a flange, as one part, and bolts that lie on the flange, below the middle of it.
+    let mut housing = box_primitive(DVec3::new(40.0, 4.0, 40.0));
+    let hub = prism_primitive(10.0, 20.0, 24);
+    let first = housing.positions.len() as u32;
+    housing.positions.extend(hub.positions.iter().map(|[x, y, z]| [*x, y + 12.0, *z]));
+    housing.indices.extend(hub.indices.iter().map(|index| index + first));
+    housing.normals = None;
+    let mut nodes = vec![("housing".to_owned(), 0, Affine::IDENTITY)];
+    for (x, z) in [(-15.0, 0.0), (15.0, 0.0), (0.0, -15.0), (0.0, 15.0)] {
+        nodes.push(("bolt".to_owned(), 1, placed(DVec3::new(x, 3.0, z), 0.0)));
     }
-    parts
-}
-
-/// How many pairs of parts have triangles that intersect.
-fn intersecting_parts(parts: &[Vec<[DVec3; 3]>]) -> usize {
-    let meet = |a: &[[DVec3; 3]], b: &[[DVec3; 3]]| {
-        a.iter().any(|one| b.iter().any(|other| !are_separate(*one, *other)))
-    };
-    let pairs =
-        parts.iter().enumerate().flat_map(|(k, a)| parts[k + 1..].iter().map(move |b| (a, b)));
-    pairs.filter(|(a, b)| meet(a, b)).count()
-}
-
-/// Whether an axis separates two triangles: their normals, and the products of their sides.
-fn are_separate(a: [DVec3; 3], b: [DVec3; 3]) -> bool {
-    let sides = |[p, q, r]: [DVec3; 3]| [q - p, r - q, p - r];
-    let (a_sides, b_sides) = (sides(a), sides(b));
-    let normals = [a_sides[0].cross(a_sides[1]), b_sides[0].cross(b_sides[1])];
-    let products = a_sides.into_iter().flat_map(|s| b_sides.map(|t| s.cross(t)));
-    let axes = normals.into_iter().chain(products).chain(DVec3::AXES);
-    let span = |corners: [DVec3; 3], axis: DVec3| {
-        let along = corners.map(|corner| corner.dot(axis));
-        along
-            .into_iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
-    };
-    axes.into_iter().filter(|axis| axis.length() > 1e-9).any(|axis| {
-        let ([a_low, a_high], [b_low, b_high]) = (span(a, axis), span(b, axis));
-        a_high < b_low || b_high < a_low
-    })
+    let bolt = prism_primitive(2.0, 2.0, 6);
+    let models = [assembly(vec![(housing, "steel"), (bolt, "steel")], nodes)];
+    let settings = ExplosionSettings { axis: ExplosionAxis::Y, distance: Some(5.0) };
+    let exploded = explode_models(&models, &settings);
+    let parts = part_triangles(&exploded);
+    assert_eq!(intersecting_parts(&parts), Vec::<[usize; 2]>::new());
+    for bolt in &parts[1..5] {
+        let low = bolt.iter().flatten().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+        // Beside the hub, and 5 above the flange, which ends at 2.
+        assert!((low - 7.0).abs() < 1e-6, "{low}");
+    }
 }
 
 #[test]

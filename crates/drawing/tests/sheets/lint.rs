@@ -8,11 +8,12 @@ pub type Extent = [DVec2; 2];
 
 /// The layers whose groups are texts.
 fn is_text_layer(id: &str) -> bool {
-    const TEXTS: [&str; 11] = [
+    const TEXTS: [&str; 12] = [
         "frame-zone-names",
         "dimensions-text",
         "cut-names",
         "other-scale",
+        "overlay-text",
         "balloon-numbers",
         "parts-list-text",
         "view-names",

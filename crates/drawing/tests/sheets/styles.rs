@@ -48,3 +48,39 @@ fn tones_lie_under_every_view() {
     let ids: Vec<&str> = page.images.iter().map(|image| image.id.as_str()).collect();
     assert_eq!(ids, ["front-tone", "top-tone", "left-tone", "isometric-tone"]);
 }
+
+#[test]
+fn grays_are_areas_under_every_view() {
+    let model = [box_model(DVec3::new(40.0, 20.0, 10.0))];
+    let sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
+    let style = drawing::LineStyle { face_fill: FaceFill::Gray, ..sheet.style };
+    let page = Sheet { style, ..sheet }.draw(&model, &[], 1).unwrap();
+    assert_eq!(page.images, []);
+    let ids = page.layers.iter().map(|layer| layer.id.as_str());
+    let ids: Vec<&str> = ids.filter(|id| id.contains("-gray-")).collect();
+    assert_eq!(ids, ["front-gray-31", "top-gray-31", "left-gray-31", "isometric-gray-31"]);
+    assert_eq!(faults(&page), [""; 0]);
+}
+
+/// In an exploded view no parts touch; they are hatched as where they belong.
+#[test]
+fn exploded_parts_keep_their_hatchings() {
+    let model = [crate::parts_models::stacked_assembly(3, 1)];
+    let mut sheet = sheet((Paper::A4, "A4"), SheetAngle::First);
+    sheet.style.face_fill = FaceFill::PartHatching;
+    let directions = |sheet: &Sheet, prefix: &str| -> Vec<bool> {
+        let pages = sheet.draw_pages(&model, &[], 1).unwrap();
+        let id = format!("{prefix}-visible-hatching");
+        let layer = pages[1].layers.iter().find(|layer| layer.id == id).expect("hatching");
+        let rises = |group: &drawing::Group| {
+            let [a, b] = [group.strokes[0].points[0], group.strokes[0].points[1]];
+            (b[0] > a[0]) == (b[1] < a[1])
+        };
+        layer.groups.iter().map(rises).collect()
+    };
+    sheet.assembly.balloons = true;
+    let together = directions(&sheet, "assembly");
+    sheet.assembly.explosion = Some(drawing::ExplosionSettings::default());
+    assert_eq!(directions(&sheet, "exploded"), together);
+    assert!(together.contains(&true) && together.contains(&false), "{together:?}");
+}

@@ -87,7 +87,7 @@ impl DimensionResolver<'_> {
         self.picking.origin.error_at(&path, message, help.map(ToOwned::to_owned))
     }
 
-    /// What can be wrong without models: decimals, counts, sides.
+    /// Checks that need no models: decimals, counts, sides.
     fn check(&self, entry: &DimensionFile) -> Result<(), SceneError> {
         let decimals = match entry {
             DimensionFile::Overall => None,
@@ -196,7 +196,7 @@ impl DimensionResolver<'_> {
         Dimension { measure, view: view.map(named_view), side, decimals, name }
     }
 
-    /// What a pick is, with an error at its place.
+    /// Finds the thing that a pick names; errors point at its place in the scene file.
     fn pick(&self, pick: &PickFile, steps: &[PathStep<'static>]) -> Result<Picked, SceneError> {
         self.picking.pick(pick, &path_of(self.index, steps))
     }

@@ -20,6 +20,7 @@
 //! | `sections-ignored` | section planes, and no line drawing that they cut |
 //! | `section-removes-all`, `section-misses` | a section plane with all models on one side |
 //! | `sheet-view-missing`, `section-oblique` | a view or a section that the sheet does not show |
+//! | `overlay-not-on-sheet` | an overlay that sheets do not show, such as a grid |
 //! | `tiny-picture`, `tiny-model` | less than a thousandth of the picture, or two pixels |
 //! | `coincident-instances` | instances of a model in one place |
 //! | `ground-above-models` | a ground above the lowest point of the models |

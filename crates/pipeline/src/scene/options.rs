@@ -135,6 +135,8 @@ named_values! {
         Flat = "Each face in one tone of its own color, in light from above the viewer's left shoulder: an image of 300 dots per inch under the lines.",
         Hatching = "Hatch lines, closer where that light leaves the face darker. They are as exact as the edges.",
         ShadeHatching = "Hatch lines as well, by the light alone: the colors of the materials make no difference.",
+        Gray = "Areas of gray by the base colors of the materials, whatever the light. Cuts stay blank.",
+        PartHatching = "Hatch lines by the object: neighbors differ in angle or distance. Where sections cut, cuts alone are hatched.",
     }
 }
 

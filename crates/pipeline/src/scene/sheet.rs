@@ -10,11 +10,12 @@ use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
 use drawing::{
-    DimensionUnit, LineStyle, LineWidths, NumberFormat, Sheet, SheetError, TitleBlockTemplate,
-    TitleBlockText,
+    DimensionUnit, LineStyle, LineWidths, NumberFormat, Overlay, Sheet, SheetError,
+    TitleBlockTemplate, TitleBlockText,
 };
 use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
+use std::path::PathBuf;
 use viewport::{DrawingScale, Paper};
 
 /// The content of a drawing sheet, and what it takes from the scene around it.
@@ -28,6 +29,10 @@ pub struct SheetContent<'a> {
     pub uncut: &'a [u32],
     /// The line style of the scene, if it is a line drawing.
     pub style: Option<LineStyle>,
+    /// The overlays of the scene.
+    pub overlays: &'a [Overlay],
+    /// The folders besides that of the scene in which its title block may lie.
+    pub allowed_folders: &'a [PathBuf],
 }
 
 /// The place of the sheet's scale in a scene file.
@@ -91,11 +96,12 @@ fn resolve_sheet_on(
         (None, widths) => widths,
     };
     let hidden_lines = file.hidden.unwrap_or(own.hidden_lines);
+    let face_fill = file.face_fill.unwrap_or(own.face_fill);
     let unit = resolve_unit(origin, file, content.models)?;
     Ok(Sheet {
         projection_angle: file.projection_angle,
         side_view,
-        style: LineStyle { hidden_lines, line_widths: widths, ..own },
+        style: LineStyle { hidden_lines, line_widths: widths, face_fill, ..own },
         scale: file.scale.map(|scale| resolve_scale(origin, scale, &SCALE_PATH)).transpose()?,
         millimeters_per_unit: unit.in_millimeters(),
         dimension_unit: file.dimension_unit.unwrap_or(match unit {
@@ -109,8 +115,9 @@ fn resolve_sheet_on(
         views: resolve_sheet_views(origin, file)?,
         frame: file.frame,
         numbers: resolve_numbers(origin, file)?,
-        title_block_template: resolve_template(origin, file)?,
+        title_block_template: resolve_template(origin, file, content.allowed_folders)?,
         uncut: content.uncut.to_vec(),
+        overlays: content.overlays.to_vec(),
         ..default_sheet
     })
 }
@@ -139,14 +146,15 @@ fn resolve_title_block(origin: &Origin, file: &SheetFile) -> Result<TitleBlockTe
     })
 }
 
-/// The title block of one's own; it lies in the folder of the scene or below.
+/// The title block of one's own; it lies below the folder of the scene or one that is `allowed`.
 fn resolve_template(
     origin: &Origin,
     file: &SheetFile,
+    allowed: &[PathBuf],
 ) -> Result<Option<TitleBlockTemplate>, SceneError> {
     let Some(path) = &file.title_block else { return Ok(None) };
     let at = [Field("sheet"), Field("title_block")];
-    let bytes = read_image_bytes(origin, &at, path, &[])?;
+    let bytes = read_image_bytes(origin, &at, path, allowed)?;
     let text = String::from_utf8(bytes)
         .map_err(|_| origin.error_at(&at, format!("{path} is no text, as SVG is"), None))?;
     let template = TitleBlockTemplate::parse(&text);

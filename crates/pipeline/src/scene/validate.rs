@@ -153,7 +153,7 @@ fn errors_of_scene(
 ) -> Vec<SceneError> {
     let mut errors = errors_of_description(origin, file, allowed);
     let Some(models) = models else { return errors };
-    errors.extend(sheet_error(origin, file, &models));
+    errors.extend(sheet_error(origin, file, &models, allowed));
     let Ok(image) = resolve_image(origin, file) else { return errors };
     if check_camera(origin, &file.camera).is_empty() {
         let camera = resolve_view_projection(origin, &file.camera, &models, image);
@@ -173,14 +173,26 @@ fn errors_of_scene(
 
 /// The error of a sheet that does not hold its views; mistakes in sections and style are found
 /// elsewhere.
-fn sheet_error(origin: &Origin, file: &SceneFile, models: &[ModelInstance]) -> Option<SceneError> {
+fn sheet_error(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+    allowed: &[PathBuf],
+) -> Option<SceneError> {
     let sections = resolve_sections(origin, &file.sections).unwrap_or_default();
     let uncut = resolve_uncut(origin, &file.sections, models).unwrap_or_default();
     let style = match resolve_style(origin, &file.style) {
         Ok(Style::Lines(style)) => Some(style),
         _ => None,
     };
-    let content = SheetContent { models, sections: &sections, uncut: &uncut, style };
+    let content = SheetContent {
+        models,
+        sections: &sections,
+        uncut: &uncut,
+        style,
+        overlays: &[],
+        allowed_folders: allowed,
+    };
     check_sheet_layout(origin, file.sheet.as_ref(), content)
 }
 
@@ -210,7 +222,14 @@ fn errors_of_description(
         errors.extend(resolve_section(origin, index, section).err());
     }
     errors.extend(check_section_count(origin, &file.sections).err());
-    let nothing = SheetContent { models: &[], sections: &[], uncut: &[], style: None };
+    let nothing = SheetContent {
+        models: &[],
+        sections: &[],
+        uncut: &[],
+        style: None,
+        overlays: &[],
+        allowed_folders: allowed,
+    };
     let sheets = file.sheet.iter();
     errors.extend(sheets.filter_map(|sheet| resolve_sheet(origin, sheet, nothing).err()));
     errors.extend(CameraPath::from_scene_file(origin, file).err());

@@ -8,7 +8,7 @@ use glam::DVec3;
 /// lie in one plane.
 const SKEW: f64 = 1e-3;
 
-/// What is wrong, and what to do.
+/// The fault of a pair of picks, and a remedy.
 type Fault = (&'static str, &'static str);
 
 /// The vertex of the angle between two edges or two faces, and a point on each of its sides.

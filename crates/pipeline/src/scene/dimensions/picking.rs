@@ -141,7 +141,7 @@ impl<'a> Picking<'a> {
         self.found(self.picker.nearest_circle(near, objects.as_deref()), "circle", path)
     }
 
-    /// What was found, or an error that there is no such thing.
+    /// The thing that was found, or an error that there is none.
     fn found<T>(
         &self,
         found: Option<T>,

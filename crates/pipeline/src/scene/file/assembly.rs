@@ -10,8 +10,8 @@ scene_struct! {
         /// The direction in which parts move. Default: the axis on which most parts are in line with
         /// the largest one, or on which they move least.
         pub axis: ExplosionAxis = ExplosionAxis::Auto,
-        /// The least distance of two parts along it, in units of the scene. Default: a
-        /// twenty-fifth of the diagonal of the assembly.
+        /// The least distance of two parts along it, in units of the scene. Default: 0.08 of the
+        /// diagonal of the assembly.
         pub distance: Option<NonNegative> = None,
     }
 }

@@ -34,8 +34,8 @@ scene_struct! {
         /// How lines join at corners. Default: `Round`.
         pub join: Join = Join::Round,
         /// The distance between hatch lines, in millimeters of the paper, from 0.1 to 1000: on the
-        /// section cuts of `sections`, and the closest on faces with `face_fill: Hatching`.
-        /// Default: 2.
+        /// section cuts of `sections` and on the parts of `face_fill: PartHatching`, and the closest
+        /// on faces with `face_fill: Hatching`. Default: 2.
         pub hatch_spacing_mm: HatchSpacing = HatchSpacing::DEFAULT,
         /// The fill of the faces under the lines. Default: `None`.
         pub face_fill: FaceFill = FaceFill::None,

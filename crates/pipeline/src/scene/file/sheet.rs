@@ -5,7 +5,7 @@ use super::assembly::{DensityFile, ExplodedFile};
 use super::sheet_view::SheetViewFile;
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
-use drawing::{DecimalMark, DimensionUnit, HiddenLines, SheetFrame, TitleBlockLanguage};
+use drawing::{DecimalMark, DimensionUnit, FaceFill, HiddenLines, SheetFrame, TitleBlockLanguage};
 use model::LengthUnit;
 use projection::SheetAngle;
 
@@ -33,6 +33,9 @@ scene_struct! {
         /// How hidden lines are drawn in views that are not cut, along the axes. Default: as in the
         /// scene's line style, else dashed.
         pub hidden: Option<HiddenLines> = None,
+        /// The fill of the faces under the lines, on all pages. Default: as in the scene's line
+        /// style, else none.
+        pub face_fill: Option<FaceFill> = None,
         /// The width of wide lines in millimeters, a line group of ISO 128. Default: that of the
         /// scene's line style if it is in millimeters, else to suit the paper.
         pub width: Option<Positive> = None,

@@ -16,6 +16,8 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
         sections: &scene.sections,
         uncut: &scene.uncut,
         style,
+        overlays: &scene.overlays,
+        allowed_folders: &[],
     };
     let sheet = resolve_sheet(origin, sheet_file, content).ok();
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
@@ -27,6 +29,9 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
             }
             Warning::GlyphsMissing { .. } => {
                 ("missing-glyph", "letters are those of Latin alphabets, with digits and signs")
+            }
+            Warning::OverlayNotOnSheets { .. } => {
+                ("overlay-not-on-sheet", "`alberti render` draws it in pictures")
             }
             // Planes beside the models are told of where they stand.
             _ => return None,

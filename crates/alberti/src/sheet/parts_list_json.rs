@@ -1,0 +1,47 @@
+//! `alberti sheet --parts-list=FILE.json`: the parts list as JSON.
+//!
+//! New members may be added in any release; [`VERSION`] rises when one is removed or changes its
+//! meaning.
+//!
+//! ```json
+//! {
+//!   "schema": {"name": "alberti-parts-list", "version": 1},
+//!   "items": [
+//!     {"item": 5, "quantity": 4, "name": "bolt", "material": "steel", "mass_grams": 0.141,
+//!      "parts": [{"model": 0, "node": 5, "path": ["bolt 1"]}]}
+//!   ]
+//! }
+//! ```
+//! (Shortened: each of the four bolts has its place.)
+
+use drawing::{PartPlace, PartsList, PartsListItem};
+use serde_json::{Value, json};
+
+/// The version of the JSON schema.
+const VERSION: u32 = 1;
+
+/// The document as text, with a final newline.
+pub(super) fn parts_list_document(list: &PartsList) -> String {
+    let value = json!({
+        "schema": {"name": "alberti-parts-list", "version": VERSION},
+        "items": list.items.iter().map(item_json).collect::<Vec<Value>>(),
+    });
+    format!("{value:#}\n")
+}
+
+/// An item; masses have the decimals that they have in CSV.
+fn item_json(item: &PartsListItem) -> Value {
+    json!({
+        "item": item.number,
+        "quantity": item.quantity,
+        "name": item.name,
+        "material": item.material,
+        "mass_grams": item.mass.map(|grams| libm::round(grams * 1000.0) / 1000.0),
+        "parts": item.places.iter().map(place_json).collect::<Vec<Value>>(),
+    })
+}
+
+/// The place of a part in its model.
+fn place_json(place: &PartPlace) -> Value {
+    json!({"model": place.model, "node": place.node, "path": place.path})
+}

@@ -1,0 +1,206 @@
+//! Order of removal: on which side parts leave an assembly without running into others.
+//!
+//! ```text
+//!     ┌─┐ bolt          upward nothing is above the bolt; downward the plate is in the way of its
+//!   ┌─┤ ├─┐             head. Once the bolt is gone, the plate can follow.
+//!   └─┤ ├─┘ plate
+//!     └─┘
+//! ```
+//!
+//! A part is in the way of another if it is ahead of it in more than a few cells of a grid across
+//! the axis. Parts are taken away one by one, each as soon as nothing is in its way: on the side
+//! that is preferred if possible. Where none can leave, the one that is hindered least goes first.
+
+use super::part_shapes::{CellHeights, Column, PartShapes};
+use std::collections::VecDeque;
+
+/// A part that covers no more than this part of another one's cells is not in its way: that is how
+/// the facets of round parts differ.
+const LEAST_COVER: f64 = 0.05;
+
+/// The cost of a comparison of two parts beside their triangles, in visits.
+const PAIR_VISITS: usize = 300;
+
+/// A side of an axis: 0 toward negative coordinates, 1 toward positive ones.
+type AxisSide = usize;
+
+/// The parts that hinder others from leaving.
+#[derive(Debug)]
+struct Hindrances {
+    /// For each part the parts in whose way it is, on which side, and the cells that it covers.
+    hinders: Vec<Vec<(usize, AxisSide, f64)>>,
+    /// The number of parts in the way of each part on each side.
+    counts: Vec<[u32; 2]>,
+    /// The part of its cells that they cover, one upon the other.
+    covers: Vec<[f64; 2]>,
+}
+
+/// The sides on which parts leave along their axes, all but the base, which stays.
+pub(super) fn removal_sides(
+    shapes: &PartShapes,
+    base: usize,
+    axes: &[usize],
+    preferred: &[AxisSide],
+) -> Vec<AxisSide> {
+    let Some(mut hindrances) = Hindrances::find(shapes, base, axes) else {
+        return preferred.to_vec();
+    };
+    let mut sides: Vec<Option<AxisSide>> = vec![None; preferred.len()];
+    sides[base] = Some(preferred[base]);
+    // Parts that are free: on the side that is preferred, and on the other.
+    let mut queues = [VecDeque::new(), VecDeque::new()];
+    for part in 0..preferred.len() {
+        for side in 0..2 {
+            if hindrances.counts[part][side] == 0 {
+                queues[usize::from(side != preferred[part])].push_back((part, side));
+            }
+        }
+    }
+    loop {
+        let next = queues[0].pop_front().or_else(|| queues[1].pop_front());
+        let next = next.or_else(|| hindrances.least_hindered(&sides, preferred));
+        let Some((part, side)) = next else { break };
+        if sides[part].is_some() {
+            continue;
+        }
+        sides[part] = Some(side);
+        for (other, side) in hindrances.take_away(part) {
+            queues[usize::from(side != preferred[other])].push_back((other, side));
+        }
+    }
+    sides.into_iter().zip(preferred).map(|(side, other)| side.unwrap_or(*other)).collect()
+}
+
+impl Hindrances {
+    /// Compares all parts; `None` if that takes too long.
+    fn find(shapes: &PartShapes, base: usize, axes: &[usize]) -> Option<Self> {
+        let count = shapes.boxes.len();
+        let mut found = Self {
+            hinders: vec![Vec::new(); count],
+            counts: vec![[0; 2]; count],
+            covers: vec![[0.0; 2]; count],
+        };
+        for part in (0..count).filter(|&part| part != base) {
+            let corners = shapes.boxes[part];
+            let column = Column::new(corners, axes[part], 0.0);
+            let mut own = shapes.heights(part, &column);
+            if own.count() == 0 {
+                own.add_box(corners, &column);
+            }
+            // Where parts touch, rounding must not decide.
+            let touch = (corners[1] - corners[0]).length() * 1e-3;
+            for other in (0..count).filter(|&other| other != part) {
+                if !column.meets(shapes.boxes[other]) {
+                    continue;
+                }
+                if !shapes.take_visits(PAIR_VISITS + shapes.triangle_count(other)) {
+                    return None;
+                }
+                let covers = covered_cells(&own, &shapes.heights(other, &column), touch);
+                for (side, cover) in covers.into_iter().enumerate() {
+                    if cover > LEAST_COVER {
+                        found.hinders[other].push((part, side, cover));
+                        found.counts[part][side] += 1;
+                        found.covers[part][side] += cover;
+                    }
+                }
+            }
+        }
+        Some(found)
+    }
+
+    /// Takes a part away: those that it alone was in the way of, with the sides that are free now.
+    fn take_away(&mut self, part: usize) -> Vec<(usize, AxisSide)> {
+        let mut freed = Vec::new();
+        for (other, side, cover) in std::mem::take(&mut self.hinders[part]) {
+            self.counts[other][side] -= 1;
+            self.covers[other][side] -= cover;
+            if self.counts[other][side] == 0 {
+                freed.push((other, side));
+            }
+        }
+        freed
+    }
+
+    /// Of the parts that are left, the one that is hindered least, and the side.
+    fn least_hindered(
+        &self,
+        sides: &[Option<AxisSide>],
+        preferred: &[AxisSide],
+    ) -> Option<(usize, AxisSide)> {
+        let mut least: Option<(f64, usize, AxisSide)> = None;
+        for part in (0..sides.len()).filter(|&part| sides[part].is_none()) {
+            for side in [preferred[part], 1 - preferred[part]] {
+                let cover = self.covers[part][side];
+                // What was added in another order must not decide either.
+                if least.is_none_or(|(most, ..)| cover < most - 1e-9) {
+                    least = Some((cover, part, side));
+                }
+            }
+        }
+        least.map(|(_, part, side)| (part, side))
+    }
+}
+
+/// The part of the cells of a part in which another one is below its top, and above its foot.
+fn covered_cells(own: &CellHeights, other: &CellHeights, touch: f64) -> [f64; 2] {
+    let mut covered = [0_u32; 2];
+    for ([low, high], [other_low, other_high]) in own.0.iter().zip(&other.0) {
+        if low <= high && other_low <= other_high {
+            covered[0] += u32::from(*other_low < high - touch);
+            covered[1] += u32::from(*other_high > low + touch);
+        }
+    }
+    covered.map(|cells| f64::from(cells) / own.count().max(1) as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    /// The sides of boxes, by their least and their greatest corner, along y.
+    fn sides_of(boxes: &[([f64; 3], [f64; 3])], preferred: &[AxisSide]) -> Vec<AxisSide> {
+        let corners = |(low, high): &([f64; 3], [f64; 3])| [DVec3::from(*low), DVec3::from(*high)];
+        let boxes: Vec<_> = boxes.iter().map(corners).collect();
+        let triangles = vec![Vec::new(); boxes.len()];
+        let axes = vec![1; boxes.len()];
+        removal_sides(&PartShapes::from_raw(boxes, triangles), 0, &axes, preferred)
+    }
+
+    #[test]
+    fn parts_leave_where_nothing_is_in_the_way() {
+        // A plate, a washer on it and a screw on that; and a foot below.
+        let boxes = [
+            ([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]),
+            ([-1.0, 1.0, -1.0], [1.0, 1.2, 1.0]),
+            ([-0.8, 1.2, -0.8], [0.8, 2.0, 0.8]),
+            ([-1.0, -1.0, -1.0], [1.0, 0.0, 1.0]),
+        ];
+        for preferred in [[0; 4], [1; 4]] {
+            assert_eq!(sides_of(&boxes, &preferred)[1..], [1, 1, 0]);
+        }
+    }
+
+    #[test]
+    fn parts_that_are_free_leave_on_the_preferred_side() {
+        // Three plates beside the base: the lowest is free below, and above once the others left.
+        let plate = |y: f64| ([9.0, y, 9.0], [10.0, y + 1.0, 10.0]);
+        let boxes = [([-5.0; 3], [5.0; 3]), plate(0.0), plate(1.0), plate(2.0)];
+        for side in 0..2 {
+            assert_eq!(sides_of(&boxes, &[side; 4]), [side; 4]);
+        }
+    }
+
+    #[test]
+    fn interlocked_parts_leave_where_they_are_hindered_least() {
+        // A pin, a quarter as wide as the collar around it, through both plates.
+        let boxes = [
+            ([-5.0, 0.0, -5.0], [5.0, 1.0, 5.0]),
+            ([-2.0, 1.0, -2.0], [2.0, 2.0, 2.0]),
+            ([-0.5, -1.0, -0.5], [0.5, 5.0, 0.5]),
+        ];
+        assert_eq!(sides_of(&boxes, &[0, 0, 0])[1..], [1, 0]);
+        assert_eq!(sides_of(&boxes, &[1, 1, 1])[1..], [1, 1]);
+    }
+}

@@ -1,0 +1,104 @@
+//! Gray fill: the visible faces in tints of the ink by the luminance of their materials, as areas.
+//!
+//! Exact outlines of what is visible of a face would have to be put together from lines that end
+//! where tolerances let them end. So the visible parts come from a z-buffer, as those of a flat
+//! fill do, and their borders are traced: they are off by about a pixel of a fine image, and lie
+//! under lines that are wider.
+
+use super::LineDrawing;
+use super::color_areas::{PixelCorner, trace_color_areas};
+use super::layout::Placement;
+use super::line_style::{FaceFill, LineStyle};
+use super::page::{Group, Ink, Layer, Pen, Polyline};
+use glam::DVec2;
+use shade::color::SrgbEncoder;
+
+/// The number of grays, from black to white.
+const LEVELS: u8 = 32;
+
+/// The part of ink in the fill of a white and of a black material: lines are to be seen on both,
+/// and a white part is told from the paper.
+const TINTS: [f64; 2] = [0.06, 0.55];
+
+/// The pixel that stands for the gray of a material in the image of a fill; transparent without one.
+///
+/// The luminance of the base color (Rec. 709) is encoded as sRGB, so that levels are nearly uniform
+/// to the eye.
+pub(super) fn gray_pixel(color: Option<[f32; 3]>) -> [u8; 4] {
+    let Some([r, g, b]) = color else { return [0; 4] };
+    let luminance = r * 0.2126 + g * 0.7152 + b * 0.0722;
+    let [code, ..] = SrgbEncoder::shared().encode_pixel([luminance, luminance, luminance, 1.0]);
+    let level = (u32::from(code) * u32::from(LEVELS - 1) + 127) / 255;
+    [level as u8, level as u8, level as u8, 255]
+}
+
+/// The color of a gray level: paper with a part of ink.
+fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
+    let [least, most] = TINTS;
+    let part = most - (most - least) * f64::from(level) / f64::from(LEVELS - 1);
+    let mixed = |k: usize| {
+        let (ink, paper) = (f64::from(ink[k]), f64::from(paper[k]));
+        libm::round(paper + (ink - paper) * part) as u8
+    };
+    [0, 1, 2].map(mixed)
+}
+
+impl LineDrawing {
+    /// The layers of a [gray](FaceFill::Gray) fill, one for each gray, which belong under the lines;
+    /// none of another fill.
+    ///
+    /// Grays are tints of the ink on the paper; `prefix` begins the ids of the layers, as in
+    /// [`to_layers`](Self::to_layers).
+    #[must_use]
+    pub fn face_fill_layers(
+        &self,
+        style: &LineStyle,
+        placement: Placement,
+        prefix: &str,
+        inks: [Ink; 2],
+    ) -> Vec<Layer> {
+        let Some(picture) = self.face_fill.as_ref().filter(|_| style.face_fill == FaceFill::Gray)
+        else {
+            return Vec::new();
+        };
+        let pixel = self.size / DVec2::new(f64::from(picture.width), f64::from(picture.height));
+        let on_page = |corner: &PixelCorner| {
+            placement.pixels_to_page(DVec2::from(corner.map(f64::from)) * pixel)
+        };
+        let areas = trace_color_areas(picture).into_iter();
+        let layer = |([level, ..], outlines): ([u8; 4], Vec<Vec<PixelCorner>>)| {
+            let [_, narrow] = style.line_widths.wide_and_narrow();
+            let percent = u32::from(level) * 100 / u32::from(LEVELS - 1);
+            let pen = Pen::solid(narrow, tint(level, inks));
+            let title = format!("fill of faces, {percent} % bright");
+            let mut layer = Layer::new(format!("{prefix}gray-{level}"), title, pen);
+            let fill = |outline: &Vec<PixelCorner>| {
+                let points: Vec<DVec2> = outline.iter().map(on_page).collect();
+                Polyline::through_points(&points, true).filter(|line| line.points.len() >= 3)
+            };
+            let fills: Vec<Polyline> = outlines.iter().filter_map(fill).collect();
+            if !fills.is_empty() {
+                layer.groups.push(Group { fills, ..Group::default() });
+            }
+            layer
+        };
+        areas.map(layer).filter(|layer| !layer.groups.is_empty()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grays_are_between_ink_and_paper() {
+        let (black, white) = ([0; 3], [255; 3]);
+        let gray = |color: [f32; 3]| tint(gray_pixel(Some(color))[0], [black, white])[0];
+        assert_eq!([gray([0.0; 3]), gray([1.0; 3])], [115, 240]);
+        // Blue is darker than green of the same strength.
+        assert!(gray([0.0, 0.0, 1.0]) < gray([0.0, 1.0, 0.0]));
+        assert_eq!(gray_pixel(None)[3], 0);
+        // On blue paper with white ink a dark part is lighter: a negative.
+        assert!(tint(0, [white, [0, 0, 128]])[0] > tint(31, [white, [0, 0, 128]])[0]);
+    }
+}
