@@ -10,6 +10,7 @@
 //! file. `file` declares the language; [`mod@reference`] lists the declarations; `vocabulary` knows
 //! the words of other programs.
 
+#[cfg(feature = "sheets")]
 mod assembly;
 mod backdrop;
 mod calibrated_lens;
@@ -19,6 +20,7 @@ mod caption;
 mod classical;
 mod color;
 pub(crate) mod depth_span;
+#[cfg(feature = "sheets")]
 mod dimensions;
 mod error;
 mod exposure;
@@ -49,7 +51,11 @@ mod schema;
 mod section;
 mod shadows;
 mod shared_scale;
+#[cfg(feature = "sheets")]
 mod sheet;
+#[cfg(feature = "sheets")]
+mod sheet_errors;
+#[cfg(feature = "sheets")]
 mod sheet_views;
 mod style;
 mod suggest;
@@ -72,7 +78,9 @@ pub use origin::Origin;
 pub use outputs::Outputs;
 pub use parse::parse_scene;
 pub use resolve::{ResolveOptions, select_animation};
+#[cfg(feature = "sheets")]
 pub use sheet::{SheetContent, resolve_sheet};
+#[cfg(feature = "sheets")]
 pub use sheet_views::sheet_view_error;
 pub use suggest::closest_name;
 pub use validate::validate_scene;

@@ -130,6 +130,7 @@ fn decompression_bomb(width: u32, height: u32, bytes: usize) -> String {
 
 /// Texels that an image of next to no bytes may have, in formats that can store a flat color in
 /// them.
+#[cfg(any(feature = "webp", feature = "basisu"))]
 const BOMB_ALLOWANCE_TEXELS: u64 = 8 << 20;
 
 /// The supported image formats, for messages.

@@ -36,6 +36,7 @@ mod depth_style;
 mod ground;
 mod instances;
 mod sections;
+#[cfg(feature = "sheets")]
 mod sheet;
 mod stereo;
 mod text;
@@ -85,6 +86,7 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice.extend(text::lint_text(&adviser));
     advice.extend(stereo::lint_wide_stereo(&adviser));
     advice.extend(sections::lint_idle_sections(&adviser));
+    #[cfg(feature = "sheets")]
     advice.extend(sheet::lint_sheet(&adviser));
     advice.extend(instances::lint_coincident_instances(&adviser));
     advice.extend(ground::lint_high_ground(&adviser));

@@ -3,15 +3,15 @@
 use super::assembly::resolve_assembly;
 use super::dimensions::resolve_dimensions;
 use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
-use super::sheet_views::{resolve_sheet_views, sheet_view_error};
+use super::sheet_views::resolve_sheet_views;
 use super::style::resolve_iso_group;
 use super::surrounding_light::read_image_bytes;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
 use drawing::{
-    DimensionUnit, LineStyle, LineWidths, NumberFormat, Overlay, Sheet, SheetError,
-    TitleBlockTemplate, TitleBlockText,
+    DimensionUnit, LineStyle, LineWidths, NumberFormat, Overlay, Sheet, TitleBlockTemplate,
+    TitleBlockText,
 };
 use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
@@ -36,7 +36,7 @@ pub struct SheetContent<'a> {
 }
 
 /// The place of the sheet's scale in a scene file.
-const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("scale")];
+pub(super) const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("scale")];
 
 /// Resolves the drawing sheet of a scene file for its models.
 ///
@@ -176,37 +176,6 @@ fn resolve_numbers(origin: &Origin, file: &SheetFile) -> Result<NumberFormat, Sc
         None => None,
     };
     Ok(NumberFormat { decimals, decimal_mark: file.decimal_mark })
-}
-
-/// The error of a sheet whose views are larger than its paper, or that names parts which the models
-/// do not have; `None` without one, or if it is wrong in itself.
-pub(super) fn check_sheet_layout(
-    origin: &Origin,
-    file: Option<&SheetFile>,
-    content: SheetContent<'_>,
-) -> Option<SceneError> {
-    let file = file?;
-    if let Err(error) = resolve_assembly(origin, file, content.models) {
-        return Some(error);
-    }
-    let sheet = resolve_sheet(origin, file, content).ok()?;
-    let error = sheet.check_layout(content.models, content.sections).err()?;
-    if let Some(error) = sheet_view_error(origin, &error) {
-        return Some(error);
-    }
-    let place: &[PathStep<'_>] = match (&error, file.scale) {
-        (SheetError::TooLarge { .. }, Some(_)) => &SCALE_PATH,
-        (SheetError::TooLarge { .. }, None) => &[Field("sheet")],
-        // Models without anything to draw are told of by the camera.
-        _ => return None,
-    };
-    let message = error.to_string();
-    // The remedy is the last part of the message.
-    let (message, help) = match message.rsplit_once("; ") {
-        Some((message, help)) => (message.to_owned(), Some(help.to_owned())),
-        None => (message, None),
-    };
-    Some(origin.error_at(place, message, help))
 }
 
 /// The paper in its orientation, and its name on the sheet.

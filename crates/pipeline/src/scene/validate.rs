@@ -22,15 +22,13 @@ use super::resolve::{
     ModelError, load_model, missing_model_error, outside_folder_error, resolve_image,
     resolve_image_size, resolve_max_anisotropy, resolve_samples,
 };
-use super::section::{check_section_count, resolve_section, resolve_sections};
+use super::section::{check_section_count, resolve_section};
 use super::shadows::resolve_shadow;
-use super::sheet::{SheetContent, check_sheet_layout, resolve_sheet};
 use super::style::resolve_style;
 use super::surrounding_light::resolve_environment;
 use super::syntax::PathStep::Field;
-use super::uncut::resolve_uncut;
 use super::view_projection::{check_camera, resolve_view_projection};
-use super::{CameraPath, Outputs, ResolveError, ResolveOptions, Scene, Style, instances};
+use super::{CameraPath, Outputs, ResolveError, ResolveOptions, Scene, instances};
 use model::ModelInstance;
 use model::import::{ImportOptions, load};
 use std::path::{Path, PathBuf};
@@ -153,7 +151,8 @@ fn errors_of_scene(
 ) -> Vec<SceneError> {
     let mut errors = errors_of_description(origin, file, allowed);
     let Some(models) = models else { return errors };
-    errors.extend(sheet_error(origin, file, &models, allowed));
+    #[cfg(feature = "sheets")]
+    errors.extend(super::sheet_errors::sheet_error(origin, file, &models, allowed));
     let Ok(image) = resolve_image(origin, file) else { return errors };
     if check_camera(origin, &file.camera).is_empty() {
         let camera = resolve_view_projection(origin, &file.camera, &models, image);
@@ -169,31 +168,6 @@ fn errors_of_scene(
         }
     }
     errors
-}
-
-/// The error of a sheet that does not hold its views; mistakes in sections and style are found
-/// elsewhere.
-fn sheet_error(
-    origin: &Origin,
-    file: &SceneFile,
-    models: &[ModelInstance],
-    allowed: &[PathBuf],
-) -> Option<SceneError> {
-    let sections = resolve_sections(origin, &file.sections).unwrap_or_default();
-    let uncut = resolve_uncut(origin, &file.sections, models).unwrap_or_default();
-    let style = match resolve_style(origin, &file.style) {
-        Ok(Style::Lines(style)) => Some(style),
-        _ => None,
-    };
-    let content = SheetContent {
-        models,
-        sections: &sections,
-        uncut: &uncut,
-        style,
-        overlays: &[],
-        allowed_folders: allowed,
-    };
-    check_sheet_layout(origin, file.sheet.as_ref(), content)
 }
 
 /// The mistakes that can be found without the models.
@@ -222,16 +196,8 @@ fn errors_of_description(
         errors.extend(resolve_section(origin, index, section).err());
     }
     errors.extend(check_section_count(origin, &file.sections).err());
-    let nothing = SheetContent {
-        models: &[],
-        sections: &[],
-        uncut: &[],
-        style: None,
-        overlays: &[],
-        allowed_folders: allowed,
-    };
-    let sheets = file.sheet.iter();
-    errors.extend(sheets.filter_map(|sheet| resolve_sheet(origin, sheet, nothing).err()));
+    #[cfg(feature = "sheets")]
+    errors.extend(super::sheet_errors::sheet_description_error(origin, file, allowed));
     errors.extend(CameraPath::from_scene_file(origin, file).err());
     errors.extend(check_camera(origin, &file.camera));
     for (index, viewport) in file.viewports.iter().enumerate() {
