@@ -1,4 +1,4 @@
-//! Line drawings: pages as SVG and PDF, and the segments of edges as arrays.
+//! Line drawings: pages as SVG, PDF and DXF, and the segments of edges as arrays.
 
 use crate::arrays::new_array;
 use crate::detached::run_detached;
@@ -9,7 +9,7 @@ use crate::rendering::thread_count;
 use crate::scene_options::apply_options;
 use crate::subject::Subject;
 use pipeline::drawing::{self, EdgeClass, Page};
-use pipeline::{Scene, Timings, draw_lines};
+use pipeline::{Scene, Timings, draw_lines, dxf_options};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -66,6 +66,13 @@ impl NativeDrawing {
     /// The page as a PDF file.
     fn pdf<'py>(&self, py: Python<'py>) -> Bound<'py, pyo3::types::PyBytes> {
         let bytes = py.detach(|| drawing::to_pdf(std::slice::from_ref(&self.page)));
+        pyo3::types::PyBytes::new(py, &bytes)
+    }
+
+    /// The page as a DXF file: in the unit of the model if the view is parallel, else in millimeters
+    /// of paper.
+    fn dxf<'py>(&self, py: Python<'py>) -> Bound<'py, pyo3::types::PyBytes> {
+        let bytes = py.detach(|| self.page.to_dxf(&dxf_options(&self.scene, &self.page)));
         pyo3::types::PyBytes::new(py, &bytes)
     }
 

@@ -187,7 +187,7 @@ class Caller:
         for name in ("passes", "samples"):
             options.pop(name, None)
         drawing = alberti.draw(self.pick(self.models), **{"size": (40, 30), **options})
-        drawing.svg, drawing.lines, drawing.pdf
+        drawing.svg, drawing.lines, drawing.pdf, drawing.dxf
 
     def call_explain(self):
         options = self.options(

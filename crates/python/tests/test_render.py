@@ -197,6 +197,9 @@ def test_drawings(teapot, models, program, tmp_path):
     assert drawing.svg == target.read_text()
     drawing.save(tmp_path / "copy.pdf")
     assert (tmp_path / "copy.pdf").read_bytes() == drawing.pdf and drawing.pdf[:5] == b"%PDF-"
+    run(program, "render", models / "teapot.glb", "-o", tmp_path / "drawing.dxf", *flags)
+    drawing.save(tmp_path / "copy.dxf")
+    assert (tmp_path / "copy.dxf").read_bytes() == (tmp_path / "drawing.dxf").read_bytes()
     count = len(drawing.lines)
     assert drawing.lines.shape == (count, 2, 2) and drawing.visible.all()
     assert len(drawing.classes) == len(drawing.objects) == len(drawing.edges) == count

@@ -60,7 +60,7 @@ def draw(
 
 
 class Drawing:
-    """A line drawing: a page for SVG and PDF, and its segments as arrays."""
+    """A line drawing: a page for SVG, PDF and DXF, and its segments as arrays."""
 
     __slots__ = ("_native", "_segments")
 
@@ -77,6 +77,14 @@ class Drawing:
     def pdf(self) -> bytes:
         """The page as a PDF file."""
         return self._native.pdf()
+
+    @property
+    def dxf(self) -> bytes:
+        """The page as a DXF file (R2000).
+
+        In the unit of the model if the view is parallel, else in millimeters of paper.
+        """
+        return self._native.dxf()
 
     @property
     def camera(self) -> Camera:
@@ -118,11 +126,11 @@ class Drawing:
         return self._native.warnings()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the drawing as ``.svg`` or ``.pdf``, by the extension of the path."""
+        """Writes the drawing as ``.svg``, ``.pdf`` or ``.dxf``, by the extension of the path."""
         ending = os.path.splitext(os.fspath(path))[1].lower()
-        if ending not in (".svg", ".pdf"):
-            raise AlbertiError(f"ends in {ending!r}, expected .svg or .pdf", pointer="path")
-        content = self.pdf if ending == ".pdf" else self.svg.encode()
+        if ending not in (".svg", ".pdf", ".dxf"):
+            raise AlbertiError(f"ends in {ending!r}, expected .svg, .pdf or .dxf", pointer="path")
+        content = self.svg.encode() if ending == ".svg" else getattr(self, ending[1:])
         with open(path, "wb") as file:
             file.write(content)
 
