@@ -3,6 +3,7 @@
 use crate::WorldCircle;
 use crate::circles::{CIRCLE_TOLERANCE, circles_of_chain};
 use crate::edges::{FeatureEdge, WeldedSurface, WorldMesh};
+use crate::mirror_symmetry::MirrorSymmetry;
 use glam::DVec3;
 use homog::{Bounds, Point, Vector, World};
 use model::ModelInstance;
@@ -94,10 +95,8 @@ impl<'a> FeaturePicker<'a> {
         let wanted = edges.iter().filter(|edge| is_wanted(objects, edge.object));
         let picked = wanted.map(|edge| {
             let [a, b] = edge.ends.map(|end| points[end as usize]);
-            let span = b - a;
-            let t = (to.raw() - a).dot(span) / span.length_squared();
-            let point = a + span * t.clamp(0.0, 1.0);
-            [point, span.normalize_or_zero(), (a + b) * 0.5]
+            let point = nearest_point_of_segment([a, b], to.raw());
+            [point, (b - a).normalize_or_zero(), (a + b) * 0.5]
         });
         nearest(picked, to)
     }
@@ -126,6 +125,12 @@ impl<'a> FeaturePicker<'a> {
             arm.length().min(DVec3::new(beside - circle.radius, height, 0.0).length())
         };
         circles.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// The search for planes about which all objects are symmetric.
+    pub(crate) fn mirror_symmetry(&self) -> MirrorSymmetry<'_> {
+        let Features { surface, edges, .. } = self.features();
+        MirrorSymmetry::new(surface, edges)
     }
 
     /// The circles and arcs of objects.
@@ -171,19 +176,13 @@ fn nearest(picked: impl Iterator<Item = [DVec3; 3]>, to: Point<World>) -> Option
 
 /// The point of a triangle that is nearest to a point (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
-fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVec3 {
+pub(crate) fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVec3 {
     let normal = (b - a).cross(c - a);
     let is_inside = |from: DVec3, side: DVec3| side.cross(to - from).dot(normal) >= 0.0;
     if normal != DVec3::ZERO && is_inside(a, b - a) && is_inside(b, c - b) && is_inside(c, a - c) {
         return to - normal * ((to - a).dot(normal) / normal.length_squared());
     }
-    let on_side = |[from, end]: [DVec3; 2]| {
-        let span = end - from;
-        let length = span.length_squared();
-        let t = if length > 0.0 { (to - from).dot(span) / length } else { 0.0 };
-        from + span * t.clamp(0.0, 1.0)
-    };
-    let sides = [[a, b], [b, c], [c, a]].map(on_side);
+    let sides = [[a, b], [b, c], [c, a]].map(|side| nearest_point_of_segment(side, to));
     let distance = |point: &DVec3| point.distance_squared(to);
     sides.into_iter().fold(
         a,
@@ -191,4 +190,12 @@ fn nearest_point_of_triangle([a, b, c]: [DVec3; 3], to: DVec3) -> DVec3 {
             if distance(&point) < distance(&best) { point } else { best }
         },
     )
+}
+
+/// The point of a segment that is nearest to a point.
+pub(crate) fn nearest_point_of_segment([a, b]: [DVec3; 2], to: DVec3) -> DVec3 {
+    let span = b - a;
+    let length = span.length_squared();
+    let t = if length > 0.0 { (to - a).dot(span) / length } else { 0.0 };
+    a + span * t.clamp(0.0, 1.0)
 }

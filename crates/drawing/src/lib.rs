@@ -53,6 +53,7 @@ mod line_drawing;
 mod line_style;
 mod line_type;
 mod markup;
+mod mirror_symmetry;
 mod options;
 mod overlap_removal;
 mod overlay;

@@ -49,6 +49,7 @@ mod sheet_fill;
 mod sheet_view;
 mod stepped_line;
 mod surface_cache;
+mod symmetry_lines;
 mod title_block;
 mod title_block_fields;
 mod title_block_language;
@@ -133,6 +134,11 @@ pub struct Sheet {
     pub measures: Vec<Dimension>,
     /// Whether circles and the axes of round parts have center lines.
     pub center_lines: bool,
+    /// Whether views along a plane about which the models are symmetric have a line there.
+    ///
+    /// Mirror images of vertices lie on faces, and those of edges on edges, within 1/20,000 of the
+    /// diagonal of the models.
+    pub symmetry_lines: bool,
     /// The objects that section planes do not cut: nodes with a mesh, counted over all models.
     pub uncut: Vec<u32>,
     /// The texts of the title block.
@@ -242,6 +248,7 @@ impl Sheet {
             dimensions: true,
             measures: Vec::new(),
             center_lines: false,
+            symmetry_lines: false,
             uncut: Vec::new(),
             title_block: TitleBlockText::default(),
             assembly: AssemblyPages::default(),

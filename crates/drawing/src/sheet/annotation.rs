@@ -39,7 +39,7 @@ pub(super) enum AnnotationLayer {
     CutNames,
     /// The scales of views that have another than the sheet.
     ScaleNotes,
-    /// The center lines of half sections.
+    /// Lines of symmetry, also between the halves of half sections.
     SymmetryLines,
     /// Circles around details, and the lines from them to their letters.
     ViewMarks,
@@ -323,7 +323,7 @@ impl AnnotationLayer {
             Self::Dimensions => ("dimensions", "dimensions", butt(group.narrow_width())),
             Self::DimensionTexts => ("dimensions-text", "dimensions: text", lettering()),
             Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
-            Self::SymmetryLines => ("symmetry-lines", "center lines of half sections", chain()),
+            Self::SymmetryLines => ("symmetry-lines", "lines of symmetry", chain()),
             Self::ViewMarks => ("view-marks", "marks of other views", butt(group.narrow_width())),
             Self::OverlayLines => ("overlay-lines", "overlays", butt(group.narrow_width())),
             Self::OverlayTexts => ("overlay-text", "overlays: text", lettering()),

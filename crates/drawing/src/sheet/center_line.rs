@@ -42,6 +42,11 @@ pub(super) struct CenterLines {
     crosses: Vec<(DVec2, f64)>,
     /// Axes that are seen from the side, from end to end.
     axes: Vec<[DVec2; 2]>,
+    /// Lines of symmetry, which take the place of those on them: a point, and the number of the axis
+    /// of the paper along which they run.
+    symmetry: Vec<(DVec2, usize)>,
+    /// Lines no farther apart are one.
+    same: f64,
 }
 
 impl CenterLines {
@@ -66,7 +71,20 @@ impl CenterLines {
                 sides.push((center, along));
             }
         }
-        Self { crosses: merge_crosses(crosses, same), axes: merge_axes(sides, same) }
+        let (crosses, axes) = (merge_crosses(crosses, same), merge_axes(sides, same));
+        Self { crosses, axes, symmetry: Vec::new(), same }
+    }
+
+    /// Without those that lie on lines of symmetry.
+    pub(super) fn beside(self, symmetry: Vec<(DVec2, usize)>) -> Self {
+        Self { symmetry, ..self }
+    }
+
+    /// Whether a line lies on a line of symmetry.
+    fn is_covered(&self, line: [DVec2; 2]) -> bool {
+        self.symmetry.iter().any(|(through, axis)| {
+            line.iter().all(|end| (end[1 - axis] - through[1 - axis]).abs() <= self.same)
+        })
     }
 
     /// Whether there are none.
@@ -78,18 +96,12 @@ impl CenterLines {
     pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, scale: DrawingScale) {
         let ratio = scale.ratio();
         let layer = AnnotationLayer::CenterLines;
-        for (center, radius) in &self.crosses {
-            let (center, radius) = (*center * ratio, radius * ratio);
-            if radius < LEAST_RADIUS {
-                continue;
-            }
-            for along in [DVec2::X, DVec2::Y] {
-                let arm = along * (radius + CENTER_LINE_OVERHANG);
-                annotations.push_line(layer, [center - arm, center + arm]);
-            }
-        }
-        for [a, b] in &self.axes {
-            let (a, b) = (*a * ratio, *b * ratio);
+        let large = self.crosses.iter().filter(|(_, radius)| radius * ratio >= LEAST_RADIUS);
+        let arms = large.flat_map(|(center, radius)| {
+            [DVec2::X, DVec2::Y].map(|along| [*center - along * *radius, *center + along * *radius])
+        });
+        for line in arms.chain(self.axes.iter().copied()).filter(|line| !self.is_covered(*line)) {
+            let [a, b] = line.map(|end| end * ratio);
             let beyond = (b - a).normalize_or_zero() * CENTER_LINE_OVERHANG;
             annotations.push_line(layer, [a - beyond, b + beyond]);
         }

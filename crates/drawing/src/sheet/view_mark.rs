@@ -39,7 +39,7 @@ pub(super) enum ViewMark {
     Direction { gaze: DVec2, letter: char },
     /// The line of a stepped section, and the unit vector to the side that is retained.
     SteppedLine { corners: Vec<DVec2>, retained: DVec2, letter: char },
-    /// The center line of a half section, through a point.
+    /// The center line of a half section, or a line of symmetry, through a point.
     CenterLine { through: DVec2, axis: usize },
 }
 
@@ -52,6 +52,14 @@ pub(super) struct MarkSettings {
 }
 
 impl ViewMark {
+    /// A center line, by a point on it and the number of the axis of the paper along which it runs.
+    pub(super) const fn as_center_line(&self) -> Option<(DVec2, usize)> {
+        match self {
+            Self::CenterLine { through, axis } => Some((*through, *axis)),
+            _ => None,
+        }
+    }
+
     /// The room that the mark takes beside the object, in millimeters of the paper.
     pub(super) fn reserve(&self, settings: &MarkSettings) -> f64 {
         let MarkSettings { ratio, object, letters } = *settings;

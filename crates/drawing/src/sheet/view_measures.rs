@@ -8,6 +8,7 @@ use super::dimension::{DimensionSettings, OverallSide};
 use super::dimension_board::DimensionBoard;
 use super::measure::ViewDimension;
 use super::sheet_view::SheetView;
+use super::view_mark::ViewMark;
 use super::view_plan::{PlannedView, ViewPlan};
 use crate::{FeaturePicker, Warning, WorldCircle};
 use glam::DVec2;
@@ -29,7 +30,7 @@ impl ViewPlan {
     /// Gives each dimension to the view that shows it; those that no view shows are warned of. Center
     /// lines are in every view but axonometric ones.
     pub(super) fn add_measures(&mut self, sheet: &Sheet, models: &[ModelInstance]) {
-        if sheet.measures.is_empty() && !sheet.center_lines {
+        if sheet.measures.is_empty() && !sheet.center_lines && !sheet.symmetry_lines {
             return;
         }
         let Self { principal, free, requested, warnings } = self;
@@ -55,11 +56,16 @@ impl ViewPlan {
                 }
             }
         }
+        let picker = FeaturePicker::new(models, sheet.style.crease_angle);
+        if sheet.symmetry_lines {
+            sheet.add_symmetry_lines(&mut planned, &picker);
+        }
         if sheet.center_lines {
-            let picker = FeaturePicker::new(models, sheet.style.crease_angle);
             let circles: Vec<WorldCircle> = picker.circles(None).collect();
             for planned in &mut planned {
-                planned.measures.center_lines = CenterLines::in_view(&planned.view, &circles);
+                let symmetry = planned.marks.iter().filter_map(ViewMark::as_center_line).collect();
+                let lines = CenterLines::in_view(&planned.view, &circles);
+                planned.measures.center_lines = lines.beside(symmetry);
             }
         }
         let points = world_points(models);

@@ -14,7 +14,11 @@ use std::sync::Arc;
 use viewport::Paper;
 
 /// A cylinder about an axis through a point, from one height to the other, with plane ends.
-fn cylinder(base: DVec3, axis: DVec3, (radius, height, sides): (f64, f64, u32)) -> ModelInstance {
+pub fn cylinder(
+    base: DVec3,
+    axis: DVec3,
+    (radius, height, sides): (f64, f64, u32),
+) -> ModelInstance {
     let first = axis.any_orthonormal_vector();
     let second = axis.cross(first);
     let mut positions: Vec<[f32; 3]> = Vec::new();

@@ -17,5 +17,6 @@ mod parts_models;
 mod sections;
 mod separation;
 mod styles;
+mod symmetry_lines;
 mod title_blocks;
 mod views;

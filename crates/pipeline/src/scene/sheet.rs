@@ -110,6 +110,7 @@ fn resolve_sheet_on(
         }),
         axonometric_view: axonometric_view(file.axonometric_view),
         center_lines: file.center_lines,
+        symmetry_lines: file.symmetry_lines,
         title_block: resolve_title_block(origin, file)?,
         assembly: resolve_assembly(origin, file, content.models)?,
         views: resolve_sheet_views(origin, file)?,

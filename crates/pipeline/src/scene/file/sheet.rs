@@ -46,6 +46,9 @@ scene_struct! {
         /// A circle is an edge of at least eight equal parts, of which half a turn is there.
         /// Default: false.
         pub center_lines: bool = false,
+        /// Whether models that are symmetric have a line of symmetry in the views that look along the
+        /// plane: chain lines of ISO 128. Default: false.
+        pub symmetry_lines: bool = false,
         /// The title. Default: the names of the models.
         pub title: String = String::new(),
         /// The author. Default: the field is left out.
