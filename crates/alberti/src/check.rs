@@ -117,7 +117,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
     if mistakes.is_empty() {
         // Whatever `render` would reject is an error, even if the review does not look for it.
         match Scene::resolve(&origin, &file, &resolve) {
-            Ok(scene) => advice = lint_scene(&origin, &file, &scene),
+            Ok(scene) => advice = lint_scene(&origin, &file, &scene, &resolve),
             Err(ResolveError::Scene(mistake)) => mistakes.extend(Vec::from(mistake)),
             // Errors of models are in the reports of the models.
             Err(_) => {}

@@ -61,8 +61,9 @@ impl OutputFormat {
 
     /// Encodes pages in a vector format; an SVG or a DXF holds the first one only.
     ///
-    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. `Png` is not a vector format and is
-    /// treated as SVG here: callers rasterize the page before they come to this function.
+    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. `Png`
+    /// is not a vector format and is treated as SVG here: callers rasterize the page before they
+    /// come to this function.
     pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),

@@ -19,8 +19,8 @@
 //! | image | nothing: the format has none that are part of the file |
 //!
 //! Colors are the nearest of AutoCAD's 255; blacks and whites are color 7, which contrasts with the
-//! screen. Characters beyond ASCII are written by their code, Ø as `\U+00D8`. The file has no dates: equal pages give
-//! equal bytes.
+//! screen. Characters beyond ASCII are written by their code, Ø as `\U+00D8`. The file has no dates:
+//! equal pages give equal bytes.
 
 pub(crate) mod arcs;
 mod color_index;

@@ -58,7 +58,7 @@ fn files_of(name: &str, bytes: &[u8]) -> Vec<String> {
     if !is_scene_file(Path::new(name)) {
         return referenced_files(name, bytes);
     }
-    // Mistakes in the scene are told when it is shown.
+    // Mistakes in the scene are reported when it is shown.
     let scene = parse_scene(name, &String::from_utf8_lossy(bytes)).unwrap_or_default();
     let images = scene.image_paths().map(str::to_owned).collect::<Vec<_>>();
     scene.models.into_iter().map(|model| model.path).chain(images).collect()

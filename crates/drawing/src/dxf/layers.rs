@@ -167,8 +167,8 @@ fn layer_name(id: &str, object: &str) -> String {
     escape_unicode(name.trim_end())
 }
 
-/// A text in ASCII, with other characters by their code, Ø as `\U+00D8`; those beyond four digits, and controls,
-/// become `?`.
+/// A text in ASCII, with other characters by their code, Ø as `\U+00D8`; those beyond four digits,
+/// and controls, become `?`.
 pub(super) fn escape_unicode(text: &str) -> String {
     let escaped = |c: char| match u32::from(c) {
         0x20..=0x7e => c.to_string(),

@@ -121,7 +121,7 @@ fn find_overlaps(views: &[PlacedView<'_>], blocks: [(&str, Extent); 2]) -> Vec<W
     let mut warnings = Vec::new();
     for (index, view) in views.iter().enumerate() {
         let others = views.iter().enumerate();
-        // Two views with places are told of once.
+        // Two views with places are reported once.
         let others = others.filter(|(at, other)| *at > index || *at < index && !is_placed(other));
         let others = others.map(|(_, other)| (other.planned.title(), other.extent()));
         let blocks = blocks.iter().map(|(name, area)| ((*name).to_owned(), *area));

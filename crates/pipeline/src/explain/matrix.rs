@@ -4,7 +4,7 @@
 //! Sixteen numbers can be several projections, each in another convention: OpenGL's and
 //! the textbook's differ by the sign of z. The most sensible reading stands first with all its
 //! parameters; others follow in a line each. A misprint is reported only where the matrix as it
-//! stands makes less sense; where both are as good, both are told.
+//! stands makes less sense; where both are as good, both are listed.
 
 mod meaning;
 mod planar;
@@ -20,7 +20,7 @@ use projection::{
     MatrixMeaning, MatrixReading, Misprint, Recognition, Suspicion, SuspicionStrength, recognize,
 };
 
-/// How many readings are told beside the first.
+/// How many readings are listed beside the first.
 const OTHER_READINGS: usize = 5;
 
 /// The greatest cost of a reading beside the first: four digits and a rare convention more.

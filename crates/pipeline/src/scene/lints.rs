@@ -46,7 +46,7 @@ use super::file::{ProjectionFile, StyleFile, ViewFile};
 use super::lens::given_window;
 use super::syntax::PathStep::{Field, Index};
 use super::view_projection::select_lens;
-use super::{Origin, Scene, SceneError, SceneFile, Style};
+use super::{Origin, ResolveOptions, Scene, SceneError, SceneFile, Style};
 use clip::PlaneIndex;
 use homog::Point;
 use model::CameraProjection;
@@ -68,8 +68,15 @@ pub struct Lint {
 ///
 /// The cost is that of a pass over all vertices, O(vertices + primitives), for the scene and for
 /// each viewport with a camera of its own, without rendering. Lints never make a scene invalid.
+/// `options` are those with which it was resolved.
 #[must_use]
-pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint> {
+#[cfg_attr(not(feature = "sheets"), expect(unused_variables))]
+pub fn lint_scene(
+    origin: &Origin,
+    file: &SceneFile,
+    scene: &Scene,
+    options: &ResolveOptions,
+) -> Vec<Lint> {
     let surveys = survey_scene(scene);
     let adviser = Linter { origin, file, scene, surveys: &surveys };
     let mut advice = Vec::new();
@@ -87,7 +94,7 @@ pub fn lint_scene(origin: &Origin, file: &SceneFile, scene: &Scene) -> Vec<Lint>
     advice.extend(stereo::lint_wide_stereo(&adviser));
     advice.extend(sections::lint_idle_sections(&adviser));
     #[cfg(feature = "sheets")]
-    advice.extend(sheet::lint_sheet(&adviser));
+    advice.extend(sheet::lint_sheet(&adviser, &options.import.allow_outside));
     advice.extend(instances::lint_coincident_instances(&adviser));
     advice.extend(ground::lint_high_ground(&adviser));
     advice.extend(lint_viewports(origin, file, scene));

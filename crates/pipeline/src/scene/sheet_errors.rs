@@ -73,7 +73,7 @@ fn layout_error(
     let place: &[PathStep<'_>] = match (&error, file.scale) {
         (SheetError::TooLarge { .. }, Some(_)) => &SCALE_PATH,
         (SheetError::TooLarge { .. }, None) => &[Field("sheet")],
-        // Models without anything to draw are told of by the camera.
+        // Models without anything to draw are an error of the camera.
         _ => return None,
     };
     let message = error.to_string();

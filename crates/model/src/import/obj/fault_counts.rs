@@ -1,4 +1,4 @@
-//! Counts of faults that leave the shape of a model as it is: each kind is told once, with the
+//! Counts of faults that leave the shape of a model as it is: each kind is reported once, with the
 //! place of the first.
 
 use super::elements::NONE;

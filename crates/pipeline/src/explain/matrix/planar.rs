@@ -7,7 +7,7 @@ use super::meaning::describe_meaning;
 use homog::{HPoint2, Homography};
 use projection::{MatrixMeaning, MatrixReading, PlanarMatrix, PlanarReading, recognize_planar};
 
-/// How many readings are told beside the first.
+/// How many readings are listed beside the first.
 const OTHER_READINGS: usize = 3;
 
 /// Explains a 3×3 matrix for column vectors (x, y, w).

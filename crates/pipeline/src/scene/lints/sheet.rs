@@ -5,9 +5,11 @@ use crate::scene::Style;
 use crate::scene::sheet::{SheetContent, resolve_sheet};
 use crate::scene::syntax::PathStep::Field;
 use drawing::Warning;
+use std::path::PathBuf;
 
-/// The warnings that `alberti sheet` would give about the layout of the scene's sheet.
-pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
+/// The warnings that `alberti sheet` would give about the layout of the scene's sheet, whose title
+/// block lies in the scene's folder or one of those that are allowed.
+pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let Some(sheet_file) = &file.sheet else { return Vec::new() };
     let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
@@ -17,7 +19,7 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
         uncut: &scene.uncut,
         style,
         overlays: &scene.overlays,
-        allowed_folders: &[],
+        allowed_folders,
     };
     let sheet = resolve_sheet(origin, sheet_file, content).ok();
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
@@ -33,7 +35,7 @@ pub(super) fn lint_sheet(adviser: &Linter<'_>) -> Vec<Lint> {
             Warning::OverlayNotOnSheets { .. } => {
                 ("overlay-not-on-sheet", "`alberti render` draws it in pictures")
             }
-            // Planes beside the models are told of where they stand.
+            // Planes beside the models are reported at their own fields.
             _ => return None,
         };
         let error = origin.error_at(&[Field("sheet")], warning.to_string(), Some(help.to_owned()));
