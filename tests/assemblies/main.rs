@@ -28,6 +28,10 @@ use viewport::Paper;
 /// Models with more triangles are left to the benchmarks.
 const MAX_TRIANGLES: usize = 60_000;
 
+/// Models with more parts are drawn on the smaller paper alone: one of 1,900 takes as long as all
+/// others together.
+const MANY_PARTS: usize = 500;
+
 /// The diagonal of every model in millimeters: what they measure differs by a factor of a million.
 const DIAGONAL: f64 = 700.0;
 
@@ -83,7 +87,9 @@ fn check_model(path: &Path) -> Result<Option<String>, String> {
     }
     let diagonal = Bounds::from_points(world_points(&models)).map_or(1.0, Bounds::diagonal);
     let mut summary = format!("{parts:5} parts {:5} items", list.items.len());
-    for (paper, name) in [(Paper::A3.rotated(), "A3"), (Paper::A4, "A4")] {
+    let papers = [(Paper::A4, "A4"), (Paper::A3.rotated(), "A3")];
+    let papers = papers.into_iter().take(if parts > MANY_PARTS { 1 } else { 2 });
+    for (paper, name) in papers {
         for explosion in [None, Some(ExplosionSettings::default())] {
             let is_exploded = explosion.is_some();
             let pages = AssemblyPages {
