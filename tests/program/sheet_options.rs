@@ -189,11 +189,13 @@ fn a_check_of_the_scene_warns_of_what_the_sheet_lacks() {
 fn a_check_of_the_scene_reads_title_blocks_where_it_may() {
     let sandbox = Sandbox::new("sheet_check_block");
     std::fs::create_dir(sandbox.path_of("inner")).expect("a folder");
-    write_box(&sandbox, "inner/box", [0.1, 0.05, 0.03]);
+    sandbox.copy_model("crate.glb");
+    std::fs::rename(sandbox.path_of("crate.glb"), sandbox.path_of("inner/crate.glb"))
+        .expect("a model");
     sandbox
         .write_file("block.svg", "<svg viewBox=\"0 0 90 20\"><text y=\"8\">{author}</text></svg>");
     let sheet = "Sheet(title_block: \"../block.svg\", author: \"\u{5d0}\")";
-    let text = format!("Scene(models: [(path: \"box.gltf\")], sheet: {sheet})");
+    let text = format!("Scene(models: [(path: \"crate.glb\")], sheet: {sheet})");
     sandbox.write_file("inner/scene.ron", text);
     let check = ["scene", "check", "inner/scene.ron"];
     let run = sandbox.run(&check);
