@@ -37,7 +37,7 @@ fn draw_everywhere(name: &str, obj: &str, flags: &[&str]) -> (Sandbox, RunResult
 fn models_without_size_or_lines_have_a_message() {
     let point = "v 1 2 3\n".repeat(3) + "f 1 2 3\n";
     for (name, obj) in [("no_size", point.as_str()), ("dots", "v 0 0 0\nv 1 1 1\np 1 2\n")] {
-        for flags in [&[][..], &ALL_PAGES] {
+        for flags in [&[][..], &ALL_PAGES, &["--face-fill", "gray"], &["--face-fill", "flat"]] {
             let (_, run) = draw_everywhere(&format!("unusual_{name}"), obj, flags);
             assert!(run.stderr.contains("the views are empty"), "{name}: {}", run.stderr);
         }
@@ -82,7 +82,7 @@ fn nothing_is_written_where_nothing_fits() {
     sandbox.write_file("model.obj", "v 0 0 0\nv 1e9 1e9 1e9\nv 1e9 0 0\nf 1 2 3\n");
     let draw = ["sheet", "model.obj", "--paper", "a5", "-o", "out.svg"];
     let run = sandbox.run(&[&draw[..], &ALL_PAGES].concat());
-    assert!(run.code == 1 && run.stderr.contains("do not fit"), "{}", run.stderr);
+    assert!(run.code == 1 && run.stderr.contains("they need 2.00e8 x 2.00e8 mm"), "{}", run.stderr);
     assert_eq!(sandbox.file_names(), ["model.obj"]);
 }
 
@@ -104,4 +104,14 @@ fn title_blocks_lie_below_the_scene_or_an_allowed_folder() {
     assert!(run.stderr.contains("--allow-outside"), "{}", run.stderr);
     let run = sandbox.run(&[&draw[..], &["--allow-outside", "."]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
+}
+
+#[test]
+fn models_that_are_too_small_to_be_seen_have_a_message() {
+    let tiny = cube(0, 0).replace("v 1", "v 1e-6").replace(" 1 ", " 1e-6 ");
+    for (obj, is_tiny) in [(tiny.as_str(), true), (&cube(0, 0), false)] {
+        let (_, run) = draw_everywhere("unusual_tiny", obj, &["--unit", "mm"]);
+        let told = run.stderr.contains("smaller than a millimeter");
+        assert_eq!(told, is_tiny, "{}", run.stderr);
+    }
 }

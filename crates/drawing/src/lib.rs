@@ -95,7 +95,8 @@ pub use line_type::{IsoLineGroup, LineType};
 pub use markup::escape_markup;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 pub use overlay::{
-    LabelFault, Overlay, PointLabel, label_warnings, missing_glyph_warning, overlay_layers,
+    LabelFault, Overlay, PointLabel, SheetLabelFault, label_warnings, missing_glyph_warning,
+    overlay_layers,
 };
 pub use page::{
     Cap, Group, GroupContent, HatchArea, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint,

@@ -16,7 +16,9 @@ mod perspective;
 mod point_label;
 mod view_volume;
 
-pub use point_label::{LabelFault, PointLabel, label_warnings, missing_glyph_warning};
+pub use point_label::{
+    LabelFault, PointLabel, SheetLabelFault, label_warnings, missing_glyph_warning,
+};
 
 use super::edges::WeldedSurface;
 use super::hidden_line::Occluders;

@@ -134,7 +134,8 @@ pub struct Sheet {
     pub measures: Vec<Dimension>,
     /// Whether circles and the axes of round parts have center lines.
     pub center_lines: bool,
-    /// Whether views along a plane about which the models are symmetric have a line there.
+    /// Whether views along a plane about which the models are symmetric have a line there, if it is
+    /// upright or level in the view.
     ///
     /// Mirror images of vertices lie on faces, and those of edges on edges, within 1/20,000 of the
     /// diagonal of the models.
@@ -205,8 +206,8 @@ pub enum SheetError {
         y: [f64; 2],
     },
     #[error(
-        "the views do not fit on {paper} at {scale}: they need {:.0} x {:.0} mm, and {:.0} x {:.0} mm are available{remedy}",
-        need[0], need[1], available[0], available[1]
+        "the views do not fit on {paper} at {scale}: they need {} x {} mm, and {:.0} x {:.0} mm are available{remedy}",
+        in_few_digits(need[0]), in_few_digits(need[1]), available[0], available[1]
     )]
     /// The views are too large for the paper.
     TooLarge {
@@ -221,6 +222,14 @@ pub enum SheetError {
         /// A change that would make them fit.
         remedy: String,
     },
+}
+
+/// Views of which none is as large, in millimeters of paper, cannot be read.
+const LEAST_DRAWING: f64 = 1.0;
+
+/// A length in whole units, or with an exponent where it has more than six digits.
+fn in_few_digits(length: f64) -> String {
+    if length < 1e6 { format!("{length:.0}") } else { format!("{length:.2e}") }
 }
 
 impl Sheet {
@@ -295,7 +304,12 @@ impl Sheet {
             is_empty &= composed.drawing.is_empty();
             self.add_view(&mut page, placed, composed, &style);
         }
-        page.warnings.extend(is_empty.then_some(Warning::NothingDrawn));
+        let largest = layout.views.iter().map(|placed| placed.object_size().max_element());
+        if is_empty {
+            page.warnings.push(Warning::NothingDrawn);
+        } else if largest.fold(0.0, f64::max) < LEAST_DRAWING {
+            page.warnings.push(Warning::ViewsTiny);
+        }
         page.warnings.sort_unstable();
         page.warnings.dedup();
         self.draw_annotations(&mut page, &layout, ink);
@@ -341,7 +355,11 @@ impl Sheet {
         for placed in &layout.views {
             let view = || placed.planned.title();
             let labels = placed.annotations.labels_left_out.iter().cloned();
-            warnings.extend(labels.map(|text| Warning::LabelNotInView { text, view: view() }));
+            warnings.extend(labels.map(|(text, fault)| Warning::LabelNotInView {
+                text,
+                view: view(),
+                fault,
+            }));
         }
         warnings.extend(layout.overlaps.iter().cloned());
         match &self.title_block_template {

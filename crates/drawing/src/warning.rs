@@ -2,7 +2,7 @@
 
 use crate::DimensionFault;
 use crate::assembly::AssemblyWarning;
-use crate::overlay::LabelFault;
+use crate::overlay::{LabelFault, SheetLabelFault};
 use core::fmt;
 
 /// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
@@ -73,6 +73,8 @@ pub enum Warning {
         text: String,
         /// The name of the view, such as `front view`.
         view: String,
+        /// The reason.
+        fault: SheetLabelFault,
     },
     /// The style shows surfaces, and sections apply to line drawings only.
     SectionsIgnored,
@@ -104,6 +106,8 @@ pub enum Warning {
     HatchingIncomplete,
     /// The models have no size, or points only: no view of a sheet has a line.
     NothingDrawn,
+    /// No view of a sheet is as large as a millimeter of the paper.
+    ViewsTiny,
     /// The search for hidden lines was cut off.
     VisibilityIncomplete,
 }
@@ -146,7 +150,8 @@ impl Warning {
         match self {
             Self::LabelNotDrawn { text, fault } => write!(
                 f,
-                "the label \"{text}\" is not drawn: its point is {}",
+                "the label \"{}\" is not drawn: its point is {}",
+                visible_text(text),
                 match fault {
                     LabelFault::BehindEye => "behind the eye",
                     LabelFault::Outside => "outside of the picture",
@@ -156,11 +161,19 @@ impl Warning {
                 f,
                 "sheets show labels and axes of the scene's overlays, but not the {overlay}"
             ),
-            Self::LabelNotInView { text, view } => write!(
+            Self::LabelNotInView { text, view, fault } => write!(
                 f,
-                "the label \"{}\" is not in the {view}: its point is too far from the models, or \
-                 there is no place for it",
-                visible_text(text)
+                "the label \"{}\" is not in the {view}: {}",
+                visible_text(text),
+                match fault {
+                    SheetLabelFault::Far => {
+                        "its point is too far from the models; move it nearer to them"
+                    }
+                    SheetLabelFault::NoRoom => {
+                        "there is no place for it; take larger paper, or fewer labels"
+                    }
+                    SheetLabelFault::TooMany => "a view has at most 100; leave some out",
+                }
             ),
             _ => Ok(()),
         }
@@ -215,6 +228,7 @@ impl fmt::Display for Warning {
             | Self::IntersectionsIncomplete
             | Self::HatchingIncomplete
             | Self::NothingDrawn
+            | Self::ViewsTiny
             | Self::VisibilityIncomplete => f.write_str(self.fixed_text()),
         }
     }
@@ -263,6 +277,10 @@ impl Warning {
             }
             Self::NothingDrawn => {
                 "the views are empty: the models have neither lines nor faces, or these have no size"
+            }
+            Self::ViewsTiny => {
+                "the views are smaller than a millimeter of the paper: \
+                 set the unit of the model, or a larger scale"
             }
             Self::VisibilityIncomplete => {
                 "so many faces lie before and behind each other that not all lines were compared \

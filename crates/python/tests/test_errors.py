@@ -165,7 +165,7 @@ def test_other_calls_are_refused(teapot, tmp_path):
         lambda: alberti.Scene([teapot], [np.zeros((4, 4))]),
         lambda: alberti.Scene(["teapot"]),
         lambda: alberti.Scene([alberti.Scene([teapot], [FAR])], [FAR]),
-        lambda: alberti.draw(teapot).save("drawing.dxf"),
+        lambda: alberti.draw(teapot).save("drawing.dwg"),
         lambda: Model.from_trimesh(5),
     ):
         with pytest.raises(alberti.AlbertiError) as caught:

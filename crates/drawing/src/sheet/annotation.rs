@@ -11,7 +11,7 @@
 //!
 //! They are made before the view has a place, since the place depends on their extent.
 
-use crate::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
+use crate::{Group, Ink, Label, Layer, Pen, Polyline, SheetLabelFault, TextAlign, to_millimeters};
 use glam::DVec2;
 
 /// The least distance of lines from texts, in millimeters.
@@ -86,8 +86,8 @@ pub(super) struct ViewAnnotations {
     dimensions: Vec<PlacedDimension>,
     /// The names of dimensions without a place.
     pub(super) left_out: Vec<String>,
-    /// The texts of overlays without a place.
-    pub(super) labels_left_out: Vec<String>,
+    /// The texts of overlays that are not there, and why.
+    pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
 }
 
 /// A dimension with its place.

@@ -21,7 +21,7 @@ use super::sheet_view::SheetView;
 use super::view_plan::{PlannedView, ViewPlan};
 use crate::line_clip::circle_points;
 use crate::overlay::AXES;
-use crate::{Overlay, Warning, missing_glyph_warning};
+use crate::{Overlay, SheetLabelFault, Warning, missing_glyph_warning};
 use glam::DVec2;
 use homog::{Bounds, Point, World};
 use model::{ModelInstance, world_points};
@@ -105,7 +105,7 @@ impl ViewOverlays {
         let mut own = Self::default();
         for overlay in overlays {
             match overlay {
-                Overlay::Label(label) if own.labels.len() < MAX_LABELS => {
+                Overlay::Label(label) => {
                     own.labels.push((view.image_of(label.at), label.text.clone()));
                 }
                 Overlay::Axes(length) => {
@@ -138,11 +138,18 @@ impl ViewOverlays {
         for (ends, name) in &self.axes {
             board.add_axis(annotations, ends.map(|end| end * ratio), name);
         }
-        for (point, text) in &self.labels {
+        for (number, (point, text)) in self.labels.iter().enumerate() {
             let at = *point * ratio;
-            if !board.reaches(at) || !board.add_label(annotations, at, text, true) {
-                annotations.labels_left_out.push(text.clone());
-            }
+            let fault = if number >= MAX_LABELS {
+                SheetLabelFault::TooMany
+            } else if !board.reaches(at) {
+                SheetLabelFault::Far
+            } else if !board.add_label(annotations, at, text, true) {
+                SheetLabelFault::NoRoom
+            } else {
+                continue;
+            };
+            annotations.labels_left_out.push((text.clone(), fault));
         }
     }
 }
@@ -180,7 +187,7 @@ impl LabelBoard {
         annotations.push_line(AnnotationLayer::OverlayLines, [from, tip]);
         // The name comes first: its leader line begins at the arrowhead.
         if !self.add_label(annotations, tip, name, false) {
-            annotations.labels_left_out.push(name.to_owned());
+            annotations.labels_left_out.push((name.to_owned(), SheetLabelFault::NoRoom));
         }
         let head = AnnotationShape::Head([tip, tip - head + across, tip - head - across]);
         annotations.push(AnnotationLayer::OverlayLines, head);

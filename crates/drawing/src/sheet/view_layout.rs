@@ -59,9 +59,14 @@ pub(super) struct PlacedView<'a> {
 }
 
 impl PlacedView<'_> {
+    /// Width and height of the object in the view, in millimeters.
+    pub(super) fn object_size(&self) -> DVec2 {
+        self.planned.view.size * self.scale.ratio()
+    }
+
     /// The rectangle around the view and its annotations on the sheet.
     pub(super) fn extent(&self) -> Extent {
-        let half = self.planned.view.size * self.scale.ratio() * 0.5;
+        let half = self.object_size() * 0.5;
         self.annotations.extent_with([-half, half]).map(|corner| self.center + corner)
     }
 }

@@ -26,6 +26,9 @@ const LETTER_DIRECTIONS: u32 = 16;
 /// The number of places farther out that are tried for a mark.
 const STEPS: u32 = 40;
 
+/// Objects that are narrower across a center line have none, in millimeters of the paper.
+const LEAST_WIDTH: f64 = 2.0;
+
 /// The length by which a center line extends beyond the view, in millimeters.
 const CENTER_LINE_OVERHANG: f64 = 3.0;
 
@@ -87,6 +90,9 @@ impl ViewMark {
                 let corners = stepped_line(corners, ratio);
                 annotate_stepped_line(annotations, &corners, *retained);
             }
+            // On what is seen as a line there is no line of symmetry: ISO 128 prefers outlines.
+            Self::CenterLine { axis, .. }
+                if object[1][1 - *axis] - object[0][1 - *axis] < LEAST_WIDTH => {}
             Self::CenterLine { through, axis } => {
                 let end = |side: usize, sign: f64| {
                     let mut end = *through * ratio;

@@ -404,7 +404,11 @@ impl PlannedView {
         for (layer, caption) in self.captions(scale) {
             add_caption(&mut annotations, layer, &caption, (object, letters));
         }
-        self.overlays.annotate(&mut annotations, (scale.ratio(), object, letters));
+        // Where the view does not fit there is no need to find places, of which there are many then.
+        let paper = DVec2::new(sheet.paper.width(), sheet.paper.height());
+        if (half * 2.0).cmple(paper).all() {
+            self.overlays.annotate(&mut annotations, (scale.ratio(), object, letters));
+        }
         annotations
     }
 

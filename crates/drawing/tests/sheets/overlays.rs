@@ -2,7 +2,7 @@
 
 use crate::boxes::{Random, box_model, sheet};
 use crate::lint::faults;
-use drawing::{Group, GroupContent, Overlay, Page, PointLabel, Sheet, Warning};
+use drawing::{Group, GroupContent, Overlay, Page, PointLabel, Sheet, SheetLabelFault, Warning};
 use glam::{DVec2, DVec3};
 use homog::Point;
 use projection::SheetAngle;
@@ -67,11 +67,37 @@ fn overlays_that_sheets_do_not_show_are_named() {
     let sheet = Sheet { overlays, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
     let warnings = sheet.draw(&model, &[], 1).unwrap().warnings;
     let of = |overlay: &str| Warning::OverlayNotOnSheets { overlay: overlay.to_owned() };
-    let far =
-        |view: &str| Warning::LabelNotInView { text: "far".to_owned(), view: view.to_owned() };
+    let far = |view: &str| Warning::LabelNotInView {
+        text: "far".to_owned(),
+        view: view.to_owned(),
+        fault: SheetLabelFault::Far,
+    };
     for warning in [of("grid"), of("horizon"), far("front view"), far("isometric view")] {
         assert!(warnings.contains(&warning), "{warnings:?}");
     }
     // From the left the point is behind the box.
     assert!(!warnings.contains(&far("left view")) && warnings.len() == 5, "{warnings:?}");
+}
+
+#[test]
+fn labels_of_large_models_are_placed_on_paper_and_not_beyond() {
+    // At 50:1 the model is 50 km of paper, around which no place is looked for.
+    let model = [box_model(DVec3::new(1e6, 4e5, 6e5))];
+    let overlays = vec![label("roof", DVec3::new(0.0, 2e5, 0.0))];
+    let sheet = Sheet { overlays, ..sheet((Paper::A3.rotated(), "A3"), SheetAngle::First) };
+    let page = sheet.draw(&model, &[], 1).unwrap();
+    assert_eq!(faults(&page), [""; 0]);
+    assert_eq!(page.warnings, []);
+}
+
+#[test]
+fn labels_after_the_hundredth_of_a_view_are_named() {
+    let model = [box_model(DVec3::new(400.0, 200.0, 300.0))];
+    let overlays = (0..103).map(|k| label(&format!("{k}"), DVec3::ZERO)).collect();
+    let sheet = Sheet { overlays, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
+    let warnings = sheet.draw(&model, &[], 1).unwrap().warnings;
+    let is_surplus = |warning: &&Warning| {
+        matches!(warning, Warning::LabelNotInView { fault: SheetLabelFault::TooMany, .. })
+    };
+    assert_eq!(warnings.iter().filter(is_surplus).count(), 3 * 4, "{warnings:?}");
 }

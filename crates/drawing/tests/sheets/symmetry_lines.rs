@@ -92,6 +92,13 @@ fn a_part_that_is_symmetric_about_one_plane_has_its_line_in_two_views() {
 }
 
 #[test]
+fn what_is_seen_as_a_line_has_no_line_of_symmetry_on_it() {
+    let lines = symmetry_lines(&symmetric_sheet(), &[box_model(DVec3::new(60.0, 40.0, 0.001))]);
+    // From the side and from above only the short lines across are there.
+    assert_eq!(lengths(&lines), [vec![6.0, 46.0], vec![6.0, 66.0]]);
+}
+
+#[test]
 fn a_mark_on_a_face_takes_the_symmetry_away() {
     let plate = box_model(DVec3::new(60.0, 40.0, 30.0));
     let knob = |x: f64| {

@@ -47,7 +47,7 @@ scene_struct! {
         /// Default: false.
         pub center_lines: bool = false,
         /// Whether models that are symmetric have a line of symmetry in the views that look along the
-        /// plane: chain lines of ISO 128. Default: false.
+        /// plane, where that is upright or level: chain lines of ISO 128. Default: false.
         pub symmetry_lines: bool = false,
         /// The title. Default: the names of the models.
         pub title: String = String::new(),
