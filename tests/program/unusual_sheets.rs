@@ -82,7 +82,7 @@ fn nothing_is_written_where_nothing_fits() {
     sandbox.write_file("model.obj", "v 0 0 0\nv 1e9 1e9 1e9\nv 1e9 0 0\nf 1 2 3\n");
     let draw = ["sheet", "model.obj", "--paper", "a5", "-o", "out.svg"];
     let run = sandbox.run(&[&draw[..], &ALL_PAGES].concat());
-    assert!(run.code == 1 && run.stderr.contains("they need 2.00e8 x 2.00e8 mm"), "{}", run.stderr);
+    assert!(run.code == 1 && run.stderr.contains("they need 7.07e7 x 4.08e7 mm"), "{}", run.stderr);
     assert_eq!(sandbox.file_names(), ["model.obj"]);
 }
 
@@ -108,7 +108,8 @@ fn title_blocks_lie_below_the_scene_or_an_allowed_folder() {
 
 #[test]
 fn models_that_are_too_small_to_be_seen_have_a_message() {
-    let tiny = cube(0, 0).replace("v 1", "v 1e-6").replace(" 1 ", " 1e-6 ");
+    let shrunk = |line: &str| line.replace('1', if line.starts_with('v') { "1e-6" } else { "1" });
+    let tiny: String = cube(0, 0).lines().map(|line| shrunk(line) + "\n").collect();
     for (obj, is_tiny) in [(tiny.as_str(), true), (&cube(0, 0), false)] {
         let (_, run) = draw_everywhere("unusual_tiny", obj, &["--unit", "mm"]);
         let told = run.stderr.contains("smaller than a millimeter");
