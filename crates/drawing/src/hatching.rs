@@ -58,16 +58,16 @@ impl HatchPattern {
     const COUNT: usize = 6 * SPACING_FACTORS.len();
 
     /// The pattern of a part by its index: alternating directions first, then other spacings, then
-    /// lines under 30° and 60°.
+    /// lines at 30° and 60°.
     ///
     /// ```text
     ///   part      0      1      2        3        4         5         6      7
     ///   lines     ╱      ╲      ╱ 1.5×   ╲ 1.5×   ╱ 0.75×   ╲ 0.75×   ╱ 2×   ╲ 2×
     /// ```
-    fn for_part(kind: usize, distance: f64) -> Self {
-        let spacing = distance * SPACING_FACTORS[kind / 2 % SPACING_FACTORS.len()];
-        let diagonal = Self::diagonal_lines(kind.is_multiple_of(2), spacing);
-        let [x, y] = match kind / (2 * SPACING_FACTORS.len()) % 3 {
+    fn for_part(index: usize, distance: f64) -> Self {
+        let spacing = distance * SPACING_FACTORS[index / 2 % SPACING_FACTORS.len()];
+        let diagonal = Self::diagonal_lines(index.is_multiple_of(2), spacing);
+        let [x, y] = match index / (2 * SPACING_FACTORS.len()) % 3 {
             0 => return diagonal,
             1 => [0.5, HALF_SQRT_3],
             _ => [HALF_SQRT_3, 0.5],

@@ -56,17 +56,9 @@ impl ViewPlan {
                 }
             }
         }
-        let picker = FeaturePicker::new(models, sheet.style.crease_angle);
-        if sheet.symmetry_lines {
-            sheet.add_symmetry_lines(&mut planned, &picker);
-        }
-        if sheet.center_lines {
-            let circles: Vec<WorldCircle> = picker.circles(None).collect();
-            for planned in &mut planned {
-                let symmetry = planned.marks.iter().filter_map(ViewMark::as_center_line).collect();
-                let lines = CenterLines::in_view(&planned.view, &circles);
-                planned.measures.center_lines = lines.beside(symmetry);
-            }
+        if sheet.center_lines || sheet.symmetry_lines {
+            let picker = FeaturePicker::new(models, sheet.style.crease_angle);
+            sheet.add_center_lines(&mut planned, &picker);
         }
         let points = world_points(models);
         for planned in planned {
@@ -75,6 +67,23 @@ impl ViewPlan {
                 let images = points.iter().map(|&point| view.image_of(point)).collect();
                 measures.hull = convex_hull(images);
             }
+        }
+    }
+}
+
+impl Sheet {
+    /// Adds lines of symmetry, and center lines where none of those are.
+    fn add_center_lines(&self, planned: &mut [&mut PlannedView], picker: &FeaturePicker<'_>) {
+        if self.symmetry_lines {
+            self.add_symmetry_lines(planned, picker);
+        }
+        if !self.center_lines {
+            return;
+        }
+        let circles: Vec<WorldCircle> = picker.circles(None).collect();
+        for PlannedView { view, marks, measures, .. } in planned.iter_mut().map(|one| &mut **one) {
+            let symmetry = marks.iter().filter_map(ViewMark::as_center_line).collect();
+            measures.center_lines = CenterLines::in_view(view, &circles).beside(symmetry);
         }
     }
 }
