@@ -1,16 +1,17 @@
 //! Harness of the table-driven test programs: arguments, folders, a tally, the exit code.
 //!
-//! A table-driven program has a `main` of its own (`harness = false`), because its cases are files
-//! that are found at run time. All of them behave alike: arguments that are not flags select cases
-//! by a part of their name, as in `cargo test`; a failed case prints a line that begins with
-//! `FAILED`; what cannot be tested prints a line that begins with `SKIPPED`, which `cargo xtask
-//! test` repeats at its end; the last line counts.
+//! The cases of a table-driven suite are files that are found at run time. All suites behave alike:
+//! arguments that are not flags select cases by a part of their name, as in `cargo test`; a failed
+//! case prints a line that begins with `FAILED`; what cannot be tested is reported as skipped (see
+//! `skip.rs`); the last line counts.
 
+use crate::skip::report_skip;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::SystemTime;
 
 /// The command line of a test program: filters and flags.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -20,10 +21,10 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// The arguments of this process.
+    /// The arguments of this process after the name of the suite.
     #[must_use]
     pub fn from_env() -> Self {
-        Self::from_words(std::env::args().skip(1))
+        Self::from_words(std::env::args().skip(2))
     }
 
     /// Words that begin with a dash are flags, all others are filters.
@@ -71,10 +72,10 @@ impl Tally {
         println!("FAILED {name}: {reason}");
     }
 
-    /// Counts a part of the test that cannot run here and prints why.
+    /// Counts a part of the test that cannot run here and reports why.
     pub fn skip(&mut self, name: &str, reason: &str) {
         self.skipped += 1;
-        println!("SKIPPED {name}: {reason}");
+        report_skip(name, reason);
     }
 
     /// Counts a case by its outcome.
@@ -107,6 +108,43 @@ pub fn run_program(name: &str, run: impl FnOnce(&Arguments) -> Result<Tally, Str
     let Tally { passed, failed, skipped } = tally;
     println!("{passed} passed, {failed} failed, {skipped} skipped");
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The cases of this run: all with the environment variable `THOROUGH`, else about a tenth.
+///
+/// The number in `TEST_SEED` chooses them, or else the day, so that a fault that a change brings in is
+/// found within days. It is printed, so that a failure can be repeated.
+#[must_use]
+pub fn sample_cases<T>(name: &str, cases: Vec<T>) -> Vec<T> {
+    if std::env::var_os("THOROUGH").is_some() {
+        return cases;
+    }
+    let given = std::env::var("TEST_SEED").ok().and_then(|seed| seed.parse().ok());
+    let today = || {
+        SystemTime::now()
+            .duration_since(SystemTime::UNIX_EPOCH)
+            .map_or(0, |time| time.as_secs() / 86_400)
+    };
+    let seed = given.unwrap_or_else(today);
+    let count = cases.len();
+    let chosen = choose_tenth(seed, cases);
+    println!(
+        "{name}: {} of {count} cases; TEST_SEED={seed} repeats these, THOROUGH=1 runs all",
+        chosen.len()
+    );
+    chosen
+}
+
+/// A tenth of some items, in which each is as likely as any other.
+fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
+    let is_chosen = |index: u64| {
+        // splitmix64
+        let mut bits = (seed << 32 ^ index).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (bits ^ bits >> 31) % 10 == 0
+    };
+    (0..).zip(items).filter(|(index, _)| is_chosen(*index)).map(|(_, item)| item).collect()
 }
 
 /// A folder of test data beside this repository: the one that the environment variable names, else
@@ -206,6 +244,18 @@ mod tests {
         assert_eq!(choose_folder("X", None, &nowhere), Ok(None));
         assert_eq!(choose_folder("X", None, here), Ok(Some(here.to_owned())));
         assert!(choose_folder("X", Some(nowhere.into()), here).is_err());
+    }
+
+    #[test]
+    fn ten_seeds_choose_other_cases_each() {
+        let of_seed = |seed| choose_tenth(seed, (0..1000).collect::<Vec<u32>>());
+        let mut seen = std::collections::BTreeSet::new();
+        for seed in 20_000..20_010 {
+            assert_eq!(of_seed(seed), of_seed(seed));
+            assert!((60..140).contains(&of_seed(seed).len()));
+            seen.extend(of_seed(seed));
+        }
+        assert!(seen.len() > 550, "{}", seen.len());
     }
 
     #[test]

@@ -8,6 +8,7 @@ pub mod gltf;
 pub mod harness;
 pub mod manifest;
 pub mod samples;
+pub mod skip;
 pub mod statistics;
 pub mod threemf;
 

@@ -1,7 +1,7 @@
 //! Check lines: `row 2 n=-1 g=(0,3/5,-4/5) P=PE-1 : PE-2[2][3]`.
 
-use crate::name::Name;
-use crate::value::Value;
+use crate::book_formulas::name::Name;
+use crate::book_formulas::value::Value;
 
 /// A check line, read.
 #[derive(Clone, PartialEq, Debug)]
@@ -144,8 +144,8 @@ fn parse_number(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::{Given, parse_check};
-    use crate::name::Name;
-    use crate::value::Value;
+    use crate::book_formulas::name::Name;
+    use crate::book_formulas::value::Value;
 
     #[test]
     fn values_are_numbers_columns_matrices_and_names() {

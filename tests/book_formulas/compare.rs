@@ -1,13 +1,13 @@
 //! One formula against its checks, and the proof that the checks bite.
 
-use crate::check_line::{Check, parse_check};
-use crate::evaluate::evaluate_statement;
-use crate::name_parser::is_greek;
-use crate::page::Formula;
-use crate::registry::all_entries;
-use crate::scope::PreparedCheck;
-use crate::statement::{Statement, split_rows};
-use crate::token::{Token, TokenKind, tokenize};
+use crate::book_formulas::check_line::{Check, parse_check};
+use crate::book_formulas::evaluate::evaluate_statement;
+use crate::book_formulas::name_parser::is_greek;
+use crate::book_formulas::page::Formula;
+use crate::book_formulas::registry::all_entries;
+use crate::book_formulas::scope::PreparedCheck;
+use crate::book_formulas::statement::{Statement, split_rows};
+use crate::book_formulas::token::{Token, TokenKind, tokenize};
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -235,7 +235,7 @@ fn describe_damage(tokens: &[Token], at: usize, damaged: &Token) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Counts, find_faults};
-    use crate::page::find_formulas;
+    use crate::book_formulas::page::find_formulas;
 
     fn faults(block: &str) -> Vec<String> {
         let formulas = find_formulas(&format!("```formula {block}\n```\n"));

@@ -1,11 +1,11 @@
 //! Values of expressions.
 
-use crate::expression::{Expression, Function, ProductSign};
-use crate::name::Name;
-use crate::parser::parse_expression;
-use crate::statement::Statement;
-use crate::token::Token;
-use crate::value::Value;
+use crate::book_formulas::expression::{Expression, Function, ProductSign};
+use crate::book_formulas::name::Name;
+use crate::book_formulas::parser::parse_expression;
+use crate::book_formulas::statement::Statement;
+use crate::book_formulas::token::Token;
+use crate::book_formulas::value::Value;
 use homog::{Affine, Vector, World};
 
 /// Values of names.
@@ -169,10 +169,10 @@ fn call(function: Function, arguments: &[Value]) -> Result<Value, String> {
 #[cfg(test)]
 mod tests {
     use super::{Scope, evaluate_statement};
-    use crate::name::Name;
-    use crate::statement::split_rows;
-    use crate::token::tokenize;
-    use crate::value::Value;
+    use crate::book_formulas::name::Name;
+    use crate::book_formulas::statement::split_rows;
+    use crate::book_formulas::token::tokenize;
+    use crate::book_formulas::value::Value;
 
     /// a = 2, b = 3 …; vectors p = (1, 2, 3), q = (4, 5, 7); λ0 = 10, λ1 = 20.
     struct Letters;

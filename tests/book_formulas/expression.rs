@@ -1,6 +1,6 @@
 //! Expressions as trees.
 
-use crate::name::Name;
+use crate::book_formulas::name::Name;
 
 #[derive(Clone, PartialEq, Debug)]
 pub enum Expression {

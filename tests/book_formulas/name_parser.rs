@@ -1,8 +1,8 @@
 //! Names of variables in LaTeX: letters, accents, subscripts, primes.
 
-use crate::name::Name;
-use crate::parser::{Parser, describe};
-use crate::token::TokenKind;
+use crate::book_formulas::name::Name;
+use crate::book_formulas::parser::{Parser, describe};
+use crate::book_formulas::token::TokenKind;
 
 const GREEK: [&str; 27] = [
     "alpha",

@@ -4,9 +4,9 @@
 //! a number before it if there is one: `\sin 2\theta`. After `a/b` no factor may follow without a
 //! sign, because readers do not agree on what it means.
 
-use crate::expression::{Expression, Function, ProductSign};
-use crate::name_parser;
-use crate::token::{Token, TokenKind};
+use crate::book_formulas::expression::{Expression, Function, ProductSign};
+use crate::book_formulas::name_parser;
+use crate::book_formulas::token::{Token, TokenKind};
 
 type Parsed = Result<Expression, String>;
 

@@ -1,10 +1,10 @@
 //! A check line with its values: what the names of a formula mean, and what the crates answer.
 
-use crate::check_line::{Check, Given, Reference};
-use crate::evaluate::Scope;
-use crate::name::Name;
-use crate::registry::{Entry, Inputs, find_entry};
-use crate::value::Value;
+use crate::book_formulas::check_line::{Check, Given, Reference};
+use crate::book_formulas::evaluate::Scope;
+use crate::book_formulas::name::Name;
+use crate::book_formulas::registry::{Entry, Inputs, find_entry};
+use crate::book_formulas::value::Value;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 

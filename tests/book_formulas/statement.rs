@@ -1,6 +1,6 @@
 //! Rows of a formula, and the members of their equations and inequalities.
 
-use crate::token::Token;
+use crate::book_formulas::token::Token;
 
 /// One row of a formula.
 #[derive(Clone, PartialEq, Debug)]
@@ -56,7 +56,7 @@ fn strip_environment(tokens: &[Token]) -> &[Token] {
         tokens
             .iter()
             .filter_map(|token| match token.kind {
-                crate::token::TokenKind::Letter(letter) => Some(letter),
+                crate::book_formulas::token::TokenKind::Letter(letter) => Some(letter),
                 _ => None,
             })
             .collect::<String>()

@@ -1,7 +1,7 @@
 //! A run of `alberti batch`: by one process, or as an array job of Slurm.
 
-use crate::run_command;
-use crate::slurm::{Cluster, LONGEST_WAIT, create_folder};
+use crate::cluster::run_command;
+use crate::cluster::slurm::{Cluster, LONGEST_WAIT, create_folder};
 use alberti_tests::project_root;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,9 +1,9 @@
 //! What must hold after a run.
 
-use crate::batch_run::BatchRun;
-use crate::models::Jobs;
-use crate::slurm::NODE_LOSS;
-use crate::watcher::{Pictures, Seen};
+use crate::cluster::batch_run::BatchRun;
+use crate::cluster::models::Jobs;
+use crate::cluster::slurm::NODE_LOSS;
+use crate::cluster::watcher::{Pictures, Seen};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::os::unix::fs::MetadataExt as _;

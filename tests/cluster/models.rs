@@ -1,7 +1,7 @@
 //! The models of the test: 300 good ones, three broken ones, one that takes minutes, one that wants
 //! 8 GB.
 
-use crate::slurm::{create_folder, write_file};
+use crate::cluster::slurm::{create_folder, write_file};
 use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! A compute node: a network namespace with a host name, and the daemon in it.
 
-use crate::run_command;
+use crate::cluster::run_command;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

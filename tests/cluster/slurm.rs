@@ -1,7 +1,7 @@
 //! A Slurm cluster in network namespaces: a controller and three nodes.
 
-use crate::node::{Node, address};
-use crate::run_command;
+use crate::cluster::node::{Node, address};
+use crate::cluster::run_command;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

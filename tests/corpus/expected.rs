@@ -4,7 +4,7 @@
 //! The test fails if a model is refused that is not listed here, and if a listed one is drawn: then
 //! its row is removed.
 
-use crate::verdict::Verdict;
+use crate::corpus::verdict::Verdict;
 use alberti_tests::manifest::Row;
 
 /// Refused models by the name of their folder, with a part of the reason.

@@ -1,6 +1,6 @@
 //! Triangle counts of the imported models against the manifest.
 
-use crate::expected;
+use crate::corpus::expected;
 use alberti_tests::harness::Tally;
 use alberti_tests::manifest::Row;
 use model::import::{ImportOptions, load};

@@ -1,6 +1,6 @@
 //! Verdicts: classification of a run of the program by exit code, message and picture.
 
-use crate::program::Run;
+use crate::corpus::program::Run;
 use alberti_tests::manifest::Row;
 use std::fs::File;
 use std::io::BufReader;

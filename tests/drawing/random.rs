@@ -20,10 +20,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::bits::Random;
-use crate::random_projection::{PROJECTIONS, random_projection};
+use crate::drawing::bits::Random;
+use crate::drawing::random_projection::{PROJECTIONS, random_projection};
 
-/// Scenes of a run.
+/// How many scenes there are.
 pub const COUNT: usize = 1000;
 
 /// The fractions that are allowed: what `--verify` allows; lines that are hidden by slivers which
@@ -52,11 +52,11 @@ enum Verdict {
     Refused(String),
 }
 
-/// Compares the first scenes and records each; prints the figures.
-pub fn check_random_scenes(count: usize, folder: &Path) -> Result<Tally, String> {
+/// Compares the scenes of these numbers and records each; prints the figures.
+pub fn check_random_scenes(numbers: Vec<usize>, folder: &Path) -> Result<Tally, String> {
     check_projections()?;
     let models = load_models(folder)?;
-    let numbers: Vec<usize> = (0..count).collect();
+    let count = numbers.len();
     let verdicts = map_parallel(&numbers, |_, &number| {
         let text = scene_text(number, &models);
         check_scene(&text, &models).map_err(|reason| format!("{reason}\n{text}"))

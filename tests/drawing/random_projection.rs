@@ -1,6 +1,6 @@
 //! Random projections, as a scene file writes them.
 
-use crate::bits::Random;
+use crate::drawing::bits::Random;
 
 /// The projections by their names in scene files, each of them a variant.
 pub const PROJECTIONS: &[&str] = &[

@@ -78,33 +78,9 @@ pub fn build_scene(model: &Arc<Model>, kind: ViewKind, direction: usize) -> Resu
         ViewKind::Cavalier => fit_parallel(&points, basis, Some(std::f64::consts::FRAC_PI_4)),
     };
     let (width, height) = IMAGE_SIZE;
-    let samples = raster::Samples::One;
-    Ok(Scene {
-        caption: None,
-        models: vec![ModelInstance { model: Arc::clone(model), model_to_world }],
-        view_projection: view_projection?,
-        lights: Vec::new(),
-        ground: None,
-        occlusion_radius: None,
-        environment: None,
-        tone_mapper: shade::ToneMapper::default(),
-        style: Style::Flat,
-        image: ImageSpec {
-            caption_height: 0,
-            width,
-            height,
-            background: [0.0; 4],
-            is_blank_paper: false,
-            environment_blur: None,
-            samples,
-            max_anisotropy: 1,
-        },
-        insets: Vec::new(),
-        backdrop: None,
-        overlays: Vec::new(),
-        sections: Vec::new(),
-        uncut: Vec::new(),
-    })
+    let models = vec![ModelInstance { model: Arc::clone(model), model_to_world }];
+    let image = ImageSpec::new(width, height);
+    Ok(Scene { style: Style::Flat, ..Scene::new(models, view_projection?, image) })
 }
 
 fn fit_perspective(points: &[Point<World>], basis: Basis) -> Result<ViewProjection, String> {

@@ -1,6 +1,6 @@
 //! Counts, offsets, lengths and strides that lie.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 

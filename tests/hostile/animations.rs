@@ -1,6 +1,6 @@
 //! Animations whose keys and values are wrong.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, float_bytes};
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! Files cut off at every byte, and files with one byte changed.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 
 pub fn byte_cases() -> Vec<Case> {

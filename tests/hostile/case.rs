@@ -1,6 +1,6 @@
 //! Cases: a hostile file and its expected outcome.
 
-use crate::promises;
+use crate::hostile::promises;
 use alberti_tests::gltf::Document;
 use model::Model;
 use model::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};

@@ -1,6 +1,6 @@
 //! Primitives compressed by Draco whose stream is cut or changed, and whose numbers lie.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 

@@ -1,6 +1,6 @@
 //! Images that lie about their size, are cut off, or are something else.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::{Document, encode_png};
 use serde_json::json;
 

@@ -1,8 +1,8 @@
 //! KTX2 images that are cut off or changed at every byte, and mutants of them with numbers that lie.
 
-use crate::case::{Case, Expected};
-use crate::images::textured_case;
-use crate::mutants::{Random, mutate};
+use crate::hostile::case::{Case, Expected};
+use crate::hostile::images::textured_case;
+use crate::hostile::mutants::{Random, mutate};
 
 /// Mutants of all images together.
 const MUTANTS: usize = 2_000;

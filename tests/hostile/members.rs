@@ -1,6 +1,6 @@
 //! Every member of a document that uses everything, replaced by every kind of value and left out.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::{Value, json};
 

@@ -1,7 +1,7 @@
 //! Mutants of small files of every format of meshes.
 
-use crate::case::{Case, Expected};
-use crate::mutants::{Random, mutate};
+use crate::hostile::case::{Case, Expected};
+use crate::hostile::mutants::{Random, mutate};
 use alberti_tests::threemf::encode_3mf;
 
 /// Mutants of each format.

@@ -1,6 +1,6 @@
 //! Views compressed by meshopt whose sizes lie and whose streams are cut, changed or made up.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 

@@ -1,6 +1,6 @@
 //! Node trees that are no trees, or too deep, or out of all bounds.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! JSON that is deep, large, oddly encoded or not JSON; versions and extensions that are not known.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use scene_models::glb::encode_glb;
 use serde_json::{Value, json};

@@ -1,6 +1,6 @@
 //! Every shape, component type and normalisation for every use of an accessor.
 
-use crate::case::{Case, Expected};
+use crate::hostile::case::{Case, Expected};
 use alberti_tests::gltf::Document;
 use serde_json::json;
 

@@ -1,6 +1,6 @@
 //! URIs that try to leave the folder, and such that only look as if they did.
 
-use crate::case::{Expected, check_load_result, check_path};
+use crate::hostile::case::{Expected, check_load_result, check_path};
 use alberti_tests::gltf::Document;
 use model::import::{ImportOptions, Limits, load_bytes};
 use serde_json::json;

@@ -3,19 +3,18 @@
 //! times must differ. Skipped, by name, where the folder is not there.
 
 use crate::sandbox::Sandbox;
+use alberti_tests::skip::report_skip;
 use serde_json::Value;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The path of a model; `None`, with a note on the standard error stream, if there are no assets.
+/// The path of a model; `None`, with a report, if there are no assets.
 pub(crate) fn asset_path(name: &str) -> Option<PathBuf> {
     let chosen = std::env::var_os("ASSETS").map(PathBuf::from);
     let beside = alberti_tests::project_root().join("../shared/assets");
     let folder = chosen.unwrap_or(beside).join("models");
     let path = folder.join(name);
     if !folder.is_dir() {
-        // Not by a macro: the harness would hide it.
-        let _ = writeln!(std::io::stderr(), "SKIPPED {name}: {} was not found", folder.display());
+        report_skip(name, &format!("{} was not found", folder.display()));
         return None;
     }
     assert!(path.is_file(), "{} is missing", path.display());

@@ -4,9 +4,9 @@
 //! `ALBERTI_BATCH_KILLS` is the number of times a batch is killed, 12 if it is not set.
 
 use crate::sandbox::{RunResult, Sandbox};
+use alberti_tests::skip::report_skip;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant, SystemTime};
@@ -379,8 +379,7 @@ fn a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on() {
     let Some(output) = output.filter(|output| text(&output.stdout).contains("full")) else {
         let name = "a_disk_that_is_full_or_read_only_stops_the_run_and_the_next_one_goes_on";
         let why = "no file system can be mounted here (unshare --mount --map-root-user)";
-        let _ = writeln!(std::io::stderr(), "SKIPPED {name}: {why}");
-        return;
+        return report_skip(name, why);
     };
     let (stdout, stderr) = (text(&output.stdout), text(&output.stderr));
     let codes: Vec<&str> = stdout.lines().filter(|line| !line.contains(", ")).collect();

@@ -1,6 +1,7 @@
 //! `alberti explore`: what the server answers, what it refuses, and that it goes on.
 
 use crate::sandbox::Sandbox;
+use alberti_tests::skip::report_skip;
 use std::collections::VecDeque;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
@@ -230,8 +231,10 @@ fn an_interrupt_ends_it() {
     // A shell starts what it runs in the background with interrupts ignored, and so are they by
     // all that is started from there.
     if ignores_interrupts() {
-        println!("SKIPPED an_interrupt_ends_it: this test was started with interrupts ignored");
-        return;
+        return report_skip(
+            "an_interrupt_ends_it",
+            "this test was started with interrupts ignored",
+        );
     }
     let sandbox = Sandbox::new("explore_interrupt");
     let mut server = Server::start(&sandbox, &["--native"]);

@@ -6,19 +6,17 @@
 //! programs are not installed; `.ci/run` installs them if it can.
 
 use crate::sandbox::Sandbox;
-use std::io::Write as _;
+use alberti_tests::skip::report_skip;
 use std::path::Path;
 use std::process::Command;
 
-/// Where a program is, by one of its names; `None`, stderr on the error stream, if it is nowhere.
+/// Where a program is, by one of its names; `None`, with a report, if it is not installed.
 fn installed(names: &[&str]) -> Option<String> {
     let answers = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
     if let Some(name) = names.iter().find(answers) {
         return Some((*name).to_owned());
     }
-    let message = format!("{} is not installed", names.join(" or "));
-    // Not by a macro: the harness would hide it.
-    let _ = writeln!(std::io::stderr(), "SKIPPED viewers: {message}");
+    report_skip("viewers", &format!("{} is not installed", names.join(" or ")));
     None
 }
 

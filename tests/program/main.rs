@@ -2,6 +2,7 @@
 //! ends.
 
 #![allow(clippy::panic, reason = "what is missing in an answer fails the test")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
 
 mod assemblies;
 mod asset_models;
@@ -11,6 +12,9 @@ mod batch_crashes;
 mod batch_lists;
 mod batch_page;
 mod batch_workers;
+// Not about the program: it is linked here so that the engine is not linked once more.
+#[path = "../book_formulas/mod.rs"]
+mod book_formulas;
 mod calibrated_cameras;
 mod captions;
 mod check;
@@ -49,6 +53,7 @@ mod scene;
 mod sections;
 mod sequences;
 mod sheet_options;
+mod skips;
 mod sweep;
 mod thumbnailer;
 mod unusual_sheets;

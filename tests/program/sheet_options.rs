@@ -3,7 +3,7 @@
 
 use crate::drawings::{assert_near, assert_succeeds, read_drawing, write_box};
 use crate::sandbox::Sandbox;
-use std::io::Write as _;
+use alberti_tests::skip::report_skip;
 use std::process::Command;
 
 /// A sheet of a box of 100 × 50 × 30 mm with these fields.
@@ -83,9 +83,7 @@ fn texts_of_a_pdf_are_found_by_another_reader() {
         })
     };
     let Some(text) = read(&["-raw"]) else {
-        // Not by a macro: the harness would hide it.
-        let _ = writeln!(std::io::stderr(), "SKIPPED texts of a PDF: pdftotext is not installed");
-        return;
+        return report_skip("texts of a PDF", "pdftotext is not installed");
     };
     for word in ["Größe 轴承", "Zoë", "Alberti", "100", "50", "30", "单位名称", "1:1", "A4", "zh"]
     {

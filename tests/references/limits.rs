@@ -1,6 +1,6 @@
 //! Largest allowed distance of each picture from its reference.
 
-use crate::score::Score;
+use crate::references::score::Score;
 use std::path::Path;
 
 /// Upper bounds of [`Score::fraction_above`] and [`Score::silhouette`].

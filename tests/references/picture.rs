@@ -1,6 +1,6 @@
 //! RGB pictures, read from and written to PNG.
 
-use crate::score::largest_step;
+use crate::references::score::largest_step;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;

@@ -3,7 +3,7 @@
 //! Edges may differ by half a pixel, so each pixel is compared with the nearest in color of its 3 ×
 //! 3 neighbors in the other picture, and that in both directions.
 
-use crate::picture::Picture;
+use crate::references::picture::Picture;
 
 /// Distance of two pictures of one size.
 #[derive(Clone, Copy, PartialEq, Debug)]

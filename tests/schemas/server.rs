@@ -1,6 +1,6 @@
 //! Answers of the explorer, as its server sends them.
 
-use crate::documents::Document;
+use crate::schemas::documents::Document;
 use serde_json::Value;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;

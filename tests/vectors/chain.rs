@@ -1,14 +1,14 @@
 //! The chain from the world to the screen and back: CA-1, CA-2, PL-1, UN-1, UN-2.
 
-use crate::Runner;
-use crate::explained::check_explained;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::explained::check_explained;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, assert_matrix_close, compare_outcome, number_field,
     parse_matrix, parse_numbers,
 };
-use crate::numbers::{parse_point, parse_point4, text_field, zip_arrays};
-use crate::projection::build_projection;
-use crate::windows::full_image_viewport;
+use crate::vectors::numbers::{parse_point, parse_point4, text_field, zip_arrays};
+use crate::vectors::projection::build_projection;
+use crate::vectors::windows::full_image_viewport;
 use camera::{Camera, CameraError};
 use clip::Volume;
 use homog::{Clip, HPoint, Point, Projective, View, World};

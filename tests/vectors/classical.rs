@@ -1,11 +1,11 @@
 //! Classical projections, vanishing points and normalization (MV-1 to VV-2).
 
-use crate::Runner;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, assert_matrix_close, compare_outcome, number_field,
     parse_array, parse_matrix, parse_number, parse_numbers, parse_point, text_field,
 };
-use crate::projection::{CheckResult, check_mapped_points, divide_point};
+use crate::vectors::projection::{CheckResult, check_mapped_points, divide_point};
 use homog::{Clip, Normal, Plane, Point, Projective, Space, Vector, View};
 use projection::{
     Axonometric, Convention, Fov, Frustum, NPoint, Oblique, Orthographic, Perspective,

@@ -1,7 +1,7 @@
 //! Segments and triangles against the canonical volumes (CL-1 to CL-3).
 
-use crate::Runner;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, count_field, number_field, parse_array,
     parse_numbers, parse_point4, text_field,
 };

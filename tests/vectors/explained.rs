@@ -1,6 +1,6 @@
 //! `explain` tells of a point what the vectors have computed: clip space, the divide, the screen.
 
-use crate::numbers::{assert_all_close, assert_close, parse_point, parse_point4};
+use crate::vectors::numbers::{assert_all_close, assert_close, parse_point, parse_point4};
 use camera::ViewProjection;
 use glam::DMat4;
 use homog::{PixelConvention, Point, Projective};

@@ -1,13 +1,13 @@
 //! The exercises of the chapter, and the misprints of the sources: the right form must come out,
 //! the printed one must not.
 
-use crate::Runner;
-use crate::chain::check_lookat;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::chain::check_lookat;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, assert_matrix_close, compare_outcome, count_field,
     number_field, parse_array, parse_matrix, parse_number, parse_numbers, parse_point, text_field,
 };
-use crate::windows::{assert_matrix3_close, check_viewport_after_box, parse_window_map};
+use crate::vectors::windows::{assert_matrix3_close, check_viewport_after_box, parse_window_map};
 use camera::Camera;
 use glam::DMat4;
 use homog::{

@@ -1,7 +1,7 @@
 //! Hidden intervals of edges (HL-1).
 
-use crate::Runner;
-use crate::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};
+use crate::vectors::Runner;
+use crate::vectors::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};
 use camera::Camera;
 use camera::ViewProjection;
 use drawing::{Occluders, Projector, Tolerance};

@@ -1,7 +1,7 @@
 //! Homogeneous points and maps (HO-1 to HO-5), and segments under perspective (IN-1, IN-2).
 
-use crate::Runner;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, compare_outcome, number_field, parse_array,
     parse_matrix, parse_numbers, parse_point, parse_point4, text_field,
 };

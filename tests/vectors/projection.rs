@@ -1,7 +1,7 @@
 //! Projection matrices, fields of view and depth (OR-1 to LW-3, D3D-1 to IV-1, FOV-1, ZP-1).
 
-use crate::Runner;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, assert_matrix_close, compare_outcome, number_field,
     parse_array, parse_matrix, parse_point, parse_point4, text_field,
 };

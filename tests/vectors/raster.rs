@@ -3,12 +3,12 @@
 //! Coverage must agree sample by sample. Depth and weights are kept in f32 on purpose, so they are
 //! judged with the precision that f32 has.
 
-use crate::numbers::{assert_close, parse_number};
+use crate::vectors::numbers::{assert_close, parse_number};
 use homog::{PixelConvention, Point, Screen};
 use raster::{Frame, Opacity, Samples, ScreenVertex};
 use serde_json::Value;
 
-pub const RUNNERS: &[(&str, crate::Runner)] =
+pub const RUNNERS: &[(&str, crate::vectors::Runner)] =
     &[("raster_coverage", check_coverage), ("raster_attributes", check_attributes)];
 
 /// A few units in the last place of f32, for values of about 1.

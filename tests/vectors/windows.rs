@@ -1,7 +1,7 @@
 //! Windows, viewports, grids and depth ranges (LI-1, WI-2, WI-3, VP-1 to VP-4, WV-1 to WV-4, DP-1).
 
-use crate::Runner;
-use crate::numbers::{
+use crate::vectors::Runner;
+use crate::vectors::numbers::{
     TOLERANCE, assert_all_close, assert_close, assert_matrix_close, compare_outcome, count_field,
     number_field, parse_array, parse_matrix, parse_numbers, parse_point, parse_point4, text_field,
     zip_arrays,

@@ -64,3 +64,26 @@ def random_rotation(rng):
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+def _report_skip(name, reason):
+    """Reports what is skipped where the summary of `cargo xtask test` reads it."""
+    reason = reason.removeprefix("Skipped: ").removeprefix("SKIPPED: ").splitlines()[0]
+    log = os.environ.get("SKIP_LOG")
+    if log:
+        with open(log, "a", encoding="utf-8") as file:
+            file.write(f"SKIPPED python {name}: {reason}\n")
+
+
+def _skip_reason(report):
+    return report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+
+
+def pytest_runtest_logreport(report):
+    if report.skipped:
+        _report_skip(report.nodeid, _skip_reason(report))
+
+
+def pytest_collectreport(report):
+    if report.skipped:
+        _report_skip(report.nodeid, _skip_reason(report))

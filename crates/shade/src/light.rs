@@ -93,8 +93,8 @@ impl Light {
 
     /// The light that arrives at positions in the world, shadows not counted; none of ambient
     /// light, which has no direction.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn incident_at<const N: usize>(&self, positions: Vec3Lanes<N>) -> IncidentLight<N> {
         match *self {
             Self::Sun { to_light, lux, .. } => {

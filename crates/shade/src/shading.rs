@@ -309,8 +309,8 @@ impl Shading<'_> {
     /// The environment behind everything, as a blurred mirror would show it.
     ///
     /// The draw is a quad at the far plane; its positions are only used for the direction of view.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     fn shade_environment_backdrop<const N: usize>(
         &self,
         draw: &Draw<'_>,
@@ -330,8 +330,8 @@ impl Shading<'_> {
     }
 
     /// The backdrop at fragments whose positions are fractions of the picture; not tone mapped.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     fn shade_backdrop<const N: usize>(
         &self,
         draw: &Draw<'_>,
@@ -392,8 +392,8 @@ impl Shading<'_> {
     }
 
     /// Positions, views and smooth normals at fragments; normal maps are not applied yet.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn surface_geometry<const N: usize>(
         &self,
         draw: &Draw<'_>,

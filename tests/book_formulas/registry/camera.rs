@@ -100,7 +100,7 @@ fn camera_extras(v: &Inputs<'_>) -> Extras {
 fn components(
     names: [&'static str; 3],
     vector: Vector<World>,
-) -> impl Iterator<Item = (&'static str, crate::value::Value)> {
+) -> impl Iterator<Item = (&'static str, crate::book_formulas::value::Value)> {
     names.into_iter().zip(<[f64; 3]>::from(vector)).map(|(name, number)| (name, number.into()))
 }
 

@@ -49,7 +49,7 @@ fn distances<const N: usize>(
 ) -> Answer {
     let values = planes.map(|index| volume.plane(index).map(|plane| plane.evaluate(point)));
     let values = values.into_iter().collect::<Option<Vec<f64>>>().ok_or("the plane is missing")?;
-    Ok(crate::value::Value::column(&values))
+    Ok(crate::book_formulas::value::Value::column(&values))
 }
 
 fn along_x<const N: usize>(v: &Inputs<'_>, planes: [PlaneIndex; N]) -> Answer {

@@ -1,7 +1,7 @@
 //! Variables of an entry, and answers of the crates as values.
 
-use crate::name::Name;
-use crate::value::Value;
+use crate::book_formulas::name::Name;
+use crate::book_formulas::value::Value;
 use glam::{DMat3, DMat4};
 use homog::{Affine, HPoint, Homography, Normal, Point, Projective, Space, Vector};
 use std::collections::BTreeMap;

@@ -16,7 +16,7 @@ mod screen;
 
 pub use inputs::{Answer, Inputs};
 
-use crate::value::Value;
+use crate::book_formulas::value::Value;
 
 /// Names that a formula may use without a value in the check line.
 pub type Extras = Result<Vec<(&'static str, Value)>, Box<dyn std::error::Error>>;

@@ -21,7 +21,12 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
     ("flat style", "style: Flat", "", AS_IT_IS),
     ("one sun, no environment", "environment: Dark", "", AS_IT_IS),
     ("sky", "environment: Sky()", "", AS_IT_IS),
-    ("sun beside the studio", "lights: [Directional(intensity: 2, direction: (-1, -2, -1))]", "", AS_IT_IS),
+    (
+        "sun beside the studio",
+        "lights: [Directional(intensity: 2, direction: (-1, -2, -1))]",
+        "",
+        AS_IT_IS,
+    ),
     ("… casting shadows", SUN_WITH_SHADOWS, "", AS_IT_IS),
     ("… on the ground", SUN_ON_THE_GROUND, "", AS_IT_IS),
     ("spot casting shadows", SPOT_WITH_SHADOWS, "", AS_IT_IS),
@@ -53,7 +58,8 @@ const FEATURES: [(&str, &str, &str, Change); 19] = [
 type Change = fn(&mut MaterialExtensions);
 
 const AS_IT_IS: Change = |_| {};
-const SUN_WITH_SHADOWS: &str = "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())]";
+const SUN_WITH_SHADOWS: &str =
+    "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())]";
 const SUN_ON_THE_GROUND: &str =
     "lights: [Directional(intensity: 2, direction: (-1, -2, -1), shadows: On())], ground: Shadow()";
 const SPOT_WITH_SHADOWS: &str =

@@ -2,7 +2,7 @@
 //! intersections.
 
 use super::brdf::{Lights, Material};
-use crate::picture::Picture;
+use crate::references::picture::Picture;
 use glam::DVec3;
 
 /// A surface in the world.

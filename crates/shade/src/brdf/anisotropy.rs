@@ -90,8 +90,8 @@ impl<const N: usize> Anisotropy<N> {
     /// `alpha` across the frame.
     ///
     /// The isotropic lobe is `ShadingAngles::ggx_lobe` in `microfacet.rs`.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn ggx_lobe(
         &self,
         angles: &ShadingAngles<N>,

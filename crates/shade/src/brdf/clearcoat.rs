@@ -57,8 +57,8 @@ impl<const N: usize> Clearcoat<N> {
     ///
     /// Without Fresnel: the layer's reflectance is that of the view, and is applied once in
     /// [`composite_over`](Self::composite_over).
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn add_direct_light(&mut self, light: &IncidentLight<N>) {
         let SurfaceGeometry { normals, views, .. } = self.geometry;
         let angles = ShadingAngles::new(normals, views, light.to_light);

@@ -45,8 +45,8 @@ impl<const N: usize> DirectionalAlbedo<N> {
     /// sixteenths of the roughness. Before the first row and behind the last the value is that of
     /// the row, as in the textures of other renderers. (Rows at the ends, which would be exact, put
     /// three of the reference pictures out of their limits.)
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn lookup(roughness: Lanes<N>, n_dot_v: Lanes<N>) -> Self {
         let (rows, s) = locate_entries(roughness * 16.0 - 0.5);
         let (columns, t) = locate_entries(n_dot_v.sqrt() * 15.0);

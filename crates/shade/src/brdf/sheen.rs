@@ -91,8 +91,8 @@ impl<const N: usize> Sheen<N> {
 ///
 /// The distribution of Estevez and Kulla 2017 has its maximum at grazing half vectors: fibers stand
 /// upright, and light up at silhouettes.
-#[cfg_attr(not(target_family = "wasm"), inline(always))]
-#[cfg_attr(target_family = "wasm", inline(never))]
+#[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+#[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn charlie_lobe<const N: usize>(roughness: Lanes<N>, angles: &ShadingAngles<N>) -> Lanes<N> {
     let inv_alpha = 1.0 / (roughness * roughness);
     let (n_dot_l, n_dot_v) = (angles.n_dot_l, angles.n_dot_v);
@@ -128,8 +128,8 @@ fn charlie_lambda(cosine: f32, alpha: f32) -> f32 {
 /// Bilinear in the table.
 ///
 /// Sixteen roughnesses by sixteen roots of cosines; the root puts more entries near grazing angles.
-#[cfg_attr(not(target_family = "wasm"), inline(always))]
-#[cfg_attr(target_family = "wasm", inline(never))]
+#[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+#[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 fn sheen_albedo<const N: usize>(cosine: Lanes<N>, roughness: Lanes<N>) -> Lanes<N> {
     let (rows, s) = locate_entries(roughness * 15.0);
     let (columns, t) = locate_entries(cosine.sqrt() * 15.0);

@@ -28,8 +28,8 @@ use std::f32::consts::{LOG2_E, PI};
 ///
 /// Each channel of F0 gives the index of refraction of the base, so a colored metal interferes by
 /// channel. The cost is two harmonics with four Gaussians and cosines each.
-#[cfg_attr(not(target_family = "wasm"), inline(always))]
-#[cfg_attr(target_family = "wasm", inline(never))]
+#[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+#[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 pub(super) fn thin_film_f0<const N: usize>(
     f0: Rgb<N>,
     ior: f32,

@@ -35,8 +35,8 @@ impl<const N: usize> TangentLanes<N> {
 ///
 /// The frame is made of unit vectors, as MikkTSpace asks for, but not orthogonalized. The surface's
 /// own normals stay where it has no tangent, or where the sum has no direction.
-#[cfg_attr(not(target_family = "wasm"), inline(always))]
-#[cfg_attr(target_family = "wasm", inline(never))]
+#[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+#[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
 pub(super) fn apply_normal_map<const N: usize>(
     normals: Vec3Lanes<N>,
     tangents: &TangentLanes<N>,

@@ -42,8 +42,8 @@ impl MipChain<'_> {
     }
 
     /// Adds what is read at one tap of a footprint, times its weight.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn accumulate_tap<const N: usize>(
         &self,
         tap: &Tap<N>,

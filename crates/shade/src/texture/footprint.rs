@@ -60,8 +60,8 @@ impl<const N: usize> Footprint<N> {
 
     /// The tap with this index, from 0 on: taps divide the line into equal parts and lie in their
     /// middles.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn tap(&self, addressing: &TexelAddressing, index: u32) -> Tap<N> {
         let index = index as f32;
         let along = (index + 0.5) / self.tap_counts - 0.5;
@@ -84,8 +84,8 @@ impl TexelAddressing {
     /// The footprints of pixels, with at most `anisotropy` taps.
     ///
     /// The number of taps is the ratio of the axes, rounded, and at least 1.
-    #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(crate) fn footprint<const N: usize>(
         &self,
         uvs: &UvLanes<N>,

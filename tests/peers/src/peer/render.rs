@@ -14,7 +14,7 @@ use model::import::{ImportOptions, load};
 use model::{
     Image, Material, Mesh, MipmapMode, Model, Primitive, Sampler, Texture as Used, TextureInfo,
 };
-use pipeline::scene::{ImageSpec, Style};
+use pipeline::scene::ImageSpec;
 use pipeline::{Picture, RenderContext, Renderer, Textures};
 use projection::Convention;
 use raster::Samples;
@@ -37,39 +37,21 @@ impl Render {
     pub fn new(scene: &Scene, samples: Samples, threads: usize) -> Result<Self, String> {
         let lux = |share: f32| [share * PI; 3];
         let (width, height) = SIZE;
-        let scene = pipeline::Scene {
-            models: vec![ModelInstance {
-                model: Arc::new(model(scene)?),
-                model_to_world: Affine::IDENTITY,
-            }],
-            view_projection: ViewProjection {
-                camera: scene.camera,
-                view_to_clip: scene.view_to_clip(Convention::CHAPTER),
-            },
-            lights: vec![
-                Light::Sun { to_light: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
-                Light::Ambient { lux: lux(AMBIENT) },
-            ],
-            ground: None,
-            occlusion_radius: None,
-            environment: None,
-            tone_mapper: shade::ToneMapper::default(),
-            style: Style::Shaded,
-            image: ImageSpec {
-                width,
-                height,
-                caption_height: 0,
-                background: [0.0; 4],
-                environment_blur: None,
-                samples,
-                max_anisotropy: 1,
-            },
-            insets: Vec::new(),
-            backdrop: None,
-            overlays: Vec::new(),
-            caption: None,
-            sections: Vec::new(),
+        let models = vec![ModelInstance {
+            model: Arc::new(model(scene)?),
+            model_to_world: Affine::IDENTITY,
+        }];
+        let view_projection = ViewProjection {
+            camera: scene.camera,
+            view_to_clip: scene.view_to_clip(Convention::CHAPTER),
         };
+        let lights = vec![
+            Light::Sun { to_light: TOWARDS_LIGHT, lux: lux(1.0 - AMBIENT), shadow: None },
+            Light::Ambient { lux: lux(AMBIENT) },
+        ];
+        let image = ImageSpec { samples, ..ImageSpec::new(width, height) };
+        let scene =
+            pipeline::Scene { lights, ..pipeline::Scene::new(models, view_projection, image) };
         // As long as the process: there are few, and their textures refer to them.
         let models: &'static [ModelInstance] = scene.models.clone().leak();
         Ok(Self {

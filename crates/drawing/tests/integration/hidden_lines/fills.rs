@@ -1,0 +1,119 @@
+//! Fills of faces: grays of materials, and hatchings of shade and of parts.
+
+use super::stage::*;
+use drawing::EdgeClass::Hatching;
+use drawing::{
+    DrawOptions, FaceFill, LineDrawing, LineStyle, MILLIMETERS_PER_PIXEL, Page, Polyline, draw,
+    to_millimeters,
+};
+use homog::{Normal, Plane, Point};
+use model::{Material, Model, Primitive};
+use std::collections::BTreeMap;
+
+/// A model in which each primitive has a material of its own, of these colors.
+fn colored_model(parts: Vec<(Primitive, [f32; 3])>) -> Model {
+    let material = |(_, [r, g, b]): &(Primitive, [f32; 3])| Material {
+        base_color: [*r, *g, *b, 1.0],
+        ..Material::default()
+    };
+    let materials = parts.iter().map(material).collect();
+    let numbered = parts.into_iter().enumerate();
+    let primitives =
+        numbered.map(|(index, (part, _))| Primitive { material: Some(index), ..part }).collect();
+    Model { materials, ..build_model(primitives) }
+}
+
+fn filled(scene: &TestScene, face_fill: FaceFill) -> LineDrawing {
+    let style = LineStyle { face_fill, hatch_spacing: 1.5, ..LineStyle::HIDDEN_REMOVED };
+    draw(&scene.drawing_subject(), &style.to_draw_options(), 1).unwrap()
+}
+
+fn page(scene: &TestScene, face_fill: FaceFill) -> Page {
+    let style = LineStyle { face_fill, ..LineStyle::HIDDEN_REMOVED };
+    filled(scene, face_fill).to_page(&style, "", Some([255; 3]))
+}
+
+/// The area of fills in units of the picture.
+fn area(fills: &[Polyline]) -> f64 {
+    let unit = 100.0 * MILLIMETERS_PER_PIXEL;
+    let doubled = |line: &Polyline| -> f64 {
+        let points: Vec<_> = line.points.iter().map(|p| to_millimeters(*p) / unit).collect();
+        points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum()
+    };
+    fills.iter().map(doubled).sum::<f64>() * 0.5
+}
+
+#[test]
+fn grays_fill_what_is_visible_of_each_material() {
+    let cube = cuboid_mesh([-1.0; 3], [1.0; 3]);
+    // Before the lower left corner of the front of the cube, of which it hides a quarter unit.
+    let plate = quad_mesh([[-0.5, -0.5, 3.0], [0.5, -0.5, 3.0], [0.5, 0.5, 3.0], [-0.5, 0.5, 3.0]]);
+    let model = colored_model(vec![(cube, [0.8; 3]), (plate, [0.0, 0.0, 0.1])]);
+    let page = page(&drawing_scene(model, oblique_view()), FaceFill::Gray);
+    assert_eq!(page.images, []);
+    let grays: Vec<_> =
+        page.layers.iter().take_while(|layer| layer.id.starts_with("gray-")).collect();
+    let [dark, bright] = grays.as_slice() else { panic!("{} grays", grays.len()) };
+    assert!(dark.pen.ink[0] + 60 < bright.pen.ink[0], "{:?} {:?}", dark.pen, bright.pen);
+    for (layer, expected) in [(dark, 1.0), (bright, 7.75)] {
+        let actual = area(&layer.groups[0].fills);
+        assert!((actual - expected).abs() < 0.01 * expected, "{}: {actual}", layer.id);
+    }
+    // Above the fills, the lines of the same drawing without them.
+    assert!(page.layers[2..].iter().all(|layer| layer.id.starts_with("visible-")));
+    assert!(page.layers.len() > 2);
+}
+
+#[test]
+fn cuts_stay_blank_under_grays() {
+    let model = colored_model(vec![(cuboid_mesh([-1.0; 3], [1.0; 3]), [0.5; 3])]);
+    let cut = Plane::through(Point::new(0.0, 0.0, 0.0), Normal::new(0.0, 0.0, -1.0));
+    let scene = TestScene { sections: vec![cut], ..drawing_scene(model, oblique_view()) };
+    let page = page(&scene, FaceFill::Gray);
+    let gray = page.layers.iter().find(|layer| layer.id.starts_with("gray-")).unwrap();
+    // Right and upper side of the half that is left; the cut has 4 units.
+    let actual = area(&gray.groups[0].fills);
+    assert!((actual - 2.0).abs() < 0.02, "{actual}");
+}
+
+#[test]
+fn shade_is_hatched_whatever_the_color() {
+    let hatched = |color: [f32; 3], fill: FaceFill| {
+        let model = colored_model(vec![(cuboid_mesh([-1.0; 3], [1.0; 3]), color)]);
+        let drawing = filled(&drawing_scene(model, oblique_view()), fill);
+        segments_where(&drawing, is_visible_class(Hatching)).len()
+    };
+    let [white, black] = [[1.0; 3], [0.0; 3]].map(|color| hatched(color, FaceFill::ShadeHatching));
+    assert!(white > 10 && white == black, "{white} {black}");
+    assert!(hatched([0.0; 3], FaceFill::Hatching) > white);
+}
+
+/// The directions of the hatch lines of each object, in degrees, and how many they are.
+fn hatch_lines(drawing: &LineDrawing) -> BTreeMap<u32, (i64, usize)> {
+    let mut lines = BTreeMap::new();
+    for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
+        let step = line.ends[1] - line.ends[0];
+        let angle = libm::round(libm::atan(-step.y / step.x).to_degrees()) as i64;
+        let (known, count) = lines.entry(line.object).or_insert((angle, 0));
+        assert_eq!(*known, angle, "one direction for an object");
+        *count += 1;
+    }
+    lines
+}
+
+#[test]
+fn neighbors_are_hatched_differently() {
+    let boxes = [-3.0, -1.0, 1.0].map(|x| cuboid_mesh([x, -1.0, -1.0], [x + 2.0, 1.0, 1.0]));
+    let mut scene = drawing_scene(build_model(boxes.to_vec()), oblique_view());
+    let lines = hatch_lines(&filled(&scene, FaceFill::PartHatching));
+    let angles: Vec<i64> = lines.values().map(|(angle, _)| *angle).collect();
+    // The outer ones do not touch.
+    assert_eq!(angles, [45, -45, 45]);
+    // The side of the last box is visible, those of the others are not.
+    assert!(lines[&2].1 > lines[&0].1, "{lines:?}");
+    // Beside cuts nothing else is hatched.
+    scene.sections = vec![Plane::through(Point::new(0.0, 0.0, 0.0), Normal::new(0.0, 0.0, -1.0))];
+    let options = |face_fill| DrawOptions { face_fill, ..DrawOptions::default() };
+    let of = |fill| draw(&scene.drawing_subject(), &options(fill), 1).unwrap().segments;
+    assert_eq!(of(FaceFill::PartHatching), of(FaceFill::None));
+}

@@ -1,0 +1,4 @@
+//! Tests of the public interface of `drawing`, linked once.
+
+mod hidden_lines;
+mod sheets;

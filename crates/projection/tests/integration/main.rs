@@ -1,0 +1,5 @@
+//! Tests of the public interface of `projection`, linked once.
+
+mod items;
+mod laws;
+mod recognition;

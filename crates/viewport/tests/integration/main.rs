@@ -1,0 +1,5 @@
+//! Tests of the public interface of `viewport`, linked once.
+
+mod chapter;
+mod items;
+mod laws;

@@ -1,0 +1,134 @@
+//! Sheets of assemblies: parts counted, pages legible, parts of exploded views apart.
+//!
+//! The models are those of `$ASSETS` or of `shared/assets` beside the repository that have several
+//! nodes with meshes. Arguments that are not flags select models by a part of their path.
+
+#[path = "../crates/drawing/tests/integration/sheets/balloons.rs"]
+mod balloons;
+#[path = "../crates/drawing/tests/integration/sheets/lint.rs"]
+mod lint;
+#[path = "../crates/drawing/tests/integration/sheets/separation.rs"]
+mod separation;
+
+use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program, sample_cases};
+use alberti_tests::manifest::read_manifest;
+use drawing::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
+use homog::{Affine, Bounds};
+use model::import::{ImportOptions, load};
+use model::{ModelInstance, world_points};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use viewport::Paper;
+
+/// Models with more triangles are left to the benchmarks.
+const MAX_TRIANGLES: usize = 60_000;
+
+/// Models with more parts are drawn on the smaller paper alone: one of 1,900 takes as long as all
+/// others together.
+const MANY_PARTS: usize = 500;
+
+/// The diagonal of every model in millimeters: what they measure differs by a factor of a million.
+const DIAGONAL: f64 = 700.0;
+
+pub fn run() -> ExitCode {
+    run_program("assemblies", |arguments| {
+        let mut tally = Tally::default();
+        let Some(folder) = data_folder("ASSETS", "assets")? else {
+            tally.skip("assemblies", "there is no folder shared/assets; name one by ASSETS");
+            return Ok(tally);
+        };
+        let mut models = listed_models(&folder)?;
+        models.retain(|(_, name)| arguments.select(name));
+        if arguments.filters().is_empty() {
+            models = sample_cases("models", models);
+        }
+        let results = map_parallel(&models, |_, (path, name)| {
+            let result = check_model(path);
+            if let Ok(Some(summary)) = &result {
+                println!("{name:60} {summary}");
+            }
+            result
+        });
+        let mut count = 0;
+        for ((_, name), result) in models.iter().zip(results) {
+            count += usize::from(!matches!(result, Ok(None)));
+            tally.record(name, result.map(drop));
+        }
+        println!("{count} assemblies");
+        Ok(tally)
+    })
+}
+
+/// Path and name of the listed models that are not too large.
+fn listed_models(folder: &Path) -> Result<Vec<(PathBuf, String)>, String> {
+    let rows = read_manifest(folder)?.into_iter();
+    let wanted = rows.filter(|row| {
+        row.group() == "models" && row.scene_triangles.is_some_and(|count| count <= MAX_TRIANGLES)
+    });
+    Ok(wanted.map(|row| (folder.join(&row.path), row.path)).collect())
+}
+
+/// Draws the pages of a model with several parts, and says how many balloons, pages and crossings of
+/// leaders they have; `None` for others.
+fn check_model(path: &Path) -> Result<Option<String>, String> {
+    // Which models are refused is a question of the corpus.
+    let Ok(model) = load(path, &ImportOptions::default()) else { return Ok(None) };
+    let nodes = model.mesh_instances().count();
+    let models = [ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY }];
+    let list = PartsList::new(&models, &[], 1.0);
+    let parts: usize = list.items.iter().map(|item| item.quantity).sum();
+    if parts < 2 {
+        return Ok(None);
+    }
+    if parts > nodes {
+        return Err(format!("{parts} parts of {nodes} nodes"));
+    }
+    let diagonal = Bounds::from_points(world_points(&models)).map_or(1.0, Bounds::diagonal);
+    let mut summary = format!("{parts:5} parts {:5} items", list.items.len());
+    let papers = [(Paper::A4, "A4"), (Paper::A3.rotated(), "A3")];
+    let papers = papers.into_iter().take(if parts > MANY_PARTS { 1 } else { 2 });
+    for (paper, name) in papers {
+        for explosion in [None, Some(ExplosionSettings::default())] {
+            let is_exploded = explosion.is_some();
+            let pages = AssemblyPages {
+                parts_list: true,
+                balloons: true,
+                explosion,
+                ..AssemblyPages::default()
+            };
+            let sheet = Sheet {
+                assembly: pages,
+                millimeters_per_unit: DIAGONAL / diagonal.max(1e-9),
+                ..Sheet::for_paper(paper, name)
+            };
+            let pages = sheet.draw_pages(&models, &[], 1).map_err(|error| error.to_string())?;
+            for (page, number) in pages.iter().zip(1..) {
+                let mut faults = lint::faults(page);
+                faults.extend(balloons::balloon_faults(page));
+                if let Some(fault) = faults.first() {
+                    let count = faults.len();
+                    return Err(format!("{name} {is_exploded} page {number}: {count}: {fault}"));
+                }
+            }
+            let numbers = pages.iter().map(|page| balloons::texts(page, "balloon-numbers").len());
+            let crossing = pages.iter().map(|page| balloons::crossing_leaders(page).len());
+            let (numbers, crossing): (usize, usize) = (numbers.sum(), crossing.sum());
+            summary += &format!("  {name} {numbers}/{} ({crossing})", pages.len());
+        }
+    }
+    let axes = [ExplosionAxis::Auto, ExplosionAxis::X, ExplosionAxis::All];
+    for axis in axes {
+        let settings = ExplosionSettings { axis, distance: None };
+        check_apart(&explode_models(&models, &settings)).map_err(|e| format!("{axis:?}: {e}"))?;
+    }
+    Ok(Some(summary))
+}
+
+/// Whether no two objects intersect, by their triangles.
+fn check_apart(models: &[ModelInstance]) -> Result<(), String> {
+    match separation::intersecting_parts(&separation::part_triangles(models)).first() {
+        Some([part, other]) => Err(format!("parts {part} and {other} meet")),
+        None => Ok(()),
+    }
+}

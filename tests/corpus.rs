@@ -1,0 +1,128 @@
+//! Every file of a corpus, rendered by the real program: it yields a picture, or is refused with a
+//! reason.
+//!
+//! Two corpora are rendered: the one that [`alberti_tests::samples`] generates, whose manifest
+//! states the outcome of each file, and, if it exists, the folder `$ASSETS` or `shared/assets`
+//! beside the repository, for which the tables of [`expected`] do. Each file is rendered in a
+//! process of its own, two at a time, within thirty seconds. There are two legal outcomes: exit
+//! code 0 and a PNG of the right size, or exit code 1, a message that names the file and the
+//! reason, and no PNG. The numbers of triangles of files under `models` are those of the manifest.
+//! Arguments that are not flags select files by a part of their path.
+
+mod expected;
+mod program;
+mod triangles;
+mod verdict;
+
+use alberti_tests::harness::{
+    Arguments, Tally, TemporaryFolder, data_folder, map_parallel, run_program,
+};
+use alberti_tests::manifest::{Row, read_manifest};
+use alberti_tests::samples::write_samples;
+use program::Program;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::ExitCode;
+use verdict::Verdict;
+
+/// Width and height of the pictures.
+const PICTURE_SIZE: (u32, u32) = (64, 48);
+
+/// The groups of files that are rendered.
+const GROUPS: [&str; 3] = ["models", "validator-valid", "bad"];
+
+/// Outcomes of one group.
+#[derive(Default)]
+struct GroupTally {
+    drawn: usize,
+    blank: usize,
+    refused: usize,
+}
+
+pub fn run() -> ExitCode {
+    run_program("corpus", |arguments| {
+        let program = Program::build()?;
+        let samples = Path::new(env!("CARGO_TARGET_TMPDIR")).join("corpus");
+        write_samples(&samples)?;
+        let mut tally = render_corpus(&program, &samples, false, arguments)?;
+        if let Some(assets) = data_folder("ASSETS", "assets")? {
+            let known = std::env::var_os("ASSETS").is_none();
+            tally += render_corpus(&program, &assets, known, arguments)?;
+        }
+        Ok(tally)
+    })
+}
+
+/// Renders the files of a folder and prints the outcomes. `known` is true for the folder that the
+/// tables describe.
+fn render_corpus(
+    program: &Program,
+    folder: &Path,
+    known: bool,
+    arguments: &Arguments,
+) -> Result<Tally, String> {
+    println!("{}", folder.display());
+    let mut rows = read_manifest(folder)?;
+    rows.retain(|row| GROUPS.contains(&row.group()) && arguments.select(&row.path));
+    let verdicts = render_files(program, folder, &rows)?;
+    let mut tally = Tally::default();
+    let mut groups: BTreeMap<&str, GroupTally> = BTreeMap::new();
+    for (row, verdict) in rows.iter().zip(&verdicts) {
+        if let Some(failure) = failure_message(row, verdict, known) {
+            tally.fail(&row.path, &failure);
+            continue;
+        }
+        tally.pass(1);
+        let group = groups.entry(row.group()).or_default();
+        match verdict {
+            Verdict::Drawn => group.drawn += 1,
+            Verdict::Blank => group.blank += 1,
+            Verdict::Refused(_) | Verdict::Broken(_) => group.refused += 1,
+        }
+    }
+    print_refusals(&rows, &verdicts);
+    triangles::check_triangle_counts(folder, &rows, known, &mut tally);
+    for (group, GroupTally { drawn, blank, refused }) in &groups {
+        println!("{group}: {drawn} drawn, {blank} drawn blank, {refused} refused");
+    }
+    Ok(tally)
+}
+
+/// Why an outcome is wrong: by the manifest where it states one, else by the tables of a known
+/// folder.
+fn failure_message(row: &Row, verdict: &Verdict, known: bool) -> Option<String> {
+    match verdict {
+        Verdict::Broken(problem) => Some(problem.clone()),
+        verdict if row.expected.is_some() => expected::difference_from_manifest(row, verdict),
+        verdict if known => expected::difference_from_tables(row, verdict),
+        _ => None,
+    }
+}
+
+/// Prints the reasons of all refusals, each with its files, and the files with blank pictures.
+fn print_refusals(rows: &[Row], verdicts: &[Verdict]) {
+    let mut files: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for (row, verdict) in rows.iter().zip(verdicts) {
+        match verdict {
+            Verdict::Refused(reason) => files.entry(reason).or_default().push(&row.path),
+            Verdict::Blank => files.entry("(drawn blank)").or_default().push(&row.path),
+            Verdict::Drawn | Verdict::Broken(_) => {}
+        }
+    }
+    for (reason, files) in files {
+        println!("{reason}");
+        files.iter().for_each(|file| println!("    {file}"));
+    }
+}
+
+/// Renders all files, two at a time; the verdicts are in the order of the rows.
+fn render_files(program: &Program, folder: &Path, rows: &[Row]) -> Result<Vec<Verdict>, String> {
+    let pictures = TemporaryFolder::create("corpus")?;
+    Ok(map_parallel(rows, |index, row| {
+        let picture = pictures.path().join(format!("{index}.png"));
+        let run = program.render(&folder.join(&row.path), &picture, PICTURE_SIZE);
+        run.map_or_else(Verdict::Broken, |run| {
+            verdict::judge_run(row, &run, &picture, PICTURE_SIZE)
+        })
+    }))
+}

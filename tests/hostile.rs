@@ -1,0 +1,148 @@
+//! Hostile files, built here and loaded in this process.
+//!
+//! Whatever a file contains, loading and checking it return without a panic, in bounded time and
+//! memory; and a model that is returned, from strict or lenient import, keeps every promise of its
+//! documentation. The expected outcome is stated wherever the message matters. Arguments that are
+//! not flags select cases by a part of their name; `--write DIR` writes all files and loads none.
+
+mod accessors;
+mod animations;
+mod bytes;
+mod case;
+mod draco;
+mod images;
+mod ktx2;
+mod members;
+mod meshes;
+mod meshopt;
+mod mutants;
+mod nodes;
+mod promises;
+mod text;
+mod types;
+mod uris;
+
+use alberti_tests::harness::{Arguments, Tally, TemporaryFolder, run_program};
+use case::Case;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Memory limit of the whole run at any time.
+const MAX_MEMORY_MIB: u64 = 200;
+
+/// Time limit of a case, generous enough for a busy machine.
+const TIME_LIMIT: Duration = Duration::from_secs(10);
+
+/// The extremes of a run, with the names of their cases.
+#[derive(Default)]
+struct Extremes {
+    slowest: (Duration, String),
+    /// In MiB.
+    largest: (u64, String),
+}
+
+pub fn run() -> ExitCode {
+    run_program("hostile", |arguments| {
+        if arguments.has_flag("--write") {
+            let [folder] = arguments.filters() else {
+                return Err("usage: --write DIR".to_owned());
+            };
+            let count = write_files(folder.as_ref()).map_err(|e| format!("{folder}: {e}"))?;
+            println!("{count} files");
+            return Ok(Tally::default());
+        }
+        run_groups(TemporaryFolder::create("hostile")?.path(), arguments)
+    })
+}
+
+/// Writes the files of all cases to a folder, as seeds for the fuzzer.
+fn write_files(folder: &Path) -> std::io::Result<usize> {
+    let mut count = 0;
+    for (group, cases) in case_groups() {
+        for case in cases().iter().filter(|case| case.file.len() <= 64 << 10) {
+            std::fs::write(folder.join(format!("{group}-{count:05}")), &case.file)?;
+            count += 1;
+        }
+    }
+    Ok(count)
+}
+
+/// Runs all selected cases: each is loaded from a file, checked, and loaded leniently.
+fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
+    let (mut tally, mut extremes) = (Tally::default(), Extremes::default());
+    for (group, cases) in case_groups() {
+        let cases: Vec<Case> =
+            cases().into_iter().filter(|case| arguments.select(&case.name)).collect();
+        println!("{group}: {} files", cases.len());
+        for case in &cases {
+            let name = &case.name;
+            let mut record = |name: &str, run: &dyn Fn() -> Result<(), String>| {
+                tally.record(name, extremes.measure(name, run));
+            };
+            record(name, &|| case.check_file(folder));
+            record(&format!("{name}, checked"), &|| case.check_bytes());
+            record(&format!("{name}, leniently"), &|| case.load_leniently());
+        }
+    }
+    let uris = uris::run_uri_cases(&folder.join("uris"))?;
+    println!("uris: {} cases", uris.len());
+    for (name, result) in uris.into_iter().filter(|(name, _)| arguments.select(name)) {
+        tally.record(&name, result);
+    }
+    let Extremes { slowest, largest } = extremes;
+    println!("slowest: {:?} {}", slowest.0, slowest.1);
+    println!("memory: {} MiB since {}", largest.0, largest.1);
+    if largest.0 > MAX_MEMORY_MIB {
+        tally.fail("memory", &format!("{} MiB since {}", largest.0, largest.1));
+    }
+    Ok(tally)
+}
+
+/// Builds the cases of a group.
+type Cases = fn() -> Vec<Case>;
+
+fn case_groups() -> [(&'static str, Cases); 12] {
+    [
+        ("types", types::type_cases),
+        ("accessors", accessors::accessor_cases),
+        ("animations", animations::animation_cases),
+        ("bytes", bytes::byte_cases),
+        ("members", members::member_cases),
+        ("meshopt", meshopt::meshopt_cases),
+        ("draco", draco::draco_cases),
+        ("nodes", nodes::node_cases),
+        ("images", images::image_cases),
+        ("ktx2", ktx2::ktx2_cases),
+        ("text", text::text_cases),
+        ("meshes", meshes::mesh_cases),
+    ]
+}
+
+impl Extremes {
+    /// Runs a case, notes its time and the memory of the process, and turns a panic or a timeout
+    /// into an error.
+    fn measure(&mut self, name: &str, run: &dyn Fn() -> Result<(), String>) -> Result<(), String> {
+        let start = Instant::now();
+        let result =
+            catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err("panic".to_owned()));
+        let time = start.elapsed();
+        if time > self.slowest.0 {
+            self.slowest = (time, name.to_owned());
+        }
+        let memory = peak_memory_mib();
+        if memory > self.largest.0 {
+            self.largest = (memory, name.to_owned());
+        }
+        if time < TIME_LIMIT { result } else { result.and(Err(format!("it took {time:?}"))) }
+    }
+}
+
+/// Peak memory of this process in MiB; 0 where the system does not report it.
+fn peak_memory_mib() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kib = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kib.unwrap_or(0) / 1024
+}

@@ -1,0 +1,171 @@
+//! What users see first: every model, bare, in every style, has light and contrast, and its default
+//! picture neither clips nor drowns; and ambient occlusion leaves no dots.
+//!
+//! The models are those of the scenes and, if it exists, those of the folder `$ASSETS` or
+//! `shared/assets` beside the repository. Pictures of scenes do not find such faults, because
+//! scenes have lights of their own. Arguments that are not flags select models by a part of their
+//! name.
+
+mod occlusion;
+
+use alberti_tests::harness::{Arguments, Tally, data_folder, map_parallel, run_program};
+use alberti_tests::project_root;
+use alberti_tests::statistics::PictureStatistics;
+use pipeline::scene::ResolveOptions;
+use pipeline::scene::file::StyleFile;
+use pipeline::{Origin, ResolveError, Scene, render};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The size of the pictures.
+const SIZE: (u32, u32) = (160, 120);
+/// The greatest share of pixels with code 255 in all channels, in the default picture.
+const MAX_WHITE: f64 = 0.02;
+/// The greatest share of pixels below code 5 in all channels, in the default picture.
+const MAX_BLACK: f64 = 0.05;
+/// The least difference between dark and bright of a surface that is not flat, in codes.
+const MIN_CONTRAST: u8 = 10;
+
+/// The styles that show the shape of surfaces by light or depth, with their names.
+const SHAPED_STYLES: [(&str, StyleFile); 7] = [
+    ("shaded", StyleFile::Shaded),
+    ("flat", StyleFile::Flat),
+    ("gouraud", StyleFile::Gouraud),
+    ("clay", StyleFile::Clay),
+    ("matcap", StyleFile::Matcap),
+    ("toon", StyleFile::Toon),
+    ("normals", StyleFile::Normals),
+];
+
+/// Models whose own emission, unlit colors or lines are white, and why.
+const WHITE_MODELS: [(&str, &str); 13] = [
+    ("anisotropy-strength-test", "labels that emit light"),
+    ("blender-emission-strength", "spheres that emit light"),
+    ("blender-vertex-color", "unlit lines and points"),
+    ("clear-coat-test", "labels that emit light"),
+    ("lines", "unlit lines"),
+    ("mexican_hat_lines", "unlit lines"),
+    ("points", "unlit points"),
+    ("primitive-mode-00", "unlit points"),
+    ("primitive-mode-02", "unlit lines"),
+    ("primitive-mode-08", "unlit points"),
+    ("primitive-mode-10", "unlit points"),
+    ("primitive-mode-normals-test", "unlit labels and lines"),
+    ("primitives", "unlit points and lines"),
+];
+
+/// Models whose materials are black, and why.
+const BLACK_MODELS: [(&str, &str); 4] = [
+    ("black-cube-zerobuffer", "base color 0"),
+    ("blender-texture-wrapping", "base color 0"),
+    ("specular-test", "base color 0"),
+    ("sphere-with-circle-texture", "base color 0"),
+];
+
+/// Models without contrast in some styles, and why.
+const EVEN_MODELS: [(&str, &str); 2] = [
+    ("blender-gpu-instancing", "at this size outlines are wider than its cubes"),
+    ("normal-tangent-mirror-test", "plates of one plane"),
+];
+
+pub fn run() -> ExitCode {
+    run_program("looks", |arguments| {
+        let mut models = list_models(&project_root().join("scenes/models"))?;
+        if let Some(assets) = data_folder("ASSETS", "assets")? {
+            for folder in list_folder(&assets.join("models"))? {
+                models.extend(list_models(&folder)?);
+            }
+        }
+        models.retain(|model| arguments.select(&model_name(model)));
+        Ok(judge_models(&models, arguments))
+    })
+}
+
+/// Judges all models, two at a time.
+fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
+    let mut tally = Tally::default();
+    let is_listed = arguments.has_flag("--list");
+    for (model, faults) in models.iter().zip(map_parallel(models, |_, model| judge_model(model))) {
+        let name = model_name(model);
+        if is_listed {
+            println!("{name}");
+        }
+        if faults.is_empty() {
+            tally.pass(1);
+        }
+        for fault in faults {
+            tally.fail(&name, &fault);
+        }
+    }
+    tally
+}
+
+/// What is wrong with the pictures of a model; nothing if it cannot be drawn, which is the matter
+/// of other tests.
+fn judge_model(model: &Path) -> Vec<String> {
+    let mut faults = occlusion::find_dots(model, &model_name(model));
+    // A plane has one normal: there is nothing that light could show.
+    let Ok(normals) = render_model(model, &StyleFile::Normals) else { return faults };
+    let is_even = normals.contrast < MIN_CONTRAST || is_exempt(model, &EVEN_MODELS);
+    for (style_name, style) in SHAPED_STYLES {
+        let Ok(statistics) = render_model(model, &style) else {
+            faults.push(format!("{style_name} cannot be drawn"));
+            continue;
+        };
+        let is_black = is_exempt(model, &BLACK_MODELS) && style_name != "clay";
+        let is_white = is_exempt(model, &WHITE_MODELS);
+        if statistics.brightest == 0 && !is_black {
+            faults.push(format!("{style_name} is black: {statistics:?}"));
+        } else if statistics.contrast < MIN_CONTRAST && !(is_even || is_black || is_white) {
+            faults.push(format!("{style_name} has no contrast: {statistics:?}"));
+        }
+        if style_name == "shaded" {
+            if statistics.white > MAX_WHITE && !is_white {
+                faults.push(format!("{:.1} % is white", 100.0 * statistics.white));
+            }
+            if statistics.black > MAX_BLACK && !is_black {
+                faults.push(format!("{:.1} % is black", 100.0 * statistics.black));
+            }
+        }
+    }
+    faults
+}
+
+/// The statistics of a bare model in a style.
+fn render_model(model: &Path, style: &StyleFile) -> Result<PictureStatistics, ResolveError> {
+    let (origin, mut file) = Origin::from_model_path(model);
+    file.image.size = SIZE;
+    file.style = style.clone();
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions::default())?;
+    let picture = render(&scene, 1).unwrap_or_default();
+    Ok(PictureStatistics::of_picture(&picture))
+}
+
+/// Whether a model is in a list.
+fn is_exempt(model: &Path, list: &[(&str, &str)]) -> bool {
+    let name = model_name(model);
+    list.iter().any(|(known, _)| name == *known)
+}
+
+/// The name of a model: that of its file, or of the folder which it is alone in.
+fn model_name(model: &Path) -> String {
+    let folder = model.parent().filter(|folder| !folder.ends_with("scenes/models"));
+    let named = folder.map_or_else(|| model.file_stem(), Path::file_name);
+    named.unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The glTF files in a folder, by name.
+fn list_models(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut files = list_folder(folder)?;
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "glb" || ending == "gltf"));
+    Ok(files)
+}
+
+/// What is in a folder, by name.
+fn list_folder(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let in_folder = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let entries = std::fs::read_dir(folder).map_err(in_folder)?;
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    Ok(paths)
+}

@@ -1,0 +1,43 @@
+//! Tests that lack a tool or a folder say so where `cargo xtask test` reads it.
+//!
+//! Each is run by this program itself, as the harness runs it, without what it needs: a test that
+//! returned in silence would pass for ever.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Runs tests by their name with an environment variable changed, and gives what they reported.
+fn skips_of(test: &str, (name, value): (&str, &str)) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let log = folder.join(format!("skips-{test}"));
+    let _ = std::fs::remove_file(&log);
+    // Interrupts ignored: for the test that cannot run then.
+    let script = "trap '' INT; exec \"$TESTS\" \"$TEST\"";
+    let mut shell = Command::new("/bin/sh");
+    shell.args(["-c", script]).env("TESTS", std::env::current_exe().expect("this program"));
+    shell.env("ALBERTI", alberti_tests::program_path().expect("the program"));
+    let run = shell.env("TEST", test).env("SKIP_LOG", &log).env(name, value).output();
+    let run = run.expect("a shell");
+    assert!(run.status.success(), "{test}: {}", String::from_utf8_lossy(&run.stdout));
+    std::fs::read_to_string(log).unwrap_or_default()
+}
+
+#[cfg(unix)]
+#[test]
+fn tests_without_their_tool_are_reported() {
+    let nothing = ("PATH", "/nowhere");
+    for (test, variable, skip) in [
+        ("poppler_shows_a_pdf_as_the_png_has_it", nothing, "SKIPPED viewers: pdftoppm"),
+        ("cesium_man_walks", ("ASSETS", "/nowhere"), "SKIPPED cesium-man"),
+        (
+            "texts_of_a_pdf_are_found_by_another_reader",
+            nothing,
+            "SKIPPED texts of a PDF: pdftotext",
+        ),
+        ("a_disk_that_is_full_or_read_only", nothing, "SKIPPED a_disk_that_is_full"),
+        ("an_interrupt_ends_it", ("NOTHING", ""), "SKIPPED an_interrupt_ends_it"),
+    ] {
+        let reported = skips_of(test, variable);
+        assert!(reported.starts_with(skip), "{test} reported `{reported}`");
+    }
+}

@@ -1,0 +1,57 @@
+//! The table-driven test suites in one program: `suites NAME [FILTER…]` runs one of them.
+//!
+//! Their cases are files that are found at run time, so they do without the harness of Rust's
+//! tests; see `harness.rs` for what they share. They are one program because each would link the
+//! whole engine.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a test program prints its results")]
+#![allow(missing_docs, unreachable_pub, reason = "in a program `pub` means: used by another file")]
+#![allow(dead_code, reason = "the helpers of another crate's tests are used in part")]
+
+mod assemblies;
+mod check;
+mod cluster;
+mod corpus;
+mod drawing;
+mod goldens;
+mod hostile;
+mod looks;
+mod meshes;
+mod references;
+mod schemas;
+mod thumbnails;
+mod vectors;
+
+use std::process::ExitCode;
+
+/// The `run` of a suite.
+type Suite = fn() -> ExitCode;
+
+/// The suites by name.
+const SUITES: &[(&str, Suite)] = &[
+    ("assemblies", assemblies::run),
+    ("check", check::run),
+    ("cluster", cluster::run),
+    ("corpus", corpus::run),
+    ("drawing", drawing::run),
+    ("goldens", goldens::run),
+    ("hostile", hostile::run),
+    ("looks", looks::run),
+    ("meshes", meshes::run),
+    ("references", references::run),
+    ("schemas", schemas::run),
+    ("thumbnails", thumbnails::run),
+    ("vectors", vectors::run),
+];
+
+fn main() -> ExitCode {
+    let name = std::env::args().nth(1);
+    let suite = SUITES.iter().find(|(suite, _)| name.as_deref() == Some(*suite));
+    if let Some((_, run)) = suite {
+        return run();
+    }
+    let names: Vec<&str> = SUITES.iter().map(|(name, _)| *name).collect();
+    eprintln!("usage: suites NAME [FILTER…], where NAME is one of {}", names.join(", "));
+    // `cargo test` without arguments runs every program: those suites are steps of `cargo xtask test`.
+    ExitCode::from(if name.is_some() { 2 } else { 0 })
+}
