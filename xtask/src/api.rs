@@ -12,6 +12,7 @@ mod listing;
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command};
+use crate::skip::report_skip;
 use crate::workspace::{create_folder, project_root, read_text, target_folder};
 use listing::crate_listing;
 use std::collections::BTreeMap;
@@ -50,7 +51,10 @@ pub fn run_api(arguments: &[String]) -> Outcome {
     };
     let version = capture_output(Command::new("rustdoc").arg("--version"))?;
     if !version.starts_with(&format!("rustdoc {COMPILER}.")) {
-        println!("SKIPPED api: listings are of rustdoc {COMPILER}, and this is {}", version.trim());
+        report_skip(
+            "api",
+            &format!("listings are of rustdoc {COMPILER}, and this is {}", version.trim()),
+        );
         return Ok(());
     }
     // As in the step `docs`, so that nothing is built twice.

@@ -19,7 +19,8 @@ mod pdf;
 
 use crate::Outcome;
 use crate::browser::{current_site, missing_tool};
-use crate::program::{Build, Program, cargo_command, run_visibly};
+use crate::program::{Build, Program, cargo_command, compile, run_visibly};
+use crate::skip::report_skip;
 use crate::web::{list_lessons, missing_tools};
 use crate::workspace::{create_folder, list_files, project_root, read_text, target_folder};
 use std::collections::BTreeSet;
@@ -59,7 +60,7 @@ pub fn run_book(arguments: &[String]) -> Outcome {
 /// What the step of the tests runs.
 fn test_book() -> Outcome {
     let mut tests = cargo_command(&["test", "--quiet", "--locked", "--manifest-path", BUILDER]);
-    run_visibly(tests.env("CARGO_TARGET_DIR", builder_target()))?;
+    compile(|| run_visibly(tests.env("CARGO_TARGET_DIR", builder_target())))?;
     build_editions(&[])?;
     run_builder("coverage", &["--assert", COVERAGE])?;
     run_builder("check-po", &[])?;
@@ -91,9 +92,7 @@ fn copy_explorer(folder: &Path) -> Outcome {
     match current_site() {
         Some(site) => copy_folder(&site, folder),
         None => {
-            println!(
-                "SKIPPED book: links to the explorer: `cargo xtask web` has not built its page"
-            );
+            report_skip("book", "links to the explorer: `cargo xtask web` has not built its page");
             Ok(())
         }
     }
@@ -119,7 +118,7 @@ fn check_editions() -> Outcome {
     check_lessons()?;
     let folder = project_root().join("tests/browser");
     if let Some(missing) = missing_tool(&folder) {
-        println!("SKIPPED book: search and layout in a browser: {missing}");
+        report_skip("book", &format!("search and layout in a browser: {missing}"));
         return Ok(());
     }
     let mut node = Command::new("node");
@@ -130,7 +129,7 @@ fn check_editions() -> Outcome {
 fn check_lessons() -> Outcome {
     let site = book_folder().join("explorer");
     if !site.is_dir() || missing_tools().is_some() {
-        println!("SKIPPED book: lessons of links to the explorer: its page is not beside the book");
+        report_skip("book", "lessons of links to the explorer: its page is not beside the book");
         return Ok(());
     }
     let lessons = list_lessons(&site)?;

@@ -6,6 +6,7 @@
 
 use crate::Outcome;
 use crate::program::{Build, Program, capture_output, run_command, run_visibly};
+use crate::skip::report_skip;
 use crate::workspace::{project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,20 +20,29 @@ const NODE: u32 = 20;
 /// Seconds for fetching the packages.
 const FETCH_SECONDS: &str = "120";
 
-/// Runs the tests, or says why they are skipped.
-pub fn run_browser(_arguments: &[String]) -> Outcome {
+/// Runs the tests, with `--first` of the first lesson alone, or reports why they are skipped.
+pub fn run_browser(arguments: &[String]) -> Outcome {
+    let is_first = match arguments {
+        [] => false,
+        [flag] if flag == "--first" => true,
+        _ => return Err("the only argument is `--first`".to_owned()),
+    };
     let folder = project_root().join("tests/browser");
     if let Some(missing) = missing_tool(&folder) {
-        println!("SKIPPED browser: {missing}");
+        report_skip("browser", &missing);
         return Ok(());
     }
     let program = Program::build(Build::Debug)?;
     let mut node = Command::new("node");
     node.current_dir(&folder).arg("main.mjs").arg(program.path());
+    if is_first {
+        return run_visibly(node.arg("--first"));
+    }
     match current_site() {
         Some(site) => drop(node.arg(site)),
-        None => println!(
-            "SKIPPED browser: WebAssembly in the browser: there is no build of this page; `cargo xtask web` makes it"
+        None => report_skip(
+            "browser",
+            "WebAssembly in the browser: there is no build of this page; `cargo xtask web` makes it",
         ),
     }
     run_visibly(&mut node)

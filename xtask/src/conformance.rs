@@ -13,6 +13,7 @@ mod table;
 mod vectors;
 
 use crate::Outcome;
+use crate::skip::report_skip;
 use crate::tidy::{Source, rust_files};
 use crate::workspace::{project_root, read_text};
 use book::BookMarks;
@@ -92,11 +93,11 @@ fn differing_lists(document: &str, marks: Option<&BookMarks>) -> Result<Vec<Stri
         let found = book::inventory_topics(&read_text(&inventory)?);
         faults.extend(book::compare_topics("the inventory", &found, &topics).err());
     } else {
-        println!("SKIPPED the inventory of the sources: {} is missing", inventory.display());
+        report_skip("the inventory of the sources", &format!("{} is missing", inventory.display()));
     }
     match marks {
         Some(marks) => faults.extend(marks.faults(&topics)),
-        None => println!("SKIPPED the marks of the book: there is no {BOOK_PATH}"),
+        None => report_skip("the marks of the book", &format!("there is no {BOOK_PATH}")),
     }
     Ok(faults)
 }

@@ -10,6 +10,7 @@ mod policy;
 
 use crate::Outcome;
 use crate::program::{capture_output, cargo_command, run_command};
+use crate::skip::report_skip;
 use crate::workspace::{project_root, read_text};
 use license::is_satisfied;
 use policy::Policy;
@@ -18,16 +19,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 /// The manifests of what is shipped.
-const SHIPPED: [&str; 3] = ["Cargo.toml", "crates/web/Cargo.toml", "crates/python/Cargo.toml"];
+const SHIPPED: [&str; 2] = ["Cargo.toml", "crates/web/Cargo.toml"];
 
 /// The manifests of all packages of the project: one compiler is enough for each.
-const MANIFESTS: [&str; 7] = [
+const MANIFESTS: [&str; 4] = [
     "Cargo.toml",
     "crates/web/Cargo.toml",
-    "crates/python/Cargo.toml",
     "tests/fuzz/Cargo.toml",
-    "tests/peers/Cargo.toml",
-    "xtask/site/Cargo.toml",
     "book/mdbook-alberti/Cargo.toml",
 ];
 
@@ -55,7 +53,7 @@ pub fn run_deny(arguments: &[String]) -> Outcome {
             }
             // What only these packages need may not have been fetched yet.
             Err(error) if manifest != "Cargo.toml" && is_offline(&error) => {
-                println!("SKIPPED deny {manifest}: its dependencies cannot be fetched");
+                report_skip(&format!("deny {manifest}"), "its dependencies cannot be fetched");
             }
             Err(error) => return Err(error),
         }
@@ -178,8 +176,9 @@ fn print_compiler(floor: &str) -> Outcome {
     if (major, minor) == (floor_major, floor_minor) {
         println!("the compiler of these tests is the oldest supported one, {version}");
     } else {
-        println!(
-            "SKIPPED deny rust-version: these tests run by {version}, and {floor} is promised"
+        report_skip(
+            "deny rust-version",
+            &format!("these tests run by {version}, and {floor} is promised"),
         );
     }
     Ok(())

@@ -1,10 +1,9 @@
 //! `cargo xtask determinism`: the promise that a scene has the same bytes whoever draws it.
 //!
-//! Every scene is drawn by the debug build, by the release build twice, and with one, two and more
-//! threads where the program lets one choose. `--wide` adds a build whose compiler may use
-//! AVX2 and fused multiply-add, which is where sums computed in floating point first go apart; it
-//! needs a processor that has them. Last come the pictures of the explorer, which WebAssembly draws
-//! as well (`determinism/web.rs`).
+//! Every scene is drawn by the release build with one thread and with several, and by the debug
+//! build. `--wide` adds a build whose compiler may use AVX2 and fused multiply-add, which is where
+//! sums computed in floating point first go apart; it needs a processor that has them.
+//! `determinism/web.rs` compares the pictures of the explorer in WebAssembly.
 //!
 //! `--targets` compares other processors, C libraries, compilers and optimizations instead
 //! (`determinism/targets.rs`): all of them, or those named as in `--targets=aarch64,musl`.
@@ -41,11 +40,15 @@ pub fn run_determinism(arguments: &[String]) -> Outcome {
     let mut drawn = Vec::new();
     for build in builds {
         let program = Program::build(build)?;
-        for way in variants(build, program.supports_flag("--threads"), options.threads) {
+        for way in variants(build, options.threads) {
             drawn.push((render_all(&program, &way, &folder)?, way.name));
         }
     }
-    compare_outputs(&drawn)?;
+    compare_outputs(&drawn)
+}
+
+/// Compares the explorer's pictures in WebAssembly with those of the release build.
+pub fn compare_web_pictures() -> Outcome {
     web::compare_web(&Program::build(Build::Release)?)
 }
 
@@ -80,22 +83,19 @@ impl Options {
     }
 }
 
-/// Plainly; then, of the release build, again and with each number of threads.
-fn variants(build: Build, has_threads: bool, threads: u32) -> Vec<Variant> {
-    let way = |name: &str, flags: Vec<String>| Variant {
+/// The release build with one thread and with several. The debug build renders the same pictures in
+/// the step `goldens`; here it draws with its default number of threads.
+fn variants(build: Build, threads: u32) -> Vec<Variant> {
+    let way = |name: String, flags: Vec<String>| Variant {
         name: format!("{}-{name}", build.name()),
         flags,
     };
-    let mut ways = vec![way("first", Vec::new())];
-    if build == Build::Release {
-        ways.push(way("again", Vec::new()));
+    if build != Build::Release {
+        return vec![way("default".into(), Vec::new())];
     }
-    if has_threads && build == Build::Release {
-        ways.extend((1..=threads).map(|count| {
-            way(&format!("threads-{count}"), vec!["--threads".into(), count.to_string()])
-        }));
-    }
-    ways
+    let with_threads =
+        |count: u32| way(format!("threads-{count}"), vec!["--threads".into(), count.to_string()]);
+    [1, threads].map(with_threads).into()
 }
 
 /// Renders every scene with one variant and returns the folder of the pictures.
@@ -112,8 +112,9 @@ fn render_all(program: &Program, way: &Variant, folder: &Path) -> Result<PathBuf
     Ok(folder)
 }
 
-/// The formats of each scene: a picture, and line drawings in all vector formats.
-const EXTENSIONS: [&str; 4] = ["png", "svg", "pdf", "dxf"];
+/// The formats of each scene: a picture and a line drawing. PDF and DXF are written from the same
+/// page as SVG; other targets write them as well (`workload.rs`).
+const EXTENSIONS: [&str; 2] = ["png", "svg"];
 
 fn output_path(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
     folder.join(format!("{}.{ending}", scene.name))

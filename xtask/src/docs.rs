@@ -1,14 +1,12 @@
 //! `cargo xtask docs [OUT]`: the documentation as static pages, target/site if no folder is named.
 //!
-//! The generator is a package of its own, `xtask/site`: it reads Markdown with a crate that nobody
-//! else needs. What it writes and checks stands in its `main.rs`.
+//! The generator is the package `xtask/site`: it reads Markdown with a crate that nobody else needs.
+//! Its `main.rs` says what it writes and checks.
 
 use crate::Outcome;
-use crate::program::{Build, Program, cargo_command, run_visibly};
+use crate::program::{Build, Program, cargo_command, compile, run_command, run_visibly};
 use crate::workspace::{project_root, target_folder};
-
-/// The generator, which says what it has written.
-const GENERATOR: &str = "xtask/site/Cargo.toml";
+use std::process::Command;
 
 /// Builds the program and the generator, and runs the one with the other.
 pub fn run_docs(arguments: &[String]) -> Outcome {
@@ -19,15 +17,9 @@ pub fn run_docs(arguments: &[String]) -> Outcome {
         _ => return Err("docs [OUT]: OUT is a folder".into()),
     };
     let program = Program::build(Build::Release)?;
-    let mut site =
-        cargo_command(&["run", "--quiet", "--locked", "--manifest-path", GENERATOR, "--"]);
-    site.env("CARGO_TARGET_DIR", target_folder().join("site-build"));
+    // As in the tests: with the features of the whole workspace nothing is compiled twice.
+    let mut build = cargo_command(&["build", "--quiet", "--workspace", "--bin", "alberti-site"]);
+    compile(|| run_command(&mut build))?;
+    let mut site = Command::new(target_folder().join("debug/alberti-site"));
     run_visibly(site.arg(project_root()).arg(program.path()).arg(out))
-}
-
-/// Tests the generator, then builds the pages: commands of guides and all links are checked.
-pub fn check_docs() -> Outcome {
-    let mut tests = cargo_command(&["test", "--quiet", "--locked", "--manifest-path", GENERATOR]);
-    run_visibly(tests.env("CARGO_TARGET_DIR", target_folder().join("site-build")))?;
-    run_docs(&[])
 }

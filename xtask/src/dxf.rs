@@ -7,6 +7,7 @@
 use crate::Outcome;
 use crate::program::{Build, Program, run_visibly};
 use crate::python::VirtualEnvironment;
+use crate::skip::report_skip;
 use crate::workspace::{project_root, target_folder};
 use std::path::PathBuf;
 
@@ -19,7 +20,7 @@ pub fn run_dxf(_arguments: &[String]) -> Outcome {
     let Some(environment) = VirtualEnvironment::create(&folder.join("environment"))
         .filter(|environment| environment.install(&[READER]).is_ok())
     else {
-        println!("SKIPPED dxf: there is no python3 with venv, or ezdxf cannot be installed");
+        report_skip("dxf", "there is no python3 with venv, or ezdxf cannot be installed");
         return Ok(());
     };
     let program = Program::build(Build::Debug)?;
@@ -29,7 +30,7 @@ pub fn run_dxf(_arguments: &[String]) -> Outcome {
     check.args([root.join("scenes"), root.join("scenes/models")]);
     match asset_folder() {
         Some(assets) => drop(check.arg(assets)),
-        None => println!("SKIPPED dxf: shared models: there is no folder ASSETS"),
+        None => report_skip("dxf", "shared models: there is no folder ASSETS"),
     }
     run_visibly(&mut check)
 }

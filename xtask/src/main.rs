@@ -23,6 +23,8 @@ mod models;
 mod program;
 mod python;
 mod release;
+#[path = "../../tests/skip.rs"]
+mod skip;
 mod soak;
 mod test;
 mod tidy;

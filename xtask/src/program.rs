@@ -1,9 +1,11 @@
 //! Processes: building and running the program `alberti`, and calls of Cargo.
 
+use crate::test::process_seconds;
 use crate::workspace::{project_root, target_folder};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A build profile of the program. All of them must render the same pixels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -45,7 +47,7 @@ impl Program {
             folder = folder.join("wide");
             cargo.env("RUSTFLAGS", "-Ctarget-feature=+avx2,+fma").env("CARGO_TARGET_DIR", &folder);
         }
-        run_command(&mut cargo)?;
+        compile(|| run_command(&mut cargo))?;
         let profile = if build == Build::Debug { "debug" } else { "release" };
         let name = format!("alberti{}", std::env::consts::EXE_SUFFIX);
         Ok(Self { path: folder.join(profile).join(name) })
@@ -94,12 +96,6 @@ impl Program {
         let said = String::from_utf8_lossy(&output.stderr);
         if output.status.success() { Ok(()) } else { Err(format!("`{shown}` failed\n{said}")) }
     }
-
-    /// Whether `alberti render` has a flag, by its help.
-    pub fn supports_flag(&self, flag: &str) -> bool {
-        let help = Command::new(&self.path).args(["render", "--help"]).output();
-        help.is_ok_and(|help| String::from_utf8_lossy(&help.stdout).contains(flag))
-    }
 }
 
 /// Cargo, run at the root: the one that started this program.
@@ -107,6 +103,23 @@ pub fn cargo_command(arguments: &[&str]) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(project_root()).args(arguments);
     cargo
+}
+
+/// Hundredths of seconds that compilers took in this process's children, as [`compile`] counts.
+static COMPILE_TICKS: AtomicU64 = AtomicU64::new(0);
+
+/// Counts the processor's time of some work as that of compilers.
+pub fn compile<T>(work: impl FnOnce() -> T) -> T {
+    let before = process_seconds();
+    let result = work();
+    let ticks = ((process_seconds() - before) * 100.0).round() as u64;
+    COMPILE_TICKS.fetch_add(ticks, Ordering::Relaxed);
+    result
+}
+
+/// Seconds of the processor that [`compile`] has counted.
+pub fn compile_seconds() -> f64 {
+    COMPILE_TICKS.load(Ordering::Relaxed) as f64 / 100.0
 }
 
 /// Runs a command to its end. What it prints is shown only if it fails.

@@ -8,7 +8,8 @@
 //! says so; tests whose packages cannot be had are skipped by name.
 
 use crate::Outcome;
-use crate::program::{Build, Program, command_line, run_command, run_visibly};
+use crate::program::{Build, Program, command_line, compile, run_command, run_visibly};
+use crate::skip::report_skip;
 use crate::workspace::{create_folder, list_files, project_root, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -44,17 +45,19 @@ assert frame.rgb.shape == (240, 320, 3) and frame.ids.any() and frame.depth.min(
 print('a picture, its depth and its ids:', frame)
 ";
 
-/// Builds the wheel, with `--release` as it is published, and tests it.
+/// Builds the wheel, with `--release` as it is published, and tests it; with `--first` makes a
+/// picture with the library of the debug build alone.
 pub fn run_python(arguments: &[String]) -> Outcome {
     let is_release = match arguments {
         [] => false,
         [flag] if flag == "--release" => true,
-        _ => return Err("the only argument is `--release`".to_owned()),
+        [flag] if flag == "--first" => return make_first_picture(),
+        _ => return Err("the only argument is `--release` or `--first`".to_owned()),
     };
     let Some(environment) = VirtualEnvironment::create(&target_folder().join("python/build"))
         .filter(|environment| environment.install(BUILDER).is_ok())
     else {
-        println!("SKIPPED python: there is no python3 with venv, or no registry of packages");
+        report_skip("python", "there is no python3 with venv, or no registry of packages");
         return Ok(());
     };
     let wheel = build_wheel(&environment, is_release)?;
@@ -64,6 +67,35 @@ pub fn run_python(arguments: &[String]) -> Outcome {
         return Err(format!("the wheel has {bytes} bytes, more than {MAX_WHEEL_BYTES}"));
     }
     test_wheel(&wheel)
+}
+
+/// A picture by the package as it lies in the sources, with the library that is built with the whole
+/// workspace: no wheel is packed, and nothing is compiled for it.
+fn make_first_picture() -> Outcome {
+    let folder = target_folder().join("python/first");
+    let Some(environment) = VirtualEnvironment::create(&folder.join("environment"))
+        .filter(|environment| environment.install(&["numpy"]).is_ok())
+    else {
+        report_skip("python-first", "there is no python3 with venv, or NumPy cannot be installed");
+        return Ok(());
+    };
+    Program::build(Build::Debug)?;
+    let package = folder.join("alberti");
+    create_folder(&package)?;
+    let mut files = list_files(&project_root().join(PACKAGE).join("python/alberti"), "py")?;
+    let library =
+        format!("{}_native{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    files.push(target_folder().join("debug").join(&library));
+    for file in files {
+        let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = if name == library { "_native.abi3.so".to_owned() } else { name };
+        let copied = std::fs::copy(&file, package.join(name));
+        copied.map_err(|error| format!("{}: {error}", file.display()))?;
+    }
+    let model = project_root().join("scenes/models/table.glb");
+    let mut python = Command::new(environment.program("python"));
+    python.env("PYTHONPATH", &folder).args(["-c", FIRST_PICTURE]).arg(model);
+    run_visibly(&mut python)
 }
 
 /// Builds the wheel into an empty folder.
@@ -79,8 +111,11 @@ fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<Pat
     maturin.args(["--interpreter".as_ref(), environment.program("python").as_os_str()]);
     if is_release {
         maturin.arg("--release");
+        // In the program `pipeline` runs once a command; here it fills passes, and drawings are made in loops.
+        maturin.args(["--config", "profile.release.package.alberti-pipeline.opt-level=3"]);
+        maturin.args(["--config", "profile.release.package.alberti-drawing.opt-level=2"]);
     }
-    run_command(&mut maturin)?;
+    compile(|| run_command(&mut maturin))?;
     list_files(&folder, "whl")?.pop().ok_or_else(|| "there is no wheel".to_owned())
 }
 
@@ -93,12 +128,12 @@ fn test_wheel(wheel: &Path) -> Outcome {
     let python = || environment.isolated_python();
     run_visibly(python().args(["-c", FIRST_PICTURE]).arg(model))?;
     if environment.install(TEST_PACKAGES).is_err() {
-        println!("SKIPPED python: {} cannot be installed", TEST_PACKAGES.join(" and "));
+        report_skip("python", &format!("{} cannot be installed", TEST_PACKAGES.join(" and ")));
         return Ok(());
     }
     for peer in PEERS {
         if environment.install(&[*peer]).is_err() {
-            println!("SKIPPED python: {peer} cannot be installed");
+            report_skip("python", &format!("{peer} cannot be installed"));
         }
     }
     let program = Program::build(Build::Debug)?;

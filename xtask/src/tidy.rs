@@ -6,6 +6,7 @@
 mod boundaries;
 mod code;
 mod comments;
+mod commits;
 mod documents;
 mod names;
 mod scenes;
@@ -66,6 +67,7 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     violations.extend(scenes::goldens_and_table()?);
     violations.extend(documents::broken_links()?);
     violations.extend(documents::citation_version()?);
+    violations.extend(commits::large_commits_without_reason());
     if violations.is_empty() {
         println!("{} files of Rust are tidy", sources.len());
         return Ok(());

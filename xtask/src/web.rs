@@ -18,6 +18,7 @@ mod tool_chain;
 pub use node::{Answers, Request};
 
 use crate::Outcome;
+use crate::skip::report_skip;
 use crate::workspace::{create_folder, project_root, target_folder};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -37,7 +38,7 @@ pub fn run_web(arguments: &[String]) -> Outcome {
         }
     }
     if let Some(missing) = missing_tools().filter(|_| may_skip) {
-        println!("SKIPPED web: {missing}");
+        report_skip("web", &missing);
         return Ok(());
     }
     build_site(&out)?;

@@ -133,6 +133,34 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Models seen through a camera, shaded as they are, without lights and with nothing around them.
+    ///
+    /// Take other fields from it, as in `Scene { lights, ..Scene::new(…) }`.
+    #[must_use]
+    pub fn new(
+        models: Vec<ModelInstance>,
+        view_projection: ViewProjection,
+        image: ImageSpec,
+    ) -> Self {
+        Self {
+            models,
+            view_projection,
+            lights: Vec::new(),
+            ground: None,
+            environment: None,
+            occlusion_radius: None,
+            tone_mapper: ToneMapper::default(),
+            style: Style::Shaded,
+            image,
+            insets: Vec::new(),
+            backdrop: None,
+            overlays: Vec::new(),
+            caption: None,
+            sections: Vec::new(),
+            uncut: Vec::new(),
+        }
+    }
+
     /// Every vertex that some point, line or triangle of the scene uses, in the world.
     #[must_use]
     pub fn world_points(&self) -> Vec<Point<World>> {
@@ -234,6 +262,21 @@ pub struct ImageSpec {
 }
 
 impl ImageSpec {
+    /// A picture of this size in pixels on a transparent background, with one sample per pixel.
+    #[must_use]
+    pub const fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            caption_height: 0,
+            background: [0.0; 4],
+            is_blank_paper: false,
+            environment_blur: None,
+            samples: Samples::One,
+            max_anisotropy: 1,
+        }
+    }
+
     /// All pixels of the picture.
     #[must_use]
     pub const fn pixel_rect(self) -> PixelRect {

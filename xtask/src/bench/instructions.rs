@@ -14,6 +14,7 @@ mod figures;
 
 use crate::Outcome;
 use crate::program::{Build, Program, capture_output, cargo_command, run_command};
+use crate::skip::report_skip;
 use crate::workspace::{create_folder, project_root, target_folder};
 use figures::{CountTable, InstructionCount};
 use std::path::PathBuf;
@@ -34,7 +35,7 @@ const SAMPLES: [(&str, &str); 2] = [("raster-1", "1"), ("raster-4", "4")];
 pub fn run_instructions(arguments: &[String]) -> Outcome {
     let request = Request::parse_request(arguments)?;
     if let Some(reason) = missing_tool() {
-        println!("SKIPPED instructions: {reason}");
+        report_skip("instructions", reason);
         return Ok(());
     }
     let (mut figures, compiler) = (CountTable::read_table()?, compiler_version()?);
@@ -42,7 +43,7 @@ pub fn run_instructions(arguments: &[String]) -> Outcome {
     let counted_by =
         format!("the stored counts are those of {}, and this is {compiler}", figures.compiler);
     match request {
-        Request::Compare if other => println!("SKIPPED instructions: {counted_by}"),
+        Request::Compare if other => report_skip("instructions", &counted_by),
         Request::Compare => judge_counts(&count_all()?, &figures)?,
         Request::Update { names: NameSelection::These(_), .. } if other => {
             return Err(format!("{counted_by}: update all of them"));

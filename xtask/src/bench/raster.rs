@@ -31,8 +31,5 @@ pub fn run_peers(program: &Program, arguments: &[String]) -> Outcome {
 }
 
 fn peers_command(action: &str) -> Command {
-    let call = [action, "--quiet", "--release", "--manifest-path", "tests/peers/Cargo.toml"];
-    let mut peers = cargo_command(&call);
-    peers.env("CARGO_TARGET_DIR", target_folder().join("peers"));
-    peers
+    cargo_command(&[action, "--quiet", "--release", "--package", "alberti-peers"])
 }

@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::browser::CHROMIUM;
 use crate::program::{capture_output, run_command};
+use crate::skip::report_skip;
 use std::path::Path;
 use std::process::Command;
 
@@ -15,13 +16,14 @@ const EDITIONS: [(&str, Option<&str>); 2] = [("en", None), ("zh", Some(":lang=zh
 /// Prints `viewing-LANGUAGE.pdf` into the folder of the book.
 pub fn print_editions(book: &Path) -> Outcome {
     if !Path::new(CHROMIUM).exists() {
-        println!("SKIPPED book: PDF: chromium is not installed (Debian: chromium)");
+        report_skip("book", "PDF: chromium is not installed (Debian: chromium)");
         return Ok(());
     }
     for (language, fonts) in EDITIONS {
         if fonts.is_some_and(|pattern| !has_font(pattern)) {
-            println!(
-                "SKIPPED book: PDF in {language}: no font has its letters (Debian: fonts-noto-cjk)"
+            report_skip(
+                "book",
+                &format!("PDF in {language}: no font has its letters (Debian: fonts-noto-cjk)"),
             );
             continue;
         }

@@ -88,7 +88,10 @@ mod tests {
     use super::*;
 
     fn ids(text: &str) -> Vec<String> {
-        scan_tests("crates/clip/tests/a.rs", text).into_iter().flat_map(|test| test.ids).collect()
+        scan_tests("crates/clip/tests/integration/a.rs", text)
+            .into_iter()
+            .flat_map(|test| test.ids)
+            .collect()
     }
 
     #[test]

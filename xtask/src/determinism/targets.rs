@@ -9,6 +9,7 @@ use super::web;
 use super::workload::Workload;
 use crate::Outcome;
 use crate::program::{Build, Program};
+use crate::skip::report_skip;
 use crate::tool_chain::ToolChain;
 use crate::workspace::target_folder;
 use std::fs;
@@ -40,7 +41,7 @@ pub fn compare_targets(names: &[String]) -> Outcome {
     for target in TARGETS.iter().filter(|target| is_chosen(target.name)) {
         match compare_target(target, &workload, &native, &folder) {
             Ok(found) => differences.extend(found),
-            Err(Failure::Skipped(why)) => println!("SKIPPED target {}: {why}", target.name),
+            Err(Failure::Skipped(why)) => report_skip(&format!("target {}", target.name), &why),
             Err(Failure::Failed(why)) => return Err(format!("target {}: {why}", target.name)),
         }
     }

@@ -3,6 +3,7 @@
 
 use crate::Outcome;
 use crate::program::Program;
+use crate::skip::report_skip;
 use crate::web::{self, Answers, Request};
 use crate::workspace::{create_folder, list_files, project_root, target_folder};
 use serde_json::Value;
@@ -33,7 +34,7 @@ const MIN_PICTURES: usize = 20;
 /// Where WebAssembly cannot be built this is skipped, by name.
 pub fn compare_web(program: &Program) -> Outcome {
     if let Some(missing) = web::missing_tools() {
-        println!("SKIPPED the bytes of WebAssembly: {missing}");
+        report_skip("the bytes of WebAssembly", &missing);
         return Ok(());
     }
     let site = web::site_folder();

@@ -3,6 +3,7 @@
 use super::outputs::Outputs;
 use crate::Outcome;
 use crate::program::command_line;
+use crate::skip::report_skip;
 use crate::workspace::{create_folder, list_scenes, project_root};
 use std::ffi::OsString;
 use std::fs;
@@ -93,7 +94,7 @@ impl Workload {
                 let stem = name.split('/').skip(1).collect::<Vec<_>>().join("_");
                 inputs.push((stem.replace('.', "_"), path));
             } else {
-                println!("SKIPPED {name}: it is not in {}", path.display());
+                report_skip(name, &format!("it is not in {}", path.display()));
             }
         }
         let each = inputs.iter().flat_map(|(name, path)| {

@@ -3,6 +3,7 @@
 use super::assets_folder;
 use super::pack::PackedModel;
 use crate::program::{cargo_command, run_command};
+use crate::skip::report_skip;
 use crate::workspace::{list_files, project_root};
 use serde_json::Value;
 use std::fs;
@@ -82,7 +83,7 @@ fn asset_paths(endings: &[&str]) -> Vec<PathBuf> {
     paths.extend(files_below(&project_root().join("crates/model/tests"), endings));
     match assets_folder() {
         Some(assets) => paths.extend(files_below(&assets, endings)),
-        None => println!("SKIPPED shared assets as seeds: they are not there"),
+        None => report_skip("shared assets as seeds", "they are not there"),
     }
     paths
 }

@@ -8,6 +8,7 @@
 
 use crate::Outcome;
 use crate::program::{Program, capture_output, run_command};
+use crate::skip::report_skip;
 use crate::workspace::{create_folder, project_root, read_text, target_folder};
 use std::collections::BTreeSet;
 use std::fs;
@@ -61,7 +62,7 @@ fn new_debian() -> Result<Option<Trial>, String> {
     let is_root = capture_output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
     let has_tool = Command::new("debootstrap").arg("--version").output().is_ok();
     if !is_root || !has_tool {
-        println!("SKIPPED package: installing it takes root and debootstrap");
+        report_skip("package", "installing it takes root and debootstrap");
         return Ok(None);
     }
     let folder = target_folder().join("debian");
@@ -73,7 +74,7 @@ fn new_debian() -> Result<Option<Trial>, String> {
         debootstrap.args(["--variant=minbase", SUITE]).arg(&making);
         if let Err(error) = run_command(&mut debootstrap) {
             let reason = error.lines().last().unwrap_or_default().to_owned();
-            println!("SKIPPED package: there is no Debian to be had ({reason})");
+            report_skip("package", &format!("there is no Debian to be had ({reason})"));
             return Ok(None);
         }
         fs::rename(&making, &empty).map_err(|error| error.to_string())?;

@@ -1,28 +1,57 @@
-//! Steps of the tests: a command, its output, its result.
+//! Steps of the tests: a command, its costs, its result.
 
+use super::artifacts::TestPrograms;
+use super::cpu_time::process_seconds;
 use crate::Outcome;
-use crate::program::{cargo_command, command_line};
-use std::io::{BufRead, BufReader, Write};
-use std::path::PathBuf;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use crate::program::{cargo_command, compile_seconds, run_visibly};
+use crate::workspace::{create_folder, read_text, target_folder};
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command};
+use std::time::Instant;
 
-/// One step.
+/// A step of the tests.
 pub struct Step {
     /// The name by which the command line selects it.
     pub name: String,
     /// The line in the list of steps.
     pub about: String,
+    /// When it runs.
+    pub tier: Tier,
+    /// Whether others may run at the same time.
+    pub sharing: Sharing,
     /// The command.
     pub action: Action,
+}
+
+/// When a step runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Tier {
+    /// For every change: `cargo xtask test`.
+    First,
+    /// Before a release: `cargo xtask test --all`, and as much as there is time for in CI.
+    Second,
+}
+
+/// Whether others may run beside a step.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sharing {
+    /// It uses all cores by itself: Cargo builds, mostly.
+    Alone,
+    /// Another one may run at the same time.
+    Shared,
 }
 
 /// The command of a step.
 pub enum Action {
     /// Cargo with these arguments, one call after the other.
     Cargo(Vec<Vec<String>>),
-    /// Cargo's documentation with warnings as errors.
-    Documentation,
+    /// A suite of `tests/suites.rs`, with flags.
+    Suite(&'static str),
+    /// The tests of `tests/program` whose names contain the first and not the second text.
+    Program(&'static str, Option<&'static str>),
+    /// Unit and integration tests of the crates.
+    CrateTests,
     /// A command of this program.
     Own(fn() -> Outcome),
 }
@@ -31,76 +60,137 @@ pub enum Action {
 pub struct StepReport {
     /// The name by which the command line selects it.
     pub name: String,
-    /// Wall-clock time.
-    pub time: Duration,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// Seconds of the processor, of the step and all that it started.
+    pub cpu_seconds: f64,
+    /// Those of them that compilers took.
+    pub compile_seconds: f64,
     /// Why it failed.
     pub failure: Option<String>,
-    /// The lines of its output that begin with `SKIPPED`.
+    /// What it skipped: lines that begin with `SKIPPED`.
     pub skipped: Vec<String>,
+}
+
+/// A step that runs in a process of its own, so that its costs and its skips are known.
+pub struct RunningStep {
+    name: String,
+    child: Child,
+    start: Instant,
+    /// Where its output goes; `None` if a person watches it.
+    log: Option<PathBuf>,
 }
 
 impl Step {
     /// A step of one or more calls of Cargo, each written as on the command line.
     pub fn cargo(name: &str, about: &str, calls: &[&str]) -> Self {
         let words = |call: &&str| call.split_whitespace().map(str::to_owned).collect();
-        let action = Action::Cargo(calls.iter().map(words).collect());
-        Self { name: name.into(), about: about.into(), action }
+        Self::new(name, about, Action::Cargo(calls.iter().map(words).collect()))
     }
 
     /// A step that is a command of this program.
     pub fn built_in(name: &str, about: &str, run: fn() -> Outcome) -> Self {
-        Self { name: name.into(), about: about.into(), action: Action::Own(run) }
+        Self::new(name, about, Action::Own(run))
     }
 
-    /// Runs the step, with a heading before it.
-    pub fn run_step(&self) -> StepReport {
-        println!("\n── {}: {}", self.name, self.about);
-        let start = Instant::now();
-        let mut skipped = Vec::new();
+    /// A step of the first tier that runs alone.
+    pub fn new(name: &str, about: &str, action: Action) -> Self {
+        Self {
+            name: name.into(),
+            about: about.into(),
+            tier: Tier::First,
+            sharing: Sharing::Alone,
+            action,
+        }
+    }
+
+    /// The step beside which others may run.
+    pub fn shared(self) -> Self {
+        Self { sharing: Sharing::Shared, ..self }
+    }
+
+    /// The step in the second tier.
+    pub fn second(self) -> Self {
+        Self { tier: Tier::Second, ..self }
+    }
+
+    /// Runs the step in this process, and leaves its costs in the report file.
+    pub fn run_here(&self) -> Outcome {
         let outcome = match &self.action {
             Action::Own(run) => run(),
             Action::Cargo(calls) => calls.iter().try_for_each(|call| {
                 let words: Vec<&str> = call.iter().map(String::as_str).collect();
-                follow_output(cargo_command(&words).envs(named_folders()), &mut skipped)
+                crate::program::compile(|| run_visibly(&mut cargo_command(&words)))
             }),
-            Action::Documentation => {
-                let mut cargo = cargo_command(&["doc", "--quiet", "--workspace", "--no-deps"]);
-                follow_output(cargo.env("RUSTDOCFLAGS", "-D warnings"), &mut skipped)
+            Action::Suite(name) => TestPrograms::build().and_then(|tests| {
+                let flags =
+                    if self.tier == Tier::Second { [("THOROUGH", "1")].as_slice() } else { &[] };
+                tests.run_suite(name, flags)
+            }),
+            Action::Program(part, without) => {
+                TestPrograms::build().and_then(|tests| tests.run_program_tests(part, *without))
             }
+            Action::CrateTests => TestPrograms::build().and_then(|tests| tests.run_crate_tests()),
         };
-        StepReport {
+        let costs = format!("{} {}", process_seconds(), compile_seconds());
+        let written = fs::write(costs_path(&self.name), costs);
+        outcome.and(written.map_err(|error| error.to_string()))
+    }
+
+    /// Starts the step by the path of this program; its output goes to a file unless it is watched.
+    pub fn start(&self, program: &Path, is_watched: bool) -> Result<RunningStep, String> {
+        create_folder(&steps_folder())?;
+        let with_name = |error: std::io::Error| format!("{}: {error}", self.name);
+        let [costs, skips] = [costs_path(&self.name), skips_path(&self.name)];
+        for old in [&costs, &skips] {
+            let _ = fs::remove_file(old);
+        }
+        let mut command = Command::new(program);
+        command.args(["test", super::RUN_ONE, &self.name]).env("SKIP_LOG", &skips);
+        let mut log = None;
+        if !is_watched {
+            let path = steps_folder().join(format!("{}.log", self.name));
+            let file = File::create(&path).map_err(with_name)?;
+            let copy = file.try_clone().map_err(with_name)?;
+            command.stdin(std::process::Stdio::null()).stdout(file).stderr(copy);
+            log = Some(path);
+        }
+        let child = command.spawn().map_err(with_name)?;
+        Ok(RunningStep { name: self.name.clone(), child, start: Instant::now(), log })
+    }
+}
+
+impl RunningStep {
+    /// The report if the step has ended.
+    pub fn poll(&mut self) -> Result<Option<StepReport>, String> {
+        let status = self.child.try_wait().map_err(|error| format!("{}: {error}", self.name))?;
+        let Some(status) = status else { return Ok(None) };
+        let costs = read_text(&costs_path(&self.name)).unwrap_or_default();
+        let mut costs = costs.split_whitespace().map(|word| word.parse().unwrap_or(0.0));
+        let skipped = read_text(&skips_path(&self.name)).unwrap_or_default();
+        let failure = (!status.success()).then(|| match &self.log {
+            Some(log) => read_text(log).unwrap_or_default(),
+            None => format!("{status}"),
+        });
+        Ok(Some(StepReport {
             name: self.name.clone(),
-            time: start.elapsed(),
-            failure: outcome.err(),
-            skipped,
-        }
+            seconds: self.start.elapsed().as_secs_f64(),
+            cpu_seconds: costs.next().unwrap_or(0.0),
+            compile_seconds: costs.next().unwrap_or(0.0),
+            failure,
+            skipped: skipped.lines().map(str::to_owned).collect(),
+        }))
     }
 }
 
-/// The folders of test data that environment variables name, made absolute: a test runs in another
-/// current folder.
-fn named_folders() -> Vec<(&'static str, PathBuf)> {
-    let here = std::env::current_dir().unwrap_or_default();
-    let named = |name| Some((name, here.join(std::env::var_os(name)?)));
-    ["VECTORS", "ASSETS", "REFERENCES"].into_iter().filter_map(named).collect()
+fn steps_folder() -> PathBuf {
+    target_folder().join("steps")
 }
 
-/// Runs a command, forwards its output line by line, and collects the lines that begin with
-/// `SKIPPED`.
-fn follow_output(command: &mut Command, skipped: &mut Vec<String>) -> Outcome {
-    let name = command_line(command);
-    let with_name = |error: std::io::Error| format!("{name}: {error}");
-    let mut child = command.stdout(Stdio::piped()).spawn().map_err(with_name)?;
-    if let Some(output) = child.stdout.take() {
-        for line in BufReader::new(output).split(b'\n') {
-            let line = String::from_utf8_lossy(&line.map_err(with_name)?).into_owned();
-            // A closed terminal is no reason to stop testing.
-            let _ = writeln!(std::io::stdout(), "{line}");
-            if line.starts_with("SKIPPED") {
-                skipped.push(line);
-            }
-        }
-    }
-    let status = child.wait().map_err(with_name)?;
-    if status.success() { Ok(()) } else { Err(format!("`{name}` failed ({status})")) }
+fn costs_path(name: &str) -> PathBuf {
+    steps_folder().join(format!("{name}.costs"))
+}
+
+fn skips_path(name: &str) -> PathBuf {
+    steps_folder().join(format!("{name}.skips"))
 }

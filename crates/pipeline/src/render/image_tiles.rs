@@ -135,25 +135,10 @@ fn tile_at(image: ImageSpec, [column, row]: [u32; 2]) -> ImageTile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use raster::Samples;
-
-    fn image_spec(width: u32, height: u32) -> ImageSpec {
-        let (background, environment_blur, samples) = ([0.0; 4], None, Samples::One);
-        ImageSpec {
-            width,
-            height,
-            caption_height: 0,
-            background,
-            is_blank_paper: false,
-            environment_blur,
-            samples,
-            max_anisotropy: 1,
-        }
-    }
 
     #[test]
     fn a_region_is_cut_where_tiles_meet() {
-        let image = image_spec(20_000, 40_000);
+        let image = ImageSpec::new(20_000, 40_000);
         let region = PixelRect { x: 16_000, y: 16_300, width: 1000, height: 100 };
         let regions = tile_regions(image, region);
         assert_eq!(regions.iter().map(TileRegion::pixel_count).sum::<usize>(), region.area());
@@ -181,13 +166,13 @@ mod tests {
 
     #[test]
     fn a_region_outside_the_picture_or_beyond_memory_is_refused() {
-        let small = image_spec(100, 100);
+        let small = ImageSpec::new(100, 100);
         let outside = PixelRect { x: 90, y: 0, width: 20, height: 10 };
         assert_eq!(refused(small, outside), Some(outside));
         let empty = PixelRect { width: 0, ..outside };
         assert_eq!(refused(small, empty), Some(empty));
         assert_eq!(refused(small, PixelRect { width: 10, ..outside }), None);
-        for large in [image_spec(20_000, 20_000), image_spec(MAX_IMAGE_SIDE + 1, 1)] {
+        for large in [ImageSpec::new(20_000, 20_000), ImageSpec::new(MAX_IMAGE_SIDE + 1, 1)] {
             assert_eq!(refused(large, large.pixel_rect()), Some(large.pixel_rect()));
         }
     }

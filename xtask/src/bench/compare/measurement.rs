@@ -6,6 +6,7 @@ use super::run::{Figures, TimedProgram, find_gnu_time};
 use super::show_progress;
 use super::variants::{Group, Variant, batch_variant, model_variants};
 use crate::program::capture_output;
+use crate::skip::report_skip;
 use crate::workspace::create_folder;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -77,7 +78,7 @@ impl Measurer {
     pub fn new(paths: [&Path; 2], folder: &Path, runs: usize) -> Self {
         let gnu_time = find_gnu_time();
         if gnu_time.is_none() {
-            println!("SKIPPED CPU time and peak memory: GNU time is not installed");
+            report_skip("CPU time and peak memory", "GNU time is not installed");
         }
         let programs = paths.map(|path| TimedProgram::new(path, folder, gnu_time.clone()));
         Self { programs, path: paths[1].to_owned(), folder: folder.to_owned(), runs }

@@ -1,5 +1,6 @@
 //! Which models are rendered: shared ones, those of a folder, or those of the scenes.
 
+use crate::skip::report_skip;
 use crate::workspace::{list_files, project_root};
 use std::path::{Path, PathBuf};
 
@@ -69,7 +70,7 @@ fn default_models(shared: &Path) -> Result<Vec<BenchModel>, String> {
     for name in DEFAULT_NAMES {
         match shared_model(shared, name) {
             Some(model) => models.push(model),
-            None => println!("SKIPPED {name}: no model in {}", shared.join(name).display()),
+            None => report_skip(name, &format!("no model in {}", shared.join(name).display())),
         }
     }
     if models.is_empty() {

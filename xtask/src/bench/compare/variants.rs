@@ -4,6 +4,7 @@
 use super::models::BenchModel;
 use super::patched_model::Addition;
 use super::run::{DRAWING, WALL};
+use crate::skip::report_skip;
 use std::path::Path;
 
 const SIZE: &str = "1920x1080";
@@ -126,7 +127,7 @@ pub fn model_variants(model: &BenchModel, frames: usize, patch: PatchModel<'_>) 
     for (addition, feature) in LIGHT_FEATURES {
         match patch(addition) {
             Ok(lit) => variants.push(flag_feature(&lit, feature)),
-            Err(reason) => println!("SKIPPED {} of {}: {reason}", feature.0, model.name),
+            Err(reason) => report_skip(&format!("{} of {}", feature.0, model.name), &reason),
         }
     }
     for (addition, name) in MATERIAL_FEATURES {
@@ -137,7 +138,7 @@ pub fn model_variants(model: &BenchModel, frames: usize, patch: PatchModel<'_>) 
                 render(&changed, "4", &[]),
                 render(path, "4", &[]),
             )),
-            Err(reason) => println!("SKIPPED {name} of {}: {reason}", model.name),
+            Err(reason) => report_skip(&format!("{name} of {}", model.name), &reason),
         }
     }
     variants.extend(STYLES.map(|style| {

@@ -103,7 +103,7 @@ fn system() -> String {
 
 /// The version of a package that the contest is built with.
 fn locked_version(name: &str) -> String {
-    let lock = read_text(&project_root().join("tests/peers/Cargo.lock")).unwrap_or_default();
+    let lock = read_text(&project_root().join("Cargo.lock")).unwrap_or_default();
     let after = lock.split_once(&format!("name = \"{name}\"\nversion = \"")).map(|(_, rest)| rest);
     after.and_then(|rest| rest.split('"').next()).unwrap_or("of unknown version").to_owned()
 }

@@ -1,0 +1,127 @@
+//! The programs of the tests: built once by one call of Cargo, then run directly.
+
+use crate::Outcome;
+use crate::program::{capture_output, cargo_command, compile, run_visibly};
+use crate::workspace::{create_folder, target_folder};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The package of the tests across crates.
+const TESTS: &str = "alberti-tests";
+
+/// A program that Cargo built of tests.
+struct TestProgram {
+    /// Its package, by name.
+    package: String,
+    /// The name of the target: of the library or of a file of tests.
+    target: String,
+    path: PathBuf,
+    /// The folder of the package, in which tests run.
+    folder: PathBuf,
+}
+
+/// All programs of tests, and the program `alberti` that they run.
+pub struct TestPrograms {
+    programs: Vec<TestProgram>,
+    alberti: PathBuf,
+}
+
+impl TestPrograms {
+    /// Builds what is not up to date.
+    ///
+    /// Always the whole workspace: Cargo unifies features over the selected packages, and would
+    /// compile most crates again for every other selection.
+    pub fn build() -> Result<Self, String> {
+        let call = ["build", "--workspace", "--lib", "--bins", "--tests", "--examples"];
+        let mut cargo = cargo_command(&call);
+        cargo.args(["--quiet", "--message-format", "json-render-diagnostics"]);
+        let messages = compile(|| capture_output(&mut cargo))?;
+        let mut built = Self { programs: Vec::new(), alberti: PathBuf::new() };
+        for line in messages.lines() {
+            let Ok(message) = serde_json::from_str::<Value>(line) else { continue };
+            built.add_artifact(&message);
+        }
+        if built.alberti.as_os_str().is_empty() {
+            return Err("cargo built no program `alberti`".into());
+        }
+        Ok(built)
+    }
+
+    fn add_artifact(&mut self, message: &Value) {
+        let Some(path) = message["executable"].as_str().map(PathBuf::from) else { return };
+        let folder = Path::new(message["manifest_path"].as_str().unwrap_or_default());
+        let folder = folder.parent().unwrap_or(folder).to_owned();
+        let package = package_name(message["package_id"].as_str().unwrap_or_default());
+        let target = message["target"]["name"].as_str().unwrap_or_default().to_owned();
+        if message["profile"]["test"] == true {
+            self.programs.push(TestProgram { package, target, path, folder });
+        } else if target == "alberti" {
+            self.alberti = path;
+        }
+    }
+
+    /// Runs the unit tests and the integration tests of all crates.
+    pub fn run_crate_tests(&self) -> Outcome {
+        let is_of_crate = |program: &&TestProgram| {
+            program.package != TESTS || !matches!(program.target.as_str(), "suites" | "program")
+        };
+        self.programs.iter().filter(is_of_crate).try_for_each(|program| self.run(program, &[], &[]))
+    }
+
+    /// Runs a suite of `tests/suites.rs`.
+    pub fn run_suite(&self, name: &str, variables: &[(&str, &str)]) -> Outcome {
+        self.run(self.find("suites")?, &[name], variables)
+    }
+
+    /// Runs the tests of `tests/program` whose names contain `part` and not `without`.
+    pub fn run_program_tests(&self, part: &str, without: Option<&str>) -> Outcome {
+        let mut arguments = vec![part];
+        arguments.extend(without.iter().flat_map(|without| ["--skip", *without]));
+        self.run(self.find("program")?, &arguments, &[])
+    }
+
+    fn find(&self, target: &str) -> Result<&TestProgram, String> {
+        let is_it = |program: &&TestProgram| program.package == TESTS && program.target == target;
+        self.programs.iter().find(is_it).ok_or_else(|| format!("cargo built no tests `{target}`"))
+    }
+
+    fn run(&self, program: &TestProgram, words: &[&str], variables: &[(&str, &str)]) -> Outcome {
+        println!("{} {}", program.package, program.target);
+        create_folder(&target_folder().join("tmp"))?;
+        let mut command = Command::new(&program.path);
+        command.args(words).current_dir(&program.folder).env("ALBERTI", &self.alberti);
+        // Insignificant lines of a thousand tests that pass are not worth a reader's time.
+        if program.target != "suites" {
+            command.arg("--quiet");
+        }
+        run_visibly(command.envs(named_folders()).envs(variables.iter().copied()))
+    }
+}
+
+/// The folders of test data that environment variables name, made absolute: a test runs in another
+/// current folder.
+fn named_folders() -> Vec<(&'static str, PathBuf)> {
+    let here = std::env::current_dir().unwrap_or_default();
+    let named = |name| Some((name, here.join(std::env::var_os(name)?)));
+    ["VECTORS", "ASSETS", "REFERENCES"].into_iter().filter_map(named).collect()
+}
+
+/// The name in the id of a package: `path+file:///…/crates/clip#alberti-clip@0.1.0`, or without the
+/// name where it is that of the folder.
+fn package_name(id: &str) -> String {
+    let (path, version) = id.rsplit_once('#').unwrap_or((id, ""));
+    let folder = path.rsplit('/').next().unwrap_or_default();
+    version.split_once('@').map_or(folder, |(name, _)| name).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packages_are_named_by_their_ids() {
+        assert_eq!(package_name("path+file:///a/crates/clip#alberti-clip@0.1.0"), "alberti-clip");
+        assert_eq!(package_name("path+file:///a/xtask#0.1.0"), "xtask");
+    }
+}

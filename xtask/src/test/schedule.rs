@@ -1,0 +1,86 @@
+//! The order of steps: alone, or two at a time.
+
+use super::step::{RunningStep, Sharing, Step, StepReport};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How many steps that share the machine run at once.
+const AT_ONCE: usize = 2;
+
+/// How often ends of steps are looked for.
+const POLL: Duration = Duration::from_millis(20);
+
+/// When to stop.
+pub struct Limits {
+    /// Whether steps begin after one has failed.
+    pub keep_going: bool,
+    /// The time in which steps begin.
+    pub time: Option<Duration>,
+}
+
+/// The steps that were run, and those that were not.
+pub struct Run {
+    /// In the order in which they ended.
+    pub reports: Vec<StepReport>,
+    /// Names of steps that the time was not enough for.
+    pub left_out: Vec<String>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// Runs steps in their order; those that share the machine may overtake each other.
+pub fn run_steps(steps: &[&Step], limits: &Limits) -> Result<Run, String> {
+    let start = Instant::now();
+    // Before a build replaces this program: afterwards its path would be that of a deleted file.
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let mut run = Run { reports: Vec::new(), left_out: Vec::new(), seconds: 0.0 };
+    let mut running: Vec<RunningStep> = Vec::new();
+    // The output of a single step is for its reader; of many, that of failed ones.
+    let is_watched = steps.len() == 1;
+    let has_failed = |run: &Run| run.reports.iter().any(|report| report.failure.is_some());
+    for step in steps {
+        let room = if step.sharing == Sharing::Alone { 0 } else { AT_ONCE - 1 };
+        wait_until(&mut running, room, &mut run)?;
+        if has_failed(&run) && !limits.keep_going {
+            break;
+        }
+        if limits.time.is_some_and(|time| start.elapsed() > time) {
+            run.left_out.push(step.name.clone());
+            continue;
+        }
+        println!("── {}: {}", step.name, step.about);
+        running.push(step.start(&program, is_watched)?);
+        if step.sharing == Sharing::Alone {
+            wait_until(&mut running, 0, &mut run)?;
+        }
+    }
+    wait_until(&mut running, 0, &mut run)?;
+    run.seconds = start.elapsed().as_secs_f64();
+    Ok(run)
+}
+
+/// Waits until at most `room` steps are running; prints how others have ended.
+fn wait_until(running: &mut Vec<RunningStep>, room: usize, run: &mut Run) -> Result<(), String> {
+    while running.len() > room {
+        let mut index = 0;
+        while index < running.len() {
+            let Some(report) = running[index].poll()? else {
+                index += 1;
+                continue;
+            };
+            running.remove(index);
+            print_end(&report);
+            run.reports.push(report);
+        }
+        thread::sleep(POLL);
+    }
+    Ok(())
+}
+
+fn print_end(report: &StepReport) {
+    let StepReport { name, seconds, cpu_seconds, .. } = report;
+    match &report.failure {
+        None => println!("   {name} passed: {seconds:.1} s, {cpu_seconds:.1} s of the processor"),
+        Some(output) => println!("{output}\n   {name} FAILED after {seconds:.1} s"),
+    }
+}

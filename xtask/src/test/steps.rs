@@ -1,0 +1,239 @@
+//! The steps of the tests, in the order in which they run.
+
+use super::artifacts::TestPrograms;
+use super::no_std;
+use super::step::{Action, Step};
+use crate::Outcome;
+use crate::program::{cargo_command, compile, run_visibly};
+use crate::tidy::NO_STD;
+
+/// The first tier: cheap checks, one build, then everything that runs what was built. The second:
+/// what finds most for its time comes first, because CI may not come to the end.
+pub fn all_steps() -> Result<Vec<Step>, String> {
+    let mut steps = cheap_steps();
+    steps.extend(build_steps());
+    steps.extend(suite_steps());
+    steps.extend(interface_steps());
+    let second = [release_steps(), later_steps(), build_variant_steps()];
+    steps.extend(second.into_iter().flatten().map(Step::second));
+    Ok(steps)
+}
+
+fn cheap_steps() -> Vec<Step> {
+    vec![
+        Step::cargo(
+            "fmt",
+            "rustfmt would change nothing",
+            &["fmt --all --check", "fmt --manifest-path book/mdbook-alberti/Cargo.toml --check"],
+        )
+        .shared(),
+        Step::built_in("tidy", "project rules that no lint covers", || crate::tidy::run_tidy(&[]))
+            .shared(),
+        Step::built_in(
+            "models",
+            "the committed models of the scenes are what the code generates",
+            || crate::models::run_models(&["--check".into()]),
+        )
+        .shared(),
+        Step::built_in("conformance", "every topic has a test, and the table lists it", || {
+            crate::conformance::run_conformance(&["--check".into()])
+        })
+        .shared(),
+        Step::built_in(
+            "deny",
+            "dependencies have the licenses, sources and versions that deny.toml allows",
+            || crate::deny::run_deny(&[]),
+        )
+        .shared(),
+    ]
+}
+
+fn build_steps() -> Vec<Step> {
+    vec![
+        Step::cargo(
+            "clippy",
+            "no warning from clippy, in the packages for other tools as well",
+            &["clippy --quiet --workspace --all-targets -- -D warnings"],
+        ),
+        Step::built_in(
+            "no-std",
+            "the five crates of mathematics build without std",
+            no_std::check_no_std,
+        )
+        .shared(),
+        Step::built_in("build", "programs and tests compile", || TestPrograms::build().map(drop)),
+        Step::new("units", "unit and integration tests of the crates", Action::CrateTests),
+        Step::cargo(
+            "doctests",
+            "the examples of the documentation run",
+            &["test --quiet --workspace --doc -- --skip book_pages"],
+        ),
+        Step::built_in("docs", "the documentation builds without warnings", build_documentation),
+        Step::built_in(
+            "api",
+            "the public interfaces are as docs/api lists them, and as the version promises",
+            || crate::api::run_api(&[]),
+        )
+        .shared(),
+    ]
+}
+
+fn build_documentation() -> Outcome {
+    let mut cargo = cargo_command(&["doc", "--quiet", "--workspace", "--no-deps"]);
+    compile(|| run_visibly(cargo.env("RUSTDOCFLAGS", "-D warnings")))
+}
+
+/// The suites of the first tier, those that take longest first.
+fn suite_steps() -> Vec<Step> {
+    let suite = |name, about: &str| Step::new(name, about, Action::Suite(name)).shared();
+    vec![
+        Step::new(
+            "program",
+            "the command line: flags, messages, exit codes, output files",
+            Action::Program("", Some("book_formulas")),
+        )
+        .shared(),
+        Step::new(
+            "book_formulas",
+            "the formulas of the book agree with the crates",
+            Action::Program("book_formulas", None),
+        )
+        .shared(),
+        suite(
+            "drawing",
+            "line drawings against the z-buffer: models, a tenth of the random scenes",
+        ),
+        suite("hostile", "malicious files against the importer, with limits of time and memory"),
+        suite("corpus", "valid, odd and broken glTF files are rendered, or refused with a reason"),
+        suite("looks", "what is drawn is not black, empty or unlit"),
+        suite("references", "pictures against ray traced ones, by the formulas of glTF"),
+        suite("assemblies", "sheets of models with several parts, a tenth of the models"),
+        suite("goldens", "every scene against its golden image, pixel by pixel"),
+        suite("schemas", "every JSON document against its JSON Schema"),
+        suite("check", "the diagnostics of `alberti check` against those of the Khronos validator"),
+        suite("vectors", "the stage crates against exact answers"),
+        suite("meshes", "triangles and bounds of STL, OBJ, PLY and 3MF files against a manifest"),
+    ]
+}
+
+/// A first page of the interfaces with tool chains of their own.
+fn interface_steps() -> Vec<Step> {
+    vec![
+        Step::built_in("page", "the explorer's page in a browser: the first lesson", || {
+            crate::browser::run_browser(&["--first".into()])
+        })
+        .shared(),
+        Step::built_in("python-first", "a picture, its depth and its ids in Python", || {
+            crate::python::run_python(&["--first".into()])
+        })
+        .shared(),
+    ]
+}
+
+/// The second tier: other machines and what is handed out.
+fn release_steps() -> Vec<Step> {
+    vec![
+        Step::built_in(
+            "determinism",
+            "release and debug builds give the same bytes, with every number of threads",
+            || crate::determinism::run_determinism(&[]),
+        ),
+        Step::built_in("aarch64", "AArch64 in an emulator gives the same bytes", || {
+            crate::determinism::run_determinism(&["--targets=aarch64".into()])
+        }),
+        Step::built_in(
+            "package",
+            "the Debian package works in an empty Debian, and its removal leaves nothing there",
+            || crate::release::run_release(&["--deb".into()]),
+        ),
+        Step::built_in(
+            "web",
+            "the explorer builds for browsers, and its files are no larger than they may be",
+            || crate::web::run_web(&["--skip-without-tools".into()]),
+        ),
+        Step::built_in(
+            "instructions",
+            "fixed workloads take no more instructions than are recorded",
+            || crate::bench::run_bench(&["--instructions".into()]),
+        ),
+    ]
+}
+
+/// The second tier: interfaces with tool chains of their own, in full.
+fn later_steps() -> Vec<Step> {
+    let suite = |step, suite, about: &str| Step::new(step, about, Action::Suite(suite)).shared();
+    vec![
+        Step::built_in(
+            "browser",
+            "the explorer's lessons hold in a browser, by mouse and by keyboard",
+            || crate::browser::run_browser(&[]),
+        )
+        .shared(),
+        Step::built_in(
+            "python",
+            "the wheel makes pictures in an empty environment, and its tests pass",
+            || crate::python::run_python(&[]),
+        )
+        .shared(),
+        Step::built_in("dxf", "DXF files pass the audit of another program", || {
+            crate::dxf::run_dxf(&[])
+        })
+        .shared(),
+        Step::built_in(
+            "site",
+            "the documentation becomes pages: the guides' commands work, and links lead somewhere",
+            || crate::docs::run_docs(&[]),
+        )
+        .shared(),
+        Step::built_in(
+            "book",
+            "the book's figures and numbers work, its links lead somewhere, both editions are whole",
+            || crate::book::run_book(&["--test".into()]),
+        )
+        .shared(),
+        suite("cluster", "cluster", "`alberti batch` on a Slurm cluster whose nodes die"),
+        suite("thumbnails", "thumbnails", "thumbnails of every format by a thumbnail service"),
+        suite("drawing-all", "drawing", "line drawings: every random scene"),
+        suite("assemblies-all", "assemblies", "sheets of every model with several parts"),
+    ]
+}
+
+/// The second tier: what is built in other ways.
+fn build_variant_steps() -> Vec<Step> {
+    let maths: String = NO_STD.iter().map(|name| format!(" --package alberti-{name}")).collect();
+    vec![
+        Step::cargo(
+            "book-code",
+            "the Rust code of the book's pages runs",
+            &["test --quiet --workspace --doc book_pages"],
+        ),
+        Step::built_in(
+            "web-bytes",
+            "WebAssembly draws the pictures of the program",
+            crate::determinism::compare_web_pictures,
+        ),
+        Step::built_in("outside", "packages outside of the workspace compile", check_outside),
+        Step::built_in(
+            "crates",
+            "every crate can be packed for the registry, with what its manifest has to say",
+            || crate::release::run_release(&["--crates".into()]),
+        ),
+        Step::cargo(
+            "maths",
+            "unit tests and doctests of the crates of mathematics, built by themselves",
+            &[&format!("test --quiet{maths}")],
+        ),
+    ]
+}
+
+/// Compiles what no other step does: all targets of the packages outside of the workspace.
+fn check_outside() -> Outcome {
+    for manifest in ["tests/fuzz", "crates/web", "book/mdbook-alberti"] {
+        let mut cargo = cargo_command(&["check", "--quiet", "--locked", "--all-targets"]);
+        cargo.arg("--manifest-path").arg(format!("{manifest}/Cargo.toml"));
+        cargo.env("CARGO_TARGET_DIR", crate::workspace::target_folder().join("outside"));
+        compile(|| run_visibly(&mut cargo)).map_err(|error| format!("{manifest}: {error}"))?;
+        println!("{manifest} compiles");
+    }
+    Ok(())
+}
