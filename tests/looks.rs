@@ -6,6 +6,7 @@
 //! scenes have lights of their own. Arguments that are not flags select models by a part of their
 //! name.
 
+mod films;
 mod occlusion;
 
 use alberti_tests::harness::{Arguments, Tally, data_folder, map_parallel, run_program};
@@ -104,6 +105,7 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
 /// of other tests.
 fn judge_model(model: &Path) -> Vec<String> {
     let mut faults = occlusion::find_dots(model, &model_name(model));
+    faults.extend(films::compare_frames(model));
     // A plane has one normal: there is nothing that light could show.
     let Ok(normals) = render_model(model, &StyleFile::Normals) else { return faults };
     let is_even = normals.contrast < MIN_CONTRAST || is_exempt(model, &EVEN_MODELS);

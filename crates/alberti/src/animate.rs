@@ -86,6 +86,7 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
         Ok(()) => sink.finish(),
         Err(SequenceError::Output(failure)) => Err(failure),
         Err(SequenceError::Render(error)) => Err(error.into()),
+        Err(SequenceError::Scene(error)) => Err(error.into()),
         Err(other) => Err(CliError::Usage(other.to_string())),
     }
 }

@@ -9,7 +9,8 @@
 
 use crate::Picture;
 use crate::render::{RenderContext, RenderError, Renderer, Textures};
-use crate::scene::{CameraPath, Origin, ResolveError, Scene, SceneFile};
+use crate::scene::file::{CameraFile, ViewFile};
+use crate::scene::{CameraPath, FileAccess, Origin, ResolveError, Scene, SceneFile};
 use camera::ViewProjection;
 use homog::{Affine, Point, World};
 use model::Model;
@@ -46,7 +47,11 @@ pub enum Motion {
 /// Immutable while it renders: workers share it by reference.
 #[derive(Debug)]
 pub struct Sequence {
-    /// The scene at the start of the motion.
+    /// The source of the scene, for its errors.
+    origin: Origin,
+    /// The description, by which the camera, lights and ground of each frame are resolved.
+    file: SceneFile,
+    /// The scene at the start of the motion, with the views that stay as they are in all frames.
     scene: Scene,
     /// The motion of the models.
     motion: Motion,
@@ -68,6 +73,9 @@ pub enum SequenceError<E> {
     /// A frame cannot be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The scene makes no sense at the time of a frame.
+    #[error(transparent)]
+    Scene(#[from] ResolveError),
     /// The function that takes the frames failed.
     #[error("{0}")]
     Output(E),
@@ -91,10 +99,9 @@ impl Sequence {
     /// # Errors
     /// If the scene cannot be framed.
     ///
-    /// The scene is resolved a second time with the models at 16 moments of the motion together, as
-    /// if they stood there at once. Camera, lights, ground and insets of that resolution replace
-    /// those of the start; otherwise automatic near and far planes or shadow maps would cut off
-    /// later poses.
+    /// Each frame is resolved like a picture at its time, so that lights, cameras and grounds of
+    /// the models move with them. Only an automatic view is that of the whole motion: the scene is
+    /// resolved with the models at 16 moments together, as if they stood there at once.
     pub fn new(
         origin: &Origin,
         file: &SceneFile,
@@ -104,26 +111,40 @@ impl Sequence {
     ) -> Result<Self, ResolveError> {
         let middle = bounds_center(&model::world_points(&scene.models));
         let mut sequence = Self {
+            origin: origin.clone(),
+            file: file.clone(),
             scene,
             motion,
             frame_count: frames,
             pivot: middle,
             view_projections: Vec::new(),
         };
+        let is_view_kept = |index| sequence.keeps_view(index);
+        if !(0..=sequence.scene.insets.len()).any(is_view_kept) {
+            return Ok(sequence);
+        }
         let sampled_models = (0..FRAMING_SAMPLES)
             .flat_map(|at| sequence.models_at_fraction(at as f64 / FRAMING_SAMPLES as f64));
-        // The environment and backdrop files passed the access check when the scene was resolved.
-        let known: Vec<_> = file.image_paths().map(|path| origin.folder.join(path)).collect();
-        let framed = Scene::resolve_with_models(origin, file, sampled_models.collect(), &known)?;
-        (sequence.scene.view_projection, sequence.scene.lights) =
-            (framed.view_projection, framed.lights);
-        sequence.scene.ground = framed.ground;
+        let access = FileAccess::Loaded(&sequence.scene);
+        let framed = Scene::resolve_posed(origin, file, sampled_models.collect(), access)?;
+        sequence.scene.view_projection = framed.view_projection;
         for (inset, framed) in sequence.scene.insets.iter_mut().zip(framed.insets) {
-            (inset.scene.view_projection, inset.scene.lights) =
-                (framed.scene.view_projection, framed.scene.lights);
-            inset.scene.ground = framed.scene.ground;
+            inset.scene.view_projection = framed.scene.view_projection;
         }
         Ok(sequence)
+    }
+
+    /// Whether the view of the picture, 0, or of an inset, counted from 1, is one for all frames: an
+    /// automatic view, or in a turntable that of a model's own camera, which would turn with it.
+    fn keeps_view(&self, index: usize) -> bool {
+        let own = index.checked_sub(1).and_then(|inset| self.file.viewports.get(inset));
+        let camera: &CameraFile =
+            own.and_then(|viewport| viewport.camera.as_ref()).unwrap_or(&self.file.camera);
+        match camera.view {
+            ViewFile::Frame { .. } => true,
+            ViewFile::FromModel(..) => matches!(self.motion, Motion::Turntable { .. }),
+            _ => false,
+        }
     }
 
     /// Moves the camera along a path between two times in seconds. Insets keep their cameras.
@@ -247,7 +268,11 @@ impl Sequence {
             queue.delivered = frame + 1;
             drop(queue);
             progress.notify_all();
-            sink(frame, &picture?).map_err(SequenceError::Output)?;
+            let picture = picture.map_err(|error| match error {
+                FrameError::Render(error) => SequenceError::Render(error),
+                FrameError::Scene(error) => SequenceError::Scene(error),
+            })?;
+            sink(frame, &picture).map_err(SequenceError::Output)?;
         }
         Ok(())
     }
@@ -260,6 +285,15 @@ impl Sequence {
     }
 }
 
+/// Why a frame cannot be made.
+#[derive(Debug, thiserror::Error)]
+enum FrameError {
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error(transparent)]
+    Scene(#[from] ResolveError),
+}
+
 /// The frames between start and delivery.
 #[derive(Default)]
 struct Queue {
@@ -269,7 +303,7 @@ struct Queue {
     /// The next frame to deliver.
     delivered: usize,
     /// Rendered frames that wait for earlier ones, by index.
-    finished: BTreeMap<usize, Result<Picture, RenderError>>,
+    finished: BTreeMap<usize, Result<Picture, FrameError>>,
 }
 
 /// Waits until the next frame is at most `ahead` frames before the one delivered last, and starts
@@ -333,22 +367,42 @@ impl<'a> FrameWorker<'a> {
         &mut self,
         frame: usize,
         textures: &Textures<'_>,
-    ) -> Result<Picture, RenderError> {
-        let Sequence { scene, motion, frame_count, pivot, view_projections } = self.sequence;
+    ) -> Result<Picture, FrameError> {
+        let Sequence { origin, file, scene, motion, frame_count, pivot, view_projections } =
+            self.sequence;
         let fraction = frame as f64 / (*frame_count).max(1) as f64;
         // Insets release the shared models first: posing a model in use elsewhere would copy it.
         self.scene.insets.iter_mut().for_each(|inset| inset.scene.models.clear());
         motion.pose_models(&mut self.scene.models, &scene.models, *pivot, fraction);
-        for inset in &mut self.scene.insets {
-            inset.scene.models.clone_from(&self.scene.models);
+        let models = std::mem::take(&mut self.scene.models);
+        let posed = Scene::resolve_posed(origin, file, models, FileAccess::Loaded(scene))?;
+        let kept =
+            |index, start: &Scene| self.sequence.keeps_view(index).then_some(start.view_projection);
+        for (index, (inset, posed)) in (1..).zip(self.scene.insets.iter_mut().zip(posed.insets)) {
+            let start = &scene.insets[index - 1].scene;
+            take_posed(&mut inset.scene, posed.scene, kept(index, start));
         }
-        if let Some(view_projection) = view_projections.get(frame) {
-            self.scene.view_projection = *view_projection;
-        }
+        let path = view_projections.get(frame).copied();
+        let view = path.or_else(|| kept(0, scene));
+        let posed = Scene { insets: Vec::new(), ..posed };
+        take_posed(&mut self.scene, posed, view);
         let mut picture = Picture::default();
         self.renderer.render(&RenderContext::new(&self.scene, textures, 1), &mut picture)?;
         Ok(picture)
     }
+}
+
+/// Gives a scene what depends on the pose of the models, and the view of the frame if it is not
+/// that of the pose.
+fn take_posed(scene: &mut Scene, posed: Scene, view: Option<ViewProjection>) {
+    scene.models = posed.models;
+    scene.view_projection = view.unwrap_or(posed.view_projection);
+    scene.lights = posed.lights;
+    scene.ground = posed.ground;
+    scene.environment = posed.environment;
+    scene.occlusion_radius = posed.occlusion_radius;
+    scene.tone_mapper = posed.tone_mapper;
+    scene.overlays = posed.overlays;
 }
 
 impl Motion {

@@ -8,6 +8,7 @@
 //! ```
 
 use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile, ViewportsScale};
+use super::file_access::FileAccess;
 use super::number::Positive;
 use super::shared_scale::share_scale_of_viewports;
 use super::syntax::PathStep::{Field, Index};
@@ -19,7 +20,6 @@ use homog::PixelRect;
 use homog::{Bounds, Point, Projective};
 use model::ModelInstance;
 use model::world_points;
-use std::path::PathBuf;
 
 /// The most viewports of a scene.
 const MAX_VIEWPORTS: usize = 256;
@@ -53,10 +53,10 @@ pub(super) fn resolve_insets(
     origin: &Origin,
     file: &SceneFile,
     models: &[ModelInstance],
-    allowed: &[PathBuf],
+    access: FileAccess<'_>,
 ) -> Result<Vec<Inset>, ResolveError> {
     if let Some(stereo) = file.stereo {
-        return resolve_stereo(origin, file, stereo, models, allowed);
+        return resolve_stereo(origin, file, stereo, models, access);
     }
     if file.viewports.len() > MAX_VIEWPORTS {
         let message = format!("{} viewports are more than {MAX_VIEWPORTS}", file.viewports.len());
@@ -71,7 +71,7 @@ pub(super) fn resolve_insets(
             &origin.for_viewport(at),
             &inner,
             models.to_vec(),
-            allowed,
+            access.for_inset(at),
         )?;
         Ok(Inset { rect: area, border, cyan_only: false, scene })
     });
@@ -187,7 +187,7 @@ fn resolve_stereo(
     file: &SceneFile,
     stereo: StereoFile,
     models: &[ModelInstance],
-    allowed: &[PathBuf],
+    access: FileAccess<'_>,
 ) -> Result<Vec<Inset>, ResolveError> {
     let fault = |message: &str, help: &str| {
         origin.error_at(&[Field("stereo")], message, Some(help.to_owned()))
@@ -210,7 +210,7 @@ fn resolve_stereo(
     let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
     let inner = scene_in_viewport(file, &ViewportFile::default(), (half.width, height));
     let inner = SceneFile { stereo: None, ..inner };
-    let middle = Scene::resolve_without_insets(origin, &inner, models.to_vec(), allowed)?;
+    let middle = Scene::resolve_without_insets(origin, &inner, models.to_vec(), access)?;
     if middle.view_projection.viewer().raw().w == 0.0 {
         let help = "choose one, such as Perspective(), or leave `stereo` out";
         return Err(fault("eyes see the same in a parallel projection", help).into());

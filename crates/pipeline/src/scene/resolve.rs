@@ -1,10 +1,11 @@
 //! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
 //! the file. Models are loaded, angles are radians, and every default is decided.
 
-use super::backdrop::{is_blank_paper, resolve_backdrop, resolve_background_color};
+use super::backdrop::{is_blank_paper, resolve_background_color};
 use super::caption::resolve_caption;
 use super::exposure::resolve_exposure;
 use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, ViewFile};
+use super::file_access::FileAccess;
 use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
 use super::instances;
@@ -16,7 +17,7 @@ use super::overlays::resolve_overlays;
 use super::section::resolve_sections;
 use super::style::resolve_style;
 use super::suggest::{closest_name, suggest_name};
-use super::surrounding_light::{has_lights, resolve_environment};
+use super::surrounding_light::has_lights;
 use super::syntax::PathStep::{Field, Index};
 use super::uncut::resolve_uncut;
 use super::validate::{errors_around_models, errors_of_resolution};
@@ -112,8 +113,18 @@ impl Scene {
         models: Vec<ModelInstance>,
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
-        let mut scene = Self::resolve_without_insets(origin, file, models, allowed)?;
-        scene.insets = resolve_insets(origin, file, &scene.models, allowed)?;
+        Self::resolve_posed(origin, file, models, FileAccess::Read(allowed))
+    }
+
+    /// The scene around its models in another pose; files come from where `access` says.
+    pub(crate) fn resolve_posed(
+        origin: &Origin,
+        file: &SceneFile,
+        models: Vec<ModelInstance>,
+        access: FileAccess<'_>,
+    ) -> Result<Self, ResolveError> {
+        let mut scene = Self::resolve_without_insets(origin, file, models, access)?;
+        scene.insets = resolve_insets(origin, file, &scene.models, access)?;
         Ok(scene)
     }
 
@@ -122,7 +133,7 @@ impl Scene {
         origin: &Origin,
         file: &SceneFile,
         models: Vec<ModelInstance>,
-        allowed: &[PathBuf],
+        access: FileAccess<'_>,
     ) -> Result<Self, ResolveError> {
         let image = resolve_image(origin, file)?;
         let caption = resolve_caption(origin, file.caption.as_ref())?;
@@ -157,9 +168,9 @@ impl Scene {
                 if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None }
             }),
         );
-        let environment = resolve_environment(origin, file, &models, allowed, exposure_ev)?;
+        let environment = access.environment(origin, file, &models, exposure_ev)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
-        let backdrop = resolve_backdrop(origin, file, allowed)?;
+        let backdrop = access.backdrop(origin, file)?;
         Ok(Self {
             models,
             view_projection,

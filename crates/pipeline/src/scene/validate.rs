@@ -13,6 +13,7 @@ use super::backdrop::{resolve_backdrop, resolve_background_color};
 use super::caption::resolve_caption;
 use super::error::SceneError;
 use super::file::SceneFile;
+use super::file_access::FileAccess;
 use super::include::FileMistake;
 use super::insets::{resolve_border, resolve_insets, resolve_viewport_rect};
 use super::lights::check_light;
@@ -160,9 +161,10 @@ fn errors_of_scene(
     }
     errors.extend(resolve_overlays(origin, &file.overlays, &models, image).err());
     if errors.is_empty() {
-        let insets = resolve_insets(origin, file, &models, allowed).map(drop);
+        let access = FileAccess::Read(allowed);
+        let insets = resolve_insets(origin, file, &models, access).map(drop);
         let scene = insets
-            .and_then(|()| Scene::resolve_without_insets(origin, file, models, allowed).map(drop));
+            .and_then(|()| Scene::resolve_without_insets(origin, file, models, access).map(drop));
         if let Err(ResolveError::Scene(error)) = scene {
             errors.extend(Vec::from(error));
         }
