@@ -142,7 +142,7 @@ fn choose_tenth<T>(seed: u64, items: Vec<T>) -> Vec<T> {
         let mut bits = (seed << 32 ^ index).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (bits ^ bits >> 31) % 10 == 0
+        (bits ^ bits >> 31).is_multiple_of(10)
     };
     (0..).zip(items).filter(|(index, _)| is_chosen(*index)).map(|(_, item)| item).collect()
 }
