@@ -138,14 +138,14 @@ fn release_steps() -> Vec<Step> {
             "release and debug builds give the same bytes, with every number of threads",
             || crate::determinism::run_determinism(&[]),
         ),
-        Step::built_in("aarch64", "AArch64 in an emulator gives the same bytes", || {
-            crate::determinism::run_determinism(&["--targets=aarch64".into()])
-        }),
         Step::built_in(
             "package",
             "the Debian package works in an empty Debian, and its removal leaves nothing there",
             || crate::release::run_release(&["--deb".into()]),
         ),
+        Step::built_in("aarch64", "AArch64 in an emulator gives the same bytes", || {
+            crate::determinism::run_determinism(&["--targets=aarch64".into()])
+        }),
         Step::built_in(
             "web",
             "the explorer builds for browsers, and its files are no larger than they may be",
