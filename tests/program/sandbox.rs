@@ -35,9 +35,10 @@ fn program() -> &'static Path {
 }
 
 impl Sandbox {
-    /// A folder with the name of the test.
+    /// A folder with the name of the test, and what `SANDBOX_SUFFIX` adds to it.
     pub(crate) fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let suffix = std::env::var("SANDBOX_SUFFIX").unwrap_or_default();
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}{suffix}"));
         let _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).expect("a folder for the test");
         Self { folder }

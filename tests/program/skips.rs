@@ -16,6 +16,8 @@ fn skips_of(test: &str, (name, value): (&str, &str)) -> String {
     let mut shell = Command::new("/bin/sh");
     shell.args(["-c", script]).env("TESTS", std::env::current_exe().expect("this program"));
     shell.env("ALBERTI", alberti_tests::program_path().expect("the program"));
+    // The same tests run at the same time, in folders of the same names.
+    shell.env("SANDBOX_SUFFIX", "-skips");
     let run = shell.env("TEST", test).env("SKIP_LOG", &log).env(name, value).output();
     let run = run.expect("a shell");
     assert!(run.status.success(), "{test}: {}", String::from_utf8_lossy(&run.stdout));
