@@ -31,12 +31,11 @@ impl TestPrograms {
     /// Builds what is not up to date.
     ///
     /// Always the whole workspace: Cargo unifies features over the selected packages, and would
-    /// compile most crates again for every other selection. `target/cargo-timings` shows what took
-    /// how long.
+    /// compile most crates again for every other selection.
     pub fn build() -> Result<Self, String> {
         let call = ["build", "--workspace", "--lib", "--bins", "--tests", "--examples"];
         let mut cargo = cargo_command(&call);
-        cargo.args(["--quiet", "--timings", "--message-format", "json-render-diagnostics"]);
+        cargo.args(["--quiet", "--message-format", "json-render-diagnostics"]);
         let messages = compile(|| capture_output(&mut cargo))?;
         let mut built = Self { programs: Vec::new(), alberti: PathBuf::new() };
         for line in messages.lines() {
