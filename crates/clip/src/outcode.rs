@@ -185,6 +185,8 @@ mod tests {
         assert_eq!(code.to_string(), "left+far");
         assert_eq!(code.without_plane(PlaneIndex::FAR).to_string(), "left");
         assert_eq!(Outcode::INSIDE.to_string(), "inside");
+        let names = PlaneIndex::BOX.map(|plane| plane.to_string());
+        assert_eq!(names, ["left", "right", "bottom", "top", "near", "far"]);
         let added = PlaneIndex::added(9).expect("the last plane");
         assert_eq!(added.to_string(), "plane 9");
         assert_eq!(PlaneIndex::added(10), None);
