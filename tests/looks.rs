@@ -78,7 +78,12 @@ pub fn run() -> ExitCode {
             }
         }
         models.retain(|model| arguments.select(&model_name(model)));
-        Ok(judge_models(&models, arguments))
+        let mut tally = judge_models(&models, arguments);
+        let lamp = films::write_moving_lamp(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("looks"))?;
+        let faults = films::compare_frames(&lamp);
+        tally
+            .record("moving-lamp", if faults.is_empty() { Ok(()) } else { Err(faults.join("; ")) });
+        Ok(tally)
     })
 }
 

@@ -4,6 +4,8 @@
 //! Lights, cameras and grounds of a model move with it, so a film that is resolved only once shows
 //! them where they began.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use homog::Bounds;
 use model::world_points;
 use pipeline::scene::file::{
@@ -12,11 +14,68 @@ use pipeline::scene::file::{
 use pipeline::scene::{ResolveOptions, SceneFile};
 use pipeline::sequence::{Motion, Sequence};
 use pipeline::{Origin, Picture, Scene, render};
+use serde_json::json;
 use std::convert::Infallible;
-use std::path::Path;
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::fs::{create_dir_all, write};
+use std::path::{Path, PathBuf};
+
+/// The generated model, whose light and camera move.
+const MOVING_LAMP: &str = "moving-lamp.gltf";
 
 /// Frames of each film.
 const FRAMES: usize = 3;
+
+/// Writes a square below a point light and a camera that move to the right within a second.
+pub fn write_moving_lamp(folder: &Path) -> Result<PathBuf, String> {
+    let square = [-1.0, 0.0, -1.0, -1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 0.0, -1.0];
+    let [times, places] = [vec![0.0, 1.0], vec![-0.8, 0.5, 0.0, 0.8, 0.5, 0.0]];
+    let numbers = square.into_iter().chain(times).chain(places);
+    let mut bytes: Vec<u8> = numbers.flat_map(|number: f32| number.to_le_bytes()).collect();
+    bytes.extend([0_u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes));
+    let accessor = |view: usize, kind: &str, component: u32, count: usize| json!({ "bufferView": view, "type": kind, "componentType": component, "count": count });
+    let mut positions = accessor(0, "VEC3", 5126, 4);
+    (positions["min"], positions["max"]) = (json!([-1, 0, -1]), json!([1, 0, 1]));
+    let mut input = accessor(1, "SCALAR", 5126, 2);
+    (input["min"], input["max"]) = (json!([0]), json!([1]));
+    let channel =
+        |node: usize| json!({ "sampler": 0, "target": { "node": node, "path": "translation" } });
+    let document = json!({
+        "asset": { "version": "2.0" },
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": { "KHR_lights_punctual": { "lights": [{ "type": "point", "intensity": 2 }] } },
+        "buffers": [{
+            "byteLength": bytes.len(),
+            "uri": format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes)),
+        }],
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 48 },
+            { "buffer": 0, "byteOffset": 48, "byteLength": 8 },
+            { "buffer": 0, "byteOffset": 56, "byteLength": 24 },
+            { "buffer": 0, "byteOffset": 80, "byteLength": 12 },
+        ],
+        "accessors": [
+            positions, input, accessor(2, "VEC3", 5126, 2), accessor(3, "SCALAR", 5123, 6),
+        ],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 3 }] }],
+        "cameras": [{ "type": "perspective", "perspective": { "yfov": 1.0, "znear": 0.1 } }],
+        "nodes": [
+            { "mesh": 0 },
+            { "translation": [-0.8, 0.5, 0], "extensions": { "KHR_lights_punctual": { "light": 0 } } },
+            { "translation": [-0.8, 0.5, 0], "children": [3] },
+            { "camera": 0, "translation": [0.8, 2.5, 0], "rotation": [-FRAC_1_SQRT_2, 0, 0, FRAC_1_SQRT_2] },
+        ],
+        "scenes": [{ "nodes": [0, 1, 2] }],
+        "animations": [{
+            "samplers": [{ "input": 1, "output": 2 }],
+            "channels": [channel(1), channel(2)],
+        }],
+    });
+    let path = folder.join(MOVING_LAMP);
+    let written = create_dir_all(folder).and_then(|()| write(&path, document.to_string()));
+    written.map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(path)
+}
 
 /// How the frames of a model's film differ from pictures at their times; nothing if the model has
 /// no animation, or if it cannot be drawn.
@@ -35,7 +94,8 @@ pub fn compare_frames(model: &Path) -> Vec<String> {
         for has_ground in [false, true] {
             let mut file = SceneFile { camera: camera.clone(), ..file.clone() };
             file.ground = has_ground.then_some(GroundFile::DEFAULT);
-            let outcome = compare_film(&origin, &file, end);
+            let must_move = model.ends_with(MOVING_LAMP);
+            let outcome = compare_film(&origin, &file, end, must_move);
             let fault = outcome.err().map(|fault| format!("{name}, ground {has_ground}: {fault}"));
             faults.extend(fault);
         }
@@ -62,7 +122,12 @@ fn cameras(scene: &Scene) -> Vec<(&'static str, CameraFile)> {
 }
 
 /// Renders a film of the first animation and each of its frames as a picture.
-fn compare_film(origin: &Origin, file: &SceneFile, end: f64) -> Result<(), String> {
+fn compare_film(
+    origin: &Origin,
+    file: &SceneFile,
+    end: f64,
+    must_move: bool,
+) -> Result<(), String> {
     let options = ResolveOptions::default();
     let picture_at = |time: f64| {
         let mut file = file.clone();
@@ -81,6 +146,9 @@ fn compare_film(origin: &Origin, file: &SceneFile, end: f64) -> Result<(), Strin
         Ok::<(), Infallible>(())
     });
     taken.map_err(|error| error.to_string())?;
+    if frames.windows(2).all(|pair| pair[0] == pair[1]) && must_move {
+        return Err("all frames are alike".to_owned());
+    }
     for (index, frame) in frames.iter().enumerate() {
         let time = end * (index as f64 / FRAMES as f64);
         if *frame != picture_at(time)? {
