@@ -6,9 +6,9 @@
 //! test --second             the second tier alone; with --minutes N, steps begin in that time
 //! test STEP…                some steps of either tier
 //! ```
-//! Programs of tests are built by one call of Cargo and run directly (`artifacts.rs`). Each step is
-//! a process of its own, which leaves behind what it cost and what it skipped (`step.rs`); steps
-//! that use one core share the machine (`schedule.rs`). The summary names both (`summary.rs`).
+//! One call of Cargo builds the test programs, which then run directly (`artifacts.rs`). Each step
+//! is a separate process, so its cost and its skips are known (`step.rs`). Steps that use one core
+//! run two at a time (`schedule.rs`). The summary lists costs and skips (`summary.rs`).
 
 mod artifacts;
 mod cpu_time;

@@ -72,7 +72,7 @@ pub struct StepReport {
     pub skipped: Vec<String>,
 }
 
-/// A step that runs in a process of its own, so that its costs and its skips are known.
+/// A step that is running in a separate process, so that its cost and its skips are known.
 pub struct RunningStep {
     name: String,
     child: Child,

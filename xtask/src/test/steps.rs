@@ -116,7 +116,7 @@ fn suite_steps() -> Vec<Step> {
     ]
 }
 
-/// A first page of the interfaces with tool chains of their own.
+/// A first look at the page and at Python, which need other tool chains.
 fn interface_steps() -> Vec<Step> {
     vec![
         Step::built_in("page", "the explorer's page in a browser: the first lesson", || {
@@ -159,7 +159,7 @@ fn release_steps() -> Vec<Step> {
     ]
 }
 
-/// The second tier: interfaces with tool chains of their own, in full.
+/// The second tier: in full what needs other tool chains.
 fn later_steps() -> Vec<Step> {
     let suite = |step, suite, about: &str| Step::new(step, about, Action::Suite(suite)).shared();
     vec![
