@@ -69,6 +69,14 @@ impl TestPrograms {
         self.programs.iter().filter(is_of_crate).try_for_each(|program| self.run(program, &[], &[]))
     }
 
+    /// Runs the integration tests of a crate with all cases and sizes.
+    pub fn run_thorough_tests(&self, package: &str) -> Outcome {
+        let is_it = |one: &&TestProgram| one.package == package && one.target == "integration";
+        let found = self.programs.iter().find(is_it);
+        let program = found.ok_or_else(|| format!("cargo built no tests of {package}"))?;
+        self.run(program, &[], &[("THOROUGH", "1")])
+    }
+
     /// Runs a suite of `tests/suites.rs`.
     pub fn run_suite(&self, name: &str, variables: &[(&str, &str)]) -> Outcome {
         self.run(self.find("suites")?, &[name], variables)

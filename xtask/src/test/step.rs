@@ -52,6 +52,8 @@ pub enum Action {
     Program(&'static str, Option<&'static str>),
     /// Unit and integration tests of the crates.
     CrateTests,
+    /// The integration tests of a crate, with all cases and sizes.
+    Thorough(&'static str),
     /// A command of this program.
     Own(fn() -> Outcome),
 }
@@ -129,6 +131,9 @@ impl Step {
             }),
             Action::Program(part, without) => {
                 TestPrograms::build().and_then(|tests| tests.run_program_tests(part, *without))
+            }
+            Action::Thorough(package) => {
+                TestPrograms::build().and_then(|tests| tests.run_thorough_tests(package))
             }
             Action::CrateTests => TestPrograms::build().and_then(|tests| tests.run_crate_tests()),
         };

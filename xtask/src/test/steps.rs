@@ -194,6 +194,12 @@ fn later_steps() -> Vec<Step> {
         suite("cluster", "cluster", "`alberti batch` on a Slurm cluster whose nodes die"),
         suite("thumbnails", "thumbnails", "thumbnails of every format by a thumbnail service"),
         suite("drawing-all", "drawing", "line drawings: every random scene"),
+        Step::new(
+            "parts-all",
+            "the tests of drawings, with sheets of a thousand parts",
+            Action::Thorough("alberti-drawing"),
+        )
+        .shared(),
         suite("assemblies-all", "assemblies", "sheets of every model with several parts"),
     ]
 }

@@ -6,7 +6,7 @@ use drawing::{Group, GroupContent, Overlay, Page, PointLabel, Sheet, SheetLabelF
 use glam::{DVec2, DVec3};
 use homog::Point;
 use projection::SheetAngle;
-use viewport::Paper;
+use viewport::{DrawingScale, Paper};
 
 fn label(text: &str, at: DVec3) -> Overlay {
     Overlay::Label(PointLabel {
@@ -94,7 +94,9 @@ fn labels_of_large_models_are_placed_on_paper_and_not_beyond() {
 fn labels_after_the_hundredth_of_a_view_are_named() {
     let model = [box_model(DVec3::new(400.0, 200.0, 300.0))];
     let overlays = (0..103).map(|k| label(&format!("{k}"), DVec3::ZERO)).collect();
-    let sheet = Sheet { overlays, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
+    // A given scale, so that the labels are placed once.
+    let scale = DrawingScale::new(1, 10).ok();
+    let sheet = Sheet { overlays, scale, ..sheet((Paper::A4, "A4"), SheetAngle::First) };
     let warnings = sheet.draw(&model, &[], 1).unwrap().warnings;
     let is_surplus = |warning: &&Warning| {
         matches!(warning, Warning::LabelNotInView { fault: SheetLabelFault::TooMany, .. })
