@@ -19,7 +19,10 @@
 use super::edges::{CandidateEdge, SectionCap, WeldedSurface};
 use super::face_fill::{KeyLight, rasterize_fill};
 use super::hatching::Hatching;
-use super::hidden_line::{MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge};
+use super::hidden_line::{
+    DepthCover, MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge,
+    TriangleMesh as _,
+};
 use super::options::{DrawOptions, HiddenEdges};
 use super::parallel::map_in_order;
 use super::projector::Projector;
@@ -50,9 +53,12 @@ pub fn draw(
     let mut candidates = surface.mesh_edges(&projector, options);
     // There is no other view: memory of millions of edges is free for what follows.
     surface.forget_half_edges();
-    let is_cut_off = surface.add_intersections(&mut candidates, options, threads);
+    let cover = view_cover(&surface, projector, subject.size, options);
+    let wanted = (options, cover.as_ref());
+    let is_cut_off = surface.add_intersections(&mut candidates, wanted, threads);
     let view = (&subject.view_projection, subject.size);
-    let mut drawing = draw_candidates(&surface, (candidates, is_cut_off), view, options, threads)?;
+    let candidates = Candidates { edges: candidates, is_cut_off, cover };
+    let mut drawing = draw_candidates(&surface, candidates, view, options, threads)?;
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
     drawing.warnings.sort_unstable();
     Ok(drawing)
@@ -70,16 +76,40 @@ pub(crate) fn draw_surface(
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
     let mut candidates = surface.mesh_edges(&projector, options);
-    let is_cut_off = surface.add_intersections(&mut candidates, options, threads);
+    // Other views need other intersections: all are found once.
+    let is_cut_off = surface.add_intersections(&mut candidates, (options, None), threads);
     let view = (view_projection, size);
-    draw_candidates(surface, (candidates, is_cut_off), view, options, threads)
+    let cover = view_cover(surface, projector, size, options);
+    let candidates = Candidates { edges: candidates, is_cut_off, cover };
+    draw_candidates(surface, candidates, view, options, threads)
 }
 
-/// Draws the candidate edges of a surface, and its hatching, as far as they are visible;
-/// `is_cut_off` says whether intersections are missing.
+/// The edges of a surface that may be visible.
+struct Candidates {
+    edges: Vec<CandidateEdge>,
+    /// Whether intersections are missing.
+    is_cut_off: bool,
+    /// The depths behind which nothing is visible; `None` where hidden edges are wanted, and where
+    /// no face is large enough.
+    cover: Option<DepthCover>,
+}
+
+/// What a surface hides of itself by single faces, where hidden lines are not drawn.
+fn view_cover(
+    surface: &WeldedSurface,
+    projector: Projector,
+    size: [u32; 2],
+    options: &DrawOptions,
+) -> Option<DepthCover> {
+    let is_removed = options.hidden_edges == HiddenEdges::Removed && !options.outline_only;
+    let cover = is_removed.then(|| surface.depth_cover(projector, size))?;
+    (!cover.is_empty()).then_some(cover)
+}
+
+/// Draws the candidate edges of a surface, and its hatching, where they are visible.
 fn draw_candidates(
     surface: &WeldedSurface,
-    (mut edges, is_cut_off): (Vec<CandidateEdge>, bool),
+    Candidates { mut edges, is_cut_off, cover }: Candidates,
     (view_projection, size): (&ViewProjection, [u32; 2]),
     options: &DrawOptions,
     threads: usize,
@@ -95,6 +125,9 @@ fn draw_candidates(
         let class = EdgeClass::Hatching;
         let segments = hatching.segments.into_iter();
         edges.extend(segments.map(|(ends, object)| CandidateEdge { ends, class, object }));
+    }
+    if let Some(cover) = cover {
+        edges.retain(|edge| !cover.hides_segment(edge.ends));
     }
     edges.sort_by_key(|candidate| candidate.object);
     let face_fill = match options.face_fill {
@@ -175,8 +208,13 @@ fn hatch_surface(
 /// The faces of a wall: lines behind more are not drawn if only the first layer is.
 const FACES_OF_A_WALL: u32 = 2;
 
-/// Each edge may have this many comparisons, whatever the number of edges.
-const MIN_COMPARISONS: u64 = 1024;
+/// Edges may have this many comparisons each, on average, whatever their number.
+const MIN_COMPARISONS: u64 = 512;
+/// All edges together may have this many, below which no drawing takes long: half a second.
+const ANY_COMPARISONS: u64 = 1 << 26;
+/// They may have this many more for each face, so that a file twice as large is at most twice the
+/// work. Edges of a model meet a few hundred faces; those of a soup of triangles meet all.
+const COMPARISONS_PER_FACE: u64 = 4096;
 
 /// Divides edges into visible and hidden segments against the occluders of one view.
 ///
@@ -204,7 +242,9 @@ impl<'a> EdgeDivider<'a> {
         });
         let hidden_edges =
             if options.outline_only { HiddenEdges::Removed } else { options.hidden_edges };
-        let max_comparisons = options.max_comparisons;
+        let faces = u64::from((&surface).triangle_count());
+        let fitting = ANY_COMPARISONS.saturating_add(COMPARISONS_PER_FACE * faces);
+        let max_comparisons = options.max_comparisons.min(fitting);
         Self { projector, occluders, hidden_edges, max_comparisons }
     }
 

@@ -34,6 +34,7 @@
 mod bvh;
 mod covering_faces;
 mod crack_intervals;
+mod depth_cover;
 mod occluder;
 mod occluders;
 mod occlusion_intervals;
@@ -41,6 +42,7 @@ mod projected_edge;
 mod screen_bvh;
 
 pub(super) use bvh::{Aabb, Bvh};
+pub(super) use depth_cover::DepthCover;
 pub use occluders::{EdgeParts, Occluders, Tolerance};
 pub(super) use occluders::{MeshOccluders, OcclusionScratch, mesh_bvh};
 pub(super) use occlusion_intervals::OcclusionIntervals;

@@ -42,7 +42,8 @@ pub struct DrawOptions {
     /// About the greatest number of comparisons of edges with faces, and with boxes around faces:
     /// where it is reached, parts of edges that would be hidden are visible, and the drawing has
     /// the warning [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). Each edge may
-    /// have 1024, whatever the number of edges. Default: 2³², minutes of work.
+    /// have 512, whatever the number of edges; all together have no more than 2²⁶ and 4096 for each
+    /// face. Default: 2³², minutes of work.
     pub max_comparisons: u64,
 }
 

@@ -15,7 +15,7 @@
 
 use super::seams::{BorderEdge, WeldRadii};
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::{Aabb, Bvh};
+use crate::hidden_line::{Aabb, Bvh, DepthCover};
 use crate::parallel::map_in_order;
 use glam::DVec3;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -39,8 +39,11 @@ pub(super) struct Intersections {
     pub(super) is_cut_off: bool,
 }
 
-/// About the greatest number of intersections that are found.
+/// About the greatest number of intersections that are found, however many faces there are.
 const MAX_INTERSECTIONS: usize = 1 << 22;
+/// About the greatest number for each face, on average: a model has few, a soup of triangles as many
+/// as it has pairs.
+const INTERSECTIONS_PER_FACE: usize = 64;
 
 /// A pair of faces that intersect, the one that asks first, and the segment.
 type IntersectingPair = ([u32; 2], IntersectionSegment);
@@ -50,20 +53,29 @@ type IntersectingPair = ([u32; 2], IntersectionSegment);
 /// `bvh` has the faces as its first items. Faces nearer than `touching` only touch. Intersections
 /// along boundaries of both faces are left out, for the boundaries are drawn. Leaves of the
 /// hierarchy are compared with each other, each pair of them once. The work is bounded by
-/// [`Bvh::query_budget`] and [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
+/// [`Bvh::query_budget`] and [`MAX_INTERSECTIONS`]; whether a bound was met is in the result. With
+/// a cover, intersections that it hides are left out.
 pub(super) fn intersect_faces(
     mesh: &WorldMesh,
     bvh: &Bvh,
     (borders, weld_radii): (&[BorderEdge], &WeldRadii),
-    touching: f64,
+    (touching, cover): (f64, Option<&DepthCover>),
     threads: usize,
 ) -> Intersections {
+    // Without what is out of sight there is less to compare.
+    let in_sight = cover.map(|cover| FacesInSight::new(mesh, cover));
+    let of_view = in_sight.as_ref().map(|in_sight| {
+        Bvh::new(in_sight.visible.iter().map(|face| Aabb::around_triangle(mesh.triangle(*face))))
+    });
+    let bvh = of_view.as_ref().unwrap_or(bvh);
     let leaves = bvh.leaf_nodes();
+    let most = (INTERSECTIONS_PER_FACE * mesh.faces.len()).min(MAX_INTERSECTIONS);
     let search = IntersectionSearch {
         mesh,
         borders: FaceBorders::new(borders, weld_radii),
         touching,
-        most_per_leaf: (MAX_INTERSECTIONS / leaves.len().max(1)).max(64),
+        most_per_leaf: (most / leaves.len().max(1)).max(256),
+        in_sight,
     };
     let budget = Bvh::query_budget(leaves.len());
     let is_cut_off = AtomicBool::new(false);
@@ -116,6 +128,34 @@ struct IntersectionSearch<'a> {
     touching: f64,
     /// About the greatest number of intersections of the faces of a leaf with later ones.
     most_per_leaf: usize,
+    /// The faces that the one viewer can see, if there is only one: those of the hierarchy.
+    in_sight: Option<FacesInSight<'a>>,
+}
+
+/// The faces of a mesh that one viewer may see.
+struct FacesInSight<'a> {
+    cover: &'a DepthCover,
+    /// The faces that are not hidden as a whole.
+    visible: Vec<u32>,
+}
+
+impl<'a> FacesInSight<'a> {
+    fn new(mesh: &WorldMesh, cover: &'a DepthCover) -> Self {
+        let is_visible = |face: &u32| {
+            let image = cover.image_of(&mesh.triangle(*face));
+            !image.is_some_and(|image| cover.hides(&image))
+        };
+        let visible = (0..mesh.faces.len() as u32).filter(is_visible).collect();
+        Self { cover, visible }
+    }
+
+    /// Whether what two triangles have in common is hidden.
+    fn hide_pair(&self, pair: [&IntersectionTriangle; 2]) -> bool {
+        let [Some(one), Some(other)] = pair.map(|face| self.cover.image_of(&face.vertices)) else {
+            return false;
+        };
+        self.cover.hides(&one.intersection(&other))
+    }
 }
 
 impl IntersectionSearch<'_> {
@@ -127,7 +167,9 @@ impl IntersectionSearch<'_> {
         within: Option<&Aabb>,
     ) -> impl Iterator<Item = IntersectionTriangle> {
         let faces = items.iter().filter(|item| (**item as usize) < self.mesh.faces.len());
-        faces.filter_map(move |face| IntersectionTriangle::from_face(self.mesh, *face, within))
+        let faces =
+            faces.map(|item| self.in_sight.as_ref().map_or(*item, |of| of.visible[*item as usize]));
+        faces.filter_map(move |face| IntersectionTriangle::from_face(self.mesh, face, within))
     }
 
     /// Intersects the triangles of a leaf with each other.
@@ -158,7 +200,9 @@ impl IntersectionSearch<'_> {
         let is_apart = !a.bounds.intersects(&b.bounds)
             || a.is_beside_plane(b, self.touching)
             || b.is_beside_plane(a, self.touching);
-        if is_apart {
+        let is_out_of_sight =
+            || self.in_sight.as_ref().is_some_and(|in_sight| in_sight.hide_pair([a, b]));
+        if is_apart || is_out_of_sight() {
             return None;
         }
         let faces = [a, b].map(|triangle| &self.mesh.faces[triangle.face as usize]);
@@ -229,8 +273,7 @@ struct IntersectionTriangle {
 impl IntersectionTriangle {
     /// The triangle of a face; `None` if its box does not overlap the one that is given.
     fn from_face(mesh: &WorldMesh, face: u32, within: Option<&Aabb>) -> Option<Self> {
-        let corners = mesh.faces[face as usize].vertices;
-        let vertices = corners.map(|vertex| mesh.points[vertex as usize]);
+        let vertices = mesh.triangle(face);
         let bounds = Aabb::around_triangle(vertices);
         if within.is_some_and(|within| !within.intersects(&bounds)) {
             return None;

@@ -17,7 +17,7 @@ use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, we
 use super::section_cut::cut_mesh;
 use super::weld::weld_equal_vertices;
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::{Aabb, Bvh, Tolerance, TriangleMesh, mesh_bvh};
+use crate::hidden_line::{Aabb, Bvh, DepthCover, Tolerance, TriangleMesh, mesh_bvh};
 use crate::projector::Projector;
 use crate::{DrawOptions, EdgeClass, SilhouetteMethod, Warning};
 use glam::DVec3;
@@ -289,16 +289,26 @@ impl WeldedSurface {
 
     /// Adds the edges in which faces intersect, if they are wanted; `true` if some are missing
     /// because there were too many.
+    ///
+    /// With the cover of a view only those that it does not hide are found: where there is one view
+    /// only, and hidden lines are removed, the others make no difference.
     pub(crate) fn add_intersections(
         &self,
         candidates: &mut Vec<CandidateEdge>,
-        options: &DrawOptions,
+        (options, cover): (&DrawOptions, Option<&DepthCover>),
         threads: usize,
     ) -> bool {
         if !options.classes.contains(EdgeClass::Intersection) {
             return false;
         }
-        let Intersections { segments, is_cut_off } = self.intersections(threads);
+        let of_view;
+        let Intersections { segments, is_cut_off } = match cover {
+            Some(_) => {
+                of_view = self.find_intersections(cover, threads);
+                &of_view
+            }
+            None => self.intersections.get_or_init(|| self.find_intersections(None, threads)),
+        };
         let class = EdgeClass::Intersection;
         let edge = |&(ends, object): &_| CandidateEdge { ends, class, object };
         candidates.extend(segments.iter().map(edge));
@@ -306,12 +316,16 @@ impl WeldedSurface {
     }
 
     /// Where faces intersect; the number of threads does not change them.
-    fn intersections(&self, threads: usize) -> &Intersections {
-        self.intersections.get_or_init(|| {
-            let borders = (self.border_edges.as_slice(), &self.weld_radii);
-            let touching = self.touch_tolerance().world;
-            intersect_faces(&self.mesh, self.face_bvh(), borders, touching, threads)
-        })
+    fn find_intersections(&self, cover: Option<&DepthCover>, threads: usize) -> Intersections {
+        let borders = (self.border_edges.as_slice(), &self.weld_radii);
+        let touching = self.touch_tolerance().world;
+        intersect_faces(&self.mesh, self.face_bvh(), borders, (touching, cover), threads)
+    }
+
+    /// The depths behind which nothing of the surface is visible.
+    pub(crate) fn depth_cover(&self, projector: Projector, size: [u32; 2]) -> DepthCover {
+        let faces = self.occluder_triangles().map(|corners| corners.map(Point::raw));
+        DepthCover::new(faces, projector, size, &self.touch_tolerance())
     }
 
     /// A triangle that hides, by its index among the faces, which come first, and the fillings.

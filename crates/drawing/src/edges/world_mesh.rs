@@ -64,6 +64,11 @@ pub(crate) struct WorldMesh {
 }
 
 impl WorldMesh {
+    /// The corners of a face.
+    pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
+        self.faces[face as usize].vertices.map(|vertex| self.points[vertex as usize])
+    }
+
     /// Gathers all visible primitives of the models in their current pose.
     pub(crate) fn from_models(models: &[ModelInstance]) -> Self {
         let mut mesh = Self::default();

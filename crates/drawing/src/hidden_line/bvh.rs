@@ -316,14 +316,13 @@ impl Bvh {
         true
     }
 
-    /// The number of items that each of `queries` queries may visit, so that all together stay
-    /// below 2³¹ visits.
+    /// The number of items that each of `queries` queries may visit.
     ///
     /// It bounds the time on degenerate input, such as a million triangles in one box, where every
-    /// query meets every item. Scenes with a few thousand items are never limited, and each query
-    /// may visit at least 1024.
+    /// query meets every item: all together stay below 2²⁶ visits, or 1024 for each where there are
+    /// many. Scenes with a few thousand items are never limited.
     pub(crate) fn query_budget(queries: usize) -> usize {
-        const ALL: usize = 1 << 31;
+        const ALL: usize = 1 << 26;
         (ALL / queries.max(1)).max(1024)
     }
 

@@ -1,0 +1,320 @@
+//! Depth cover: for each cell of a grid on the screen, a depth behind which nothing is visible.
+//!
+//! ```text
+//!  cell   0     1     2     3     4     5           ■  covered by one face from side to side:
+//!         │     │■■■■■│■■■■■│■■■■■│     │              what is behind that face is hidden there
+//!         │  ╱▒▒│▒▒▒▒▒│▒▒▒▒▒│▒▒▒▒▒│▒╲   │           ▒  the face
+//! ```
+//! It is the hierarchical z-buffer of Greene, Kass and Miller (*Hierarchical Z-buffer visibility*,
+//! 1993), made conservative: a cell counts for a face only if the face covers all of it, with the
+//! farthest depth that it has there. So what it calls hidden is hidden; what it does not may be
+//! either, and is left to the exact tests. Where surfaces overlap many times, as in a soup of random
+//! triangles, most faces are out of the way before any pair of them is compared.
+
+use super::super::projector::Projector;
+use super::occluders::Tolerance;
+use glam::{DVec2, DVec3};
+
+/// Cells along the longer side of the screen.
+const CELLS: f64 = 256.0;
+/// A face shrinks by this many pixels on all sides, more than any tolerance of the exact tests.
+const MARGIN: f64 = 1.0 / 64.0;
+/// A face is moved back by this many touching distances: what touches it must not count as hidden.
+const SETBACK: f64 = 32.0;
+/// Faces seen at a smaller sine than this hide nothing here: moved back, they would still be
+/// nearer to what touches them than the touching distance.
+const LEAST_SINE: f64 = 0.125;
+
+/// The depths behind which nothing is visible, as a pyramid of grids.
+///
+/// Depths are those of the screen: 0 at the far plane, 1 at the near plane.
+#[derive(Clone, Debug)]
+pub(crate) struct DepthCover {
+    projector: Projector,
+    /// Cells per pixel.
+    scale: f64,
+    /// The finest level first; each further one has the least of four depths.
+    levels: Vec<Level>,
+}
+
+/// One level of the pyramid.
+#[derive(Clone, Debug)]
+struct Level {
+    size: [usize; 2],
+    /// Row by row; 0 where no face covers the cell.
+    depths: Vec<f64>,
+}
+
+/// The image of a face or of a segment: a box on the screen, and its nearest depth.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct ScreenBox {
+    min: DVec2,
+    max: DVec2,
+    nearest: f64,
+}
+
+impl ScreenBox {
+    /// The box around points in front of the viewer; `None` if one of them has no image.
+    fn around(points: &[DVec3], projector: &Projector) -> Option<Self> {
+        let mut all =
+            Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f64::NEG_INFINITY };
+        for point in points {
+            let image = image_of(*point, projector)?;
+            all.min = all.min.min(image.truncate());
+            all.max = all.max.max(image.truncate());
+            all.nearest = all.nearest.max(image.z);
+        }
+        Some(all)
+    }
+
+    /// The box of what is in both images.
+    pub(crate) fn intersection(&self, other: &Self) -> Self {
+        Self {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+            nearest: self.nearest.min(other.nearest),
+        }
+    }
+}
+
+impl DepthCover {
+    /// The cover by some faces on a screen of this size in pixels.
+    pub(crate) fn new(
+        faces: impl Iterator<Item = [DVec3; 3]>,
+        projector: Projector,
+        size: [u32; 2],
+        tolerance: &Tolerance,
+    ) -> Self {
+        let size = DVec2::from(size.map(f64::from));
+        let scale = CELLS / size.max_element();
+        let cells = (size * scale).ceil().max(DVec2::ONE).to_array().map(|side| side as usize);
+        let mut cover = Self { projector, scale, levels: vec![Level::empty(cells)] };
+        for face in faces {
+            cover.add_face(face, SETBACK * tolerance.world);
+        }
+        while let Some(coarser) = cover.levels.last().and_then(Level::halved) {
+            cover.levels.push(coarser);
+        }
+        cover
+    }
+
+    /// Whether all that has its image in a box is hidden.
+    pub(crate) fn hides(&self, image: &ScreenBox) -> bool {
+        let [low, high] = [image.min, image.max].map(|corner| corner * self.scale);
+        let size = DVec2::from(self.levels[0].size.map(|side| side as f64));
+        // Parts beyond the border of the screen are not drawn.
+        let (low, high) = (low.max(DVec2::ZERO), high.min(size));
+        if !(low.cmple(high).all()) {
+            return false;
+        }
+        let [first, last] = [low, high].map(|corner| corner.to_array().map(|side| side as usize));
+        // The level at which the box meets few cells.
+        let span = (last[0] - first[0]).max(last[1] - first[1]);
+        let level = (usize::BITS - (span / 8).leading_zeros()) as usize;
+        let Some(grid) = self.levels.get(level) else { return false };
+        let [first, last] = [first, last].map(|cell| [0, 1].map(|k| cell[k] >> level));
+        (first[1]..=last[1].min(grid.size[1] - 1)).all(|row| {
+            (first[0]..=last[0].min(grid.size[0] - 1))
+                .all(|column| image.nearest < grid.depths[row * grid.size[0] + column])
+        })
+    }
+
+    /// Whether a segment of the world is hidden from end to end.
+    pub(crate) fn hides_segment(&self, ends: [DVec3; 2]) -> bool {
+        self.image_of(&ends).is_some_and(|image| self.hides(&image))
+    }
+
+    /// The box around the images of points; `None` if one of them has no image.
+    pub(crate) fn image_of(&self, points: &[DVec3]) -> Option<ScreenBox> {
+        ScreenBox::around(points, &self.projector)
+    }
+
+    /// Whether no face covers a cell.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.levels[0].depths.iter().all(|depth| *depth == 0.0)
+    }
+
+    /// Adds a face, moved away from the viewer by a distance.
+    fn add_face(&mut self, corners: [DVec3; 3], setback: f64) {
+        // Most faces of a fine mesh are smaller than a cell.
+        let image = self.image_of(&corners);
+        if image.is_none_or(|image| ((image.max - image.min) * self.scale).min_element() < 1.0) {
+            return;
+        }
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let mut images = [DVec3::ZERO; 3];
+        for (image, corner) in images.iter_mut().zip(corners) {
+            let gaze = -self.projector.towards_viewer(corner).normalize_or_zero();
+            if normal.dot(gaze).abs() < LEAST_SINE {
+                return;
+            }
+            let Some(moved) = image_of(corner + gaze * setback, &self.projector) else { return };
+            *image = (moved.truncate() * self.scale).extend(moved.z);
+        }
+        let Some(plane) = DepthPlane::through(images) else { return };
+        self.levels[0].cover(images.map(DVec3::truncate), &plane, MARGIN * self.scale);
+    }
+}
+
+/// The image of a point within the depths of the view volume.
+fn image_of(point: DVec3, projector: &Projector) -> Option<DVec3> {
+    let clip = projector.world_to_clip_point(point);
+    if clip.w() <= 0.0 {
+        return None;
+    }
+    let image = projector.project_to_screen(clip)?;
+    (0.0..=1.0).contains(&image.z).then_some(image)
+}
+
+/// Depth as a linear function of the position on the screen, in cells: z / w is one in perspective
+/// as well.
+struct DepthPlane {
+    slope: DVec2,
+    at_origin: f64,
+    least: f64,
+}
+
+impl DepthPlane {
+    fn through([a, b, c]: [DVec3; 3]) -> Option<Self> {
+        let (p, q) = (b - a, c - a);
+        let area = p.truncate().perp_dot(q.truncate());
+        let slope = DVec2::new(p.z * q.y - q.z * p.y, q.z * p.x - p.z * q.x) / area;
+        let at_origin = a.z - slope.dot(a.truncate());
+        let least = a.z.min(b.z).min(c.z);
+        (slope.is_finite() && at_origin.is_finite()).then_some(Self { slope, at_origin, least })
+    }
+
+    /// The least depth in a cell; the plane's, where that is more than the face's.
+    fn least_in_cell(&self, cell: DVec2) -> f64 {
+        let corner = cell + DVec2::from(self.slope.to_array().map(|s| f64::from(s < 0.0)));
+        (self.at_origin + self.slope.dot(corner)).max(self.least)
+    }
+}
+
+impl Level {
+    fn empty(size: [usize; 2]) -> Self {
+        Self { size, depths: vec![0.0; size[0] * size[1]] }
+    }
+
+    /// The level of half as many cells; `None` after a single cell. Cells beyond the border hide
+    /// nothing, and nothing is there.
+    fn halved(&self) -> Option<Self> {
+        let [width, height] = self.size;
+        if width.max(height) <= 1 {
+            return None;
+        }
+        let mut coarser = Self::empty(self.size.map(|side| side.div_ceil(2)));
+        for row in 0..coarser.size[1] {
+            for column in 0..coarser.size[0] {
+                let mut least = f64::INFINITY;
+                for y in 2 * row..(2 * row + 2).min(height) {
+                    for x in 2 * column..(2 * column + 2).min(width) {
+                        least = least.min(self.depths[y * width + x]);
+                    }
+                }
+                coarser.depths[row * coarser.size[0] + column] = least;
+            }
+        }
+        Some(coarser)
+    }
+
+    /// Raises the depths of the cells that a triangle covers, less a margin.
+    fn cover(&mut self, corners: [DVec2; 3], plane: &DepthPlane, margin: f64) {
+        let [low, high] =
+            [f64::min, f64::max].map(|pick| pick(pick(corners[0].y, corners[1].y), corners[2].y));
+        let rows = whole_cells([low + margin, high - margin], self.size[1]);
+        for row in rows {
+            // A triangle is convex: what its sides leave at both borders of a row they leave
+            // between them.
+            let [above, below] = [0, 1].map(|side| span_at(corners, (row + side) as f64));
+            let span = [above[0].max(below[0]) + margin, above[1].min(below[1]) - margin];
+            let columns = whole_cells(span, self.size[0]);
+            let depths = &mut self.depths[row * self.size[0]..];
+            for column in columns {
+                let depth = plane.least_in_cell(DVec2::new(column as f64, row as f64));
+                depths[column] = depths[column].max(depth);
+            }
+        }
+    }
+}
+
+/// The cells that an interval covers from side to side.
+fn whole_cells([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
+    // Casts saturate: beyond the border and where there is no interval.
+    let first = from.max(0.0).ceil();
+    let last = to.min(count as f64).floor();
+    if first < last { first as usize..last as usize } else { 0..0 }
+}
+
+/// The interval of x in which a triangle meets a horizontal line; reversed if it does not.
+fn span_at(corners: [DVec2; 3], y: f64) -> [f64; 2] {
+    let mut span = [f64::INFINITY, f64::NEG_INFINITY];
+    for k in 0..3 {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        if (a.y > y) == (b.y > y) {
+            continue;
+        }
+        let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+        span = [span[0].min(x), span[1].max(x)];
+    }
+    span
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use camera::{Camera, ViewProjection};
+    use homog::{Point, Vector};
+    use projection::{Convention, Fov, Orthographic, Perspective};
+    use viewport::Viewport;
+
+    fn projector(is_parallel: bool) -> Projector {
+        let camera =
+            Camera::look_to(Point::new(0.0, 0.0, 5.0), -Vector::Z, Vector::Y).expect("a camera");
+        let view_to_clip = if is_parallel {
+            let window = Orthographic::new(-2.0, 2.0, -2.0, 2.0, 1.0, 10.0).expect("a window");
+            window.view_to_clip(Convention::CHAPTER)
+        } else {
+            let lens = Perspective::new(Fov::Vertical(0.8), 1.0, 1.0, 10.0).expect("a lens");
+            lens.view_to_clip(Convention::CHAPTER)
+        };
+        let view_projection = ViewProjection { camera, view_to_clip };
+        Projector::new(&view_projection, &Viewport::image(400, 400).expect("pixels"))
+    }
+
+    fn triangle(z: f64, size: f64) -> [DVec3; 3] {
+        [[-size, -size, z], [size, -size, z], [0.0, size, z]].map(DVec3::from)
+    }
+
+    #[test]
+    fn what_is_behind_a_face_is_hidden_and_what_is_before_it_or_beside_it_is_not() {
+        for is_parallel in [true, false] {
+            let tolerance = Tolerance::for_scene(4.0);
+            let faces = [triangle(0.0, 1.5)].into_iter();
+            let cover = DepthCover::new(faces, projector(is_parallel), [400; 2], &tolerance);
+            let hides = |z, size| {
+                cover.image_of(&triangle(z, size)).is_some_and(|image| cover.hides(&image))
+            };
+            assert!(hides(-0.01, 0.3) && hides(-2.0, 0.3), "behind: {is_parallel}");
+            // The face itself, what touches it, what is before it, what is larger.
+            assert!(!hides(0.0, 0.3) && !hides(-tolerance.world, 0.3) && !hides(0.5, 0.3));
+            assert!(!hides(-0.01, 1.6), "larger: {is_parallel}");
+            let along = |z| [[-0.2, 0.0, z], [0.2, 0.1, z]].map(DVec3::from);
+            assert!(cover.hides_segment(along(-1.0)) && !cover.hides_segment(along(1.0)));
+            let beside = [[1.8, 1.8, -1.0], [1.9, 1.9, -1.0]].map(DVec3::from);
+            assert!(!cover.hides_segment(beside));
+        }
+    }
+
+    #[test]
+    fn faces_that_cover_no_whole_cell_hide_nothing() {
+        let small = (0..900).map(|k| {
+            let at = DVec3::new(f64::from(k % 30) * 0.004 - 0.06, f64::from(k / 30) * 0.004, 0.0);
+            triangle(0.0, 0.004).map(|corner| corner + at)
+        });
+        let cover = DepthCover::new(small, projector(true), [400; 2], &Tolerance::for_scene(4.0));
+        let behind = [[0.0, 0.05, -1.0], [0.01, 0.05, -1.0]].map(DVec3::from);
+        assert!(!cover.hides_segment(behind));
+    }
+}
