@@ -34,6 +34,7 @@ mod info;
 mod insets;
 mod light;
 mod light_leaks;
+mod limits;
 mod line_styles;
 mod manual;
 mod matrix;

@@ -111,7 +111,7 @@ fn check_scene(input: &Path, options: &ImportOptions) -> Result<CheckResult, Cli
         }
         read => read?,
     };
-    let resolve = ResolveOptions { import: options.clone() };
+    let resolve = ResolveOptions::with_import(options.clone());
     let mut mistakes = validate_scene(&origin, &file, &resolve);
     let mut advice = lint_description(&origin, &file);
     if mistakes.is_empty() {

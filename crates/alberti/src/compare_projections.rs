@@ -33,7 +33,7 @@ pub(crate) fn run(args: &CompareProjectionsArgs) -> Result<(), CliError> {
     check_panel_output(&args.output)?;
     let progress = Progress::start("loading");
     let (origin, file) = args.subject.open_scene()?;
-    let options = ResolveOptions { import: args.subject.load_options.import_options() };
+    let options = ResolveOptions::with_import(args.subject.load_options.import_options());
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.enter_stage("drawing");
     let members = select_members(&args.projections);

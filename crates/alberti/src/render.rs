@@ -18,7 +18,7 @@ use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::{FileFormat, ImageLoading, ImportOptions};
 use pipeline::scene::file::SceneFile;
-use pipeline::scene::{Outputs, ResolveOptions, closest_name};
+use pipeline::scene::{Outputs, closest_name};
 use pipeline::{Origin, Scene, Timings};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -87,7 +87,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     // Lines have no textures.
     let is_drawing = job.format != OutputFormat::Png && outputs.passes.is_empty();
     let images = if is_drawing { ImageLoading::Headers } else { import.images };
-    let options = ResolveOptions { import: ImportOptions { images, ..import } };
+    let options = job.overrides.resolve_options(ImportOptions { images, ..import });
     let mut scene = Scene::resolve(&origin, &file, &options)?;
     job.overrides.place_camera(&origin, &file, &mut scene)?;
     if args.same_scale {

@@ -155,9 +155,14 @@ impl SceneOverrideArgs {
         let (origin, mut file) = open_input(input, &import)?;
         self.apply_to(&mut file);
         load_options.apply_crease_to(&mut file, false);
-        let mut scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+        let mut scene = Scene::resolve(&origin, &file, &self.resolve_options(import))?;
         self.place_camera(&origin, &file, &mut scene)?;
         Ok((origin, file, scene))
+    }
+
+    /// How scenes are resolved: a size of the command line may be any that there is.
+    pub(crate) const fn resolve_options(&self, import: ImportOptions) -> ResolveOptions {
+        ResolveOptions { import, allow_large_picture: self.size.is_some() }
     }
 
     /// Frames the models from a direction, with the padding of a scene that frames them already.

@@ -148,7 +148,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     // Lines have no textures.
     let import =
         ImportOptions { images: ImageLoading::Headers, ..args.load_options.import_options() };
-    let options = ResolveOptions { import };
+    let options = ResolveOptions::with_import(import);
     let scene = Scene::resolve(&origin, &file, &options)?;
     let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
     let (models, overlays) = (&*scene.models, &*scene.overlays);

@@ -91,7 +91,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<(), CliError> {
     if let Some(projection) = args.projection {
         file.camera.projection = Some(projection.into());
     }
-    let options = ResolveOptions { import: args.subject.load_options.import_options() };
+    let options = ResolveOptions::with_import(args.subject.load_options.import_options());
     let scene = Scene::resolve(&origin, &file, &options)?;
     progress.enter_stage("drawing");
     let (vary, volumes) = (args.vary.into(), args.view_volumes);

@@ -111,7 +111,7 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
     };
     let (origin, mut file) = open_input(input, &import)?;
     file.image.size = (args.size, args.size);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions { import })?;
+    let scene = Scene::resolve(&origin, &file, &ResolveOptions::with_import(import))?;
     let textures = Textures::for_scene(&scene);
     let threads = thread_count(None).min(MAX_THREADS);
     let context =

@@ -74,7 +74,7 @@ pub(crate) fn load_scene(
             None => Origin::read_scene_allowing(&path, allowed)?,
             Some(text) => Origin::from_text("scene", text, path).parse_with_includes(allowed)?,
         };
-        Subject::from_scene(origin, file, ResolveOptions { import })
+        Subject::from_scene(origin, file, ResolveOptions::with_import(import))
     })
 }
 

@@ -8,7 +8,6 @@ use crate::memory_limit::import_limits;
 use crate::render::{is_scene_file, open_input};
 use model::ModelInstance;
 use pipeline::import::ImportOptions;
-use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, Scene, SceneFile};
 use std::path::Path;
 use std::time::SystemTime;
@@ -80,7 +79,7 @@ impl SceneLoader {
                 Scene::from_models_allowing(&origin, &file, models, &import.allow_outside)?
             }
             // The old models are gone by now, and do not take memory beside the new ones.
-            None => Scene::resolve(&origin, &file, &ResolveOptions { import })?,
+            None => Scene::resolve(&origin, &file, &flags.overrides.resolve_options(import))?,
         };
         self.loaded = Some((key, scene.models.clone()));
         flags.overrides.place_camera(&origin, &file, &mut scene)?;

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let scene = Scene::resolve(
         &origin,
         &file,
-        &ResolveOptions { import: args.load_options.import_options() },
+        &ResolveOptions::with_import(args.load_options.import_options()),
     )?;
     let folder = if to_stdout { Path::new("") } else { output.parent().unwrap_or(Path::new("")) };
     let path = relative_path(folder, &args.model);

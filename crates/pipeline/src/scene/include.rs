@@ -22,6 +22,9 @@ use std::path::{Path, PathBuf};
 
 /// The most files that one scene includes, each counted as often as it is included.
 const MAX_INCLUDED_FILES: usize = 64;
+/// The most bytes that included files have together, each counted as often as it is included. A
+/// few lines could otherwise ask for a gigabyte of text.
+const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
 /// The fields of a scene that are replaced whole.
 const REPLACED_FIELDS: [&str; 13] = [
@@ -111,8 +114,13 @@ pub(super) struct GatheredScene {
 /// The scene file itself is on the stack of open files from the start, so that an include of it is
 /// found to be a cycle.
 pub(super) fn gather_includes(origin: &Origin, allowed: &[PathBuf]) -> GatheredScene {
-    let mut resolver =
-        IncludeResolver { origin, allowed, includes: IncludeMap::default(), mistakes: Vec::new() };
+    let mut resolver = IncludeResolver {
+        origin,
+        allowed,
+        includes: IncludeMap::default(),
+        mistakes: Vec::new(),
+        is_full: false,
+    };
     let source =
         SourceFile { file: None, name: &origin.file, text: &origin.text, folder: Path::new("") };
     let own_path = origin.folder.join(Path::new(&origin.file).file_name().unwrap_or_default());
@@ -155,6 +163,8 @@ struct IncludeResolver<'a> {
     allowed: &'a [PathBuf],
     includes: IncludeMap,
     mistakes: Vec<FileMistake>,
+    /// Whether the included files have too many bytes.
+    is_full: bool,
 }
 
 impl IncludeResolver<'_> {
@@ -213,6 +223,10 @@ impl IncludeResolver<'_> {
                 format!("the path \"{}\" leads out of the scene's folder", path.display());
             return Err((message, Some(help)));
         }
+        // Said once.
+        if self.is_full {
+            return Ok(MergedScene::default());
+        }
         if self.includes.files.len() == MAX_INCLUDED_FILES {
             return Err((format!("the scene includes more than {MAX_INCLUDED_FILES} files"), None));
         }
@@ -227,6 +241,15 @@ impl IncludeResolver<'_> {
         }
         let help = Some("check the path: it begins at the folder of this file");
         let text = read_scene_text(&whole).map_err(|error| (error.to_string(), help))?;
+        let read: usize = self.includes.files.iter().map(|(_, text)| text.len()).sum();
+        if read + text.len() > MAX_INCLUDED_BYTES {
+            self.is_full = true;
+            let message = format!(
+                "the included files have more than {MAX_INCLUDED_BYTES} bytes together, each \
+                 counted as often as it is included"
+            );
+            return Err((message, Some("include fewer or smaller files")));
+        }
         let index = self.includes.files.len();
         self.includes.files.push((name.clone(), text.clone()));
         let folder = path.parent().unwrap_or(Path::new(""));

@@ -4,7 +4,7 @@
 use super::file::{EnvironmentFile, Finite, LightColor, LightFile, SceneFile, ShadowsFile};
 use super::number::{NonNegative, Positive, Triple};
 use super::shadows::resolve_shadow;
-use super::syntax::PathStep::{Field, Index};
+use super::syntax::PathStep::{self, Field, Index};
 use super::{Origin, SceneError};
 use camera::ViewProjection;
 use homog::{Point, Vector, World};
@@ -24,6 +24,11 @@ const KEY_ELEVATION: f64 = 50.0;
 /// The angle from the view to the default key light, seen from above, in degrees to the left.
 const KEY_AZIMUTH: f64 = 55.0;
 
+/// The most texels of the shadow maps of all directional and spot lights together: 0.8 GB.
+const MAX_SHADOW_TEXELS: u64 = 1 << 26;
+/// The least texels of a shadow map's side.
+const LEAST_SHADOW_SIDE: u32 = 64;
+
 /// The lights of a scene: those of the file, or of the models, or a default key light where nothing
 /// else would light the models, or nothing would model them.
 ///
@@ -41,7 +46,7 @@ pub(super) fn resolve_lights(
     let Some(lights) = &file.lights else {
         let theirs = collect_model_lights(models, shadow);
         if !theirs.is_empty() {
-            return Ok(theirs);
+            return limit_shadow_maps(origin, file, theirs);
         }
         let key_light = |lux| default_key_light(view_projection, lux, shadow);
         return Ok(match file.effective_environment(origin, models) {
@@ -62,7 +67,65 @@ pub(super) fn resolve_lights(
             None => resolved.extend(collect_model_lights(models, shadow)),
         }
     }
-    Ok(resolved)
+    limit_shadow_maps(origin, file, resolved)
+}
+
+/// Keeps the shadow maps of all directional and spot lights together within
+/// [`MAX_SHADOW_TEXELS`]; those of point lights are smaller where there are many.
+///
+/// Maps whose size nobody chose become smaller.
+///
+/// # Errors
+/// If the scene chooses sizes that need more.
+fn limit_shadow_maps(
+    origin: &Origin,
+    file: &SceneFile,
+    mut lights: Vec<Light>,
+) -> Result<Vec<Light>, SceneError> {
+    let mut shadows: Vec<&mut Shadow> = lights.iter_mut().filter_map(mapped_shadow).collect();
+    let texels: u64 = shadows.iter().map(|shadow| u64::from(shadow.resolution).pow(2)).sum();
+    if texels <= MAX_SHADOW_TEXELS {
+        return Ok(lights);
+    }
+    let count = shadows.len();
+    let side = libm::sqrt(MAX_SHADOW_TEXELS as f64 / count as f64) as u32;
+    if let Some(path) = chosen_size_path(file) {
+        let message = format!(
+            "the shadow maps of {count} lights have {texels} texels together, more than \
+             {MAX_SHADOW_TEXELS}"
+        );
+        let help = format!("`size: {}` for each is possible", side.max(LEAST_SHADOW_SIDE));
+        return Err(origin.error_at(&path, message, Some(help)));
+    }
+    for shadow in &mut shadows {
+        shadow.resolution = shadow.resolution.min(side.max(LEAST_SHADOW_SIDE));
+    }
+    Ok(lights)
+}
+
+/// The shadow of a light that casts it by a single map.
+const fn mapped_shadow(light: &mut Light) -> Option<&mut Shadow> {
+    match light {
+        Light::Sun { shadow, .. } | Light::Spot { shadow, .. } => shadow.as_mut(),
+        Light::Point { .. } | Light::Ambient { .. } => None,
+    }
+}
+
+/// Where a scene chooses the size of a shadow map, if it does: of a light, or of all.
+fn chosen_size_path(file: &SceneFile) -> Option<Vec<PathStep<'static>>> {
+    let is_chosen =
+        |shadows: &ShadowsFile| matches!(shadows, ShadowsFile::On { size: Some(_), .. });
+    let of_light = |light: &LightFile| match light {
+        LightFile::Directional { shadows, .. } | LightFile::Spot { shadows, .. } => {
+            shadows.as_ref().is_some_and(is_chosen)
+        }
+        _ => false,
+    };
+    let lights = file.lights.as_deref().unwrap_or_default();
+    if let Some(index) = lights.iter().position(of_light) {
+        return Some(vec![Field("lights"), Index(index), Field("shadows")]);
+    }
+    file.shadows.as_ref().is_some_and(is_chosen).then(|| vec![Field("shadows")])
 }
 
 /// The lights of the models' files in world space (KHR_lights_punctual).

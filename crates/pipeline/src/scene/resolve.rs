@@ -40,7 +40,34 @@ pub struct ResolveOptions {
     /// How models are loaded. The paths of a scene file may lead out of its folder into those that
     /// `allow_outside` names.
     pub import: ImportOptions,
+    /// Whether the picture may have more than 2²⁸ pixels, as one of a person's choice may: a line
+    /// in a scene file is enough to ask for hours of work.
+    pub allow_large_picture: bool,
 }
+
+impl ResolveOptions {
+    /// The default with these import options.
+    #[must_use]
+    pub fn with_import(import: ImportOptions) -> Self {
+        Self { import, ..Self::default() }
+    }
+
+    /// Refuses a picture of more than [`MAX_PIXELS`], unless it is allowed.
+    pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
+        let (width, height) = file.image.size;
+        if self.allow_large_picture || u64::from(width) * u64::from(height) <= MAX_PIXELS {
+            return Ok(());
+        }
+        let message = format!(
+            "the picture has {width} x {height} pixels; a scene can ask for {MAX_PIXELS} at most"
+        );
+        let help = format!("`--size {width}x{height}` on the command line renders it anyway");
+        Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
+    }
+}
+
+/// The most pixels that a scene may ask for by itself: 16,384 x 16,384.
+const MAX_PIXELS: u64 = 1 << 28;
 
 impl Scene {
     /// Loads the models of a scene and decides everything that the file leaves open.
@@ -53,9 +80,9 @@ impl Scene {
         file: &SceneFile,
         options: &ResolveOptions,
     ) -> Result<Self, ResolveError> {
-        let loaded = resolve_image(origin, file)
-            .map_err(ResolveError::from)
-            .and_then(|_| load_models(origin, file, options));
+        let image = resolve_image(origin, file).and_then(|_| options.check_pixels(origin, file));
+        let loaded =
+            image.map_err(ResolveError::from).and_then(|()| load_models(origin, file, options));
         let models =
             loaded.map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
         let allowed = &options.import.allow_outside;

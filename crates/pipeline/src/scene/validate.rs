@@ -45,6 +45,7 @@ pub fn validate_scene(
     options: &ResolveOptions,
 ) -> Vec<SceneError> {
     let (models, mut errors) = load_valid_models(origin, file, options, false);
+    errors.extend(options.check_pixels(origin, file).err());
     errors.extend(errors_of_scene(origin, file, models, &options.import.allow_outside));
     in_order(origin, errors)
 }
@@ -56,6 +57,7 @@ pub(super) fn errors_of_resolution(
     options: &ResolveOptions,
 ) -> Vec<SceneError> {
     let (models, mut errors) = load_valid_models(origin, file, options, true);
+    errors.extend(options.check_pixels(origin, file).err());
     errors.extend(errors_of_scene(origin, file, models, &options.import.allow_outside));
     in_order(origin, errors)
 }
