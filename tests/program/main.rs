@@ -30,6 +30,7 @@ mod explore;
 mod external_viewers;
 mod files;
 mod gltf_builder;
+mod hostile_names;
 mod info;
 mod insets;
 mod light;

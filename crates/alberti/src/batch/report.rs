@@ -15,6 +15,7 @@
 use super::Shard;
 use crate::CliError;
 use std::fs::{File, OpenOptions};
+use model::visible_path;
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -93,7 +94,8 @@ struct OpenReport {
 }
 
 impl ReportWriter {
-    /// Creates a report that no other run has, and the folder of the reports.
+    /// Creates a report that no other run has, and the folder of the reports; what killed runs have
+    /// left there is removed.
     ///
     /// # Errors
     /// If the file cannot be created, which is noticed here, before any work is done.
@@ -169,7 +171,7 @@ impl ReportWriter {
 
 /// The error of a file or a folder that cannot be written.
 pub(super) fn write_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot write {}: {cause}", path.display()))
+    CliError::Usage(format!("cannot write {}: {cause}", visible_path(path)))
 }
 
 /// The number of a run in the name of its report: the part before the extension.
@@ -197,7 +199,7 @@ fn last_run(folder: &Path) -> std::io::Result<u64> {
 /// The name of this machine, for names of files; `host` if it is not known.
 ///
 /// Letters, digits and `-` stay. It need not be unique, but helps to find the machine of a record.
-fn host_name() -> String {
+pub(super) fn host_name() -> String {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let name = name.or_else(|| std::env::var("COMPUTERNAME").ok()).unwrap_or_default();
     let allowed = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };

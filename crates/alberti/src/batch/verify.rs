@@ -8,7 +8,8 @@ use super::tar_format::read_archive;
 use super::tar_output::sample_name;
 use crate::CliError;
 use crate::content_digest::{ContentDigest, parse_sha256};
-use crate::messages::print_stdout;
+use crate::messages::print_text;
+use model::visible_text;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -39,11 +40,11 @@ pub(super) fn verify_jobs(
         for job in group?.jobs {
             let verdict = verifier.verify_job(&job, &keys.job_key(&job));
             if let Some(problem) = counts.count_verdict(&verdict) {
-                print_stdout(format!("{}: {problem}\n", job.output).as_bytes())?;
+                print_text(&format!("{}: {problem}\n", visible_text(&job.output)))?;
             }
         }
     }
-    print_stdout(format!("{}\n", counts.summary()).as_bytes())?;
+    print_text(&format!("{}\n", counts.summary()))?;
     Ok(counts.is_all_whole())
 }
 
