@@ -45,6 +45,8 @@ mod messages;
 mod mistakes;
 mod outputs;
 mod overlays;
+#[cfg(unix)]
+mod partial_files;
 mod pictures;
 mod poses;
 mod reference;

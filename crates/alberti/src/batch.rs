@@ -27,6 +27,7 @@ mod job;
 mod job_list;
 mod job_stream;
 mod key;
+mod left_over;
 mod list_line;
 mod merge;
 mod metrics;

@@ -64,12 +64,14 @@ mod scene;
 mod scene_overrides;
 mod section;
 mod sheet;
+mod signals;
 mod sweep;
 mod template;
 mod terminal_image;
 mod thumbnailer;
 
 pub use program::run_within;
+pub use signals::clean_up_on_signals;
 
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};

@@ -13,9 +13,10 @@
 //! clocks of several machines cannot.
 
 use super::Shard;
+use super::left_over::remove_left_over;
 use crate::CliError;
-use std::fs::{File, OpenOptions};
 use model::visible_path;
+use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -102,6 +103,7 @@ impl ReportWriter {
     pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, CliError> {
         let folder = out_dir.join(REPORTS_FOLDER);
         std::fs::create_dir_all(&folder).map_err(|cause| write_error(&folder, &cause))?;
+        remove_left_over(&folder);
         let prefix = format!("{}.{}.{}", shard.file_name_part(), host_name(), std::process::id());
         let mut run = last_run(&folder).map_err(|cause| write_error(&folder, &cause))?;
         loop {

@@ -8,8 +8,9 @@ use super::worker_scene::SceneLoader;
 use crate::CliError;
 use crate::content_digest::hexadecimal_sha256;
 use crate::memory_limit::{limit_process_memory, parse_memory_size};
+use model::visible_path;
+use pipeline::shade::{create_partial_file, forget_partial_file};
 use pipeline::{RenderContext, Renderer, Textures};
-use std::fs::File;
 use std::io::{BufRead as _, ErrorKind, Write};
 use std::path::Path;
 use std::time::Instant;
@@ -155,7 +156,7 @@ impl Worker {
 /// The folder of the picture is made only now, so that failed models leave no empty folders.
 fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureError> {
     let fault = |what: &Path, cause: std::io::Error| {
-        let message = format!("cannot write {}: {cause}", what.display());
+        let message = format!("cannot write {}: {cause}", visible_path(what));
         match cause.kind() {
             // The name is at fault, and with it the job.
             ErrorKind::InvalidFilename
@@ -169,15 +170,17 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|cause| fault(folder, cause))?;
     }
-    let written = File::create(partial).and_then(|mut file| {
+    let written = create_partial_file(partial).and_then(|mut file| {
         file.write_all(png)?;
         // On the disk before the name: a crash leaves the old picture or the new one, whole.
         file.sync_all()?;
         std::fs::rename(partial, path)
     });
-    written.map_err(|cause| {
+    let written = written.map_err(|cause| {
         // Best effort: an error is on its way already.
         let _ = std::fs::remove_file(partial);
         fault(path, cause)
-    })
+    });
+    forget_partial_file(partial);
+    written
 }
