@@ -9,6 +9,8 @@ mod asset_models;
 mod batch;
 #[cfg(unix)]
 mod batch_crashes;
+#[cfg(unix)]
+mod batch_hostile;
 mod batch_lists;
 mod batch_page;
 mod batch_workers;

@@ -32,6 +32,7 @@ mod list_line;
 mod merge;
 mod metrics;
 mod outcome;
+mod output_names;
 mod picture_name;
 mod pool;
 mod progress;

@@ -89,6 +89,10 @@ pub(super) fn read_report(
     path: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), CliError>,
 ) -> Result<(), CliError> {
+    // A pipe of this name would be waited for, a folder cannot be read.
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        return Ok(());
+    }
     let file = match File::open(path) {
         Ok(file) => file,
         // An empty report that its run has just removed.

@@ -168,6 +168,10 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
         }
     };
     if let Some(folder) = path.parent() {
+        // The temporary file is in the folder of the reports, below the output folder.
+        if let Some(out_dir) = partial.parent().and_then(Path::parent) {
+            check_inside(folder, out_dir)?;
+        }
         std::fs::create_dir_all(folder).map_err(|cause| fault(folder, cause))?;
     }
     let written = create_partial_file(partial).and_then(|mut file| {
@@ -183,4 +187,25 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     });
     forget_partial_file(partial);
     written
+}
+
+/// Checks that the folder of a picture is below the output folder, after symbolic links.
+///
+/// What of its path does not exist yet will be made of real folders.
+fn check_inside(folder: &Path, out_dir: &Path) -> Result<(), PictureError> {
+    let existing = folder.ancestors().find(|folder| folder.exists()).unwrap_or(folder);
+    let real = |path: &Path| path.canonicalize();
+    let is_inside = match (real(existing), real(out_dir)) {
+        (Ok(folder), Ok(out_dir)) => folder.starts_with(out_dir),
+        // The error of the system comes when the folder is made.
+        _ => true,
+    };
+    if is_inside {
+        return Ok(());
+    }
+    Err(PictureError::Job(CliError::Usage(format!(
+        "the folder {} leads out of the output folder by a symbolic link\n  = help: remove the link, \
+         or choose another output",
+        visible_path(folder)
+    ))))
 }
