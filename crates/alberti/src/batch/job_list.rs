@@ -103,7 +103,7 @@ impl JobList {
             ListContext { folder: folder.to_owned(), scene, picture_name, flags: FlagTable::new() };
         let mut list = Self {
             reader,
-            name: name.into(),
+            name: visible_text(&name).into(),
             context,
             columns: None,
             line: 0,

@@ -8,7 +8,7 @@ use super::worker_scene::SceneLoader;
 use crate::CliError;
 use crate::content_digest::hexadecimal_sha256;
 use crate::memory_limit::{limit_process_memory, parse_memory_size};
-use model::visible_path;
+use model::{visible_path, visible_text};
 use pipeline::shade::{create_partial_file, forget_partial_file};
 use pipeline::{RenderContext, Renderer, Textures};
 use std::io::{BufRead as _, ErrorKind, Write};
@@ -134,7 +134,7 @@ impl Worker {
         picture: &PictureRequest,
     ) -> Result<RenderedPicture, PictureError> {
         if self.flags.as_ref().is_none_or(|(words, _)| *words != picture.flags) {
-            let flags = RenderFlags::parse(&picture.flags).map_err(CliError::Usage)?;
+            let flags = parse_flags(&picture.flags)?;
             self.flags = Some((picture.flags.clone(), flags));
         }
         let Some((_, flags)) = &self.flags else {
@@ -148,6 +148,14 @@ impl Worker {
         let warnings = warnings.map(model::Diagnostic::sentence);
         Ok((png, warnings.chain(drawing.iter().map(ToString::to_string)).collect()))
     }
+}
+
+/// Parses flags; a value in the error of a wrong one is in a line.
+fn parse_flags(words: &[String]) -> Result<RenderFlags, CliError> {
+    RenderFlags::parse(words).map_err(|error| {
+        let visible: Vec<String> = words.iter().map(|word| visible_text(word).into()).collect();
+        CliError::Usage(RenderFlags::parse(&visible).err().unwrap_or(error))
+    })
 }
 
 /// Writes a picture whole or not at all: to a file of this worker alone, which then takes the
@@ -170,7 +178,7 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
     if let Some(folder) = path.parent() {
         // The temporary file is in the folder of the reports, below the output folder.
         if let Some(out_dir) = partial.parent().and_then(Path::parent) {
-            check_inside(folder, out_dir)?;
+            check_inside(path, folder, out_dir)?;
         }
         std::fs::create_dir_all(folder).map_err(|cause| fault(folder, cause))?;
     }
@@ -192,10 +200,9 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
 /// Checks that the folder of a picture is below the output folder, after symbolic links.
 ///
 /// What of its path does not exist yet will be made of real folders.
-fn check_inside(folder: &Path, out_dir: &Path) -> Result<(), PictureError> {
+fn check_inside(path: &Path, folder: &Path, out_dir: &Path) -> Result<(), PictureError> {
     let existing = folder.ancestors().find(|folder| folder.exists()).unwrap_or(folder);
-    let real = |path: &Path| path.canonicalize();
-    let is_inside = match (real(existing), real(out_dir)) {
+    let is_inside = match (existing.canonicalize(), out_dir.canonicalize()) {
         (Ok(folder), Ok(out_dir)) => folder.starts_with(out_dir),
         // The error of the system comes when the folder is made.
         _ => true,
@@ -203,9 +210,9 @@ fn check_inside(folder: &Path, out_dir: &Path) -> Result<(), PictureError> {
     if is_inside {
         return Ok(());
     }
-    Err(PictureError::Job(CliError::Usage(format!(
-        "the folder {} leads out of the output folder by a symbolic link\n  = help: remove the link, \
+    Err(PictureError::Place(format!(
+        "cannot write {}: a symbolic link leads out of the output folder\n  = help: remove the link, \
          or choose another output",
-        visible_path(folder)
-    ))))
+        visible_path(path)
+    )))
 }

@@ -20,6 +20,9 @@ const MAX_WAITING: usize = 16;
 /// Pause between two looks at whether the client is still there.
 const LOOK: Duration = Duration::from_millis(50);
 
+/// Looks at a full lane before it counts as busy.
+const MAX_LOOKS: u32 = 40;
+
 /// The explorer's answer or error.
 type Computed = Result<Answer, ExplorerError>;
 
@@ -77,7 +80,20 @@ impl Lane {
         mut is_wanted: impl FnMut() -> bool,
     ) -> Result<Computed, Unanswered> {
         let cancel = CancelToken::default();
-        let answer = self.queue.push(query, &cancel)?;
+        let mut looks = 0;
+        let answer = loop {
+            match self.queue.push(query, &cancel) {
+                // Those whose clients have gone make room as soon as that is seen.
+                Err(Unanswered::Busy) if looks < MAX_LOOKS => {
+                    looks += 1;
+                    std::thread::sleep(LOOK);
+                    if !is_wanted() {
+                        return Err(Unanswered::Abandoned);
+                    }
+                }
+                pushed => break pushed?,
+            }
+        };
         loop {
             match answer.recv_timeout(LOOK) {
                 Ok(outcome) => return Ok(outcome),
