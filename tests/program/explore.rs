@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A server of a test, ended with it.
 struct Server {
@@ -14,6 +14,8 @@ struct Server {
     port: u16,
     /// The line that it has printed.
     address: String,
+    /// What paths begin with: a slash and the token.
+    base: String,
 }
 
 impl Server {
@@ -25,7 +27,8 @@ impl Server {
         let port = address.split(':').nth(2).and_then(|rest| rest.split('/').next());
         let port = port.and_then(|port| port.parse().ok());
         let port = port.unwrap_or_else(|| panic!("no address: {address:?}"));
-        Self { child, port, address: address.trim_end().to_owned() }
+        let base = address.split('/').nth(3).map(|token| format!("/{token}")).expect("a token");
+        Self { child, port, address: address.trim_end().to_owned(), base }
     }
 
     fn connect(&self) -> TcpStream {
@@ -44,12 +47,35 @@ impl Server {
         String::from_utf8_lossy(&bytes).into_owned()
     }
 
-    /// The status of a GET with the server's own name, and the body.
+    /// The status of a GET below the token with the server's own name, and the body.
     fn get(&self, target: &str) -> (u16, String) {
+        self.get_path(&format!("{}{target}", self.base))
+    }
+
+    /// The status of a GET with the server's own name, and the body.
+    fn get_path(&self, target: &str) -> (u16, String) {
         let host = format!("Host: 127.0.0.1:{}", self.port);
         let answer = self.send(&[&format!("GET {target} HTTP/1.1"), &host]);
         let (head, body) = answer.split_once("\r\n\r\n").unwrap_or((&answer, ""));
         (status(head), body.to_owned())
+    }
+
+    /// Asks for something below the token, and takes nothing of it.
+    fn ask(&self, target: &str) -> TcpStream {
+        let (mut stream, base, port) = (self.connect(), &self.base, self.port);
+        let request = format!("GET {base}{target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
+        // The server may have closed the connection.
+        let _ = stream.write_all(request.as_bytes());
+        stream
+    }
+
+    /// Checks that a small question is answered as soon as a person expects it, however slow the
+    /// machine of the tests is.
+    fn assert_answers_soon(&self, query: &str) {
+        let start = Instant::now();
+        assert_eq!(self.get(&format!("/compute?v=1&{query}")).0, 200);
+        let seconds = start.elapsed().as_secs_f32();
+        assert!(seconds < 5., "{query}: {seconds} s");
     }
 }
 
@@ -86,7 +112,7 @@ fn the_page_its_modules_and_the_model_are_served() {
         assert_eq!(server.get(&path).0, 200, "{path}");
     }
     let host = format!("Host: localhost:{}", server.port);
-    let head = server.send(&["HEAD / HTTP/1.1", &host]);
+    let head = server.send(&[&format!("HEAD {}/ HTTP/1.1", server.base), &host]);
     assert!(head.starts_with("HTTP/1.1 200 OK\r\n") && head.ends_with("\r\n\r\n"), "{head}");
     let length = format!("\r\nContent-Length: {}\r\n", page.len());
     assert!(head.contains(&length), "{head}");
@@ -151,6 +177,56 @@ fn foreign_pages_names_and_methods_are_refused() {
     }
     refused(&["nonsense"], 400);
     assert_eq!(server.get("/").0, 200);
+}
+
+#[test]
+fn nothing_is_served_without_the_token() {
+    let sandbox = Sandbox::new("explore_token");
+    sandbox.copy_model("house.glb");
+    let server = Server::start(&sandbox, &["house.glb"]);
+    let token = server.base.trim_start_matches('/');
+    assert!(token.len() == 32 && token.bytes().all(|digit| digit.is_ascii_hexdigit()), "{token}");
+    let zeros = "0".repeat(32);
+    for base in ["", "/", &format!("/{zeros}"), &server.base[..32], &format!("{}0", server.base)] {
+        for path in ["/", "/main.js", "/files/house.glb", "/compute?v=1&what=lessons"] {
+            let (code, body) = server.get_path(&format!("{base}{path}"));
+            assert_eq!(code, 403, "{base}{path}");
+            assert!(body.contains("address that `alberti explore` has printed"), "{body}");
+        }
+    }
+    assert_eq!(server.get_path(&server.base).0, 403, "the slash belongs to the address");
+    let other = Server::start(&sandbox, &[]);
+    assert_ne!(other.base, server.base);
+}
+
+#[test]
+fn slow_readers_and_abandoned_pictures_do_not_stop_it() {
+    let sandbox = Sandbox::new("explore_slow");
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"a.bin","byteLength":36},
+        {"uri":"large.bin","byteLength":16777216}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+        "min":[0,0,0],"max":[1,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}"#;
+    sandbox.write_file("a.gltf", gltf);
+    let corners = [[0f32, 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+    let bytes: Vec<u8> = corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    sandbox.write_file("a.bin", bytes);
+    sandbox.write_file("large.bin", vec![0; 16 << 20]);
+    let server = Server::start(&sandbox, &["a.gltf"]);
+    // More than the server holds at once; none of them reads.
+    let _slow: Vec<TcpStream> = (0..100).map(|_| server.ask("/files/large.bin")).collect();
+    server.assert_answers_soon("what=state&lesson=frustum");
+    // Each takes the better part of a minute.
+    let picture = "/compute?v=1&lesson=frustum&what=picture&size=8192x8192";
+    let waiting = server.ask(picture);
+    for _ in 0..50 {
+        drop(server.ask(picture));
+    }
+    server.assert_answers_soon("what=state&lesson=frustum");
+    drop(waiting);
+    server.assert_answers_soon("what=picture&lesson=frustum&size=64x40");
 }
 
 #[test]
@@ -230,7 +306,7 @@ fn an_interrupt_ends_it() {
     use std::os::unix::process::ExitStatusExt as _;
     // A shell starts what it runs in the background with interrupts ignored, and so are they by
     // all that is started from there.
-    if ignores_interrupts() {
+    if ignores_signal(2) {
         return report_skip(
             "an_interrupt_ends_it",
             "this test was started with interrupts ignored",
@@ -238,7 +314,8 @@ fn an_interrupt_ends_it() {
     }
     let sandbox = Sandbox::new("explore_interrupt");
     let mut server = Server::start(&sandbox, &["--native"]);
-    assert!(server.address.ends_with("/?native"), "{}", server.address);
+    let end = format!("{}/?native", server.base);
+    assert!(server.address.ends_with(&end), "{}", server.address);
     let _open = server.connect();
     let process = server.child.id().to_string();
     let kill = Command::new("kill").args(["-INT", &process]).status().expect("kill");
@@ -248,12 +325,13 @@ fn an_interrupt_ends_it() {
     assert_eq!(status.signal(), Some(2), "{status}");
 }
 
-/// Whether this process was started with SIGINT ignored: the bit of signal 2 in its mask.
-fn ignores_interrupts() -> bool {
+/// Whether this process was started with a signal ignored: its bit in the mask.
+#[cfg(unix)]
+pub(crate) fn ignores_signal(number: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    mask.is_some_and(|mask| mask & 0b10 != 0)
+    mask.is_some_and(|mask| mask & (1 << (number - 1)) != 0)
 }
 
 #[test]

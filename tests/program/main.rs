@@ -9,6 +9,8 @@ mod asset_models;
 mod batch;
 #[cfg(unix)]
 mod batch_crashes;
+#[cfg(unix)]
+mod batch_hostile;
 mod batch_lists;
 mod batch_page;
 mod batch_workers;
@@ -30,6 +32,7 @@ mod explore;
 mod external_viewers;
 mod files;
 mod gltf_builder;
+mod hostile_names;
 mod info;
 mod insets;
 mod light;
@@ -45,6 +48,8 @@ mod messages;
 mod mistakes;
 mod outputs;
 mod overlays;
+#[cfg(unix)]
+mod partial_files;
 mod pictures;
 mod poses;
 mod reference;

@@ -12,6 +12,8 @@ use std::time::Duration;
 struct Server {
     child: Child,
     port: u16,
+    /// The secret that paths begin with.
+    token: String,
 }
 
 impl Server {
@@ -26,8 +28,10 @@ impl Server {
         if let Some(output) = &mut child.stdout {
             BufReader::new(output).read_line(&mut line).map_err(|error| error.to_string())?;
         }
-        let port = line.split(':').nth(2).and_then(|rest| rest.split('/').next()?.parse().ok());
-        let server = Self { child, port: port.unwrap_or_default() };
+        let mut parts = line.split(':').nth(2).unwrap_or_default().split('/');
+        let port = parts.next().and_then(|port| port.parse().ok()).unwrap_or_default();
+        let token = parts.next().unwrap_or_default().to_owned();
+        let server = Self { child, port, token };
         if server.port == 0 { Err(format!("no address: {line:?}")) } else { Ok(server) }
     }
 
@@ -42,7 +46,8 @@ impl Server {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
         stream.set_read_timeout(Some(Duration::from_secs(60)))?;
         let host = format!("127.0.0.1:{}", self.port);
-        write!(stream, "GET /compute?{query} HTTP/1.1\r\nHost: {host}\r\n\r\n")?;
+        let path = format!("/{}/compute?{query}", self.token);
+        write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\n\r\n")?;
         let mut answer = String::new();
         stream.read_to_string(&mut answer)?;
         Ok(answer)

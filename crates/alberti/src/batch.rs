@@ -27,10 +27,12 @@ mod job;
 mod job_list;
 mod job_stream;
 mod key;
+mod left_over;
 mod list_line;
 mod merge;
 mod metrics;
 mod outcome;
+mod output_names;
 mod picture_name;
 mod pool;
 mod progress;
@@ -52,12 +54,13 @@ pub(crate) use worker::{WorkerArgs, run as run_worker};
 
 use super::CliError;
 use super::memory_limit::parse_memory_size;
-use super::messages::{print_message, print_stdout};
+use super::messages::{print_message, print_text};
 use earlier_records::EarlierRecords;
 use job_stream::{JobSource, JobStream};
 use key::KeyMaker;
 use merge::{CurrentJobs, MergeCounts};
 use metrics::RunCounts;
+use model::{visible_path, visible_text};
 use outcome::RunStop;
 use picture_name::PictureName;
 use pool::{BatchRun, JobPolicy};
@@ -204,9 +207,10 @@ fn print_statistics(counts: &MergeCounts) -> Result<(), CliError> {
     let mut text = format!("{done} pictures of {megabytes:.1} MB in all, {failed} failed\n");
     if let Some((longest, input)) = longest {
         let mean = seconds / (done + failed) as f64;
+        let input = visible_text(input);
         text += &format!("{mean:.2} s of work a job, {longest:.2} s for {input}\n");
     }
-    print_stdout(text.as_bytes())
+    print_text(&text)
 }
 
 /// Runs the jobs, and prints what came of them.
@@ -221,7 +225,10 @@ fn run_jobs(
 ) -> Result<u8, CliError> {
     let shard = args.shard.unwrap_or(Shard::ALL_JOBS);
     std::fs::create_dir_all(&args.out_dir).map_err(|cause| {
-        CliError::Usage(format!("cannot create the folder {}: {cause}", args.out_dir.display()))
+        CliError::Usage(format!(
+            "cannot create the folder {}: {cause}",
+            visible_path(&args.out_dir)
+        ))
     })?;
     let earlier = if args.force { None } else { Some(EarlierRecords::read(&args.out_dir)?) };
     let report = ReportWriter::create(&args.out_dir, shard)?;
@@ -284,7 +291,7 @@ fn print_summary(counts: RunCounts) -> Result<u8, CliError> {
     }
     let failed = failed + failed_before;
     let text = format!("{rendered} rendered, {up_to_date} up to date, {failed} failed\n");
-    print_stdout(text.as_bytes())?;
+    print_text(&text)?;
     Ok(if failed == 0 { 0 } else { SOME_FAILED })
 }
 

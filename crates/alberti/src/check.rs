@@ -13,8 +13,9 @@ mod json;
 use super::args::CheckArgs;
 use super::load_options::LoadArgs;
 use super::render::is_scene_file;
-use super::{CliError, color, print_stdout};
+use super::{CliError, color, print_json, print_text};
 use model::import::ImportOptions;
+use model::visible_path;
 use model::{CheckReport, check_file};
 use pipeline::scene::{Lint, ResolveOptions, lint_description, lint_scene, validate_scene};
 use pipeline::{Origin, ResolveError, Scene, SceneError, SceneFile};
@@ -62,9 +63,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
         let models = vec![check_file(&args.input, &options)];
         CheckResult { file: args.input.clone(), scene: None, advice: Vec::new(), models }
     };
-    print_stdout(
-        (if args.json { json::file_report(&findings) } else { findings.to_text() }).as_bytes(),
-    )?;
+    if args.json {
+        print_json(&json::file_report(&findings))?;
+    } else {
+        print_text(&findings.to_text())?;
+    }
     Ok(exit_code(findings.error_count()))
 }
 
@@ -76,12 +79,11 @@ pub(crate) fn run_scenes(args: &CheckScenesArgs) -> Result<ExitCode, CliError> {
     let options = args.load_options.import_options();
     let check = |path: &PathBuf| check_scene(path, &options);
     let findings = args.files.iter().map(check).collect::<Result<Vec<_>, _>>()?;
-    let text = if args.json {
-        json::scenes_report(&findings)
+    if args.json {
+        print_json(&json::scenes_report(&findings))?;
     } else {
-        findings.iter().map(CheckResult::to_text).collect()
-    };
-    print_stdout(text.as_bytes())?;
+        print_text(&findings.iter().map(CheckResult::to_text).collect::<String>())?;
+    }
     Ok(exit_code(findings.iter().map(CheckResult::error_count).sum()))
 }
 
@@ -187,7 +189,7 @@ impl CheckResult {
                 0 => String::new(),
                 count => format!(", {}", count_phrase(count, "warning")),
             };
-            let _ = writeln!(text, "{}: {mistakes}{advice}", self.file.display());
+            let _ = writeln!(text, "{}: {mistakes}{advice}", visible_path(&self.file));
         }
         for report in &self.models {
             for problem in &report.diagnostics {
@@ -196,7 +198,7 @@ impl CheckResult {
             if report.omitted_count() > 0 {
                 let _ = writeln!(text, "… and {} more", report.omitted_count());
             }
-            let _ = writeln!(text, "{}: {}", report.file.display(), report.summary());
+            let _ = writeln!(text, "{}: {}", visible_path(&report.file), report.summary());
         }
         text
     }

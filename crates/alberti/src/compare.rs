@@ -9,6 +9,7 @@
 use super::CliError;
 use super::passes::sibling_path;
 use homog::PixelRect;
+use model::visible_path;
 use pipeline::{AtomicFile, OutputError, Picture};
 use std::fmt;
 use std::io::Write;
@@ -116,8 +117,9 @@ impl CompareArgs {
     /// If it cannot be read, or its size is not that of the rendered region.
     pub(super) fn load_reference(&self, region: PixelRect) -> Result<Option<Picture>, CliError> {
         let Some(path) = &self.compare else { return Ok(None) };
-        let fault =
-            |why: String| CliError::Usage(format!("cannot compare with {}: {why}", path.display()));
+        let fault = |why: String| {
+            CliError::Usage(format!("cannot compare with {}: {why}", visible_path(path)))
+        };
         let picture = read_reference(path, region).map_err(fault)?;
         Ok(Some(picture))
     }

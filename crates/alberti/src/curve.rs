@@ -4,6 +4,7 @@ use super::format::OutputFormat;
 use super::page_output::{has_extension, write_page};
 use super::{CliError, print_stdout};
 use drawing::Spacing;
+use model::visible_path;
 use pipeline::demonstration::{DepthRow, DepthTable};
 use projection::{Convention, DepthFormat};
 use std::path::{Path, PathBuf};
@@ -132,7 +133,7 @@ fn write_output(
     }
     OutputFormat::from_path(output).map_err(|_| {
         let (name, extensions) =
-            (output.display(), ".svg, .pdf, .dxf, .png, .txt, .md, .csv or .json");
+            (visible_path(output), ".svg, .pdf, .dxf, .png, .txt, .md, .csv or .json");
         CliError::Usage(format!("the output {name} has no known extension: {extensions}"))
     })?;
     write_page(output, &table.to_page(rows, distances))

@@ -4,14 +4,13 @@
 //! are those of real pixels. `--conventions` shows the chain as another API would compute it, with
 //! its handedness, depth range and origin of pixels.
 
-use super::CliError;
 use super::load_options::LoadArgs;
 use super::number_list::{parse_number_list, parse_numbers};
 use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
+use super::{CliError, print_json, print_text};
 use homog::{HPoint, Point, World};
-use model::Model;
-use model::ModelInstance;
+use model::{Model, ModelInstance, visible_text};
 use pipeline::explain::{
     ApiConventions, BareMap, Explanation, TransformChain, VertexRef, explain_homogeneous_point,
     explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,
@@ -19,7 +18,6 @@ use pipeline::explain::{
 };
 use pipeline::scene::Inset;
 use pipeline::{Picture, Scene};
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// The longer side of the picture embedded in an HTML page, in pixels.
@@ -178,7 +176,8 @@ fn write_explanation(
         if args.json { format!("{:#}\n", explanation.to_json()) } else { format(explanation)? };
     match &args.output {
         Some(path) => pipeline::write_file(path, text.as_bytes())?,
-        None => std::io::stdout().write_all(text.as_bytes())?,
+        None if args.json => print_json(&text)?,
+        None => print_text(&text)?,
     }
     Ok(())
 }
@@ -276,7 +275,10 @@ fn find_node(model: &Model, node: &str) -> Result<usize, String> {
         let names: Vec<&str> =
             model.nodes.iter().filter_map(|node| node.name.as_deref()).take(12).collect();
         let count = model.nodes.len();
-        format!("there is no node `{node}`; there are {count}, among them: {}", names.join(", "))
+        format!(
+            "there is no node `{node}`; there are {count}, among them: {}",
+            visible_text(&names.join(", "))
+        )
     })
 }
 

@@ -2,18 +2,21 @@
 //!
 //! ```text
 //!  browser ─► connections ─► request ─► site: page, models of the lessons, the model given
-//!             few at once    checked     └──► compute: the explorer's answers
+//!             few at once    checked     └──► lanes: the explorer's answers
 //! ```
 //! The server listens on the loopback address. Other pages of the same browser can reach it too:
-//! requests that another page has caused are refused. No request names a file of the disk; all that
+//! requests that another page has caused are refused. So can other users of the machine: paths begin
+//! with a token, which only the printed address has. No request names a file of the disk; all that
 //! is served is in memory before the first request.
 
 mod companions;
 mod connections;
 mod embedded;
+mod lane;
 mod request;
 mod response;
 mod site;
+mod token;
 
 use super::CliError;
 use super::{print_note, print_stdout};
@@ -21,6 +24,7 @@ use site::Site;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use token::new_token;
 
 /// Arguments of `alberti explore`.
 #[derive(Debug, clap::Args)]
@@ -34,6 +38,9 @@ pub(crate) struct ExploreArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     port: Option<u16>,
     /// Open the page in the default browser
+    ///
+    /// The address, with its secret, is then an argument of another program, which other users of
+    /// the machine may be able to list.
     #[arg(long)]
     open: bool,
     /// Compute in this program rather than in the browser: faster, with the same bytes
@@ -46,10 +53,12 @@ pub(crate) struct ExploreArgs {
 /// # Errors
 /// If the model cannot be read or shown, or the port is in use.
 pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
-    let site = Site::prepare(args.input.as_deref())?;
-    let (listener, port) = listen(args.port.unwrap_or(0))?;
+    let token = new_token()?;
     let query = if args.native { "?native" } else { "" };
-    let address = format!("http://127.0.0.1:{port}/{query}");
+    let path = format!("{token}/{query}");
+    let site = Site::prepare(args.input.as_deref(), token)?;
+    let (listener, port) = listen(args.port.unwrap_or(0))?;
+    let address = format!("http://127.0.0.1:{port}/{path}");
     print_stdout(format!("{address}\n").as_bytes())?;
     print_note("note: open this address in a browser; Ctrl+C stops the server");
     if args.open {

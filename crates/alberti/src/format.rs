@@ -9,6 +9,7 @@ pub(crate) use dxf::{DxfArgs, image_warning};
 
 use super::error::CliError;
 use drawing::{DxfOptions, Page, to_pdf};
+use model::visible_path;
 use std::path::Path;
 
 /// The format of an output file.
@@ -40,7 +41,7 @@ impl OutputFormat {
             Some("pdf") => Ok(Self::Pdf),
             Some("dxf") => Ok(Self::Dxf),
             _ => {
-                let name = output.display();
+                let name = visible_path(output);
                 let help = "change the extension, or choose the format with --format";
                 Err(CliError::Usage(format!(
                     "the output {name} has no known extension: .png, .svg, .pdf or .dxf\n  = help: {help}"

@@ -8,17 +8,17 @@ mod json;
 mod materials;
 mod scenes;
 
-use super::CliError;
 use super::args::InfoArgs;
 use super::model_state::ModelStateArgs;
+use super::{CliError, print_json, print_text};
 use model::import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
 use model::{
     AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
+    visible_path, visible_text,
 };
 use pipeline::scene::file::Finite;
 use pipeline::scene::select_animation;
 use std::fmt::Write as _;
-use std::io::Write as _;
 
 /// Prints the contents of a model as text or JSON.
 ///
@@ -26,9 +26,11 @@ use std::io::Write as _;
 /// If the model cannot be loaded, or has no animation of the chosen name.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
     let model = load_model(args)?;
-    let text = if args.json { json::info_document(args, &model) } else { describe_model(&model) };
-    std::io::stdout().write_all(text.as_bytes())?;
-    Ok(())
+    if args.json {
+        print_json(&json::info_document(args, &model))
+    } else {
+        print_text(&describe_model(&model))
+    }
 }
 
 /// Loads the model in the state that the flags choose. Only the headers of its images are read.
@@ -47,8 +49,10 @@ fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     if animation.is_some() || time.is_some() {
         let animation =
             select_animation(&model, animation.as_ref()).map_err(|(problem, help)| {
+                let help = help.as_deref().map(visible_text);
                 let help = help.map_or(String::new(), |help| format!("\n  = help: {help}"));
-                CliError::Usage(format!("{}: {problem}{help}", args.file.display()))
+                let problem = visible_text(&problem);
+                CliError::Usage(format!("{}: {problem}{help}", visible_path(&args.file)))
             })?;
         model.apply_animation(animation, time.map_or(0.0, Finite::value));
     }
@@ -71,10 +75,10 @@ const LISTED_NODES: usize = 20;
 ///   …
 /// ```
 fn describe_model(model: &Model) -> String {
-    let mut text = format!("{}\n", model.name);
+    let mut text = format!("{}\n", visible_text(&model.name));
     let mut line = |name: &str, value: String| {
         if !value.is_empty() {
-            let _ = writeln!(text, "  {name:<12}{value}");
+            let _ = writeln!(text, "  {name:<12}{}", visible_text(&value));
         }
     };
     if model.scenes.len() > 1 {

@@ -64,18 +64,20 @@ mod scene;
 mod scene_overrides;
 mod section;
 mod sheet;
+mod signals;
 mod sweep;
 mod template;
 mod terminal_image;
 mod thumbnailer;
 
 pub use program::run_within;
+pub use signals::clean_up_on_signals;
 
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
 use deferred::Deferred;
 use error::CliError;
-use messages::{print_message, print_note, print_stdout};
+use messages::{print_json, print_message, print_note, print_stdout, print_text, print_usage};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -84,17 +86,15 @@ use std::process::ExitCode;
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap), 3 a
 /// batch that could not go on, 128 and more one that a signal has interrupted.
 ///
-/// A failure is printed as `error: MESSAGE` on the standard error stream, and the code is 1. clap
-/// prints usage errors, and `--help` and `--version` with the code 0. `check`, `render --compare`,
-/// `batch`, `scene fmt --check` and `exercise` also return 1 for a verdict rather than for a
-/// failure; they have then printed it themselves, without `error:`.
+/// A failure is printed as `error: MESSAGE` on the standard error stream, and the code is 1; clap
+/// words usage errors. `check`, `render --compare`, `batch`, `scene fmt --check` and `exercise` also
+/// return 1 for a verdict; they have then printed it themselves, without `error:`.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words = negative_numbers::join_negative_numbers(arguments, Args::command);
     let args = match Args::try_parse_from(words) {
         Ok(args) => args,
         Err(usage) => {
-            // Nothing can be said about a stream that takes no text.
-            let _ = usage.print();
+            print_usage(&usage);
             return u8::try_from(usage.exit_code()).unwrap_or(2);
         }
     };

@@ -3,5 +3,6 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    alberti::clean_up_on_signals();
     ExitCode::from(alberti::run(std::env::args_os()))
 }

@@ -6,6 +6,7 @@
 use super::{CliError, print_stdout};
 use clap::Command;
 use clap_complete::Shell;
+use model::visible_path;
 use std::path::PathBuf;
 
 /// Arguments of `alberti completions`.
@@ -53,7 +54,7 @@ pub(crate) fn print_man_pages(args: &ManArgs, program: Command) -> Result<(), Cl
     program.build();
     if let Some(folder) = &args.out_dir {
         std::fs::create_dir_all(folder).map_err(|cause| {
-            CliError::Usage(format!("cannot create the folder {}: {cause}", folder.display()))
+            CliError::Usage(format!("cannot create the folder {}: {cause}", visible_path(folder)))
         })?;
         return write_man_pages(&program, "alberti", folder);
     }

@@ -6,11 +6,17 @@
 //! notes such as `--verify` and `--timings`, then warnings, then the error, if there is one.
 //! Nothing on the standard output depends on whether messages are printed, so results can be piped
 //! safely.
+//!
+//! Texts for people show controls by their codes, whatever file a name comes from: [`print_text`],
+//! [`print_json`], and all that is printed on the standard error stream. Names in a line of a message
+//! are written by [`model::visible_text`], which shows line ends as well.
 
 use super::CliError;
 use super::color;
 use model::Diagnostic;
+use model::{is_terminal_control, visible_text};
 use pipeline::Scene;
+use std::borrow::Cow;
 use std::io::{ErrorKind, Write};
 
 /// The number of warnings of one model that are printed; the others are only counted.
@@ -34,21 +40,106 @@ pub(crate) fn print_stdout(bytes: &[u8]) -> Result<(), CliError> {
     }
 }
 
+/// Writes text for people to the standard output: controls from names are shown by their codes.
+///
+/// # Errors
+/// As [`print_stdout`].
+pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
+    print_stdout(without_controls(text, color::stdout_has_color()).as_bytes())
+}
+
+/// Writes a JSON document to the standard output: controls in its strings are escaped, which changes
+/// none of its values.
+///
+/// # Errors
+/// As [`print_stdout`].
+pub(crate) fn print_json(json: &str) -> Result<(), CliError> {
+    if !json.contains(must_be_escaped) {
+        return print_stdout(json.as_bytes());
+    }
+    let mut escaped = String::with_capacity(json.len() + 8);
+    for character in json.chars() {
+        if must_be_escaped(character) {
+            // JSON itself allows no others than these in a string: none is beyond four digits.
+            escaped.push_str(&format!("\\u{:04x}", u32::from(character)));
+        } else {
+            escaped.push(character);
+        }
+    }
+    print_stdout(escaped.as_bytes())
+}
+
+/// Whether a character is a control other than the end of a line.
+fn must_be_escaped(character: char) -> bool {
+    character != '\n' && is_terminal_control(character)
+}
+
+/// A text of several lines in which controls are written by their codes, but for the colors of the
+/// program's own messages where they are `colored`.
+fn without_controls(text: &str, colored: bool) -> Cow<'_, str> {
+    if !text.contains(must_be_escaped) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    let mut rest = text;
+    while let Some(at) = rest.find(must_be_escaped) {
+        let (before, found) = rest.split_at(at);
+        let length = match color_length(found) {
+            Some(length) if colored => length,
+            _ => 0,
+        };
+        let (color, after) = found.split_at(length);
+        shown.push_str(before);
+        shown.push_str(color);
+        rest = after;
+        if length == 0 {
+            let mut characters = rest.chars();
+            shown.extend(characters.next().into_iter().flat_map(char::escape_unicode));
+            rest = characters.as_str();
+        }
+    }
+    shown.push_str(rest);
+    Cow::Owned(shown)
+}
+
+/// The bytes of a color at the start of a text, such as those of `ESC [1;31m`.
+fn color_length(text: &str) -> Option<usize> {
+    let numbers = text.strip_prefix("\x1b[")?;
+    let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
+    numbers[end..].starts_with('m').then_some(2 + end + 1)
+}
+
 /// Prints `LEVEL: MESSAGE` on the standard error stream.
 ///
 /// The level is `error`, `warning` or a word of the command, such as `failed` in `batch`; it is
-/// colored as [`color::style_level`] says, the message never. Any further line of the message is
-/// printed as it is.
+/// colored as [`color::style_level`] says, the message never, but for those of scene files. Any
+/// further line of the message is printed as it is.
 pub(crate) fn print_message(level: &str, message: &str) {
-    let level = color::style_level(level, color::stderr_has_color());
+    let colored = color::stderr_has_color();
+    let level = color::style_level(level, colored);
+    let message = without_controls(message, colored);
     // A closed stream is not an error.
     let _ = writeln!(std::io::stderr(), "{level}: {message}");
+}
+
+/// Prints what clap says about wrong usage, or the help that was asked for.
+pub(crate) fn print_usage(usage: &clap::Error) {
+    if !usage.use_stderr() {
+        // Nothing can be said about a stream that takes no text.
+        let _ = usage.print();
+        return;
+    }
+    let (text, colored) = (usage.render(), color::stderr_has_color());
+    let text = if colored { text.ansi().to_string() } else { text.to_string() };
+    // A closed stream is not an error.
+    let _ = write!(std::io::stderr(), "{}", without_controls(&text, colored));
 }
 
 /// Prints a line without a level on the standard error stream.
 ///
 /// Notes are answers to a flag, such as `--timings`, and therefore have neither level nor color.
 pub(crate) fn print_note(line: &str) {
+    let line = without_controls(line, false);
     // A closed stream is not an error.
     let _ = writeln!(std::io::stderr(), "{line}");
 }
@@ -78,11 +169,27 @@ pub(crate) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning]) {
 /// warning: fox.glb: 3 more warnings
 /// ```
 fn print_model_warnings(name: &str, warnings: &[Diagnostic]) {
+    let name = visible_text(name);
     for warning in warnings.iter().take(MAX_WARNINGS) {
         print_message(warning.severity.name(), &format!("{name}: {}", warning.sentence()));
     }
     let rest = warnings.len().saturating_sub(MAX_WARNINGS);
     if rest > 0 {
         print_message("warning", &format!("{name}: {rest} more warnings"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_own_colors_reach_a_terminal() {
+        let text = "\x1b[1;31merror\x1b[0m: a\x1b]0;b\x07\n\u{9b}2J\x1b[\u{202e}";
+        let plain = "\\u{1b}[1;31merror\\u{1b}[0m: a\\u{1b}]0;b\\u{7}\n\\u{9b}2J\\u{1b}[\\u{202e}";
+        assert_eq!(without_controls(text, false), plain);
+        let colored = "\x1b[1;31merror\x1b[0m: a\\u{1b}]0;b\\u{7}\n\\u{9b}2J\\u{1b}[\\u{202e}";
+        assert_eq!(without_controls(text, true), colored);
+        assert!(matches!(without_controls("a\nb", false), Cow::Borrowed("a\nb")));
     }
 }

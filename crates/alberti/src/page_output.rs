@@ -9,6 +9,7 @@ use super::messages::print_warnings;
 use super::progress::Progress;
 use super::sheet;
 use drawing::{Page, Panels};
+use model::visible_path;
 use pipeline::Scene;
 use std::path::Path;
 
@@ -57,7 +58,7 @@ pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
         return Ok(());
     }
     OutputFormat::from_path(output).map(|_| ()).map_err(|_| {
-        let name = output.display();
+        let name = visible_path(output);
         CliError::Usage(format!(
             "the output {name} has no known extension: .svg, .pdf, .dxf, .png or .html"
         ))

@@ -17,6 +17,7 @@ use super::render_job::RenderJob;
 use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::{FileFormat, ImageLoading, ImportOptions};
+use model::visible_path;
 use pipeline::scene::file::SceneFile;
 use pipeline::scene::{Outputs, closest_name};
 use pipeline::{Origin, Scene, Timings};
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
             Err(failure) if tasks.len() > 1 => {
                 print_message(
                     "error",
-                    &format!("{}: {}", task.input.display(), failure.to_message()),
+                    &format!("{}: {}", visible_path(&task.input), failure.to_message()),
                 );
                 code = ExitCode::FAILURE;
             }
@@ -206,7 +207,7 @@ pub(super) fn open_input(
 ///
 /// Other reasons for which a file cannot be read are found, and explained, where it is read.
 fn check_is_file(input: &Path) -> Result<(), CliError> {
-    let name = input.display();
+    let name = visible_path(input);
     if input.is_dir() {
         return Err(CliError::Usage(format!(
             "{name} is a folder\n  = help: `alberti batch {name} --out-dir DIR` renders every model in it"
@@ -222,7 +223,7 @@ fn check_is_file(input: &Path) -> Result<(), CliError> {
     match closest_name(&wanted.to_string_lossy(), &names) {
         Some(similar) => Err(CliError::Usage(format!(
             "{name}: the file does not exist\n  = help: did you mean `{}`?",
-            input.with_file_name(similar).display()
+            visible_path(input.with_file_name(similar))
         ))),
         None => Ok(()),
     }

@@ -15,14 +15,13 @@
 //! ```
 //! Several pictures print several documents, one after the other.
 
-use super::CliError;
 use super::content_digest::{ContentDigest, to_hexadecimal};
 use super::render_job::{RenderJob, RenderOutput};
+use super::{CliError, print_json};
 use homog::PixelRect;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::Write;
 use std::path::Path;
 
 /// The version of the JSON schema.
@@ -69,8 +68,7 @@ pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result
         "milliseconds": timings,
         "files": files?,
     });
-    writeln!(std::io::stdout(), "{report:#}")?;
-    Ok(())
+    print_json(&format!("{report:#}\n"))
 }
 
 /// The eye and the axes of view space in world space, and the projection matrix by rows.

@@ -16,7 +16,7 @@ use super::render::{open_input, thread_count};
 use clap::ValueEnum;
 use deadline::Deadline;
 use model::import::{ImportError, ImportOptions};
-use model::{Limits, codes};
+use model::{Limits, codes, visible_path, visible_text};
 use pipeline::scene::ResolveOptions;
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
@@ -149,8 +149,8 @@ fn with_memory_help(error: CliError) -> CliError {
             CliError::Usage(format!(
                 "{}: {}\n  = help: --max-memory-bytes allows more; `alberti render` has a flag for \
                  each limit",
-                file.display(),
-                diagnostic.message
+                visible_path(file),
+                visible_text(&diagnostic.message)
             ))
         }
         other => other,

@@ -241,9 +241,9 @@ const MAX_QUOTED: usize = 60;
 /// the direction of writing, are written by their code: `\u{202e}`. A long one is cut off.
 pub(crate) fn visible_text(text: &str) -> String {
     let is_invisible = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
-            || matches!(c, '\u{2060}'..='\u{206f}' | '\u{feff}')
+        model::is_terminal_control(c)
+            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{206f}')
+            || c == '\u{feff}'
     };
     let shown =
         |c: char| if is_invisible(c) { c.escape_unicode().to_string() } else { c.to_string() };

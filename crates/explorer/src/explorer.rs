@@ -7,7 +7,7 @@ use crate::facts::Facts;
 use crate::lesson_state::LessonState;
 use crate::line_of_sight::LineOfSight;
 use crate::model_store::{LoadedScene, ModelStore, PictureOptions};
-use crate::pane_picture::{PanePicture, thread_count};
+use crate::pane_picture::{Drawn, PanePicture, thread_count};
 use crate::pane_scene::Observer;
 use crate::pick::pick_json;
 use crate::request::{DEFAULT_SIZE, Question, Request};
@@ -16,7 +16,7 @@ use crate::volume_pane::volume_scene;
 use crate::words::sentence;
 use crate::world_pane::{Pointer, world_scene};
 use pipeline::scene::Scene;
-use pipeline::{Picture, Textures, draw_lines};
+use pipeline::{CancelToken, Picture, Textures, draw_lines};
 use std::sync::Arc;
 
 /// The answer to a request.
@@ -69,18 +69,38 @@ impl Explorer {
         Ok(())
     }
 
+    /// Another explorer with the same files, and with the models that have been loaded. Both share
+    /// them in memory, and can answer at the same time.
+    #[must_use]
+    pub fn sibling(&self) -> Self {
+        Self { store: self.store.clone(), ..Self::default() }
+    }
+
     /// Answers a request: a query string, as the README lists its keys.
     ///
     /// # Errors
     /// An unknown, repeated or malformed key; a model that is missing or broken; a scene that makes
     /// no sense. The explorer is as before.
     pub fn answer(&mut self, query: &str) -> Result<Answer, ExplorerError> {
+        self.answer_unless_cancelled(query, &CancelToken::default())
+    }
+
+    /// Answers a request as [`answer`](Self::answer) does, unless another thread cancels it. Line
+    /// drawings and models that are being loaded run to their end first.
+    ///
+    /// # Errors
+    /// As `answer`, and `cannot_render` for a picture that was cancelled.
+    pub fn answer_unless_cancelled(
+        &mut self,
+        query: &str,
+        cancel: &CancelToken,
+    ) -> Result<Answer, ExplorerError> {
         let request = Request::parse(query)?;
         match request.question {
             Question::Lessons => Ok(json_answer(&catalogue_json())),
             Question::State => self.state(&request),
-            Question::Picture => self.picture(&request),
-            Question::World | Question::Volume => self.pane(&request),
+            Question::Picture => self.picture(&request, cancel),
+            Question::World | Question::Volume => self.pane(&request, cancel),
             Question::Depth => self.depth(&request),
             Question::Drawing => self.drawing(&request),
             Question::Pick => self.pick(&request),
@@ -138,13 +158,17 @@ impl Explorer {
         Ok(json_answer(&state_json(request, &text, &loaded, &facts)?))
     }
 
-    fn picture(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+    fn picture(
+        &mut self,
+        request: &Request,
+        cancel: &CancelToken,
+    ) -> Result<Answer, ExplorerError> {
         let (text, loaded) = self.load(&request.state, request.size, request.samples)?;
-        let pane = (&*loaded.scene, &loaded.models.textures);
+        let drawn = Drawn { scene: &loaded.scene, textures: &loaded.models.textures, cancel };
         // The text of a scene file stays, whatever its size, samples and style.
         let Request { state, size, samples, .. } = request;
         let key = format!("{size:?} {samples} {:?} {text}", state.style);
-        answer_with_pixels(&mut self.picture, request, &key, pane)
+        answer_with_pixels(&mut self.picture, request, &key, drawn)
     }
 
     fn depth(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
@@ -170,7 +194,7 @@ impl Explorer {
     }
 
     /// A pane around the picture.
-    fn pane(&mut self, request: &Request) -> Result<Answer, ExplorerError> {
+    fn pane(&mut self, request: &Request, cancel: &CancelToken) -> Result<Answer, ExplorerError> {
         let Request { question, state, size, samples, .. } = request;
         let is_world = *question == Question::World;
         let orbit = if is_world { state.orbit() } else { state.volume_orbit() };
@@ -198,7 +222,8 @@ impl Explorer {
         let pane = if is_world { &mut self.world } else { &mut self.volume };
         pane.scene = Some((key.clone(), Arc::clone(&scene)));
         let textures = Textures::for_models(&[]);
-        answer_with_pixels(&mut pane.picture, request, &key, (&scene, &textures))
+        let drawn = Drawn { scene: &scene, textures: &textures, cancel };
+        answer_with_pixels(&mut pane.picture, request, &key, drawn)
     }
 }
 
@@ -222,12 +247,12 @@ fn answer_with_pixels(
     pane: &mut PanePicture,
     request: &Request,
     key: &str,
-    (scene, textures): (&Scene, &Textures<'_>),
+    drawn: Drawn<'_>,
 ) -> Result<Answer, ExplorerError> {
     if let Some(rows) = request.rows {
-        return Ok(pixels_answer(pane.band(key, scene, textures, rows)?));
+        return Ok(pixels_answer(pane.band(key, drawn, rows)?));
     }
-    let whole: &Picture = pane.whole(key, scene, textures)?;
+    let whole: &Picture = pane.whole(key, drawn)?;
     Ok(match request.is_png {
         true => Answer { content_type: "image/png", bytes: whole.to_png() },
         false => pixels_answer(whole.pixels.as_flattened().to_vec()),

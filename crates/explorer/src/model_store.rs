@@ -45,7 +45,7 @@ pub(crate) struct LoadedModels {
 }
 
 /// The files that were added, and what has been loaded of them; the latest last.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct ModelStore {
     folder: MemoryFolder,
     models: Vec<Arc<LoadedModels>>,

@@ -3,7 +3,21 @@
 use crate::ExplorerError;
 use homog::PixelRect;
 use pipeline::scene::Style;
-use pipeline::{Picture, RenderContext, Renderer, Scene, Textures};
+use pipeline::{CancelToken, Picture, RenderContext, Renderer, Scene, Textures};
+
+/// What a picture shows, and the flag that ends its rendering.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drawn<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) textures: &'a Textures<'a>,
+    pub(crate) cancel: &'a CancelToken,
+}
+
+impl<'a> Drawn<'a> {
+    fn context(self) -> RenderContext<'a> {
+        RenderContext::new(self.scene, self.textures, thread_count()).with_cancel(self.cancel)
+    }
+}
 
 /// The renderer of a pane, and its last whole picture.
 #[derive(Debug, Default)]
@@ -18,17 +32,11 @@ impl PanePicture {
     ///
     /// # Errors
     /// As the renderer.
-    pub(crate) fn whole(
-        &mut self,
-        key: &str,
-        scene: &Scene,
-        textures: &Textures<'_>,
-    ) -> Result<&Picture, ExplorerError> {
+    pub(crate) fn whole(&mut self, key: &str, drawn: Drawn<'_>) -> Result<&Picture, ExplorerError> {
         let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
         if !known {
             let mut picture = self.whole.take().map_or_else(Picture::default, |(_, old)| old);
-            let context = RenderContext::new(scene, textures, thread_count());
-            self.renderer.render(&context, &mut picture)?;
+            self.renderer.render(&drawn.context(), &mut picture)?;
             self.whole = Some((key.to_owned(), picture));
         }
         let missing = || ExplorerError::new("cannot_render", "there is no picture", "try again");
@@ -45,19 +53,19 @@ impl PanePicture {
     pub(crate) fn band(
         &mut self,
         key: &str,
-        scene: &Scene,
-        textures: &Textures<'_>,
+        drawn: Drawn<'_>,
         [from, to]: [u32; 2],
     ) -> Result<Vec<u8>, ExplorerError> {
         let known = self.whole.as_ref().is_some_and(|(known, _)| known == key);
-        if known || !renders_in_bands(scene) {
-            let whole = self.whole(key, scene, textures)?;
+        if known || !renders_in_bands(drawn.scene) {
+            let whole = self.whole(key, drawn)?;
             let width = whole.width as usize;
             let rows = from as usize * width..to as usize * width;
             return Ok(whole.pixels[rows].as_flattened().to_vec());
         }
-        let region = PixelRect { x: 0, y: from, width: scene.image.width, height: to - from };
-        let context = RenderContext::new(scene, textures, thread_count());
+        let width = drawn.scene.image.width;
+        let region = PixelRect { x: 0, y: from, width, height: to - from };
+        let context = drawn.context();
         let mut picture = Picture::default();
         self.renderer.prepare(&context)?.render_region(region, &mut picture)?;
         Ok(picture.pixels.as_flattened().to_vec())

@@ -14,6 +14,8 @@
 //! `line 12, column 5` of a text and `byte 84` of a binary file; a part of an archive is named
 //! before: `3D/3dmodel.model: line 3, column 7`.
 
+use crate::visible_text::visible_text;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Codes of what the importer reports; a check has those of the Khronos validator besides.
@@ -112,7 +114,7 @@ impl Diagnostic {
     }
 
     /// Location, message and help in one line, without severity and code: for messages that begin
-    /// with the name of the file.
+    /// with the name of the file. Names from the file are in it as [`visible_text`] writes them.
     #[must_use]
     pub fn sentence(&self) -> String {
         let mut text = String::new();
@@ -125,7 +127,10 @@ impl Diagnostic {
             text.push_str("; ");
             text.push_str(help);
         }
-        text
+        match visible_text(&text) {
+            Cow::Borrowed(_) => text,
+            Cow::Owned(visible) => visible,
+        }
     }
 }
 

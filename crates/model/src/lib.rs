@@ -20,6 +20,7 @@ mod skinning;
 mod texture;
 mod timings;
 mod up_axis;
+mod visible_text;
 
 pub use animation::{
     Animation, AnimationChannel, AnimationCurve, AnimationTarget, Interpolation, NodeProperty,
@@ -49,6 +50,7 @@ pub use texture::{
 };
 pub use timings::Timings;
 pub use up_axis::UpAxis;
+pub use visible_text::{is_terminal_control, visible_path, visible_text};
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

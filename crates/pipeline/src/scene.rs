@@ -297,7 +297,7 @@ pub enum ResolveError {
     #[error(transparent)]
     Model(#[from] ImportError),
     /// The scene file cannot be read.
-    #[error("cannot read {}: {cause}", path.display())]
+    #[error("cannot read {}: {cause}", model::visible_path(path))]
     Unreadable {
         /// The scene file.
         path: PathBuf,

@@ -41,7 +41,10 @@ pub use ground_occlusion::{GroundGrid, GroundOcclusion, HeightSlab};
 pub use light::Light;
 pub use light_shadow::LightShadow;
 pub use material_textures::{MaterialTexture, MaterialTextures};
-pub use output::{AtomicFile, OutputError, PngRows, encode_png, write_file};
+pub use output::{
+    AtomicFile, OutputError, PngRows, create_partial_file, encode_png, forget_partial_file,
+    register_partial_file, remove_partial_files, write_file,
+};
 pub use picture::{Channel, Picture};
 pub use procedural_sky::PreethamSky;
 pub use shading::Shading;

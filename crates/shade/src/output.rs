@@ -2,18 +2,23 @@
 //!
 //! A run that fails leaves the old file as it was, and no reader ever sees half a file.
 
+mod partial_files;
 mod png_rows;
 
+pub use partial_files::{
+    create_partial_file, forget_partial_file, register_partial_file, remove_partial_files,
+};
 pub use png_rows::{PngRows, encode_png};
 
 use crate::{Channel, Picture};
+use model::visible_path;
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// The error of an output file that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {cause}{}", path.display(), self.remedy())]
+#[error("cannot write {}: {cause}{}", visible_path(path), self.remedy())]
 pub struct OutputError {
     /// The target file.
     pub path: PathBuf,
@@ -27,7 +32,7 @@ impl OutputError {
         let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         match folder {
             Some(folder) if self.cause.kind() == ErrorKind::NotFound => {
-                format!("\n  = help: create the folder {} first", folder.display())
+                format!("\n  = help: create the folder {} first", visible_path(folder))
             }
             _ => String::new(),
         }
@@ -80,17 +85,16 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Creates the temporary file for a target.
+    /// Creates the temporary file for a target; removes those of processes that have died.
     ///
     /// # Errors
     /// If no file can be created in the target's folder.
     pub fn create(target: &Path) -> Result<Self, OutputError> {
-        let mut name = target.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.part", std::process::id()));
-        let partial_path = target.with_file_name(name);
         let target_path = target.to_owned();
-        match File::create(&partial_path) {
-            Ok(file) => Ok(Self { target_path, partial_path, file, is_finished: false }),
+        match partial_files::create(target) {
+            Ok((partial_path, file)) => {
+                Ok(Self { target_path, partial_path, file, is_finished: false })
+            }
             Err(cause) => Err(OutputError { path: target_path, cause }),
         }
     }
@@ -106,6 +110,9 @@ impl AtomicFile {
             .sync_all()
             .and_then(|()| std::fs::rename(&self.partial_path, &self.target_path));
         self.is_finished = renamed.is_ok();
+        if self.is_finished {
+            forget_partial_file(&self.partial_path);
+        }
         renamed.map_err(|cause| OutputError { path: self.target_path.clone(), cause })
     }
 }
@@ -123,8 +130,7 @@ impl Write for AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if !self.is_finished {
-            // Best effort: nobody is left to report an error to.
-            let _ = std::fs::remove_file(&self.partial_path);
+            partial_files::remove(&self.partial_path);
         }
     }
 }

@@ -4,13 +4,12 @@ use super::job::{BatchJob, JobGroup};
 use super::picture_name::{NameSource, PictureName, normal_parts};
 use crate::CliError;
 use model::FileFormat;
-use std::collections::BTreeMap;
+use model::visible_path;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// The maximum depth of folders that are searched; symbolic links may form cycles.
-///
-/// No real folder is that deep, and a cycle ends after this many rounds.
+/// The maximum depth of folders that are searched. No real folder is that deep.
 const MAX_DEPTH: usize = 64;
 
 /// Finds the jobs of all inputs, sorted, so that every shard sees the same order.
@@ -35,7 +34,7 @@ pub(super) fn find_jobs(
                 .map_err(|cause| read_error(input, &cause))?;
             add_listed(&list, Path::new(""), &mut found);
         } else if input.is_dir() {
-            add_models_below(input, input, 0, &mut found)?;
+            FolderSearch::new(input).run(&mut found)?;
         } else if lowercase_extension(input).as_deref() == Some("txt") {
             let list = std::fs::read_to_string(input).map_err(|cause| read_error(input, &cause))?;
             add_listed(&list, input.parent().unwrap_or(Path::new("")), &mut found);
@@ -50,17 +49,24 @@ pub(super) fn find_jobs(
         Some(template) => name_by_template(found, template)?,
         None => name_outputs(found),
     };
-    let group = |(input, output)| {
+    let group = |(input, output): (PathBuf, String)| {
         let scene = scene.map(Path::to_owned);
-        let job = BatchJob { input, output, scene, flags: Vec::new(), line: None, fault: None };
+        let fault = unreadable_name(&input);
+        let job = BatchJob { input, output, scene, flags: Vec::new(), line: None, fault };
         JobGroup { jobs: vec![job], bytes: None }
     };
     Ok(named.into_iter().map(group).collect())
 }
 
+/// What is wrong with the name of a file that is not UTF-8: reports and workers could not name it.
+pub(super) fn unreadable_name(input: &Path) -> Option<String> {
+    let fault = || "the name is not UTF-8\n  = help: rename the file".to_owned();
+    input.to_str().is_none().then(fault)
+}
+
 /// The error of an input that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot read {}: {cause}", path.display()))
+    CliError::Usage(format!("cannot read {}: {cause}", visible_path(path)))
 }
 
 /// The extension of a path in lower case.
@@ -80,33 +86,66 @@ fn add_listed(list: &str, folder: &Path, found: &mut Vec<(PathBuf, PathBuf)>) {
     );
 }
 
-/// Adds the models below a folder, recursively.
+/// A search for the models below a folder.
 ///
 /// Scenes are not searched for: they are rare among models, and often refer to these very models.
-///
-/// The name of a picture is the path below `root`, so subfolders appear in the output as well.
-///
-/// # Errors
-/// If a folder cannot be read. A run must not silently leave out a part of its models.
-fn add_models_below(
-    folder: &Path,
-    root: &Path,
-    depth: usize,
-    found: &mut Vec<(PathBuf, PathBuf)>,
-) -> Result<(), CliError> {
-    if depth > MAX_DEPTH {
-        return Ok(());
+/// Each folder is visited once, under its own name where it has one below the root: symbolic links
+/// are followed after all else, so that the names do not depend on the order of the disk.
+struct FolderSearch<'a> {
+    /// The name of a picture is the path below the root, so subfolders appear in the output as well.
+    root: &'a Path,
+    /// The folders that have been visited, by their real paths.
+    visited: BTreeSet<PathBuf>,
+    /// Symbolic links to folders that are still to be visited, with their depths.
+    links: VecDeque<(PathBuf, usize)>,
+}
+
+impl<'a> FolderSearch<'a> {
+    fn new(root: &'a Path) -> Self {
+        Self { root, visited: BTreeSet::new(), links: VecDeque::new() }
     }
-    for entry in std::fs::read_dir(folder).map_err(|cause| read_error(folder, &cause))? {
-        let path = entry.map_err(|cause| read_error(folder, &cause))?.path();
-        if path.is_dir() {
-            add_models_below(&path, root, depth + 1, found)?;
-        } else if FileFormat::from_extension(&path).is_some() {
-            let name = path.strip_prefix(root).unwrap_or(&path).to_owned();
-            found.push((path, name));
+
+    /// Adds all models.
+    ///
+    /// # Errors
+    /// If a folder cannot be read. A run must not silently leave out a part of its models.
+    fn run(mut self, found: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), CliError> {
+        self.visit(self.root, 0, found)?;
+        while let Some((link, depth)) = self.links.pop_front() {
+            self.visit(&link, depth, found)?;
         }
+        Ok(())
     }
-    Ok(())
+
+    /// Adds the models of a folder and of those in it, but for links.
+    fn visit(
+        &mut self,
+        folder: &Path,
+        depth: usize,
+        found: &mut Vec<(PathBuf, PathBuf)>,
+    ) -> Result<(), CliError> {
+        let fault = |cause: std::io::Error| read_error(folder, &cause);
+        if depth > MAX_DEPTH || !self.visited.insert(folder.canonicalize().map_err(fault)?) {
+            return Ok(());
+        }
+        let entries: Result<Vec<_>, _> = std::fs::read_dir(folder).map_err(fault)?.collect();
+        let mut paths: Vec<PathBuf> =
+            entries.map_err(fault)?.into_iter().map(|entry| entry.path()).collect();
+        paths.sort();
+        for path in paths {
+            if path.is_dir() {
+                if path.is_symlink() {
+                    self.links.push_back((path, depth + 1));
+                } else {
+                    self.visit(&path, depth + 1, found)?;
+                }
+            } else if FileFormat::from_extension(&path).is_some() {
+                let name = path.strip_prefix(self.root).unwrap_or(&path).to_owned();
+                found.push((path, name));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Names the picture of each file: its own name with `.png`.
@@ -156,8 +195,8 @@ fn name_by_template(
             return Err(CliError::Usage(format!(
                 "{} and {} would both be rendered to {output}\n  = help: add {{folder}}, {{name}} \
                  or {{line}} to --name",
-                other.display(),
-                input.display()
+                visible_path(&other),
+                visible_path(&input)
             )));
         }
         named.push((input, output));

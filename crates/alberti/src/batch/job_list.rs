@@ -10,9 +10,11 @@
 use super::csv::CsvRecord;
 use super::job::{BatchJob, JobGroup, ListLine};
 use super::list_line::{LineReader, ListContext};
+use super::output_names::{OutputNames, same_output_fault};
 use super::picture_name::PictureName;
 use super::render_flags::FlagTable;
 use crate::CliError;
+use model::{visible_path, visible_text};
 use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};
@@ -36,6 +38,8 @@ pub(super) struct JobList {
     line: u64,
     /// The number of bytes that were read, and that of all of them, if it is known.
     position: (u64, Option<u64>),
+    /// The outputs so far, of a list that cannot be read twice.
+    outputs: Option<OutputNames>,
 }
 
 impl JobList {
@@ -44,9 +48,41 @@ impl JobList {
     /// A name in `.csv` is CSV, any other JSON lines; the standard input is JSON lines if it begins
     /// with a brace.
     ///
+    /// A file is read once before, for two lines with the same output. Of a pipe the second of such
+    /// lines is wrong.
+    ///
     /// # Errors
-    /// If it cannot be read, or a CSV file has no column `input`.
+    /// If it cannot be read, a CSV file has no column `input`, or two lines have the same output.
     pub(super) fn open(
+        path: &Path,
+        scene: Option<PathBuf>,
+        picture_name: Option<PictureName>,
+    ) -> Result<Self, CliError> {
+        let list = Self::open_once(path, scene.clone(), picture_name.clone())?;
+        if list.position.1.is_none() {
+            return Ok(Self { outputs: Some(OutputNames::default()), ..list });
+        }
+        Self::open_once(path, scene, picture_name)?.check_outputs()?;
+        Ok(list)
+    }
+
+    /// Reads the list to its end.
+    ///
+    /// # Errors
+    /// If it cannot be read, or two lines have the same output.
+    fn check_outputs(mut self) -> Result<(), CliError> {
+        let mut outputs = OutputNames::default();
+        while let Some((number, members)) = self.next_members()? {
+            let group = self.group_of(number, members);
+            if let Some(fault) = repeated_output(&mut outputs, &group, number) {
+                return Err(CliError::Usage(format!("{}: {fault}", visible_text(&self.name))));
+            }
+        }
+        Ok(())
+    }
+
+    /// Opens a list.
+    fn open_once(
         path: &Path,
         scene: Option<PathBuf>,
         picture_name: Option<PictureName>,
@@ -55,7 +91,8 @@ impl JobList {
         let (reader, length): (Box<dyn BufRead + Send>, _) = if is_stdin {
             (Box::new(BufReader::new(std::io::stdin())), None)
         } else {
-            let fault = |cause| CliError::Usage(format!("cannot read {}: {cause}", path.display()));
+            let fault =
+                |cause| CliError::Usage(format!("cannot read {}: {cause}", visible_path(path)));
             let file = File::open(path).map_err(fault)?;
             let length = file.metadata().map_err(fault)?;
             (Box::new(BufReader::new(file)), length.is_file().then_some(length.len()))
@@ -66,11 +103,12 @@ impl JobList {
             ListContext { folder: folder.to_owned(), scene, picture_name, flags: FlagTable::new() };
         let mut list = Self {
             reader,
-            name: name.into(),
+            name: visible_text(&name).into(),
             context,
             columns: None,
             line: 0,
             position: (0, length),
+            outputs: None,
         };
         let has_brace = |list: &mut Self| -> Result<bool, CliError> {
             let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, &cause))?;
@@ -218,10 +256,27 @@ impl Iterator for JobList {
     fn next(&mut self) -> Option<Self::Item> {
         match self.next_members() {
             Ok(None) => None,
-            Ok(Some((number, members))) => Some(Ok(self.group_of(number, members))),
+            Ok(Some((number, members))) => {
+                let group = self.group_of(number, members);
+                let outputs = self.outputs.as_mut();
+                Some(Ok(match outputs.and_then(|all| repeated_output(all, &group, number)) {
+                    Some(fault) => {
+                        wrong_line(ListLine { list: Arc::clone(&self.name), number }, &fault)
+                    }
+                    None => group,
+                }))
+            }
             Err(error) => Some(Err(error)),
         }
     }
+}
+
+/// What is wrong with the outputs of a line: an earlier line has one of them.
+fn repeated_output(outputs: &mut OutputNames, group: &JobGroup, line: u64) -> Option<String> {
+    let jobs = group.jobs.iter().filter(|job| job.fault.is_none());
+    let claims = jobs.map(|job| (&job.output, outputs.claim(&job.output, line)));
+    let repeated = claims.filter_map(|(output, claim)| Some((output, claim.err()?))).next();
+    repeated.map(|(output, earlier)| same_output_fault([earlier, line], output))
 }
 
 /// The members of a line, or what is wrong with it.

@@ -5,6 +5,7 @@ use super::pool::JobPolicy;
 use super::report::{FAILED, JobRecord};
 use super::worker_process::WorkerEnd;
 use crate::CliError;
+use model::visible_text;
 
 /// The outcome of a step of a run.
 pub(super) type Outcome = Result<(), RunStop>;
@@ -45,7 +46,7 @@ impl FailureList {
         let text = if record.input.is_empty() {
             record.message.clone()
         } else {
-            format!("{}: {}", record.input, record.message)
+            format!("{}: {}", visible_text(&record.input), record.message)
         };
         self.first.insert(at, (record.output.clone(), text));
         self.first.truncate(MAX_PRINTED);

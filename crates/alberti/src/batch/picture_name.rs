@@ -6,6 +6,7 @@
 //! ```
 
 use crate::template::NameTemplate;
+use model::visible_text;
 use sha2::{Digest, Sha256};
 use std::path::{Component, Path};
 
@@ -103,16 +104,16 @@ pub(super) fn normal_parts(path: &Path) -> String {
 /// # Errors
 /// If it leads out of the output folder, or is none of a PNG file.
 pub(super) fn check_picture_name(name: &str) -> Result<(), String> {
-    let path = Path::new(name);
+    let (path, shown) = (Path::new(name), visible_text(name));
     let is_normal = path.components().all(|part| matches!(part, Component::Normal(_)));
     if !is_normal || name.contains('\0') {
         return Err(format!(
-            "the picture {name} would not be below the output folder\n  = help: give a relative \
+            "the picture {shown} would not be below the output folder\n  = help: give a relative \
              path without `.` and `..`"
         ));
     }
     if !has_png_extension(name) {
-        return Err(format!("the picture {name} is no PNG file\n  = help: end the name in .png"));
+        return Err(format!("the picture {shown} is no PNG file\n  = help: end the name in .png"));
     }
     Ok(())
 }

@@ -16,6 +16,7 @@ use super::report::{DONE, JobRecord, ReportWriter};
 use super::tar_output::TarOutput;
 use super::worker_process::{WorkerEnd, WorkerProcess};
 use crate::CliError;
+use pipeline::shade::register_partial_file;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -207,6 +208,8 @@ impl BatchRun<'_> {
             let name = format!("{}.{slot}.part", self.report.run_name());
             let partial: PathBuf =
                 [self.out_dir, "reports".as_ref(), name.as_ref()].iter().collect();
+            // The worker may be killed before it can remove it.
+            register_partial_file(partial.clone());
             PictureTarget::File { path: self.out_dir.join(&job.output), partial }
         };
         let flags = self.flag_table.merge(self.flags, &job.flags);

@@ -13,7 +13,9 @@
 //! clocks of several machines cannot.
 
 use super::Shard;
+use super::left_over::remove_left_over;
 use crate::CliError;
+use model::visible_path;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -93,13 +95,15 @@ struct OpenReport {
 }
 
 impl ReportWriter {
-    /// Creates a report that no other run has, and the folder of the reports.
+    /// Creates a report that no other run has, and the folder of the reports; what killed runs have
+    /// left there is removed.
     ///
     /// # Errors
     /// If the file cannot be created, which is noticed here, before any work is done.
     pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, CliError> {
         let folder = out_dir.join(REPORTS_FOLDER);
         std::fs::create_dir_all(&folder).map_err(|cause| write_error(&folder, &cause))?;
+        remove_left_over(&folder);
         let prefix = format!("{}.{}.{}", shard.file_name_part(), host_name(), std::process::id());
         let mut run = last_run(&folder).map_err(|cause| write_error(&folder, &cause))?;
         loop {
@@ -169,7 +173,7 @@ impl ReportWriter {
 
 /// The error of a file or a folder that cannot be written.
 pub(super) fn write_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot write {}: {cause}", path.display()))
+    CliError::Usage(format!("cannot write {}: {cause}", visible_path(path)))
 }
 
 /// The number of a run in the name of its report: the part before the extension.
@@ -197,7 +201,7 @@ fn last_run(folder: &Path) -> std::io::Result<u64> {
 /// The name of this machine, for names of files; `host` if it is not known.
 ///
 /// Letters, digits and `-` stay. It need not be unique, but helps to find the machine of a record.
-fn host_name() -> String {
+pub(super) fn host_name() -> String {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let name = name.or_else(|| std::env::var("COMPUTERNAME").ok()).unwrap_or_default();
     let allowed = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };

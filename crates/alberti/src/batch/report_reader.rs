@@ -5,6 +5,7 @@
 
 use super::report::{DONE, FAILED, REPORTS_FOLDER, run_number};
 use crate::CliError;
+use model::visible_path;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read as _};
@@ -80,7 +81,7 @@ pub(super) fn read_reports(
     Ok(())
 }
 
-/// Reads one report, if it is there; see [`read_reports`].
+/// Reads one report, if it is there and a file; see [`read_reports`].
 ///
 /// # Errors
 /// If it cannot be read, or `visit` fails.
@@ -88,6 +89,10 @@ pub(super) fn read_report(
     path: &Path,
     mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), CliError>,
 ) -> Result<(), CliError> {
+    // A pipe of this name would be waited for, a folder cannot be read.
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        return Ok(());
+    }
     let file = match File::open(path) {
         Ok(file) => file,
         // An empty report that its run has just removed.
@@ -135,7 +140,7 @@ pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, CliError> {
 
 /// The error of a report that cannot be read.
 fn read_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot read {}: {cause}", path.display()))
+    CliError::Usage(format!("cannot read {}: {cause}", visible_path(path)))
 }
 
 #[cfg(test)]

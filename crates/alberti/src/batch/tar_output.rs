@@ -10,7 +10,8 @@
 use super::report::{JobRecord, REPORTS_FOLDER, ReportWriter, write_error};
 use super::tar_format::{append_file, finish_archive};
 use crate::CliError;
-use std::fs::{File, OpenOptions};
+use pipeline::shade::{create_partial_file, forget_partial_file};
+use std::fs::File;
 use std::io::{BufWriter, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -109,8 +110,8 @@ impl TarOutput {
     }
 
     fn create_tar(&self) -> Result<OpenTar, CliError> {
-        let file = OpenOptions::new().write(true).create(true).truncate(true).open(&self.partial);
-        let file = file.map_err(|cause| write_error(&self.partial, &cause))?;
+        let file = create_partial_file(&self.partial)
+            .map_err(|cause| write_error(&self.partial, &cause))?;
         Ok(OpenTar { writer: BufWriter::with_capacity(BUFFER_BYTES, file), records: Vec::new() })
     }
 
@@ -146,7 +147,9 @@ impl TarOutput {
                 // A file system without hard links.
                 Err(_) => std::fs::rename(&self.partial, &path),
             };
-            return named.map(|()| name).map_err(|cause| write_error(&path, &cause));
+            named.map_err(|cause| write_error(&path, &cause))?;
+            forget_partial_file(&self.partial);
+            return Ok(name);
         }
     }
 }

@@ -8,10 +8,11 @@ use super::tar_format::read_archive;
 use super::tar_output::sample_name;
 use crate::CliError;
 use crate::content_digest::{ContentDigest, parse_sha256};
-use crate::messages::print_stdout;
+use crate::messages::print_text;
+use model::visible_text;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, ErrorKind};
 use std::path::Path;
 
 /// The size of the buffer in which tar files are read.
@@ -39,11 +40,11 @@ pub(super) fn verify_jobs(
         for job in group?.jobs {
             let verdict = verifier.verify_job(&job, &keys.job_key(&job));
             if let Some(problem) = counts.count_verdict(&verdict) {
-                print_stdout(format!("{}: {problem}\n", job.output).as_bytes())?;
+                print_text(&format!("{}: {problem}\n", visible_text(&job.output)))?;
             }
         }
     }
-    print_stdout(format!("{}\n", counts.summary()).as_bytes())?;
+    print_text(&format!("{}\n", counts.summary()))?;
     Ok(counts.is_all_whole())
 }
 
@@ -170,7 +171,7 @@ impl<'a> Verifier<'a> {
     ) -> Verdict {
         let found = match tar {
             Some(tar) => self.picture_in_tar(output, tar),
-            None => match File::open(self.out_dir.join(output)) {
+            None => match open_file(&self.out_dir.join(output)) {
                 Err(_) => return Verdict::Missing("the picture is not there"),
                 Ok(file) if file.metadata().is_ok_and(|data| data.len() != recorded.bytes) => {
                     return Verdict::Wrong(format!(
@@ -200,10 +201,15 @@ impl<'a> Verifier<'a> {
     }
 }
 
+/// Opens a regular file; a pipe would be waited for.
+fn open_file(path: &Path) -> std::io::Result<File> {
+    if path.metadata()?.is_file() { File::open(path) } else { Err(ErrorKind::NotFound.into()) }
+}
+
 /// Size and SHA-256 of each picture in a tar file.
 fn read_tar(path: &Path) -> TarContent {
     let mut pictures = BTreeMap::new();
-    let file = File::open(path).map_err(|cause| cause.to_string())?;
+    let file = open_file(path).map_err(|cause| cause.to_string())?;
     let read = read_archive(&mut BufReader::with_capacity(BUFFER_BYTES, file), |name, content| {
         pictures.insert(record_hash(name, ""), ContentDigest::of_reader(content)?);
         Ok(())

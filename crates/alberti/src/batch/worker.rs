@@ -8,8 +8,9 @@ use super::worker_scene::SceneLoader;
 use crate::CliError;
 use crate::content_digest::hexadecimal_sha256;
 use crate::memory_limit::{limit_process_memory, parse_memory_size};
+use model::{visible_path, visible_text};
+use pipeline::shade::{create_partial_file, forget_partial_file};
 use pipeline::{RenderContext, Renderer, Textures};
-use std::fs::File;
 use std::io::{BufRead as _, ErrorKind, Write};
 use std::path::Path;
 use std::time::Instant;
@@ -133,7 +134,7 @@ impl Worker {
         picture: &PictureRequest,
     ) -> Result<RenderedPicture, PictureError> {
         if self.flags.as_ref().is_none_or(|(words, _)| *words != picture.flags) {
-            let flags = RenderFlags::parse(&picture.flags).map_err(CliError::Usage)?;
+            let flags = parse_flags(&picture.flags)?;
             self.flags = Some((picture.flags.clone(), flags));
         }
         let Some((_, flags)) = &self.flags else {
@@ -149,13 +150,21 @@ impl Worker {
     }
 }
 
+/// Parses flags; a value in the error of a wrong one is in a line.
+fn parse_flags(words: &[String]) -> Result<RenderFlags, CliError> {
+    RenderFlags::parse(words).map_err(|error| {
+        let visible: Vec<String> = words.iter().map(|word| visible_text(word).into()).collect();
+        CliError::Usage(RenderFlags::parse(&visible).err().unwrap_or(error))
+    })
+}
+
 /// Writes a picture whole or not at all: to a file of this worker alone, which then takes the
 /// picture's name.
 ///
 /// The folder of the picture is made only now, so that failed models leave no empty folders.
 fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureError> {
     let fault = |what: &Path, cause: std::io::Error| {
-        let message = format!("cannot write {}: {cause}", what.display());
+        let message = format!("cannot write {}: {cause}", visible_path(what));
         match cause.kind() {
             // The name is at fault, and with it the job.
             ErrorKind::InvalidFilename
@@ -167,17 +176,43 @@ fn write_picture(path: &Path, partial: &Path, png: &[u8]) -> Result<(), PictureE
         }
     };
     if let Some(folder) = path.parent() {
+        // The temporary file is in the folder of the reports, below the output folder.
+        if let Some(out_dir) = partial.parent().and_then(Path::parent) {
+            check_inside(path, folder, out_dir)?;
+        }
         std::fs::create_dir_all(folder).map_err(|cause| fault(folder, cause))?;
     }
-    let written = File::create(partial).and_then(|mut file| {
+    let written = create_partial_file(partial).and_then(|mut file| {
         file.write_all(png)?;
         // On the disk before the name: a crash leaves the old picture or the new one, whole.
         file.sync_all()?;
         std::fs::rename(partial, path)
     });
-    written.map_err(|cause| {
+    let written = written.map_err(|cause| {
         // Best effort: an error is on its way already.
         let _ = std::fs::remove_file(partial);
         fault(path, cause)
-    })
+    });
+    forget_partial_file(partial);
+    written
+}
+
+/// Checks that the folder of a picture is below the output folder, after symbolic links.
+///
+/// What of its path does not exist yet will be made of real folders.
+fn check_inside(path: &Path, folder: &Path, out_dir: &Path) -> Result<(), PictureError> {
+    let existing = folder.ancestors().find(|folder| folder.exists()).unwrap_or(folder);
+    let is_inside = match (existing.canonicalize(), out_dir.canonicalize()) {
+        (Ok(folder), Ok(out_dir)) => folder.starts_with(out_dir),
+        // The error of the system comes when the folder is made.
+        _ => true,
+    };
+    if is_inside {
+        return Ok(());
+    }
+    Err(PictureError::Place(format!(
+        "cannot write {}: a symbolic link leads out of the output folder\n  = help: remove the link, \
+         or choose another output",
+        visible_path(path)
+    )))
 }

@@ -7,6 +7,7 @@ use crate::CliError;
 use crate::memory_limit::import_limits;
 use crate::render::{is_scene_file, open_input};
 use model::ModelInstance;
+use model::visible_path;
 use pipeline::import::ImportOptions;
 use pipeline::{Origin, Scene, SceneFile};
 use std::path::Path;
@@ -99,14 +100,14 @@ fn open_scene_around(
     if is_scene_file(input) {
         return Err(CliError::Usage(format!(
             "{} is a scene itself and no model for {}",
-            input.display(),
-            scene.display()
+            visible_path(input),
+            visible_path(scene)
         )));
     }
     let (origin, mut file) = Origin::read_scene_allowing(scene, &import.allow_outside)?;
     let input = std::path::absolute(input)?;
     let path = input.to_str().ok_or_else(|| {
-        CliError::Usage(format!("the name {} is not UTF-8: rename the file", input.display()))
+        CliError::Usage(format!("the name {} is not UTF-8: rename the file", visible_path(&input)))
     })?;
     let mut is_there = false;
     for model in file.models.iter_mut().filter(|model| model.path == INPUT_PATH) {
@@ -117,7 +118,7 @@ fn open_scene_around(
         return Err(CliError::Usage(format!(
             "the scene {} has no place for the input\n  = help: add one: models: [Model(path: \
              \"{INPUT_PATH}\")]",
-            scene.display()
+            visible_path(scene)
         )));
     }
     import.allow_outside.push(input);

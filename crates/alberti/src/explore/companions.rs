@@ -7,6 +7,7 @@ use crate::CliError;
 use crate::referenced_files::referenced_files;
 use crate::render::is_scene_file;
 use model::import::Limits;
+use model::visible_path;
 use pipeline::scene::parse_scene;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -29,7 +30,7 @@ impl ModelFiles {
     /// If the model cannot be read, or all together are larger than models may be.
     pub(super) fn read(path: &Path) -> Result<Self, CliError> {
         let cannot_read =
-            |error: Error| CliError::Usage(format!("cannot read {}: {error}", path.display()));
+            |error: Error| CliError::Usage(format!("cannot read {}: {error}", visible_path(path)));
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let bytes = read_file(path).map_err(cannot_read)?;
         let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());

@@ -1,22 +1,33 @@
 //! Connections: a thread for each, few at once, and none that can wait for long.
 //!
-//! A browser, or anything else on the machine, may open connections and send nothing. When there
-//! are too many, the one that has waited longest for its request is closed: a new one that sends its
-//! request at once is answered however many are silent.
+//! A browser, or anything else on the machine, may open connections and send nothing, or ask and not
+//! take the answer. When there are too many, the one that has waited longest for its request is
+//! closed, or else the one that has taken its answer for longest: a new one that sends its request
+//! at once is answered however many are silent or slow.
 
 use super::CliError;
 use super::request::{parse_request, read_head};
-use super::site::Site;
+use super::response::Response;
+use super::site::{Site, Visitor};
 use std::collections::VecDeque;
+use std::io::{ErrorKind, Read as _, Write as _};
 use std::net::{Shutdown, TcpListener, TcpStream};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Connections at once.
 const MAX_CONNECTIONS: usize = 64;
 
-/// Time in which a piece of a response must have been taken.
-const WRITE_TIME: Duration = Duration::from_secs(30);
+/// Bytes of computed answers that have not been taken yet, of all connections: two of the largest
+/// pictures.
+const MAX_UNTAKEN_BYTES: usize = 512 << 20;
+
+/// Time in which any response must have been taken, and more for each MiB of it.
+const WRITE_TIME: Duration = Duration::from_secs(20);
+const TIME_PER_MIB: Duration = Duration::from_secs(1);
+
+/// Bytes that are written at once: between two pieces the time is checked.
+const PIECE_BYTES: usize = 256 << 10;
 
 /// Pause after the system refuses a connection or a thread, so that it is not asked in a loop.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -29,7 +40,18 @@ struct Connections {
     /// How many there have been: the next one's number.
     accepted: u64,
     /// Those whose request has not come yet, the oldest first.
-    waiting: VecDeque<(u64, TcpStream)>,
+    silent: VecDeque<Closable>,
+    /// Those whose response is being written, the oldest first.
+    taking: VecDeque<Closable>,
+}
+
+/// A connection as another one may close it.
+#[derive(Debug)]
+struct Closable {
+    number: u64,
+    stream: TcpStream,
+    /// Bytes of memory that are freed with it.
+    bytes: usize,
 }
 
 /// A connection, counted as long as it lives.
@@ -62,20 +84,48 @@ pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(),
     }
 }
 
+impl Connections {
+    /// Closes the oldest connection that nobody would miss; false if there is none.
+    ///
+    /// Its thread wakes up, and takes it off the count.
+    fn close_oldest(&mut self) -> bool {
+        let oldest = self.silent.pop_front().or_else(|| self.taking.pop_front());
+        oldest.is_some_and(|oldest| {
+            // It may have been closed already.
+            let _ = oldest.stream.shutdown(Shutdown::Both);
+            true
+        })
+    }
+
+    /// Closes the oldest of those that take their answers until there is room for another answer.
+    fn make_room_for(&mut self, bytes: usize) {
+        let mut untaken: usize = self.taking.iter().map(|taking| taking.bytes).sum();
+        while untaken + bytes > MAX_UNTAKEN_BYTES {
+            let Some(oldest) = self.taking.pop_front() else { return };
+            let _ = oldest.stream.shutdown(Shutdown::Both);
+            untaken -= oldest.bytes;
+        }
+    }
+
+    /// Takes a connection off the lists of those that may be closed.
+    fn keep_open(&mut self, number: u64) {
+        self.silent.retain(|closable| closable.number != number);
+        self.taking.retain(|closable| closable.number != number);
+    }
+}
+
 impl Connection {
-    /// Counts a connection; closes the oldest silent one, or this one, if there are too many.
+    /// Counts a connection; closes another one, or this one, if there are too many.
     fn admit(stream: TcpStream, all: &Arc<Mutex<Connections>>) -> Option<Self> {
-        let waiting = stream.try_clone().ok()?;
+        let silent = stream.try_clone().ok()?;
         let mut connections = all.lock().unwrap_or_else(PoisonError::into_inner);
-        if connections.count >= MAX_CONNECTIONS {
-            // Its thread wakes up, and takes it off the count.
-            let (_, oldest) = connections.waiting.pop_front()?;
-            let _ = oldest.shutdown(Shutdown::Both);
+        if connections.count >= MAX_CONNECTIONS && !connections.close_oldest() {
+            return None;
         }
         let number = connections.accepted;
         connections.accepted += 1;
         connections.count += 1;
-        connections.waiting.push_back((number, waiting));
+        connections.silent.push_back(Closable { number, stream: silent, bytes: 0 });
         drop(connections);
         Some(Self { number, stream, all: Arc::clone(all) })
     }
@@ -83,36 +133,79 @@ impl Connection {
     /// Reads the request and writes the response.
     fn answer(mut self, port: u16, site: &Site) {
         let head = read_head(&mut self.stream);
-        self.stop_waiting();
+        self.lock().keep_open(self.number);
         let request = match head {
             Ok(head) => parse_request(&head, port),
             Err(Some(response)) => Err(response),
             Err(None) => return,
         };
-        if self.stream.set_write_timeout(Some(WRITE_TIME)).is_err() {
-            return;
-        }
         // A client that has gone takes nothing.
         let _ = match request {
-            Ok(request) => {
-                let response = site.respond(&request);
-                response.write_to(&mut self.stream, request.is_head)
-            }
-            Err(response) => response.write_to(&mut self.stream, false),
+            Ok(request) => match site.respond(&request, &mut self) {
+                Some(response) => self.write(&response, request.is_head),
+                None => Ok(()),
+            },
+            Err(response) => self.write(&response, false),
         };
     }
 
-    /// Takes the connection off the list of those that may be closed.
-    fn stop_waiting(&self) {
-        let mut connections = self.all.lock().unwrap_or_else(PoisonError::into_inner);
-        connections.waiting.retain(|(number, _)| *number != self.number);
+    /// Writes a response, as long as its client takes it.
+    fn write(&mut self, response: &Response<'_>, is_head: bool) -> std::io::Result<()> {
+        let body = if is_head { &[] } else { response.bytes() };
+        let mebibytes = u32::try_from(body.len() >> 20).unwrap_or(u32::MAX);
+        let deadline = Instant::now() + WRITE_TIME + TIME_PER_MIB * mebibytes;
+        let stream = self.stream.try_clone()?;
+        let bytes = response.owned_bytes();
+        let mut connections = self.lock();
+        connections.make_room_for(bytes);
+        connections.taking.push_back(Closable { number: self.number, stream, bytes });
+        drop(connections);
+        self.write_until(deadline, response.head().as_bytes())?;
+        self.write_until(deadline, body)
+    }
+
+    /// Writes bytes in pieces; a client that takes them too slowly is an error.
+    fn write_until(&mut self, deadline: Instant, mut bytes: &[u8]) -> std::io::Result<()> {
+        while !bytes.is_empty() {
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Err(ErrorKind::TimedOut.into());
+            }
+            self.stream.set_write_timeout(Some(left))?;
+            match self.stream.write(&bytes[..bytes.len().min(PIECE_BYTES)]) {
+                Ok(0) => return Err(ErrorKind::WriteZero.into()),
+                Ok(count) => bytes = &bytes[count..],
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Connections> {
+        self.all.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Visitor for Connection {
+    /// Whether the client still waits: it has closed neither the connection nor its half of it.
+    fn is_there(&mut self) -> bool {
+        if self.stream.set_nonblocking(true).is_err() {
+            return false;
+        }
+        // What follows a request is not read: there is one for each connection.
+        let is_there = match self.stream.read(&mut [0; 2048]) {
+            Ok(count) => count > 0,
+            Err(error) => matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted),
+        };
+        self.stream.set_nonblocking(false).is_ok() && is_there
     }
 }
 
 impl Drop for Connection {
     fn drop(&mut self) {
-        self.stop_waiting();
-        let mut connections = self.all.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut connections = self.lock();
+        connections.keep_open(self.number);
         connections.count -= 1;
     }
 }

@@ -1,7 +1,6 @@
 //! Responses: a status, a type and bytes, and the headers that every one of them has.
 
 use std::borrow::Cow;
-use std::io::{self, Write};
 
 /// The resources that a page of this server may load: none of any other host.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
@@ -31,22 +30,33 @@ impl<'a> Response<'a> {
         Self { status, content_type, bytes: Cow::Borrowed(text.as_bytes()) }
     }
 
-    /// Writes the response, without its bytes if only the headers were asked for.
-    ///
-    /// # Errors
-    /// If the connection is closed or too slow.
-    pub(super) fn write_to(&self, stream: &mut impl Write, is_head: bool) -> io::Result<()> {
+    /// The bytes after the headers.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// How many of them are held in memory for this response alone.
+    pub(super) fn owned_bytes(&self) -> usize {
+        match &self.bytes {
+            Cow::Owned(bytes) => bytes.len(),
+            Cow::Borrowed(_) => 0,
+        }
+    }
+
+    /// The first line and the headers.
+    pub(super) fn head(&self) -> String {
         let reason = match self.status {
             200 => "OK",
+            403 => "Forbidden",
             404 => "Not Found",
             405 => "Method Not Allowed\r\nAllow: GET, HEAD",
             421 => "Misdirected Request",
             431 => "Request Header Fields Too Large",
-            403 => "Forbidden",
+            500 => "Internal Server Error",
             503 => "Service Unavailable",
             _ => "Bad Request",
         };
-        let head = format!(
+        format!(
             "HTTP/1.1 {} {reason}\r\nContent-Type: {}\r\nContent-Length: {}\r\n\
              Content-Security-Policy: {CONTENT_SECURITY_POLICY}\r\nCache-Control: no-store\r\n\
              X-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\
@@ -54,11 +64,6 @@ impl<'a> Response<'a> {
             self.status,
             self.content_type,
             self.bytes.len()
-        );
-        stream.write_all(head.as_bytes())?;
-        if !is_head {
-            stream.write_all(&self.bytes)?;
-        }
-        stream.flush()
+        )
     }
 }

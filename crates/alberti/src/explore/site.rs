@@ -2,8 +2,10 @@
 
 use super::companions::ModelFiles;
 use super::embedded::{content_type, embedded_files};
+use super::lane::{Lane, Unanswered};
 use super::request::Request;
 use super::response::Response;
+use super::token::strip_token;
 use crate::CliError;
 use crate::render::is_scene_file;
 use explorer::{Explorer, ExplorerError};
@@ -11,7 +13,6 @@ use model::import::percent_encode;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 
 /// The page itself, also the answer to an empty path.
 const INDEX: &str = "index.html";
@@ -20,8 +21,18 @@ const INDEX: &str = "index.html";
 pub(super) struct Site {
     /// All files by their paths in addresses: the page, the models of the lessons, the model given.
     files: BTreeMap<String, Vec<u8>>,
-    /// One explorer for all requests: it keeps models and scenes between them.
-    explorer: Mutex<Explorer>,
+    /// The first part of every path.
+    token: String,
+    /// Answers questions for numbers and sentences, which take little time.
+    small: Lane,
+    /// Answers questions for pictures and drawings.
+    large: Lane,
+}
+
+/// Who has sent a request.
+pub(super) trait Visitor {
+    /// Whether the client still waits for the answer.
+    fn is_there(&mut self) -> bool;
 }
 
 impl Site {
@@ -29,7 +40,7 @@ impl Site {
     ///
     /// # Errors
     /// If it cannot be read or shown.
-    pub(super) fn prepare(model: Option<&Path>) -> Result<Self, CliError> {
+    pub(super) fn prepare(model: Option<&Path>, token: String) -> Result<Self, CliError> {
         let mut files = embedded_files();
         let mut explorer = Explorer::new();
         for (path, bytes) in files.iter().filter(|(path, _)| path.starts_with("models/")) {
@@ -52,19 +63,28 @@ impl Site {
             *page = with_server_info(&String::from_utf8_lossy(page), &said.to_string()).into();
         }
         files.extend(given.files.into_iter().map(|(name, bytes)| (format!("files/{name}"), bytes)));
-        Ok(Self { files, explorer: Mutex::new(explorer) })
+        let (small, large) = (start_lane(explorer.sibling())?, start_lane(explorer)?);
+        Ok(Self { files, token, small, large })
     }
 
-    /// The response to a request.
-    pub(super) fn respond(&self, request: &Request) -> Response<'_> {
-        let path = if request.path.is_empty() { INDEX } else { request.path.as_str() };
+    /// The response to a request; none if nobody waits for it any more.
+    pub(super) fn respond(
+        &self,
+        request: &Request,
+        visitor: &mut impl Visitor,
+    ) -> Option<Response<'_>> {
+        let Some(path) = strip_token(&request.path, &self.token) else {
+            let text = "Open the whole address that `alberti explore` has printed: it is secret.";
+            return Some(Response::text(403, text));
+        };
+        let path = if path.is_empty() { INDEX } else { path };
         if path == "compute" {
-            return self.compute(&request.query);
+            return self.compute(&request.query, visitor);
         }
-        match self.files.get(path) {
+        Some(match self.files.get(path) {
             Some(bytes) => Response::ok(content_type(path), bytes.as_slice()),
             None => Response::text(404, "There is no such file."),
-        }
+        })
     }
 
     /// The explorer's answer to a query.
@@ -72,16 +92,34 @@ impl Site {
     /// An error of the explorer is an answer like any other, told by its type: browsers write every
     /// response with another status than 200 to the console, and a value that cannot be drawn is no
     /// fault of the page.
-    fn compute(&self, query: &str) -> Response<'_> {
-        let answer = self.explorer.lock().unwrap_or_else(PoisonError::into_inner).answer(query);
-        match answer {
-            Ok(answer) => Response::ok(answer.content_type, answer.bytes),
-            Err(ExplorerError { code, message, help }) => {
+    fn compute(&self, query: &str, visitor: &mut impl Visitor) -> Option<Response<'_>> {
+        let lane = if draws(query) { &self.large } else { &self.small };
+        Some(match lane.ask(query, || visitor.is_there()) {
+            Ok(Ok(answer)) => Response::ok(answer.content_type, answer.bytes),
+            Ok(Err(ExplorerError { code, message, help })) => {
                 let error = json!({ "code": code, "message": message, "help": help });
                 Response::ok("application/problem+json", error.to_string().into_bytes())
             }
-        }
+            Err(Unanswered::Busy) => Response::text(503, "Too many others wait; ask again later."),
+            Err(Unanswered::Failed) => Response::text(500, "The computation has failed."),
+            Err(Unanswered::Abandoned) => return None,
+        })
     }
+}
+
+/// Whether a query asks for pixels or lines.
+fn draws(query: &str) -> bool {
+    let asked = query.split('&').find_map(|pair| pair.strip_prefix("what="));
+    !matches!(asked, None | Some("lessons" | "state" | "depth" | "pick"))
+}
+
+fn start_lane(explorer: Explorer) -> Result<Lane, CliError> {
+    Lane::start(explorer).map_err(|error| {
+        CliError::Usage(format!(
+            "cannot start a thread: {error}\n  = help: end other programs, or raise the limit of \
+             processes"
+        ))
+    })
 }
 
 fn as_cli_error(error: ExplorerError) -> CliError {

@@ -9,6 +9,7 @@ use crate::format::OutputFormat;
 use crate::scene_overrides::SceneOverrideArgs;
 use crate::template::NameTemplate;
 use clap::ValueEnum;
+use model::visible_path;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -140,8 +141,8 @@ fn check_distinct_outputs(jobs: &[RenderTask]) -> Result<(), CliError> {
     for job in jobs {
         let Some(output) = job.output.as_deref() else { continue };
         if let Some(first) = taken.insert(output, job) {
-            let [first, second] = [first, job].map(|job| job.input.display());
-            let output = output.display();
+            let [first, second] = [first, job].map(|job| visible_path(&job.input));
+            let output = visible_path(output);
             return Err(CliError::Usage(format!(
                 "the pictures of {first} and {second} would both be written to {output}\n  = help: use a template such as -o '{{stem}}_{{index}}.png'"
             )));

@@ -1,6 +1,7 @@
 //! `alberti scene fmt`: formats scene files.
 
-use crate::{CliError, print_stdout};
+use crate::{CliError, print_stdout, print_text};
+use model::visible_path;
 use pipeline::scene::format_source;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
         let better = format_source(&name, &text).map_err(pipeline::ResolveError::from)?;
         let same = better == text;
         if !same {
-            differ.push(name);
+            differ.push(visible_path(path));
         }
         match (args.check, path.as_os_str() == "-") {
             (true, _) => {}
@@ -44,7 +45,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, CliError> {
     if !args.check || differ.is_empty() {
         return Ok(ExitCode::SUCCESS);
     }
-    print_stdout(format!("{}\n", differ.join("\n")).as_bytes())?;
+    print_text(&format!("{}\n", differ.join("\n")))?;
     Ok(ExitCode::FAILURE)
 }
 
@@ -59,6 +60,6 @@ fn read_source(path: &Path) -> Result<String, CliError> {
     } else {
         std::fs::read_to_string(path).map(|read| text = read)
     };
-    read.map_err(|cause| CliError::Usage(format!("cannot read {}: {cause}", path.display())))?;
+    read.map_err(|cause| CliError::Usage(format!("cannot read {}: {cause}", visible_path(path))))?;
     Ok(text)
 }

@@ -13,8 +13,8 @@
 //! ```
 
 use crate::load_options::LoadArgs;
-use crate::{CliError, print_message, print_stdout};
-use model::{Model, Topology};
+use crate::{CliError, print_message, print_text};
+use model::{Model, Topology, visible_path};
 use pipeline::scene::{ResolveOptions, format_source};
 use pipeline::{Origin, ResolveError, Scene};
 use std::fmt::Write as _;
@@ -48,7 +48,7 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.model.with_extension("ron"));
     let to_stdout = output.as_os_str() == "-";
     if !to_stdout && !args.force && output.exists() {
-        let name = output.display();
+        let name = visible_path(&output);
         return Err(CliError::Usage(format!(
             "{name} already exists\n  = help: choose another name with -o FILE, or replace it with --force"
         )));
@@ -65,13 +65,13 @@ pub(crate) fn run(args: &InitArgs) -> Result<(), CliError> {
         starter_scene(&path, &output.display().to_string(), &scene, args.load_options.crease);
     let text = format_source(&path, &text).map_err(ResolveError::from)?;
     if to_stdout {
-        print_stdout(text.as_bytes())?;
+        print_text(&text)?;
     } else {
         pipeline::write_file(&output, text.as_bytes())?;
-        print_stdout(format!("{}\n", output.display()).as_bytes())?;
+        print_text(&format!("{}\n", visible_path(&output)))?;
     }
     if path.starts_with("..") || Path::new(&path).is_absolute() {
-        let folder = args.model.parent().unwrap_or(Path::new(".")).display();
+        let folder = visible_path(args.model.parent().unwrap_or(Path::new(".")));
         let message = format!(
             "the model is not below the scene's folder: commands that read the scene need --allow-outside {folder}"
         );

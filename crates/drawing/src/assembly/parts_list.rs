@@ -155,7 +155,13 @@ impl PartsList {
 }
 
 /// A field of a CSV file, in quotation marks where it needs them.
+///
+/// Spreadsheets run what begins as a formula, wherever the file comes from: an apostrophe before it
+/// makes it a text.
 fn csv_field(text: &str) -> String {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        return format!("\"'{}\"", text.replace('"', "\"\""));
+    }
     let needs_quotes = text.contains([',', '"', '\r', '\n']) || text.trim() != text;
     if needs_quotes { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
@@ -249,10 +255,21 @@ mod tests {
 
     #[test]
     fn fields_of_a_csv_file_are_quoted() {
-        for (text, field) in
-            [("plain", "plain"), ("a, b", "\"a, b\""), ("3\" pipe", "\"3\"\" pipe\"")]
-        {
+        for (text, field) in [
+            ("plain", "plain"),
+            ("a, b", "\"a, b\""),
+            ("3\" pipe", "\"3\"\" pipe\""),
+            ("a=b", "a=b"),
+        ] {
             assert_eq!(csv_field(text), field);
         }
+    }
+
+    #[test]
+    fn no_field_of_a_csv_file_is_a_formula() {
+        for text in ["=1+1", "+1", "-1", "@sum(a1)", "\tx", "\rx"] {
+            assert_eq!(csv_field(text), format!("\"'{text}\""));
+        }
+        assert_eq!(csv_field("=a(\"b\")"), "\"'=a(\"\"b\"\")\"");
     }
 }

@@ -1,6 +1,7 @@
 //! Import errors: the diagnostic that stopped loading, and constructors for the common kinds.
 
 use crate::diagnostic::{Diagnostic, codes};
+use crate::visible_text::visible_path;
 use std::path::PathBuf;
 
 /// A file could not be loaded.
@@ -8,7 +9,7 @@ use std::path::PathBuf;
 /// Displayed as `cube.gltf: /buffers/0/uri: the file "cube0.bin" does not exist; put it beside the
 /// glTF file`.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-#[error("{}: {}", file.display(), diagnostic.sentence())]
+#[error("{}: {}", visible_path(file), diagnostic.sentence())]
 #[non_exhaustive]
 pub struct ImportError {
     /// The file that was to be loaded.

@@ -4,6 +4,7 @@
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use core::fmt;
 use core::ops::Range;
+use model::visible_text;
 
 /// A mistake in a scene file.
 ///
@@ -50,25 +51,28 @@ impl SceneError {
         if !self.source.is_empty() {
             return self.to_snippet(colors);
         }
-        let mut place = self.file.clone();
+        let mut place = visible_text(&self.file).into_owned();
         if !self.source.is_empty() {
             let (line, column) = self.line_and_column();
             place = format!("{place}:{line}:{column}");
         }
-        let help = self.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
-        format!("{place}: {}{help}", self.message)
+        let help = self.help.as_deref().map_or(String::new(), |help| {
+            let help = visible_text(help);
+            format!("\n  = help: {help}")
+        });
+        format!("{place}: {}{help}", visible_text(&self.message))
     }
 
     /// The message with the line and the caret.
     #[cfg(feature = "terminal")]
     fn to_snippet(&self, colors: bool) -> String {
+        let [file, message] = [&self.file, &self.message].map(|text| visible_text(text));
         let snippet = Snippet::source(self.source.as_str())
-            .path(self.file.as_str())
+            .path(&*file)
             .annotation(AnnotationKind::Primary.span(self.first_line_of_span()));
-        let mut group: Group<'_> =
-            Level::ERROR.no_name().primary_title(self.message.as_str()).element(snippet);
+        let mut group: Group<'_> = Level::ERROR.no_name().primary_title(&*message).element(snippet);
         if let Some(help) = &self.help {
-            group = group.element(Level::HELP.message(help.as_str()));
+            group = group.element(Level::HELP.message(visible_text(help)));
         }
         let renderer = if colors { Renderer::styled() } else { Renderer::plain() };
         renderer.render(&[group])

@@ -1,0 +1,78 @@
+//! The secret in the address of the server.
+//!
+//! Every user of the machine can connect to the loopback address. Only who has been told the
+//! address, which begins with the token, is answered.
+
+use super::CliError;
+
+/// Bytes of randomness in a token: too many to be guessed.
+const TOKEN_BYTES: usize = 16;
+
+/// A new token, in hexadecimal digits.
+///
+/// # Errors
+/// If the system has no random bytes.
+pub(super) fn new_token() -> Result<String, CliError> {
+    let bytes = random_bytes().map_err(|error| {
+        CliError::Usage(format!(
+            "cannot read random bytes from the system: {error}\n  = help: the address of the page \
+             must be secret; check that /dev/urandom can be read"
+        ))
+    })?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+#[cfg(unix)]
+fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
+    use std::io::Read as _;
+    let mut bytes = [0; TOKEN_BYTES];
+    std::fs::File::open("/dev/urandom")?.read_exact(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The standard library has no random bytes, but keys its hashes of maps with those of the system:
+/// what a key makes of a number cannot be guessed without the key.
+#[cfg(not(unix))]
+fn random_bytes() -> std::io::Result<[u8; TOKEN_BYTES]> {
+    use std::hash::{BuildHasher as _, RandomState};
+    let key = RandomState::new();
+    let mut bytes = [0; TOKEN_BYTES];
+    for (number, part) in bytes.chunks_exact_mut(8).enumerate() {
+        part.copy_from_slice(&key.hash_one(number).to_le_bytes());
+    }
+    Ok(bytes)
+}
+
+/// What follows the token in a path, without the slash between them; nothing if the path does not
+/// begin with the token.
+///
+/// The time of the comparison does not tell how many digits are right.
+pub(super) fn strip_token<'a>(path: &'a str, token: &str) -> Option<&'a str> {
+    let (given, rest) = path.split_once('/')?;
+    let pairs = given.bytes().zip(token.bytes());
+    let difference = pairs.fold(0, |sum, (given, right)| sum | (given ^ right));
+    (given.len() == token.len() && difference == 0).then_some(rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tokens_differ_and_have_32_digits() {
+        let tokens = [new_token().expect("a token"), new_token().expect("another")];
+        assert_ne!(tokens[0], tokens[1]);
+        for token in tokens {
+            assert!(token.len() == 32 && token.bytes().all(|digit| digit.is_ascii_hexdigit()));
+        }
+    }
+
+    #[test]
+    fn only_the_whole_token_opens_a_path() {
+        assert_eq!(strip_token("abc/main.js", "abc"), Some("main.js"));
+        assert_eq!(strip_token("abc/", "abc"), Some(""));
+        for path in ["", "abc", "main.js", "ab/main.js", "abd/main.js", "abcd/main.js", "/abc/"] {
+            assert_eq!(strip_token(path, "abc"), None, "{path}");
+        }
+    }
+}

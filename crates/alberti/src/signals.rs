@@ -1,0 +1,40 @@
+//! Signals that ask the program to end: what it was writing is removed first.
+
+/// Lets SIGINT, SIGTERM and SIGHUP remove the temporary files of the program before they end it.
+///
+/// For a process of its own: within another program, such as Python, signals are not this one's.
+/// Signals that were ignored at the start, as `nohup` does, stay so. Without a thread for them they
+/// end the program at once.
+#[cfg(unix)]
+pub fn clean_up_on_signals() {
+    use pipeline::shade::remove_partial_files;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let heard = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(heard) else { return };
+    let handle = signals.handle();
+    let wait = move || {
+        if let Some(signal) = signals.forever().next() {
+            remove_partial_files(|| {
+                // As without a handler: the exit status names the signal. It does not return.
+                let _ = signal_hook::low_level::emulate_default_handler(signal);
+            });
+        }
+    };
+    if std::thread::Builder::new().name("signals".to_owned()).spawn(wait).is_err() {
+        handle.close();
+    }
+}
+
+/// Other systems have no such signals.
+#[cfg(not(unix))]
+pub const fn clean_up_on_signals() {}
+
+/// Whether the process was started with a signal ignored. Only Linux tells it without a call that
+/// changes it: elsewhere no signal counts as ignored.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask & (1 << (signal - 1)) != 0)
+}
