@@ -38,6 +38,7 @@ mod exercise;
 mod explain;
 mod explore;
 mod format;
+mod help_groups;
 mod info;
 mod light;
 mod load_options;
@@ -68,11 +69,14 @@ mod sweep;
 mod template;
 mod terminal_image;
 mod thumbnailer;
+mod unused_flags;
+mod usage_advice;
+mod viewpoint;
 
 pub use program::run_within;
 
 use args::{Args, Command};
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, FromArgMatches as _};
 use deferred::Deferred;
 use error::CliError;
 use messages::{print_message, print_note, print_stdout};
@@ -90,9 +94,17 @@ use std::process::ExitCode;
 /// failure; they have then printed it themselves, without `error:`.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words = negative_numbers::join_negative_numbers(arguments, Args::command);
-    let args = match Args::try_parse_from(words) {
+    let program = help_groups::group_commands(Args::command());
+    let parsed = program.try_get_matches_from(&words).and_then(|matches| {
+        let args = Args::from_arg_matches(&matches);
+        args.map_err(|error| error.format(&mut Args::command()))
+    });
+    let args = match parsed {
         Ok(args) => args,
         Err(usage) => {
+            let mut program = Args::command();
+            program.build();
+            let usage = usage_advice::advise(usage, &words, &program);
             // Nothing can be said about a stream that takes no text.
             let _ = usage.print();
             return u8::try_from(usage.exit_code()).unwrap_or(2);
