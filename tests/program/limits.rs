@@ -60,9 +60,9 @@ fn included_files_have_a_limit_together() {
     let sandbox = Sandbox::new("many_includes");
     sandbox.copy_model("crate.glb");
     let model = "(path: \"crate.glb\"),".repeat(50_000);
-    sandbox.write_file("large.ron", &format!("Scene(models: [{model}])"));
+    sandbox.write_file("large.ron", format!("Scene(models: [{model}])"));
     let includes = vec!["\"large.ron\""; 60].join(", ");
-    sandbox.write_file("scene.ron", &format!("Scene(include: [{includes}])"));
+    sandbox.write_file("scene.ron", format!("Scene(include: [{includes}])"));
     let run = sandbox.run(&["render", "scene.ron", "-o", "picture.png"]);
     assert_eq!(run.code, 1);
     let message = "the included files have more than 4194304 bytes together";

@@ -11,10 +11,11 @@ mod frame_sink;
 
 use super::CliError;
 use super::load_options::LoadArgs;
-use super::messages::print_warnings;
+use super::messages::{print_message, print_warnings};
 use super::progress::ProgressCounter;
 use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
+use super::unused_flags::find_unused_overrides;
 use frame_sink::FrameSink;
 use model::ModelInstance;
 use pipeline::scene::file::{Choice, Finite, SceneFile};
@@ -74,7 +75,9 @@ pub(crate) struct AnimateArgs {
 /// several frames does not exist then; of PNG files, those of the finished frames do.
 pub(crate) fn run(args: &AnimateArgs) -> Result<(), CliError> {
     let (origin, file, scene) = args.overrides.open_scene(&args.input, &args.load_options)?;
-    print_warnings(&scene, &[]);
+    let unused = find_unused_overrides(&args.overrides, &scene, false);
+    unused.iter().for_each(|warning| print_message("warning", warning));
+    print_warnings(&scene, &[], false);
     let film = args.build_sequence(&origin, &file, scene)?;
     let mut sink = FrameSink::open(&args.input, &args.output, &film, args.fps)?;
     let counter = ProgressCounter::start(film.frame_count());

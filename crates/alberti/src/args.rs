@@ -51,24 +51,29 @@ const HELP_EXAMPLES: &str = "\
 Examples:
   alberti render model.glb                        a picture in model.png, framed and lit
   alberti render model.glb --view front --size 512x512 -o thumb.png
-  alberti render scene.ron                        a scene: models, camera, lights, style
+  alberti render model.glb --azimuth 30 --elevation 20 --style toon
   alberti render model.glb -o model.svg           a line drawing with hidden lines removed
+  alberti render scene.ron                        a scene: models, camera, lights, style
+  alberti animate model.glb --turntable -o turn.png
+  alberti batch models --out-dir thumbs --size 256x256
+
   alberti sheet model.glb --paper a4              front, top, side and isometric view, to scale
-  alberti info model.glb                          the contents of a model
   alberti sheet part.stl --paper a4 --unit mm     a part in its true size, or to scale
-  alberti check model.glb                         validation against the glTF specification
-  alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
-  alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
-  alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
-  alberti explore model.glb                       the same live, in a browser on this machine
-  alberti exercise 3 --answer 'A=1; B=0'          an answer to an exercise, checked
   alberti compare-projections model.glb           isometric, cavalier, two-point …, side by side
   alberti sweep model.glb --vary dolly --from 3 --to 12
   alberti curve depth --near 0.1 --far 1000 -o depth.svg
-  alberti demo wrap-around                        why clipping comes before the perspective divide
-  alberti animate model.glb --turntable -o turn.png
-  alberti batch models --out-dir thumbs --size 256x256
+
+  alberti info model.glb                          the contents of a model
+  alberti check model.glb                         validation against the glTF specification
   alberti scene init model.glb                    a scene file to start from
+
+  alberti explain model.glb --point 0,1,0         a point through every stage of the pipeline
+  alberti explore model.glb                       the same live, in a browser on this machine
+  alberti matrix 1 0 0 0 …                        the transform or projection a matrix is
+  alberti matrix --perspective 60,16/9,0.1,100    a matrix from parameters, or as code
+  alberti exercise 3 --answer 'A=1; B=0'          an answer to an exercise, checked
+  alberti demo wrap-around                        why clipping comes before the perspective divide
+
   alberti reference camera                        the meaning of a field or a flag
 
 Exit codes:
@@ -140,25 +145,26 @@ pub(crate) struct RenderArgs {
     /// are replaced by the input's name and the flags, {frame} by the index of the picture among
     /// those of its input, {index} by its index among all. Indices start at 0; {index:04} has four
     /// digits. Write {{ and }} for braces.
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(help_heading = "Output", short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
     /// Output format [default: from the file extension; png on the standard output]
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub(crate) format: Option<OutputFormat>,
     /// Render one picture from each of these directions, such as front,right,top,iso
     #[arg(
+        help_heading = "Camera",
         long,
         value_name = "VIEWS",
         value_delimiter = ',',
         value_parser = named_view_parser(),
-        conflicts_with_all = ["view", "camera"]
+        conflicts_with_all = ["view", "camera", "azimuth", "elevation", "eye", "extrinsics", "pose"]
     )]
     pub(crate) views: Vec<NamedView>,
     /// One scale for all --views: the same length is equally long in all pictures of an input
     ///
     /// The scale is the least at which each view fits. It needs a parallel projection, such as
     /// --projection orthographic.
-    #[arg(long, requires = "views")]
+    #[arg(help_heading = "Camera", long, requires = "views")]
     pub(crate) same_scale: bool,
     #[command(flatten)]
     pub(crate) overrides: SceneOverrideArgs,
@@ -171,21 +177,21 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) dxf: DxfArgs,
     /// Number of threads; the picture does not depend on it [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(help_heading = "Output", long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
     /// Print the time of each stage
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub(crate) timings: bool,
     /// Compare the line drawing with a z-buffer image and print the fraction that disagrees
     ///
     /// The fraction is the length of lines drawn as visible that the z-buffer hides.
-    #[arg(long)]
+    #[arg(help_heading = "Lines", long)]
     pub(crate) verify: bool,
     /// Print a JSON report: size, camera, models, times, warnings, files with their SHA-256
-    #[arg(long)]
+    #[arg(help_heading = "Output", long)]
     pub(crate) json: bool,
     /// Print the picture in the terminal, by kitty's graphics protocol or as half blocks
-    #[arg(long, conflicts_with = "json")]
+    #[arg(help_heading = "Output", long, conflicts_with = "json")]
     pub(crate) show: bool,
     #[command(flatten)]
     pub(crate) load_options: LoadArgs,
@@ -236,7 +242,7 @@ pub(crate) enum StyleArg {
     Depth,
     /// Checkerboard of texture coordinates
     Uv,
-    /// A distinct color for each part
+    /// A distinct color for each mesh primitive
     Ids,
     /// Cel shading: material colors in three steps of light, with outlines
     Toon,

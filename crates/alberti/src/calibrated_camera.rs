@@ -16,6 +16,7 @@ pub(crate) struct CalibratedCameraArgs {
     /// Or all nine numbers of the matrix K, row by row. They are for pictures of the size of this
     /// one.
     #[arg(
+        help_heading = "Camera",
         long,
         value_name = "FX,FY,CX,CY",
         value_parser = parse_intrinsics,
@@ -24,28 +25,30 @@ pub(crate) struct CalibratedCameraArgs {
     )]
     intrinsics: Option<ProjectionFile>,
     /// Origin of the principal point of --intrinsics [default: integer]
-    #[arg(long, value_parser = option_parser::<PixelCenters>(), requires = "intrinsics")]
+    #[arg(help_heading = "Camera", long, value_parser = option_parser::<PixelCenters>(), requires = "intrinsics")]
     pixel_centers: Option<PixelCenters>,
     /// Rotation and translation from the world to the camera: the 12 numbers of [R|t], row by row
     #[arg(
+        help_heading = "Camera",
         long,
         value_name = "NUMBERS",
         value_parser = parse_frame,
         allow_hyphen_values = true,
-        conflicts_with_all = ["view", "camera", "pose"]
+        conflicts_with_all = ["view", "camera", "pose", "azimuth", "elevation", "eye"]
     )]
     extrinsics: Option<CameraFrame>,
     /// Pose of the camera in the world: 12 numbers, row by row, the last column the eye's position
     #[arg(
+        help_heading = "Camera",
         long,
         value_name = "NUMBERS",
         value_parser = parse_frame,
         allow_hyphen_values = true,
-        conflicts_with_all = ["view", "camera"]
+        conflicts_with_all = ["view", "camera", "azimuth", "elevation", "eye"]
     )]
     pose: Option<CameraFrame>,
     /// Directions of the camera's axes [default: opencv for --extrinsics, opengl for --pose]
-    #[arg(long, value_name = "AXES", value_parser = option_parser::<CameraAxes>())]
+    #[arg(help_heading = "Camera", long, value_name = "AXES", value_parser = option_parser::<CameraAxes>())]
     camera_axes: Option<CameraAxes>,
 }
 
@@ -66,8 +69,13 @@ impl CameraFrame {
 
 impl CalibratedCameraArgs {
     /// Whether a flag says where the camera is.
-    pub(crate) fn places_camera(&self) -> bool {
+    pub(crate) const fn places_camera(&self) -> bool {
         self.extrinsics.is_some() || self.pose.is_some()
+    }
+
+    /// Whether the axes of a camera were given without its place.
+    pub(crate) const fn has_axes_alone(&self) -> bool {
+        self.camera_axes.is_some() && !self.places_camera()
     }
 
     /// Replaces view and projection of the scene by the flags that were given.

@@ -21,7 +21,7 @@ pub(crate) enum OutputFormat {
     Svg,
     /// Line drawing on a page
     Pdf,
-    /// Line drawing for programs that construct, cut or mill
+    /// Line drawing for CAD and CAM programs
     Dxf,
 }
 
@@ -40,13 +40,46 @@ impl OutputFormat {
             Some("svg") => Ok(Self::Svg),
             Some("pdf") => Ok(Self::Pdf),
             Some("dxf") => Ok(Self::Dxf),
-            _ => {
-                let name = visible_path(output);
-                let help = "change the extension, or choose the format with --format";
-                Err(CliError::Usage(format!(
-                    "the output {name} has no known extension: .png, .svg, .pdf or .dxf\n  = help: {help}"
-                )))
-            }
+            ending => Err(Self::unknown_extension_error(output, ending.unwrap_or_default())),
+        }
+    }
+
+    /// The error of an extension that is not written, with the way to such a file if there is one.
+    fn unknown_extension_error(output: &Path, ending: &str) -> CliError {
+        let name = visible_path(output);
+        let unwritten = |format: &str, help: String| {
+            CliError::Usage(format!("{name}: {format} is not written\n  = help: {help}"))
+        };
+        let convert = |format: &str| {
+            let png = output.with_extension("png");
+            let png = visible_path(&png);
+            unwritten(
+                format,
+                format!("write {png} and convert it, as with ImageMagick: `magick {png} {name}`"),
+            )
+        };
+        let animate = || {
+            let gif = output.with_extension("gif");
+            CliError::Usage(format!(
+                "{name}: this command writes stills\n  = help: for moving pictures run `alberti animate model.glb -o {}`; with `-o -` its frames go to ffmpeg",
+                gif.display()
+            ))
+        };
+        match ending {
+            "jpg" | "jpeg" | "jpe" => convert("JPEG"),
+            "webp" => convert("WebP"),
+            "avif" => convert("AVIF"),
+            "tif" | "tiff" => convert("TIFF"),
+            "bmp" => convert("BMP"),
+            "tga" => convert("TGA"),
+            "eps" | "ps" => unwritten(
+                "PostScript",
+                format!("write {} instead", output.with_extension("pdf").display()),
+            ),
+            "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => animate(),
+            _ => CliError::Usage(format!(
+                "the output {name} has no known extension: .png, .svg, .pdf or .dxf\n  = help: change the extension, or choose the format with --format"
+            )),
         }
     }
 

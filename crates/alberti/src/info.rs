@@ -193,13 +193,19 @@ fn materials_line(model: &Model) -> String {
 fn cameras_line(model: &Model) -> String {
     let describe = |(number, lens): (usize, &model::ModelCamera)| {
         let name = lens.name.as_deref().unwrap_or("unnamed");
+        // As people write them: many exporters turn 0.05 into 0.04999999701976776.
+        let short = |distance: f64| distance as f32;
         match lens.projection {
             CameraProjection::Perspective { fov_y, near, far, .. } => {
                 let degrees = fov_y.to_degrees();
-                format!("{number} {name}: perspective, {degrees:.2} degrees, {near} to {far}")
+                format!(
+                    "{number} {name}: perspective, {degrees:.2} degrees, {} to {}",
+                    short(near),
+                    short(far)
+                )
             }
             CameraProjection::Orthographic { half_height, near, far, .. } => {
-                let height = 2.0 * half_height;
+                let [height, near, far] = [2.0 * half_height, near, far].map(short);
                 format!("{number} {name}: orthographic, height {height}, {near} to {far}")
             }
         }
@@ -212,7 +218,8 @@ fn animations_line(model: &Model) -> String {
     let describe = |animation: &model::Animation| {
         let name = animation.name.as_deref().unwrap_or("unnamed");
         let (channels, seconds) = (animation.channels.len(), animation.duration_seconds);
-        format!("{name}: {channels} channels, {seconds:.3} s")
+        let noun = if channels == 1 { "channel" } else { "channels" };
+        format!("{name}: {channels} {noun}, {seconds:.3} s")
     };
     list_or_none(&model.animations.iter().map(describe).collect::<Vec<_>>())
 }

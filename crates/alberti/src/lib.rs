@@ -38,6 +38,7 @@ mod exercise;
 mod explain;
 mod explore;
 mod format;
+mod help_groups;
 mod info;
 mod light;
 mod load_options;
@@ -69,12 +70,15 @@ mod sweep;
 mod template;
 mod terminal_image;
 mod thumbnailer;
+mod unused_flags;
+mod usage_advice;
+mod viewpoint;
 
 pub use program::run_within;
 pub use signals::clean_up_on_signals;
 
 use args::{Args, Command};
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, FromArgMatches as _};
 use deferred::Deferred;
 use error::CliError;
 use messages::{print_json, print_message, print_note, print_stdout, print_text, print_usage};
@@ -91,9 +95,17 @@ use std::process::ExitCode;
 /// return 1 for a verdict; they have then printed it themselves, without `error:`.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words = negative_numbers::join_negative_numbers(arguments, Args::command);
-    let args = match Args::try_parse_from(words) {
+    let program = help_groups::group_commands(Args::command());
+    let parsed = program.try_get_matches_from(&words).and_then(|matches| {
+        let args = Args::from_arg_matches(&matches);
+        args.map_err(|error| error.format(&mut Args::command()))
+    });
+    let args = match parsed {
         Ok(args) => args,
         Err(usage) => {
+            let mut program = Args::command();
+            program.build();
+            let usage = usage_advice::advise(usage, &words, &program);
             print_usage(&usage);
             return u8::try_from(usage.exit_code()).unwrap_or(2);
         }

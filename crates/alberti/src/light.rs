@@ -3,10 +3,13 @@
 //! They change the parsed scene file, not the resolved scene, so that a flag and the field of the
 //! scene file have one meaning and one set of checks.
 
+use super::CliError;
 use super::options::option_parser;
 use clap::ValueEnum;
+use pipeline::Origin;
 use pipeline::scene::file::{
-    AmbientOcclusionFile, EnvironmentFile, Finite, GroundFile, LightFile, SceneFile, ShadowsFile,
+    AmbientOcclusionFile, EnvironmentFile, Finite, GroundFile, LightFile, NonNegative, SceneFile,
+    ShadowsFile, Triple,
 };
 use pipeline::shade::ToneMapping;
 use std::path::PathBuf;
@@ -21,6 +24,14 @@ pub(crate) struct LightArgs {
     /// equirectangular Radiance map.
     #[arg(long, value_name = "studio|sky|none|FILE", value_parser = parse_environment)]
     environment: Option<EnvironmentArg>,
+    /// Turn the environment by this angle, counterclockwise seen from above
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = parse_rotation)]
+    environment_rotation: Option<Finite>,
+    /// Multiply the intensity of all lights, 0 to 1000; the environment keeps its strength
+    ///
+    /// --exposure changes all light together.
+    #[arg(long, value_name = "FACTOR", value_parser = parse_light_intensity)]
+    light_intensity: Option<NonNegative>,
     /// Exposure in stops, such as 1 or -0.5; each stop doubles the light
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<Finite>,
@@ -72,9 +83,23 @@ impl LightArgs {
     ///
     /// Fields without a flag stay as the scene has them. `--ambient-occlusion` keeps the radius of
     /// a scene that has one.
-    pub(super) fn apply_to(&self, file: &mut SceneFile) {
+    ///
+    /// # Errors
+    /// If there is no environment for `--environment-rotation`.
+    pub(super) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(environment) = &self.environment {
+            environment.check_file()?;
             file.environment = Some(environment.to_environment_file());
+        }
+        if let Some(angle) = self.environment_rotation {
+            // A model without a scene file stands in the studio.
+            if file.environment.is_none() && origin.text.is_empty() {
+                file.environment = Some(EnvironmentFile::STUDIO);
+            }
+            turn_environment(&mut file.environment, angle.value())?;
+        }
+        if let Some(factor) = self.light_intensity {
+            file.light_intensity = factor;
         }
         if let Some(exposure) = self.exposure {
             file.image.exposure_ev = Some(exposure);
@@ -94,6 +119,32 @@ impl LightArgs {
         if let Some(shadows) = self.shadows {
             switch_shadows(file, shadows);
         }
+        Ok(())
+    }
+
+    /// The flags that were given and change the light on surfaces. Where the environment is seen
+    /// behind the models, those that change its look are left out.
+    pub(super) fn light_flags(&self, shows_environment: bool) -> Vec<&'static str> {
+        let lights = self.environment.as_ref().is_some_and(EnvironmentArg::is_light);
+        let flags = [
+            ("--environment", lights && !shows_environment),
+            ("--environment-rotation", self.environment_rotation.is_some() && !shows_environment),
+            ("--light-intensity", self.light_intensity.is_some()),
+            ("--exposure", self.exposure.is_some() && !shows_environment),
+            ("--tone-mapping", self.tone_mapping.is_some() && !shows_environment),
+        ];
+        given_flags(&flags)
+    }
+
+    /// The flags that were given and darken surfaces; shadows may fall on a ground too.
+    pub(super) fn shadow_flags(&self, has_ground: bool) -> Vec<&'static str> {
+        let shadows = matches!(self.shadows, Some(SwitchArg::On)) && !has_ground;
+        given_flags(&[("--shadows", shadows), ("--ambient-occlusion", self.ambient_occlusion)])
+    }
+
+    /// The flag of the ground, if it was given.
+    pub(super) fn ground_flags(&self) -> Vec<&'static str> {
+        given_flags(&[("--ground", matches!(self.ground, Some(GroundArg::Shadow)))])
     }
 
     /// The environment map, if a file was given: it may be read wherever it is.
@@ -106,6 +157,41 @@ impl LightArgs {
             _ => None,
         }
     }
+}
+
+/// The names of the flags that were given.
+fn given_flags(flags: &[(&'static str, bool)]) -> Vec<&'static str> {
+    flags.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name).collect()
+}
+
+/// Turns an environment about the y axis, counterclockwise seen from above.
+///
+/// A uniform one looks the same from everywhere.
+///
+/// # Errors
+/// If there is none.
+fn turn_environment(file: &mut Option<EnvironmentFile>, degrees: f64) -> Result<(), CliError> {
+    match file {
+        Some(
+            EnvironmentFile::Studio { rotation_degrees, .. }
+            | EnvironmentFile::File { rotation_degrees, .. },
+        ) => {
+            let before = rotation_degrees.map_or(0.0, Finite::value);
+            *rotation_degrees = Finite::new(before + degrees);
+        }
+        Some(EnvironmentFile::Sky { sun: Triple([x, _, z]), .. }) => {
+            let (sin, cos) = (libm::sin(degrees.to_radians()), libm::cos(degrees.to_radians()));
+            (*x, *z) = (*x * cos + *z * sin, *z * cos - *x * sin);
+        }
+        Some(EnvironmentFile::Uniform { .. }) => {}
+        None | Some(EnvironmentFile::Dark) => {
+            return Err(CliError::Usage(
+                "--environment-rotation has no environment to turn\n  = help: add --environment studio, sky or a .hdr file"
+                    .to_owned(),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Enables or disables the shadows of all lights; settings of the scene are kept.
@@ -131,6 +217,28 @@ fn switch_shadows(file: &mut SceneFile, switch: SwitchArg) {
 }
 
 impl EnvironmentArg {
+    /// Whether there is light in it.
+    const fn is_light(&self) -> bool {
+        !matches!(self, Self::None)
+    }
+
+    /// Whether the file of an environment is there.
+    fn check_file(&self) -> Result<(), CliError> {
+        match self {
+            Self::File(path) if !path.is_file() => {
+                let folder = std::env::current_dir().unwrap_or_default();
+                let name = path.strip_prefix(folder).unwrap_or(path).display();
+                let message = if path.exists() {
+                    format!("--environment {name}: this is not a file; name a .hdr file")
+                } else {
+                    format!("--environment {name}: the file does not exist; check the name")
+                };
+                Err(CliError::Usage(message))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The environment as a field of a scene.
     fn to_environment_file(&self) -> EnvironmentFile {
         match self {
@@ -162,6 +270,20 @@ fn parse_environment(text: &str) -> Result<EnvironmentArg, String> {
         }
         _ => Err("expected studio, sky, none or a .hdr file".to_owned()),
     }
+}
+
+/// Parses an angle in degrees.
+fn parse_rotation(text: &str) -> Result<Finite, String> {
+    let angle = text.parse().ok().and_then(Finite::new);
+    angle.ok_or_else(|| "expected an angle in degrees, such as 90".to_owned())
+}
+
+/// Parses a factor from 0 to 1000.
+fn parse_light_intensity(text: &str) -> Result<NonNegative, String> {
+    let factor = text.parse().ok().filter(|factor| (0.0..=1000.0).contains(factor));
+    factor
+        .and_then(NonNegative::new)
+        .ok_or_else(|| "expected a factor from 0 to 1000, such as 2 or 0.5".to_owned())
 }
 
 /// Parses a number of stops from −30 to 30.

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// How models are loaded; [`import_options`](Self::import_options) makes the library's options.
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Loading")]
+#[command(next_help_heading = "Input")]
 pub(crate) struct LoadArgs {
     /// Skip whatever is broken, missing or unsupported, with a warning
     #[arg(long)]

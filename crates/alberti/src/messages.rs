@@ -150,16 +150,37 @@ pub(crate) fn print_note(line: &str) {
 ///
 /// Two files of one name count as one model here; `check` reports both. The order is that of the
 /// scene, so the output is deterministic.
-pub(crate) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning]) {
+///
+/// Warnings about what the picture would not show anyway are left out. `is_vector` is whether it is
+/// a line drawing whatever its style is.
+pub(crate) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning], is_vector: bool) {
     drawing.iter().for_each(|warning| print_message("warning", &warning.to_string()));
     let mut printed: Vec<&str> = Vec::new();
     for instance in &scene.models {
         let model = &instance.model;
         if !printed.contains(&model.name.as_str()) {
             printed.push(&model.name);
-            print_model_warnings(&model.name, &model.warnings);
+            let warnings = model.warnings.iter();
+            let shown = warnings.filter(|warning| concerns_picture(scene, is_vector, warning));
+            print_model_warnings(&model.name, &shown.collect::<Vec<_>>());
         }
     }
+}
+
+/// Whether a picture would show what a warning says that it lacks.
+///
+/// Only some styles show materials, and only line drawings the edges that a file gives.
+fn concerns_picture(scene: &Scene, is_vector: bool, warning: &Diagnostic) -> bool {
+    let scenes = || std::iter::once(scene).chain(scene.insets.iter().map(|inset| &inset.scene));
+    let draws_lines = |scene: &Scene| is_vector || !scene.style.draws_surfaces();
+    let is_about = |names: &[&str]| names.iter().any(|name| warning.message.starts_with(name));
+    if is_about(&["KHR_materials_"]) {
+        return scenes().any(|scene| !draws_lines(scene) && !scene.style.overrides_materials());
+    }
+    if is_about(&["CESIUM_primitive_outline", "EXT_mesh_primitive_edge_visibility"]) {
+        return scenes().any(|scene| !draws_lines(scene));
+    }
+    true
 }
 
 /// Prints the first warnings of a model, and the number of the others.
@@ -168,14 +189,15 @@ pub(crate) fn print_warnings(scene: &Scene, drawing: &[drawing::Warning]) {
 /// warning: fox.glb: /meshes/0: …
 /// warning: fox.glb: 3 more warnings
 /// ```
-fn print_model_warnings(name: &str, warnings: &[Diagnostic]) {
+fn print_model_warnings(name: &str, warnings: &[&Diagnostic]) {
     let name = visible_text(name);
     for warning in warnings.iter().take(MAX_WARNINGS) {
         print_message(warning.severity.name(), &format!("{name}: {}", warning.sentence()));
     }
     let rest = warnings.len().saturating_sub(MAX_WARNINGS);
     if rest > 0 {
-        print_message("warning", &format!("{name}: {rest} more warnings"));
+        let noun = if rest == 1 { "warning" } else { "warnings" };
+        print_message("warning", &format!("{name}: {rest} more {noun}"));
     }
 }
 

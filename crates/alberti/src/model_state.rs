@@ -11,20 +11,20 @@ use pipeline::{Origin, ResolveError, Scene, SceneFile};
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct ModelStateArgs {
     /// Scene of the model, by name or index [default: the model's own default]
-    #[arg(long, value_name = "NAME|INDEX", value_parser = parse_choice)]
+    #[arg(help_heading = "Input", long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) scene: Option<Choice>,
     /// Material variant of the model (KHR_materials_variants), by name or index
-    #[arg(long, value_name = "NAME|INDEX", value_parser = parse_choice)]
+    #[arg(help_heading = "Input", long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) variant: Option<Choice>,
     /// Animation that poses the model, by name or index [default: the first, with --time]
-    #[arg(long, value_name = "NAME|INDEX", value_parser = parse_choice)]
+    #[arg(help_heading = "Input", long, value_name = "NAME|INDEX", value_parser = parse_choice)]
     pub(crate) animation: Option<Choice>,
     /// Time of the animation and of the scene's camera path, in seconds [default: 0, with
     /// --animation]
     ///
     /// Of a scene with a camera path this is the still that `animate` shows at that time; models
     /// then move if the scene or --animation names their animation.
-    #[arg(long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
+    #[arg(help_heading = "Input", long, value_name = "SECONDS", value_parser = parse_time, allow_hyphen_values = true)]
     pub(crate) time: Option<Finite>,
 }
 

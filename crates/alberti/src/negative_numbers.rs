@@ -47,7 +47,7 @@ fn is_negative_number(word: &OsString) -> bool {
 }
 
 /// The innermost command that the words call.
-fn called_command<'a>(program: &'a Command, words: &[OsString]) -> &'a Command {
+pub(crate) fn called_command<'a>(program: &'a Command, words: &[OsString]) -> &'a Command {
     words.iter().skip(1).fold(program, |command, word| {
         let name = word.to_str().unwrap_or_default();
         command.find_subcommand(name).unwrap_or(command)

@@ -28,7 +28,7 @@ pub(super) fn finish_panels(
     progress.enter_stage("writing");
     write_panels(output, panels)?;
     drop(progress);
-    print_warnings(scene, &panels.warnings());
+    print_warnings(scene, &panels.warnings(), false);
     Ok(())
 }
 

@@ -13,7 +13,6 @@ use std::path::{Path, PathBuf};
 
 /// Which render passes to write, and in which format.
 #[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Passes")]
 pub(crate) struct PassArgs {
     /// Render passes to write beside the picture, as NAME.PASS.png
     ///
@@ -22,10 +21,11 @@ pub(crate) struct PassArgs {
     /// position (world space); uv; barycentric coordinates; id of the triangle; index of model,
     /// node, mesh and material (from 1; 0 is the background). overdraw counts the fragments of the
     /// pixel, and coverage is the fraction of its samples that are covered.
-    #[arg(long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
+    #[arg(help_heading = "Output", long, value_name = "PASS,…", value_delimiter = ',', value_parser = option_parser::<Pass>())]
     passes: Vec<Pass>,
     /// File format of the passes
     #[arg(
+        help_heading = "Output",
         long,
         value_name = "FORMAT",
         value_parser = option_parser::<PassEncoding>(),

@@ -10,20 +10,19 @@ use pipeline::scene::file::SceneFile;
 /// A region has exactly the pixels that the whole picture has there: bands rendered on several
 /// machines can be stacked.
 #[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Region")]
 pub(crate) struct RegionArgs {
     /// Bits per channel: 8 or 16
-    #[arg(long, value_name = "N")]
+    #[arg(help_heading = "Picture", long, value_name = "N")]
     bits: Option<u32>,
     /// Render only this rectangle: column and row of its upper left pixel, width, height
     ///
     /// Its pixels are identical to those of the whole picture.
-    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_region)]
+    #[arg(help_heading = "Picture", long, value_name = "X,Y,W,H", value_parser = parse_region)]
     crop: Option<PixelRect>,
     /// Render only the I-th of N horizontal bands, counted from the top
     ///
     /// The bands of --crop, or of the whole picture, stacked from 1/N to N/N, are that picture.
-    #[arg(long, value_name = "I/N", value_parser = parse_band)]
+    #[arg(help_heading = "Picture", long, value_name = "I/N", value_parser = parse_band)]
     band: Option<[u32; 2]>,
 }
 

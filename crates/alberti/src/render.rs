@@ -14,6 +14,7 @@ use super::format::OutputFormat;
 use super::messages::{print_message, print_note, print_warnings};
 use super::progress::Progress;
 use super::render_job::RenderJob;
+use super::unused_flags::find_unused_flags;
 use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::{FileFormat, ImageLoading, ImportOptions};
@@ -80,7 +81,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
         ..job.overrides.import_options(&args.load_options)
     };
     let (origin, mut file) = open_input(&job.input, &import)?;
-    job.overrides.apply_to(&mut file);
+    job.overrides.apply_to(&origin, &mut file)?;
     args.load_options.apply_crease_to(&mut file, job.format != OutputFormat::Png);
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
@@ -110,10 +111,12 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     if args.show {
         terminal_image::print_image(&output)?;
     }
+    let unused = find_unused_flags(args, job, &scene);
     if args.json {
-        render_report::print_report(&render_job, &output)?;
+        render_report::print_report(&render_job, &output, &unused)?;
     } else {
-        print_warnings(&scene, &output.warnings);
+        unused.iter().for_each(|warning| print_message("warning", warning));
+        print_warnings(&scene, &output.warnings, job.format != OutputFormat::Png);
     }
     Ok(output.matches_reference(args.json))
 }

@@ -29,12 +29,16 @@ const VERSION: u32 = 1;
 
 /// Prints the report of one picture.
 ///
-/// `warnings` are those of the line drawing; each model has its own. `milliseconds` has the stages
+/// `warnings` are those about flags and the line drawing; each model has its own. `milliseconds` has the stages
 /// in alphabetical order. `share_beyond` is the fraction of differing pixels, 0 to 1.
 ///
 /// # Errors
 /// If a written file cannot be read back, or the standard output cannot be written.
-pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result<(), CliError> {
+pub(super) fn print_report(
+    job: &RenderJob<'_>,
+    output: &RenderOutput,
+    unused_flags: &[String],
+) -> Result<(), CliError> {
     let PixelRect { x, y, width, height } = output.region;
     let scene = job.scene;
     let files: Result<Vec<Value>, CliError> =
@@ -63,7 +67,11 @@ pub(super) fn print_report(job: &RenderJob<'_>, output: &RenderOutput) -> Result
         },
         "camera": camera_json(job),
         "models": models_json(job),
-        "warnings": output.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "warnings": unused_flags
+            .iter()
+            .cloned()
+            .chain(output.warnings.iter().map(ToString::to_string))
+            .collect::<Vec<_>>(),
         "comparison": comparison,
         "milliseconds": timings,
         "files": files?,

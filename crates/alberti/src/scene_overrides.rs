@@ -17,13 +17,14 @@ use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
 use super::render::open_input;
 use super::section::SectionArgs;
+use super::viewpoint::ViewpointArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, OverlayFile, ProjectionFile,
-    SceneFile, StyleFile, ViewFile,
+    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, NonNegative, OverlayFile,
+    ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene};
 use projection::PrincipalView;
@@ -33,42 +34,44 @@ use std::path::Path;
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct SceneOverrideArgs {
     /// Width and height of the picture in pixels, such as 1920x1080
-    #[arg(long, value_name = "WxH", value_parser = parse_image_size)]
+    #[arg(help_heading = "Picture", long, value_name = "WxH", value_parser = parse_image_size)]
     pub(crate) size: Option<(u32, u32)>,
     /// Multiply width and height by this factor, up to 64
-    #[arg(long, value_name = "N", value_parser = parse_scale_factor)]
+    #[arg(help_heading = "Picture", long, value_name = "N", value_parser = parse_scale_factor)]
     pub(crate) scale: Option<f64>,
     /// Render style
-    #[arg(long)]
+    #[arg(help_heading = "Picture", long)]
     pub(crate) style: Option<StyleArg>,
     /// Camera of the model, by name or index
-    #[arg(long, value_name = "NAME|INDEX", conflicts_with = "view")]
+    #[arg(help_heading = "Camera", long, value_name = "NAME|INDEX", conflicts_with = "view")]
     pub(crate) camera: Option<String>,
     #[command(flatten)]
     pub(crate) model_state: ModelStateArgs,
     /// Frame all models from this direction
-    #[arg(long, value_parser = named_view_parser())]
+    #[arg(help_heading = "Camera", long, value_parser = named_view_parser())]
     pub(crate) view: Option<NamedView>,
     /// Projection of the camera
-    #[arg(long)]
+    #[arg(help_heading = "Camera", long)]
     pub(crate) projection: Option<ProjectionArg>,
+    #[command(flatten)]
+    pub(crate) viewpoint: ViewpointArgs,
     #[command(flatten)]
     pub(crate) calibrated: CalibratedCameraArgs,
     /// Guides drawn over the picture; can be repeated
-    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    #[arg(help_heading = "Picture", long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
     #[command(flatten)]
     pub(crate) section: SectionArgs,
-    /// Background: transparent, or a color such as #f4f1ea
-    #[arg(long, value_name = "COLOR", value_parser = parse_background)]
+    /// Background: transparent, environment, or a color such as #f4f1ea
+    #[arg(help_heading = "Picture", long, value_name = "COLOR", value_parser = parse_background)]
     pub(crate) background: Option<BackgroundFile>,
     /// Samples per pixel for anti-aliasing: 1, 4, 8 or 16
-    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    #[arg(help_heading = "Picture", long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<u32>,
     /// Maximum anisotropy of texture filtering, 1 to 8
     ///
     /// Up to this many trilinear samples are taken along the longer axis of a pixel's footprint.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    #[arg(help_heading = "Picture", long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) max_anisotropy: Option<u32>,
     #[command(flatten)]
     pub(crate) light: LightArgs,
@@ -79,7 +82,10 @@ impl SceneOverrideArgs {
     ///
     /// The order matters in one case: `--scale` multiplies the size of `--size`, if both are given.
     /// A size is at least one pixel; one that is too large is rejected when the scene is resolved.
-    pub(crate) fn apply_to(&self, file: &mut SceneFile) {
+    ///
+    /// # Errors
+    /// If a flag does not go with the scene, such as `--fov` with a parallel projection.
+    pub(crate) fn apply_to(&self, origin: &Origin, file: &mut SceneFile) -> Result<(), CliError> {
         if let Some(size) = self.size {
             file.image.size = size;
         }
@@ -109,8 +115,8 @@ impl SceneOverrideArgs {
         }
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         self.model_state.apply_to_scene(file);
-        self.light.apply_to(file);
-        self.apply_to_camera(&mut file.camera);
+        self.light.apply_to(origin, file)?;
+        self.apply_to_camera(&mut file.camera)
     }
 
     /// Moves the camera of the resolved scene to its place on the camera path at `--time`, unless
@@ -124,7 +130,8 @@ impl SceneOverrideArgs {
         file: &SceneFile,
         scene: &mut Scene,
     ) -> Result<(), CliError> {
-        if self.view.is_some() || self.camera.is_some() || self.calibrated.places_camera() {
+        let is_placed = self.viewpoint.places_camera() || self.calibrated.places_camera();
+        if self.view.is_some() || self.camera.is_some() || is_placed {
             return Ok(());
         }
         self.model_state.place_camera(origin, file, scene)
@@ -153,7 +160,7 @@ impl SceneOverrideArgs {
     ) -> Result<(Origin, SceneFile, Scene), CliError> {
         let import = self.import_options(load_options);
         let (origin, mut file) = open_input(input, &import)?;
-        self.apply_to(&mut file);
+        self.apply_to(&origin, &mut file)?;
         load_options.apply_crease_to(&mut file, false);
         let mut scene = Scene::resolve(&origin, &file, &self.resolve_options(import))?;
         self.place_camera(&origin, &file, &mut scene)?;
@@ -167,10 +174,7 @@ impl SceneOverrideArgs {
 
     /// Frames the models from a direction, with the padding of a scene that frames them already.
     pub(crate) fn aim_from(file: &mut CameraFile, view: NamedView) {
-        let padding_percent = match &file.view {
-            ViewFile::Frame { padding_percent, .. } => *padding_percent,
-            _ => DEFAULT_PADDING,
-        };
+        let padding_percent = frame_padding(file);
         file.view = ViewFile::Frame { from: Some(view.into()), padding_percent };
     }
 
@@ -180,7 +184,7 @@ impl SceneOverrideArgs {
     ///
     /// `--camera` takes a whole number as an index and anything else as a name. `--view` replaces
     /// the view of the scene, also one with a fixed eye and target, but not its projection.
-    fn apply_to_camera(&self, file: &mut CameraFile) {
+    fn apply_to_camera(&self, file: &mut CameraFile) -> Result<(), CliError> {
         if let Some(camera) = &self.camera {
             let by_name = || CameraChoice::Name(camera.clone());
             let choice = camera.parse().map_or_else(|_| by_name(), CameraChoice::Index);
@@ -193,6 +197,15 @@ impl SceneOverrideArgs {
             file.projection = Some(projection.into());
         }
         self.calibrated.apply_to(file);
+        self.viewpoint.apply_to(file)
+    }
+}
+
+/// The padding of a camera that frames its models, or the default.
+pub(super) const fn frame_padding(file: &CameraFile) -> NonNegative {
+    match &file.view {
+        ViewFile::Frame { padding_percent, .. } => *padding_percent,
+        _ => DEFAULT_PADDING,
     }
 }
 
@@ -276,15 +289,20 @@ fn parse_scale_factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| "expected a number greater than 0, up to 64, such as 2 or 0.5".to_owned())
 }
 
-/// Parses `transparent`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
+/// Parses `transparent`, `environment`, or a color as in scene files: `#rgb`, `#rrggbb` or a CSS name.
 ///
 /// Names of colors are case-insensitive, as in CSS.
 fn parse_background(text: &str) -> Result<BackgroundFile, String> {
     if text.eq_ignore_ascii_case("transparent") {
         return Ok(BackgroundFile::Transparent);
     }
+    if text.eq_ignore_ascii_case("environment") {
+        return Ok(BackgroundFile::Environment { blur: None });
+    }
     let color = Color::parse(text).map(BackgroundFile::Color);
-    color.ok_or_else(|| "expected transparent, or a color such as #f4f1ea or white".to_owned())
+    color.ok_or_else(|| {
+        "expected transparent, environment, or a color such as #f4f1ea or white".to_owned()
+    })
 }
 
 /// Parses a number of samples that the rasterizer has a pattern for.

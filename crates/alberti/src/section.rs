@@ -10,6 +10,7 @@ pub(crate) struct SectionArgs {
     /// x=0.5 removes everything with a greater x, -x=0.5 everything with a smaller one. Six numbers
     /// are a point of the plane and the direction that is removed, such as 0,1,0,1,0,1.
     #[arg(
+        help_heading = "Lines",
         long = "section",
         value_name = "PLANE",
         value_parser = parse_section_plane,

@@ -185,7 +185,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     if args.explain_scale {
         print_note(&sheet.fill(&scene.models, &scene.sections)?.to_string());
     }
-    print_warnings(&scene, &warnings);
+    print_warnings(&scene, &warnings, true);
     Ok(())
 }
 

@@ -94,7 +94,7 @@ use model::ModelInstance;
 use model::import::ImportError;
 use raster::Samples;
 use shade::{Backdrop, Environment, Light, ToneMapper};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A resolved scene: the complete input of a renderer.
@@ -297,13 +297,22 @@ pub enum ResolveError {
     #[error(transparent)]
     Model(#[from] ImportError),
     /// The scene file cannot be read.
-    #[error("cannot read {}: {cause}", model::visible_path(path))]
+    #[error("{}", unreadable_message(path, cause))]
     Unreadable {
         /// The scene file.
         path: PathBuf,
         /// Why it could not be read.
         cause: std::io::Error,
     },
+}
+
+/// Why a scene file cannot be read; one that is missing is reported as a missing model is.
+fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
+    let path = model::visible_path(path);
+    match cause.kind() {
+        std::io::ErrorKind::NotFound => format!("{path}: the file does not exist; check the name"),
+        _ => format!("cannot read {path}: {cause}"),
+    }
 }
 
 impl From<SceneError> for ResolveError {

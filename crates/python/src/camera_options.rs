@@ -16,7 +16,8 @@ use pyo3::prelude::*;
 /// # Errors
 /// If an option has another type, is not finite, or makes no camera.
 pub(crate) fn read_camera(options: &Keywords<'_, '_>) -> PyResult<CameraFile> {
-    Ok(CameraFile { view: read_view(options)?, projection: read_lens(options)? })
+    let (view, projection) = (read_view(options)?, read_lens(options)?);
+    Ok(CameraFile { view, projection, ..CameraFile::default() })
 }
 
 /// Where the camera stands: by eye and target, by R and t, by a pose, by the name of a camera in

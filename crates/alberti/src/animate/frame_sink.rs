@@ -33,6 +33,23 @@ pub(super) enum FrameSink {
     Raw,
 }
 
+/// The error of a video, with the command that makes it with ffmpeg.
+///
+/// Most players want colors at half resolution, and with them an even width and height.
+fn unwritten_video_error(
+    input: &Path,
+    output: &Path,
+    (width, height): (u32, u32),
+    fps: f64,
+) -> CliError {
+    let (input, name) = (input.display(), output.display());
+    let is_even = width % 2 == 0 && height % 2 == 0;
+    let even = if is_even { "" } else { "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' " };
+    CliError::Usage(format!(
+        "{name}: video is not written\n  = help: pipe the frames to ffmpeg, and add your other flags: `alberti animate {input} --size {width}x{height} --fps {fps} --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size {width}x{height} -framerate {fps} -i - {even}-pix_fmt yuv420p {name}`"
+    ))
+}
+
 impl FrameSink {
     /// Opens the output that a name stands for; nothing appears under the name yet.
     ///
@@ -67,6 +84,9 @@ impl FrameSink {
         match output.extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
             Some("png" | "apng") => Self::open_png(output, film, fps),
             Some("gif") => Self::open_gif(output, film, fps),
+            Some("mp4" | "m4v" | "mov" | "mkv" | "webm" | "avi" | "webp") => {
+                Err(unwritten_video_error(input, output, film.image_size(), fps))
+            }
             _ => Err(CliError::Usage(format!(
                 "unsupported output {name}: expected NAME_{{frame:04}}.png, .png, .gif or -"
             ))),

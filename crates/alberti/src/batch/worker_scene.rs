@@ -71,7 +71,7 @@ impl SceneLoader {
             Some(scene) => open_scene_around(scene, input, &mut import)?,
             None => open_input(input, &import)?,
         };
-        flags.overrides.apply_to(&mut file);
+        flags.overrides.apply_to(&origin, &mut file)?;
         flags.load_options.apply_crease_to(&mut file, false);
         let key = LoadKey::of(&origin, &file, &import);
         let is_loaded = self.loaded.as_ref().is_some_and(|(known, _)| *known == key);

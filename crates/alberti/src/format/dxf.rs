@@ -11,11 +11,16 @@ pub(crate) struct DxfArgs {
     ///
     /// An arc takes eight points at least, at equal distances and less than 30 degrees apart, so
     /// that polygons of up to twelve corners remain polygons.
-    #[arg(long, value_name = "MM", value_parser = parse_tolerance)]
+    #[arg(help_heading = "Lines", long, value_name = "MM", value_parser = parse_tolerance)]
     arc_tolerance: Option<f64>,
 }
 
 impl DxfArgs {
+    /// Whether the tolerance was given.
+    pub(crate) const fn has_tolerance(&self) -> bool {
+        self.arc_tolerance.is_some()
+    }
+
     /// The options with the tolerance of the flag.
     pub(crate) fn apply_to(&self, options: DxfOptions) -> DxfOptions {
         DxfOptions { arc_tolerance: self.arc_tolerance.unwrap_or(options.arc_tolerance), ..options }

@@ -76,9 +76,7 @@ pub(super) fn resolve_background_color(
     };
     match background {
         BackgroundFile::Transparent => Ok([0.0; 4]),
-        BackgroundFile::Environment { .. }
-            if matches!(file.environment, None | Some(EnvironmentFile::Dark)) =>
-        {
+        BackgroundFile::Environment { .. } if !file.may_have_environment(origin) => {
             let help = Some("add one, such as environment: Studio()");
             let message = "the scene has no environment to show".to_owned();
             Err(background_error(origin, &[], message, help))

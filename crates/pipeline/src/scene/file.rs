@@ -84,6 +84,9 @@ scene_struct! {
         /// environment either, a key light from above the viewer's left shoulder, and ambient
         /// light; with an environment the key light alone, if there are to be shadows.
         pub lights: Option<Vec<LightFile>> = None,
+        /// A factor for the intensity of all lights: those of the scene and of the models, and the
+        /// key light. An environment has its own `strength`. Default: 1.
+        pub light_intensity: NonNegative = NonNegative::ONE,
         /// The shadows of all directional, point and spot lights without shadows of their own,
         /// those of the models too. Default: `Off`.
         pub shadows: Option<ShadowsFile> = None,

@@ -27,8 +27,9 @@ const MAX_INCLUDED_FILES: usize = 64;
 const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
 /// The fields of a scene that are replaced whole.
-const REPLACED_FIELDS: [&str; 13] = [
+const REPLACED_FIELDS: [&str; 14] = [
     "camera",
+    "light_intensity",
     "shadows",
     "ground",
     "environment",
@@ -308,6 +309,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         viewports_scale,
         stereo,
         lights,
+        light_intensity,
         shadows,
         ground,
         environment,
@@ -334,6 +336,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
             (Some(old), Some(new)) => Some(concat_lists(old, new)),
             (old, new) => new.or(old),
         },
+        light_intensity: if has("light_intensity") { light_intensity } else { old.light_intensity },
         shadows: if has("shadows") { shadows } else { old.shadows },
         ground: if has("ground") { ground } else { old.ground },
         environment: if has("environment") { environment } else { old.environment },

@@ -306,6 +306,18 @@ fn resolve_light_shadow(
     own.map_or(Ok(of_scene), |own| resolve_shadow(origin, Some(&own), &path))
 }
 
+/// Multiplies the intensity of all lights.
+pub(super) fn scale_lights(lights: &mut [Light], factor: NonNegative) {
+    let factor = factor.value() as f32;
+    for light in lights {
+        let (Light::Sun { lux: intensity, .. }
+        | Light::Ambient { lux: intensity }
+        | Light::Point { candela: intensity, .. }
+        | Light::Spot { candela: intensity, .. }) = light;
+        *intensity = intensity.map(|channel| channel * factor);
+    }
+}
+
 /// The light of a color at an intensity, in the unit of the intensity.
 fn scale_color(color: LightColor, intensity: NonNegative) -> [f32; 3] {
     color.0.map(|channel| (channel * intensity.value()) as f32)

@@ -329,7 +329,7 @@ impl Linter<'_> {
         match in_depth {
             _ if self.is_behind_eye(survey) => "turn the camera round, or use Frame(…)".to_owned(),
             Some((near, far)) => format!(
-                "it is {near:.4} to {far:.4} before the eye: leave `near` and `far` out, or set them around that"
+                "it is {near:.4} to {far:.4} in front of the eye: leave `near` and `far` out, or set them around that"
             ),
             None => {
                 "look towards it, or use Frame(…), which finds the place to look from".to_owned()

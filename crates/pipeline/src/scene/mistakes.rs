@@ -55,7 +55,7 @@ fn near_misses_are_answered_with_the_name_that_was_meant() {
         &scene_with("style: Blueprint"),
         "unexpected `Blueprint` for `Style`",
         (3, 10),
-        "possible here: `Shaded`, `Flat`, `Gouraud`, `Clay`, `Matcap`, `Normals`, `Depth`, `UvChecker`, `Ids`, `Toon`, `XRay`, `Wireframe`, `Lines`",
+        "write style: Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5), color: \"#ffffff\", paper: \"#1d4279\")",
     );
 }
 

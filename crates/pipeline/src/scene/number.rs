@@ -89,6 +89,9 @@ impl CreaseAngle {
 }
 
 impl Positive {
+    /// 1.
+    pub(super) const ONE: Self = Self(1.0);
+
     /// A constant that is greater than 0.
     pub(super) const fn constant(value: f64) -> Self {
         debug_assert!(value > 0.0, "a positive number is greater than 0");

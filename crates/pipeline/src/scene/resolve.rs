@@ -9,7 +9,7 @@ use super::file_access::FileAccess;
 use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
 use super::instances;
-use super::lights::resolve_lights;
+use super::lights::{resolve_lights, scale_lights};
 use super::material_overrides::override_materials;
 use super::number::Positive;
 use super::origin::ModelSource;
@@ -170,7 +170,7 @@ impl Scene {
         let framed = (&*models, framed_points(&models, style, (&sections, &uncut)));
         let mut view_projection =
             resolve_view_of_points(origin, &file.camera, framed, image, Vec::new())?;
-        let lights = resolve_lights(origin, file, &models, &view_projection)?;
+        let mut lights = resolve_lights(origin, file, &models, &view_projection)?;
         let has_environment = file.effective_environment(origin, &models).is_some();
         let ground = resolve_ground(file, &models, &lights, has_environment);
         let is_framed = matches!(file.camera.view, ViewFile::Frame { .. });
@@ -195,6 +195,8 @@ impl Scene {
                 if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None }
             }),
         );
+        // After the exposure, which would compensate for it.
+        scale_lights(&mut lights, file.light_intensity);
         let environment = access.environment(origin, file, &models, exposure_ev)?;
         let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
         let backdrop = access.backdrop(origin, file)?;

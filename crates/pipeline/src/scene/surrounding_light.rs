@@ -28,6 +28,15 @@ impl SceneFile {
         origin.text.is_empty() && self.lights.is_none()
     }
 
+    /// Whether there is an environment to show, as far as the file alone tells.
+    pub(super) fn may_have_environment(&self, origin: &Origin) -> bool {
+        match self.environment {
+            Some(EnvironmentFile::Dark) => false,
+            Some(_) => true,
+            None => self.has_default_light(origin),
+        }
+    }
+
     /// The environment whose light the style shows; `None` without one.
     ///
     /// A bare model stands in the studio: metals show nothing but what is around them. With lights

@@ -10,6 +10,7 @@
 
 use super::calibrated_lens::{calibrated_lens, check_calibrated_shape};
 use super::camera_placement::CameraPlacement;
+use super::caption::map_window;
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
 use super::file::{CameraChoice, CameraFile, Finite, FromFile, ProjectionFile, ViewFile};
@@ -20,6 +21,7 @@ use super::syntax::PathStep::{self, Field};
 use super::{ImageSpec, Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, NamedView, Slopes, frame_parallel, frame_perspective};
+use glam::DVec2;
 use homog::{Point, Vector, World};
 use model::ModelInstance;
 use model::world_points;
@@ -84,7 +86,15 @@ pub(super) fn resolve_view_of_points(
         CameraPlacement::Framed { from, padding } => resolver.frame_models(from, padding, or_usual),
         CameraPlacement::OfModel(choice) => resolver.project_from_model_camera(choice, projection),
     };
-    view.map(|view| image.place_view(view))
+    view.map(|view| image.place_view(zoom_view(view, file.zoom)))
+}
+
+/// The view with everything larger by a factor, about the center of the picture.
+fn zoom_view(view: ViewProjection, zoom: Positive) -> ViewProjection {
+    if zoom == Positive::ONE {
+        return view;
+    }
+    map_window(view, DVec2::splat(zoom.value()), DVec2::ZERO)
 }
 
 /// The mistakes of a camera that can be found without the models: a direction that is none, planes
@@ -426,7 +436,8 @@ impl<'a> CameraResolver<'a> {
             CameraChoice::Name(name) => name.clone(),
         };
         let (message, help) = if names.is_empty() {
-            let help = "leave it out, or choose a view: Frame(from: Front) in a scene, --view front as a flag";
+            let help =
+                "choose a view instead: Frame(from: Front) in a scene, or the flag --view front";
             ("the models have no camera".to_owned(), Some(help.to_owned()))
         } else {
             (format!("the models have no camera `{wanted}`"), suggest_name(&wanted, names))

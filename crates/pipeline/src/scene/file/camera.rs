@@ -1,7 +1,7 @@
 //! The camera of a scene file: its position and direction, and its projection.
 
 use super::projection::ProjectionFile;
-use crate::scene::number::{Finite, NonNegative, Triple};
+use crate::scene::number::{Finite, NonNegative, Positive, Triple};
 use crate::scene::schema::{scene_enum, scene_struct};
 use camera::{CameraAxes, NamedView};
 
@@ -13,6 +13,8 @@ scene_struct! {
         pub view: ViewFile = ViewFile::DEFAULT,
         /// The projection. Default: that of the model's camera with `FromModel`, else perspective.
         pub projection: Option<ProjectionFile> = None,
+        /// How many times larger everything appears, about the center of the image. Default: 1.
+        pub zoom: Positive = Positive::ONE,
     }
 }
 

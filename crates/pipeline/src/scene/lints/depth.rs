@@ -25,9 +25,9 @@ pub(super) fn lint_depth_clipping(adviser: &Linter<'_>) -> Vec<Lint> {
             );
             let (near, far) = survey.depth_range().unwrap_or_default();
             let help = if plane == "near" {
-                format!("it begins {near:.4} before the eye: set `near` to less than that")
+                format!("it begins {near:.4} in front of the eye: set `near` to less than that")
             } else {
-                format!("it ends {far:.4} before the eye: leave `far` out, or set it to more")
+                format!("it ends {far:.4} in front of the eye: leave `far` out, or set it to more")
             };
             let fault = adviser.origin.error_at(&plane_path(adviser, plane), message, Some(help));
             let code = if plane == "near" { "cut-by-near" } else { "cut-by-far" };

@@ -19,7 +19,7 @@ const WORDS: [(&str, &str); 66] = [
     ("lights: [SpotLight(intensity: 1)]", "`Spot`"),
     ("lights: [AmbientLight(intensity: 1)]", "`Ambient`"),
     ("lights: [HemisphereLight(intensity: 1)]", "environment: Sky(…)"),
-    ("lights: [RectAreaLight(intensity: 1)]", "`Spot`"),
+    ("lights: [RectAreaLight(intensity: 1)]", "Studio()"),
     ("lights: [Directional(direction: (0, -1, 0), intensity: 1, castShadow: true)]", "`shadows`"),
     (
         "lights: [Spot(position: (0, 1, 0), direction: (0, -1, 0), intensity: 1, penumbra: 1)]",

@@ -22,6 +22,7 @@ use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
 use core::fmt::Write as _;
 use core::ops::Range;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use corrections::{bracket_map, bracket_string};
 pub(in crate::scene) use fields::Fields;
@@ -383,8 +384,10 @@ impl<'a> Checker<'a> {
         let fitting = variants
             .iter()
             .find(|&variant| inner(variant).is_some_and(|words| kinds.contains(&words.as_str())));
+        let file = named_file(node).and_then(|name| variant_with_path(name, variants));
         let with_fields = node.group().and_then(|group| variant_with_fields(group, variants));
         let help = match (fitting, &node.kind) {
+            _ if file.is_some() => format!("write {}", file.unwrap_or_default()),
             (None, _) if with_fields.is_some() => {
                 format!("write {}{text}", with_fields.unwrap_or_default())
             }
@@ -396,8 +399,11 @@ impl<'a> Checker<'a> {
                 format!("`alberti scene doc {}` lists the words that are possible", entry.name)
             }
         };
-        let quotes =
-            if matches!(node.kind, NodeKind::String(_)) { ", without quotation marks" } else { "" };
+        let quotes = if matches!(node.kind, NodeKind::String(_)) && named_file(node).is_none() {
+            ", without quotation marks"
+        } else {
+            ""
+        };
         let expected = format!("one of the words of `{}`{quotes}", entry.name);
         self.report_type(node, &expected, Some(help));
     }
@@ -407,6 +413,22 @@ impl<'a> Checker<'a> {
 fn has_named_parts(node: &Node<'_>) -> bool {
     node.group()
         .is_some_and(|group| group.open == '[' || group.items.iter().any(|item| item.key.is_some()))
+}
+
+/// The name of a file in quotation marks: a string with an extension.
+fn named_file<'n>(node: &'n Node<'_>) -> Option<&'n str> {
+    let NodeKind::String(text) = &node.kind else { return None };
+    let name: &str = text.trim_matches('"');
+    Path::new(name).extension().map(|_| name)
+}
+
+/// How a file is written with the first variant that has a path: `File(path: "studio.hdr")`.
+fn variant_with_path(name: &str, variants: &[VariantEntry]) -> Option<String> {
+    let has_path = |variant: &&VariantEntry| {
+        variant.fields.iter().any(|field| field.name == "path" && !field.is_optional)
+    };
+    let variant = variants.iter().find(has_path)?;
+    Some(format!("{}(path: \"{name}\")", variant.name))
 }
 
 /// The first variant that has all the fields in brackets that lack its name.

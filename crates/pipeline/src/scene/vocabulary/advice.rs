@@ -51,7 +51,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "View::Frame",
         "distance zoom eye position target lookat scale height elevation",
-        "Frame finds the distance itself: padding_percent: 20 moves the eye away; with view: LookAt(eye: (0, 2, 6), target: (0, 0, 0)) you place it",
+        "Frame finds the distance itself: camera: (zoom: 2) beside the view makes everything twice as large, padding_percent: 20 moves the eye away; with view: LookAt(eye: (0, 2, 6), target: (0, 0, 0)) you place it",
     ),
     (
         "View::Frame",
@@ -72,6 +72,26 @@ const ADVICE: &[(&str, &str, &str)] = &[
         "Ground::Shadow",
         "opacity alpha strength intensity darkness softness blur",
         "lights decide: with Ambient(intensity: 1) or an environment a shadow is paler, with shadows: On(softness_degrees: 4) softer",
+    ),
+    (
+        "Background::Gradient",
+        "top bottom from to start end first second left right",
+        "write Gradient(colors: [\"#ffffff\", \"#c8d0d8\"]), from top to bottom",
+    ),
+    (
+        "Light::Spot",
+        "target lookat towards",
+        "write direction: (0, -1, 0), the way in which the light travels: the target minus the position",
+    ),
+    (
+        "Light::Directional",
+        "target lookat towards",
+        "write direction: (-1, -2, -1), the way in which the light travels: from the light to the models",
+    ),
+    (
+        "Light",
+        "arealight area rectarealight rectlight",
+        "there are no area lights: write environment: Studio(), which has soft boxes, or lights: [Directional(direction: (-1, -2, -1), intensity: 3)] with shadows: On(softness_degrees: 4)",
     ),
     (
         "Ground",
@@ -136,7 +156,31 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Style",
         "depthcued depthcue depthcueing",
-        "write style: Lines(depth_cue_percent: 80): the farther, the paler",
+        "write style: Lines(edges: Facets, hidden: Drawn, depth_cue_percent: 80)",
+    ),
+    ("Style", "dashed", "write style: Lines(hidden: Dashed)"),
+    ("Style", "silhouette", "write style: Lines(edges: Silhouette)"),
+    ("Style", "outline", "write style: Lines(edges: Outline)"),
+    ("Style", "technical", "write style: Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5))"),
+    (
+        "Style",
+        "patent",
+        "write style: Lines(width: Iso(0.35), color: \"#000000\", hatch_spacing_mm: 1.2, face_fill: ShadeHatching)",
+    ),
+    (
+        "Style",
+        "blueprint",
+        "write style: Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5), color: \"#ffffff\", paper: \"#1d4279\")",
+    ),
+    (
+        "Style",
+        "sketch",
+        "write style: Lines(width: Mm(0.3), color: \"#444240\", hand_drawn_mm: 0.35)",
+    ),
+    (
+        "EdgeSelection",
+        "technical blueprint",
+        "`--style technical` stands for Lines(edges: Tangents, hidden: Dashed, width: Iso(0.5))",
     ),
     ("Style", "hatched hatching hatch engraving", "write style: Lines(face_fill: Hatching)"),
 ];
@@ -148,4 +192,27 @@ pub(super) fn find_advice(owner: &str, word: &str) -> Option<&'static str> {
         *place == owner && words.split(' ').any(|known| known == word)
     };
     ADVICE.iter().find(is_meant).map(|(.., help)| *help)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::file::StyleFile;
+    use crate::scene::parse_scene;
+
+    /// The names that the flag has for line drawings lead to the very same style in a scene.
+    #[test]
+    fn advice_on_line_styles_is_what_the_flags_stand_for() {
+        let mut checked = 0;
+        for (name, style) in StyleFile::NAMED {
+            let word: String = name.chars().filter(char::is_ascii_alphabetic).collect();
+            let Some(help) = find_advice("Style", &word) else { continue };
+            let field = help.strip_prefix("write ").expect("a field");
+            let source = format!("Scene(models: [(path: \"a.glb\")], {field})");
+            let scene = parse_scene("scene.ron", &source).expect(help);
+            assert_eq!(scene.style, style(), "{name}");
+            checked += 1;
+        }
+        assert_eq!(checked, 8);
+    }
 }

@@ -1,0 +1,125 @@
+//! Flags that do nothing in a picture: a line drawing has no exposure, a PNG no arcs.
+//!
+//! They are warnings and not errors: one command line often renders many pictures, some of which
+//! have no use for one of its flags.
+
+use super::args::{RenderArgs, StyleArg};
+use super::format::OutputFormat;
+use super::render::tasks::RenderTask;
+use super::scene_overrides::SceneOverrideArgs;
+use clap::ValueEnum as _;
+use pipeline::Scene;
+use pipeline::scene::Style;
+use pipeline::scene::file::StyleFile;
+
+/// The warnings about the flags of a picture that `render` makes.
+pub(super) fn find_unused_flags(
+    args: &RenderArgs,
+    task: &RenderTask,
+    scene: &Scene,
+) -> Vec<String> {
+    let is_vector = task.format != OutputFormat::Png;
+    let mut warnings = find_unused_overrides(&task.overrides, scene, is_vector);
+    if is_vector {
+        warnings.extend(undrawn_style(task));
+    }
+    if args.dxf.has_tolerance() && task.format != OutputFormat::Dxf {
+        warnings.push("--arc-tolerance does nothing here: only a DXF has arcs".to_owned());
+    }
+    warnings
+}
+
+/// The warnings about flags that change a scene. `is_vector` is whether the output has lines
+/// whatever the style is.
+pub(super) fn find_unused_overrides(
+    flags: &SceneOverrideArgs,
+    scene: &Scene,
+    is_vector: bool,
+) -> Vec<String> {
+    let mut unused: Vec<&str> = Vec::new();
+    let draws_lines = is_vector || !scene.style.draws_surfaces();
+    let light = &flags.light;
+    let reason = if draws_lines {
+        let samples = [("--samples", flags.samples), ("--max-anisotropy", flags.max_anisotropy)];
+        unused.extend(samples.iter().filter(|(_, flag)| flag.is_some()).map(|(name, _)| *name));
+        unused.extend(light.ground_flags());
+        "a line drawing has no shading".to_owned()
+    } else {
+        let name = style_name(scene.style);
+        if has_light(scene.style) {
+            format!("the style {name} has neither shadows nor ambient occlusion")
+        } else {
+            format!("the style {name} is not lit")
+        }
+    };
+    let shows_environment = !is_vector && scene.image.environment_blur.is_some();
+    if draws_lines || !has_light(scene.style) {
+        unused.extend(light.light_flags(shows_environment));
+    }
+    if !has_shadows(scene.style) || draws_lines {
+        unused.extend(light.shadow_flags(scene.ground.is_some() && !draws_lines));
+    }
+    let mut warnings = Vec::new();
+    if !unused.is_empty() {
+        let verb = if unused.len() == 1 { "does" } else { "do" };
+        warnings.push(format!("{} {verb} nothing here: {reason}", list_flags(&unused)));
+    }
+    if flags.calibrated.has_axes_alone() {
+        let message =
+            "--camera-axes does nothing here: it is about the numbers of --extrinsics or --pose";
+        warnings.push(message.to_owned());
+    }
+    warnings
+}
+
+/// The warning that a style of surfaces was asked for and lines are drawn.
+fn undrawn_style(task: &RenderTask) -> Option<String> {
+    let style = task.overrides.style.filter(|style| is_surface_style(*style))?;
+    let name = style.to_possible_value()?.get_name().to_owned();
+    let format = task.format.extension().to_uppercase();
+    Some(format!(
+        "--style {name} does nothing here: {format} output is a line drawing; name a .png for surfaces"
+    ))
+}
+
+/// Whether a style is one of surfaces.
+fn is_surface_style(style: StyleArg) -> bool {
+    !matches!(StyleFile::from(style), StyleFile::Lines(_) | StyleFile::Wireframe)
+}
+
+/// Whether the lights of a scene shine on the surfaces of a style.
+const fn has_light(style: Style) -> bool {
+    matches!(style, Style::Shaded | Style::Flat | Style::Gouraud | Style::Clay | Style::Toon)
+}
+
+/// Whether surfaces of a style have shadows and ambient occlusion.
+const fn has_shadows(style: Style) -> bool {
+    matches!(style, Style::Shaded | Style::Flat)
+}
+
+/// The name that the flag has for a style of surfaces.
+const fn style_name(style: Style) -> &'static str {
+    match style {
+        Style::Shaded => "shaded",
+        Style::Flat => "flat",
+        Style::Gouraud => "gouraud",
+        Style::Clay => "clay",
+        Style::Matcap => "matcap",
+        Style::Normals => "normals",
+        Style::Depth => "depth",
+        Style::UvChecker => "uv",
+        Style::Ids => "ids",
+        Style::Toon => "toon",
+        Style::XRay => "x-ray",
+        Style::Wireframe => "wireframe",
+        Style::Lines(_) => "lines",
+    }
+}
+
+/// The names of flags in a sentence.
+fn list_flags(flags: &[&str]) -> String {
+    match flags {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => flags.concat(),
+    }
+}

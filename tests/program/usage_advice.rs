@@ -1,0 +1,80 @@
+//! Words of other programs on the command line: what people are told to type.
+
+use crate::sandbox::Sandbox;
+
+fn sandbox_with_teapot(name: &str) -> Sandbox {
+    let sandbox = Sandbox::new(name);
+    sandbox.copy_model("teapot.glb");
+    sandbox
+}
+
+#[test]
+fn flags_of_other_programs_lead_to_ours() {
+    let sandbox = sandbox_with_teapot("foreign_flags");
+    for (flags, told) in [
+        (&["--resolution", "8x8"][..], "use `--size 1920x1080`"),
+        (&["--width", "8"], "use `--size 1920x1080`"),
+        (&["--height=8"], "use `--size 1920x1080`"),
+        (&["--bg-color", "red"], "use `--background '#f4f1ea'`"),
+        (&["--background-color=red"], "use `--background '#f4f1ea'`"),
+        (&["--wireframe"], "use `--style wireframe`"),
+        (&["--hdri", "a.hdr"], "use `--environment studio.hdr`"),
+        (&["--camera-position", "1,2,3"], "use `--eye 4,3,6 --target 0,0,0`"),
+        (&["--out-file", "a.png"], "use `--output picture.png`"),
+        (&["--turntable"], "run `alberti animate model.glb --turntable -o turn.gif`"),
+    ] {
+        let run = sandbox.run(&[&["render", "teapot.glb"], flags].concat());
+        let name = flags[0].split('=').next().expect("a name");
+        let expected = format!("error: `{name}` is not a flag of `alberti render`; {told}\n");
+        assert_eq!((run.code, run.stderr), (2, expected), "{flags:?}");
+    }
+}
+
+#[test]
+fn tips_are_never_nonsense() {
+    let sandbox = sandbox_with_teapot("tips");
+    let unknown = sandbox.run(&["render", "teapot.glb", "--qwerty"]);
+    assert!(!unknown.stderr.contains("tip:"), "{}", unknown.stderr);
+    let cel = sandbox.run(&["render", "teapot.glb", "--style", "cel"]);
+    assert!(cel.stderr.contains("'toon'\n"), "{}", cel.stderr);
+    let misspelt = sandbox.run(&["render", "teapot.glb", "--enviroment", "sky"]);
+    assert!(misspelt.stderr.contains("'--environment'"), "{}", misspelt.stderr);
+}
+
+#[test]
+fn help_has_groups_that_people_know() {
+    let sandbox = Sandbox::new("help_groups");
+    let help = sandbox.run(&["render", "--help"]).stdout;
+    let headings: Vec<&str> = help
+        .lines()
+        .filter(|line| line.ends_with(':') && !line.starts_with(' '))
+        .map(|line| line.trim_end_matches(':'))
+        .collect();
+    for heading in ["Input", "Camera", "Picture", "Light", "Lines", "Output"] {
+        let count = headings.iter().filter(|known| **known == heading).count();
+        assert_eq!(count, 1, "{heading}: {headings:?}");
+    }
+    let group_of = |flag: &str| {
+        let at = help.find(&format!("--{flag} ")).or_else(|| help.find(&format!("--{flag}\n")));
+        let before = &help[..at.expect(flag)];
+        let heading =
+            before.lines().rev().find(|line| line.ends_with(':') && !line.starts_with(' '));
+        heading.map(|line| line.trim_end_matches(':').to_owned()).expect(flag)
+    };
+    for (flag, heading) in [
+        ("background", "Picture"),
+        ("bits", "Picture"),
+        ("azimuth", "Camera"),
+        ("section", "Lines"),
+        ("arc-tolerance", "Lines"),
+        ("threads", "Output"),
+        ("exposure", "Light"),
+        ("time", "Input"),
+    ] {
+        assert_eq!(group_of(flag), heading, "{flag}");
+    }
+    let top = sandbox.run(&["--help"]).stdout;
+    for group in ["Pictures:", "Files:", "Learning:", "Options:", "Examples:"] {
+        assert!(top.contains(&format!("\n{group}\n")), "{group}: {top}");
+    }
+}
