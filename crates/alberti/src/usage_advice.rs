@@ -60,7 +60,7 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("camera-zoom camera-zoom-factor zoom-factor", "zoom", "--zoom 1.5"),
     ("position camera-position camera-pos eye-position from", "eye", "--eye 4,3,6 --target 0,0,0"),
     ("look-at lookat focal-point camera-focal-point center", "eye", "--eye 4,3,6 --target 0,0,0"),
-    ("camera-view-up camera-up viewup", "view-up", "--view-up 0,1,0"),
+    ("camera-view-up camera-up viewup", "view-up", "--eye 4,3,6 --target 0,0,0 --view-up 0,1,0"),
     ("camera-direction direction viewpoint", "view", "--view front"),
     ("camera-index", "camera", "--camera 0"),
     ("ao ssao", "ambient-occlusion", "--ambient-occlusion"),
@@ -171,7 +171,7 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
         });
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
-    if closest_name(flag, &names).is_none_or(|similar| strsim_is_far(flag, similar)) {
+    if closest_name(flag, &names).is_none_or(|similar| differs_widely(flag, similar)) {
         error.remove(ContextKind::SuggestedArg);
     }
     None
@@ -179,7 +179,7 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
 
 /// Whether two names are too different for one to be a misspelling of the other: more than a third
 /// of the letters of the longer one are missing in the other, wherever they stand.
-fn strsim_is_far(word: &str, name: &str) -> bool {
+fn differs_widely(word: &str, name: &str) -> bool {
     let mut rest: Vec<char> = name.chars().collect();
     let shared = word.chars().filter(|letter| {
         let at = rest.iter().position(|other| other == letter);

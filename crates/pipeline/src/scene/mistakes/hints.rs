@@ -137,8 +137,8 @@ const FIELDS: &[(&str, &str, &str)] = &[
     ),
     (
         "style: DepthCued",
-        "write style: Lines(depth_cue_percent: 80)",
-        "style: Lines(depth_cue_percent: 80)",
+        "write style: Lines(edges: Facets, hidden: Drawn, depth_cue_percent: 80)",
+        "style: Lines(edges: Facets, hidden: Drawn, depth_cue_percent: 80)",
     ),
 ];
 

@@ -44,7 +44,7 @@ const WORDS: [(&str, &str); 66] = [
     ("style: MeshNormalMaterial", "`Normals`"),
     // Blender
     ("lights: [Sun(direction: (0, -1, 0), intensity: 1)]", "`Directional`"),
-    ("lights: [Area(intensity: 1)]", "`Spot`"),
+    ("lights: [Area(intensity: 1)]", "Studio()"),
     ("lights: [Directional(direction: (0, -1, 0), energy: 1)]", "`intensity`"),
     ("lights: [Point(location: (0, 1, 0), intensity: 1)]", "`position`"),
     ("lights: [Point(position: (0, 1, 0), power: 1)]", "`intensity`"),
