@@ -383,7 +383,7 @@ fn includes_go_neither_in_circles_nor_astray() {
     }
     for (path, words) in [
         ("../outside.ron", "leads out of the scene's folder"),
-        ("no.ron", "cannot read"),
+        ("no.ron", "in/no.ron: the file does not exist; check the name"),
         ("/etc/hostname", "leads out of the scene's folder"),
     ] {
         sandbox.write_file("in/c.ron", format!("Scene(\n  include: \"{path}\",\n)"));

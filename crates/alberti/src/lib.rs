@@ -78,7 +78,7 @@ pub use program::run_within;
 pub use signals::clean_up_on_signals;
 
 use args::{Args, Command};
-use clap::{CommandFactory, FromArgMatches as _};
+use clap::CommandFactory as _;
 use deferred::Deferred;
 use error::CliError;
 use messages::{print_json, print_message, print_note, print_stdout, print_text, print_usage};
@@ -90,22 +90,13 @@ use std::process::ExitCode;
 /// Exit codes: 0 success, 1 failure or errors found by a check, 2 wrong usage (set by clap), 3 a
 /// batch that could not go on, 128 and more one that a signal has interrupted.
 ///
-/// A failure is printed as `error: MESSAGE` on the standard error stream, and the code is 1; clap
-/// words usage errors. `check`, `render --compare`, `batch`, `scene fmt --check` and `exercise` also
-/// return 1 for a verdict; they have then printed it themselves, without `error:`.
+/// A failure is printed as `error: MESSAGE` on the standard error stream. Commands whose result is a
+/// verdict return 1 without one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words = negative_numbers::join_negative_numbers(arguments, Args::command);
-    let program = help_groups::group_commands(Args::command());
-    let parsed = program.try_get_matches_from(&words).and_then(|matches| {
-        let args = Args::from_arg_matches(&matches);
-        args.map_err(|error| error.format(&mut Args::command()))
-    });
-    let args = match parsed {
+    let args = match usage_advice::parse_args(&words) {
         Ok(args) => args,
         Err(usage) => {
-            let mut program = Args::command();
-            program.build();
-            let usage = usage_advice::advise(usage, &words, &program);
             print_usage(&usage);
             return u8::try_from(usage.exit_code()).unwrap_or(2);
         }
@@ -118,8 +109,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Runs the command of the arguments.
 ///
-/// The color choice is set first, because messages depend on it. Commands with a verdict of their
-/// own (`render`, `check`, `batch`, `scene`, `exercise`) return their exit code.
+/// The color choice is set first, because messages depend on it.
 ///
 /// # Errors
 /// If the input is invalid or the work fails; nothing has been printed about it then.

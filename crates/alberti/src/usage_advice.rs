@@ -4,13 +4,32 @@
 //! `--resolution` is not like `--size`. What people bring from f3d, Blender, three.js or stl-thumb
 //! is in tables here, and is looked up first.
 
+use super::args::Args;
+use super::help_groups;
 use super::negative_numbers::called_command;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Command, Error};
+use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
 use pipeline::scene::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
+
+/// Parses the command line.
+///
+/// # Errors
+/// What is wrong with it, with advice.
+pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
+    let program = help_groups::group_commands(Args::command());
+    let parsed = program.try_get_matches_from(words).and_then(|matches| {
+        let args = Args::from_arg_matches(&matches);
+        args.map_err(|error| error.format(&mut Args::command()))
+    });
+    parsed.map_err(|usage| {
+        let mut program = Args::command();
+        program.build();
+        advise(usage, words, &program)
+    })
+}
 
 /// Flags of other programs: their names without hyphens at the front; a flag that the command must
 /// have; and what to write.
@@ -116,7 +135,7 @@ const FOREIGN_VALUES: &[(&str, &str, &str)] = &[
 /// The error of clap with a tip that helps, or an error in its place.
 ///
 /// `program` has all its flags declared; `words` are those of the command line.
-pub(crate) fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
+fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     // `to pass '--zoom' as a value, use '-- --zoom'` is never what was meant.
     error.remove(ContextKind::Suggested);
     let message = match error.kind() {
@@ -275,7 +294,6 @@ fn advise_on_conflict(error: &mut Error) {
 mod tests {
     use super::*;
     use crate::args::Args;
-    use clap::CommandFactory as _;
 
     /// All commands with their flags.
     fn built_program() -> Command {

@@ -48,6 +48,7 @@ mod overlays;
 mod parse;
 pub mod reference;
 mod resolve;
+mod resolve_options;
 mod schema;
 mod section;
 mod shadows;
@@ -79,7 +80,8 @@ pub use lints::{Lint, lint_description, lint_scene};
 pub use origin::Origin;
 pub use outputs::Outputs;
 pub use parse::parse_scene;
-pub use resolve::{ResolveOptions, select_animation};
+pub use resolve::select_animation;
+pub use resolve_options::ResolveOptions;
 #[cfg(feature = "sheets")]
 pub use sheet::{SheetContent, resolve_sheet};
 #[cfg(feature = "sheets")]

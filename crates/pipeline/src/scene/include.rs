@@ -354,11 +354,16 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         sheet: if has("sheet") { sheet } else { old.sheet },
     };
     let fields = below.fields.into_iter().chain(above.fields).collect();
-    let mut lists = below.lists;
-    for (list, elements) in above.lists {
+    MergedScene { file, fields, lists: merge_sources(below.lists, above.lists) }
+}
+
+/// The sources of the elements of concatenated lists.
+fn merge_sources(below: ElementSources, above: ElementSources) -> ElementSources {
+    let mut lists = below;
+    for (list, elements) in above {
         lists.entry(list).or_default().extend(elements);
     }
-    MergedScene { file, fields, lists }
+    lists
 }
 
 /// Concatenates two lists, the included one first.

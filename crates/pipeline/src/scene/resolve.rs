@@ -14,6 +14,7 @@ use super::material_overrides::override_materials;
 use super::number::Positive;
 use super::origin::ModelSource;
 use super::overlays::resolve_overlays;
+use super::resolve_options::ResolveOptions;
 use super::section::resolve_sections;
 use super::style::resolve_style;
 use super::suggest::{closest_name, suggest_name};
@@ -33,41 +34,6 @@ use shade::{ToneMapper, ToneMapping};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// How a scene is resolved.
-#[derive(Clone, Debug, Default)]
-pub struct ResolveOptions {
-    /// How models are loaded. The paths of a scene file may lead out of its folder into those that
-    /// `allow_outside` names.
-    pub import: ImportOptions,
-    /// Whether the picture may have more than 2²⁸ pixels, as one of a person's choice may: a line
-    /// in a scene file is enough to ask for hours of work.
-    pub allow_large_picture: bool,
-}
-
-impl ResolveOptions {
-    /// The default with these import options.
-    #[must_use]
-    pub fn with_import(import: ImportOptions) -> Self {
-        Self { import, ..Self::default() }
-    }
-
-    /// Refuses a picture of more than [`MAX_PIXELS`], unless it is allowed.
-    pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
-        let (width, height) = file.image.size;
-        if self.allow_large_picture || u64::from(width) * u64::from(height) <= MAX_PIXELS {
-            return Ok(());
-        }
-        let message = format!(
-            "the picture has {width} x {height} pixels; a scene can ask for {MAX_PIXELS} at most"
-        );
-        let help = format!("`--size {width}x{height}` on the command line renders it anyway");
-        Err(origin.error_at(&[Field("image"), Field("size")], message, Some(help)))
-    }
-}
-
-/// The most pixels that a scene may ask for by itself: 16,384 x 16,384.
-const MAX_PIXELS: u64 = 1 << 28;
 
 impl Scene {
     /// Loads the models of a scene and decides everything that the file leaves open.
@@ -187,14 +153,10 @@ impl Scene {
             file.radius.map_or_else(usual, Positive::value)
         });
         let exposure_ev = resolve_exposure(origin, file, &models, &lights);
-        let tone_mapper = ToneMapper::new(
-            exposure_ev,
-            file.image.tone_mapping.unwrap_or_else(|| {
-                // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
-                let has_model_lights = file.has_default_light(origin) && has_lights(&models);
-                if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None }
-            }),
-        );
+        // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
+        let has_model_lights = file.has_default_light(origin) && has_lights(&models);
+        let curve = if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None };
+        let tone_mapper = ToneMapper::new(exposure_ev, file.image.tone_mapping.unwrap_or(curve));
         // After the exposure, which would compensate for it.
         scale_lights(&mut lights, file.light_intensity);
         let environment = access.environment(origin, file, &models, exposure_ev)?;

@@ -18,5 +18,6 @@ fn load_scene(name: &str, change: impl FnOnce(&mut SceneFile)) -> Scene {
     let (origin, mut file) =
         Origin::read_scene(&folder.join(format!("{name}.ron"))).expect("a committed scene");
     change(&mut file);
-    Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("a scene that makes sense")
+    let options = ResolveOptions { allow_large_picture: true, ..ResolveOptions::default() };
+    Scene::resolve(&origin, &file, &options).expect("a scene that makes sense")
 }
