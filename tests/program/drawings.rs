@@ -195,7 +195,12 @@ fn every_style_has_its_lines_in_every_projection() {
     sandbox.copy_model("house.glb");
     let count = |style: &str, projection: &str| {
         let flags = ["-o", "out.svg", "--style", style, "--projection", projection];
-        assert_succeeds(&sandbox, &[&["render", "house.glb"][..], &flags].concat());
+        let run = sandbox.run(&[&["render", "house.glb"][..], &flags].concat());
+        // Of surfaces an SVG has the lines, which is said.
+        let is_surface = matches!(style, "shaded" | "flat");
+        assert_eq!(run.code, 0, "{flags:?}: {}", run.stderr);
+        assert_eq!(run.stderr.contains("SVG output is a line drawing"), is_surface, "{flags:?}");
+        assert!(is_surface || run.stderr.is_empty(), "{flags:?}: {}", run.stderr);
         let (page, layers) = read_drawing(&sandbox, "out.svg");
         let [low, high] = layer_bounds(&layers, |_| true);
         assert!(

@@ -109,8 +109,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 /// Runs the command of the arguments.
 ///
-/// The color choice is set first, because messages depend on it.
-///
 /// # Errors
 /// If the input is invalid or the work fails; nothing has been printed about it then.
 pub(crate) fn run_command(args: Args) -> Result<u8, CliError> {
