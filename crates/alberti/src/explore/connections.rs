@@ -85,7 +85,7 @@ pub(super) fn serve(listener: &TcpListener, port: u16, site: Site) -> Result<(),
 }
 
 impl Connections {
-    /// Closes the oldest connection that nobody would miss; false if there is none.
+    /// Closes the oldest idle or slow connection; false if there is none.
     ///
     /// Its thread wakes up, and takes it off the count.
     fn close_oldest(&mut self) -> bool {

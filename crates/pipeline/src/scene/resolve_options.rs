@@ -13,7 +13,7 @@ pub struct ResolveOptions {
     /// How models are loaded. The paths of a scene file may lead out of its folder into those that
     /// `allow_outside` names.
     pub import: ImportOptions,
-    /// Whether the picture may have more than 2²⁸ pixels, as one of a person's choice may: a line
+    /// Whether the picture may have more than 2²⁸ pixels. For sizes that a person chose: a line
     /// in a scene file is enough to ask for hours of work.
     pub allow_large_picture: bool,
 }
@@ -28,7 +28,7 @@ impl ResolveOptions {
     /// Refuses a picture of more than [`MAX_PIXELS`], unless it is allowed.
     pub(super) fn check_pixels(&self, origin: &Origin, file: &SceneFile) -> Result<(), SceneError> {
         let (width, height) = file.image.size;
-        // Longer sides have an error of their own.
+        // Longer sides have a separate error.
         let is_possible = width.max(height) <= crate::MAX_IMAGE_SIDE;
         if self.allow_large_picture
             || !is_possible
