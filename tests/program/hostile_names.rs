@@ -7,7 +7,7 @@ use crate::sandbox::{RunResult, Sandbox};
 const HOSTILE: &str =
     "\u{1b}]0;P\u{7}\u{1b}[31m\u{9b}2J\u{7f}\u{202e}\u{2066}\u{2028}\r\t\u{85}\n  = help: FORGED";
 
-/// A text without what a terminal obeys, and the line of [`HOSTILE`] is none.
+/// Checks that a text has no control characters, and that [`HOSTILE`] has not started a line in it.
 fn assert_is_text(text: &str, arguments: &[&str]) {
     let is_control = |c: char| {
         (c.is_control() && c != '\n')

@@ -2,7 +2,7 @@
 
 /// Lets SIGINT, SIGTERM and SIGHUP remove the temporary files of the program before they end it.
 ///
-/// For a process of its own: within another program, such as Python, signals are not this one's.
+/// Only for the program itself: within another one, such as Python, signals belong to that one.
 /// Signals that were ignored at the start, as `nohup` does, stay so. Without a thread for them they
 /// end the program at once.
 #[cfg(unix)]

@@ -13,7 +13,7 @@ pub fn is_terminal_control(character: char) -> bool {
 /// A text for a line of a message, in which controls are written as in Rust: `\n`, `\u{1b}`.
 ///
 /// Files of strangers name nodes, keys and other files; none of these may move the cursor, color the
-/// screen or begin a line of its own.
+/// screen or start a new line.
 ///
 /// ```
 /// assert_eq!(model::visible_text("roof"), "roof");

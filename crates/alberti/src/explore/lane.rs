@@ -1,11 +1,11 @@
-//! Lanes: computations one after the other, in a thread of their own, which nobody holds up who has
-//! gone.
+//! Lanes: threads that answer one request after the other. Requests of clients that have gone are
+//! cancelled.
 //!
 //! ```text
 //!  thread of a connection ─► queue ─► thread of the lane: its explorer computes
 //!  waits, and looks whether the client is still there ──► CancelToken
 //! ```
-//! Small questions have a lane of their own: none waits behind a large picture.
+//! Small questions have a separate lane, so that none waits behind a large picture.
 
 use explorer::{Answer, Explorer, ExplorerError};
 use pipeline::CancelToken;
@@ -139,7 +139,7 @@ impl Queue {
     fn work(&self, mut explorer: Explorer) {
         loop {
             let Job { query, cancel, reply } = self.next();
-            // A thread of its own: a panic ends that one, not the lane.
+            // In a separate thread: a panic ends that thread, not the lane.
             let computed = std::thread::scope(|scope| {
                 scope.spawn(|| explorer.answer_unless_cancelled(&query, &cancel)).join()
             });

@@ -28,7 +28,7 @@ impl SceneFile {
         origin.text.is_empty() && self.lights.is_none()
     }
 
-    /// Whether there is an environment to show, as far as the file alone tells.
+    /// Whether the scene may have an environment: the file alone does not always say.
     pub(super) fn may_have_environment(&self, origin: &Origin) -> bool {
         match self.environment {
             Some(EnvironmentFile::Dark) => false,
