@@ -1,5 +1,6 @@
 //! What users see first: every model, bare, in every style, has light and contrast, and its default
-//! picture neither clips nor drowns; and ambient occlusion leaves no dots.
+//! picture neither clips nor drowns; ambient occlusion leaves no dots; no style loses a model, and
+//! alpha counts in all of them.
 //!
 //! The models are those of the scenes and, if it exists, those of the folder `$ASSETS` or
 //! `shared/assets` beside the repository. Pictures of scenes do not find such faults, because
@@ -7,7 +8,9 @@
 //! name.
 
 mod films;
+mod leaves;
 mod occlusion;
+mod styles;
 
 use alberti_tests::harness::{Arguments, Tally, data_folder, map_parallel, run_program};
 use alberti_tests::project_root;
@@ -79,7 +82,13 @@ pub fn run() -> ExitCode {
         }
         models.retain(|model| arguments.select(&model_name(model)));
         let mut tally = judge_models(&models, arguments);
-        let lamp = films::write_moving_lamp(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("looks"))?;
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("looks");
+        let leaves = leaves::judge_leaves(&folder)?;
+        let grounds = leaves::judge_grounds(&folder)?;
+        for (name, faults) in [("leaves", leaves), ("grounds", grounds)] {
+            tally.record(name, if faults.is_empty() { Ok(()) } else { Err(faults.join("; ")) });
+        }
+        let lamp = films::write_moving_lamp(&folder)?;
         let faults = films::compare_frames(&lamp);
         tally
             .record("moving-lamp", if faults.is_empty() { Ok(()) } else { Err(faults.join("; ")) });
@@ -111,6 +120,7 @@ fn judge_models(models: &[PathBuf], arguments: &Arguments) -> Tally {
 fn judge_model(model: &Path) -> Vec<String> {
     let mut faults = occlusion::find_dots(model, &model_name(model));
     faults.extend(films::compare_frames(model));
+    faults.extend(styles::judge_styles(model, &model_name(model)));
     // A plane has one normal: there is nothing that light could show.
     let Ok(normals) = render_model(model, &StyleFile::Normals) else { return faults };
     let is_even = normals.contrast < MIN_CONTRAST || is_exempt(model, &EVEN_MODELS);

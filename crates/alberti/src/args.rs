@@ -14,7 +14,7 @@ use super::demo::DemoArgs;
 use super::exercise::ExerciseArgs;
 use super::explain::ExplainArgs;
 use super::explore::ExploreArgs;
-use super::format::{DxfArgs, OutputFormat};
+use super::format::{DxfArgs, OutputFormat, parse_quality};
 use super::load_options::LoadArgs;
 use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
@@ -138,7 +138,8 @@ pub(crate) struct RenderArgs {
     /// Scenes (.ron) or models (.gltf, .glb, .stl, .obj, .ply, .3mf); `-` is the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub(crate) inputs: Vec<PathBuf>,
-    /// Output file: .png, or .svg, .pdf or .dxf for a line drawing; `-` is the standard output
+    /// Output file: .png, .jpg or .webp, or .svg, .pdf or .dxf for a line drawing; `-` is the
+    /// standard output
     /// [default: {stem}.png in the current folder, {stem}_{view}.png for several views]
     ///
     /// The name may be a template. {stem}, {camera}, {view}, {style}, {projection} and {variant}
@@ -150,6 +151,12 @@ pub(crate) struct RenderArgs {
     /// Output format [default: from the file extension; png on the standard output]
     #[arg(help_heading = "Output", long)]
     pub(crate) format: Option<OutputFormat>,
+    /// Quality of a JPEG, from 1 to 100 [default: 90]
+    #[arg(help_heading = "Output", long, value_name = "N", value_parser = parse_quality)]
+    pub(crate) quality: Option<u8>,
+    /// Render again whenever the input or a file that it uses changes, until Ctrl+C
+    #[arg(help_heading = "Output", long, conflicts_with_all = ["json", "compare"])]
+    pub(crate) watch: bool,
     /// Render one picture from each of these directions, such as front,right,top,iso
     #[arg(
         help_heading = "Camera",

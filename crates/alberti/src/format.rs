@@ -4,8 +4,10 @@
 //! look for before they ask for an [`OutputFormat`].
 
 mod dxf;
+mod raster;
 
 pub(crate) use dxf::{DxfArgs, image_warning};
+pub(crate) use raster::{DEFAULT_QUALITY, parse_quality};
 
 use super::error::CliError;
 use drawing::{DxfOptions, Page, to_pdf};
@@ -17,6 +19,11 @@ use std::path::Path;
 pub(crate) enum OutputFormat {
     /// Raster image
     Png,
+    /// Raster image without alpha, compressed with loss
+    #[value(alias = "jpg")]
+    Jpeg,
+    /// Raster image, compressed without loss
+    Webp,
     /// Line drawing
     Svg,
     /// Line drawing on a page
@@ -37,6 +44,8 @@ impl OutputFormat {
         let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("png") => Ok(Self::Png),
+            Some("jpg" | "jpeg" | "jpe") => Ok(Self::Jpeg),
+            Some("webp") => Ok(Self::Webp),
             Some("svg") => Ok(Self::Svg),
             Some("pdf") => Ok(Self::Pdf),
             Some("dxf") => Ok(Self::Dxf),
@@ -66,8 +75,6 @@ impl OutputFormat {
             ))
         };
         match ending {
-            "jpg" | "jpeg" | "jpe" => convert("JPEG"),
-            "webp" => convert("WebP"),
             "avif" => convert("AVIF"),
             "tif" | "tiff" => convert("TIFF"),
             "bmp" => convert("BMP"),
@@ -78,7 +85,7 @@ impl OutputFormat {
             ),
             "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => animate(),
             _ => CliError::Usage(format!(
-                "the output {name} has no known extension: .png, .svg, .pdf or .dxf\n  = help: change the extension, or choose the format with --format"
+                "the output {name} has no known extension: .png, .jpg, .webp, .svg, .pdf or .dxf\n  = help: change the extension, or choose the format with --format"
             )),
         }
     }
@@ -87,6 +94,8 @@ impl OutputFormat {
     pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
+            Self::Jpeg => "jpg",
+            Self::Webp => "webp",
             Self::Svg => "svg",
             Self::Pdf => "pdf",
             Self::Dxf => "dxf",
@@ -95,9 +104,9 @@ impl OutputFormat {
 
     /// Encodes pages in a vector format; an SVG or a DXF holds the first one only.
     ///
-    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. `Png`
-    /// is not a vector format and is treated as SVG here: callers rasterize the page before they
-    /// come to this function.
+    /// A PDF has one page for each; their sizes may differ. A DXF is in millimeters on paper. Raster
+    /// formats are treated as SVG here: callers rasterize the page before they come to this
+    /// function.
     pub(super) fn encode_pages(self, pages: &[Page]) -> Vec<u8> {
         match self {
             Self::Pdf => to_pdf(pages),
@@ -105,7 +114,7 @@ impl OutputFormat {
                 let encode = |page: &Page| page.to_dxf(&DxfOptions::on_paper(page));
                 pages.first().map(encode).unwrap_or_default()
             }
-            Self::Png | Self::Svg => {
+            Self::Png | Self::Jpeg | Self::Webp | Self::Svg => {
                 pages.first().map(Page::to_svg).unwrap_or_default().into_bytes()
             }
         }

@@ -4,7 +4,7 @@
 //! have all panels on one page.
 
 use super::CliError;
-use super::format::OutputFormat;
+use super::format::{DEFAULT_QUALITY, OutputFormat};
 use super::messages::print_warnings;
 use super::progress::Progress;
 use super::sheet;
@@ -44,7 +44,10 @@ pub(super) fn write_panels(output: &Path, panels: &Panels) -> Result<(), CliErro
 pub(super) fn write_page(output: &Path, page: &Page) -> Result<(), CliError> {
     let format = OutputFormat::from_path(output)?;
     let bytes = match format {
-        OutputFormat::Png => sheet::rasterize_page(page, sheet::DEFAULT_DPI)?.to_png(),
+        format if format.is_raster() => {
+            let picture = sheet::rasterize_page(page, sheet::DEFAULT_DPI)?;
+            format.encode_picture(&picture, DEFAULT_QUALITY)?
+        }
         _ => format.encode_pages(std::slice::from_ref(page)),
     };
     Ok(pipeline::write_file(output, &bytes)?)
@@ -60,7 +63,7 @@ pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
     OutputFormat::from_path(output).map(|_| ()).map_err(|_| {
         let name = visible_path(output);
         CliError::Usage(format!(
-            "the output {name} has no known extension: .svg, .pdf, .dxf, .png or .html"
+            "the output {name} has no known extension: .svg, .pdf, .dxf, .png, .jpg, .webp or .html"
         ))
     })
 }

@@ -27,6 +27,11 @@ pub(crate) struct RegionArgs {
 }
 
 impl RegionArgs {
+    /// Whether 16 bits a channel were asked for.
+    pub(super) fn asks_sixteen_bits(&self) -> bool {
+        self.bits == Some(16)
+    }
+
     /// Replaces the bit depth of the scene.
     pub(crate) fn apply_to(&self, file: &mut SceneFile) {
         if let Some(bits) = self.bits {

@@ -10,12 +10,11 @@ mod shared_scale;
 pub(super) mod tasks;
 
 use super::args::RenderArgs;
-use super::format::OutputFormat;
 use super::messages::{print_message, print_note, print_warnings};
 use super::progress::Progress;
 use super::render_job::RenderJob;
 use super::unused_flags::find_unused_flags;
-use super::{CliError, render_report, terminal_image};
+use super::{CliError, render_report, terminal_image, watch};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::{FileFormat, ImageLoading, ImportOptions};
 use model::visible_path;
@@ -38,6 +37,15 @@ use tasks::RenderTask;
 /// error: broken.glb: not a glTF file: …
 /// ```
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
+    if args.watch {
+        tasks::plan_tasks(args)?;
+        watch::repeat(&args.inputs, || render_all(args).map(drop))?;
+    }
+    render_all(args)
+}
+
+/// Renders all pictures once.
+fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     let tasks = tasks::plan_tasks(args)?;
     let mut code = ExitCode::SUCCESS;
     for task in &tasks {
@@ -82,12 +90,12 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
     };
     let (origin, mut file) = open_input(&job.input, &import)?;
     job.overrides.apply_to(&origin, &mut file)?;
-    args.load_options.apply_crease_to(&mut file, job.format != OutputFormat::Png);
+    args.load_options.apply_crease_to(&mut file, !job.format.is_raster());
     args.region.apply_to(&mut file);
     args.passes.apply_to(&mut file);
     let outputs = Outputs::from_scene_file(&origin, &file)?;
     // Lines have no textures.
-    let is_drawing = job.format != OutputFormat::Png && outputs.passes.is_empty();
+    let is_drawing = !job.format.is_raster() && outputs.passes.is_empty();
     let images = if is_drawing { ImageLoading::Headers } else { import.images };
     let options = job.overrides.resolve_options(ImportOptions { images, ..import });
     let mut scene = Scene::resolve(&origin, &file, &options)?;
@@ -116,7 +124,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
         render_report::print_report(&render_job, &output, &unused)?;
     } else {
         unused.iter().for_each(|warning| print_message("warning", warning));
-        print_warnings(&scene, &output.warnings, job.format != OutputFormat::Png);
+        print_warnings(&scene, &output.warnings, !job.format.is_raster());
     }
     Ok(output.matches_reference(args.json))
 }

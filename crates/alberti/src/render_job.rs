@@ -14,7 +14,7 @@
 use super::CliError;
 use super::args::RenderArgs;
 use super::compare::PictureComparison;
-use super::format::{OutputFormat, image_warning};
+use super::format::{DEFAULT_QUALITY, OutputFormat, image_warning};
 use super::messages::{print_note, print_stdout};
 use super::passes::create_pass_files;
 use super::progress::Progress;
@@ -132,8 +132,8 @@ impl RenderJob<'_> {
         self.check_combination()?;
         let reference = self.args.compare.load_reference(region)?;
         let EncodedPicture { sink, picture, warnings } = match self.task.format {
-            OutputFormat::Png => self.encode_picture(region)?,
-            OutputFormat::Svg | OutputFormat::Pdf | OutputFormat::Dxf => self.encode_drawing()?,
+            format if format.is_raster() => self.encode_picture(region)?,
+            _ => self.encode_drawing()?,
         };
         let (mut drafts, mut comparison) = (Vec::new(), None);
         if let Some(output) = &self.task.output {
@@ -174,7 +174,7 @@ impl RenderJob<'_> {
     /// clap cannot check these, because the format may follow from the extension of the output, and
     /// passes may be requested by the scene instead of a flag.
     fn check_combination(&self) -> Result<(), CliError> {
-        let wrong = if self.task.format != OutputFormat::Png
+        let wrong = if !self.task.format.is_raster()
             && (self.needs_picture() || self.args.region.is_partial())
         {
             "--crop, --band, --compare and --show need a raster image: name a .png with -o"
@@ -212,7 +212,8 @@ impl RenderJob<'_> {
         }
     }
 
-    /// Renders and encodes the region as a PNG of 8 or 16 bits per channel, band by band.
+    /// Renders and encodes the region: as a PNG of 8 or 16 bits per channel, band by band; in other
+    /// formats as a whole.
     ///
     /// The memory needed is that of one band and the encoder, whatever the height of the picture;
     /// bands have the same pixels as the whole. `--compare` and `--show` work on a copy of 8 bits.
@@ -224,6 +225,18 @@ impl RenderJob<'_> {
         let context = RenderContext::new(self.scene, &textures, self.threads);
         let mut renderer = Renderer::default();
         let mut prepared = renderer.prepare(&context.with_timings(self.timings))?;
+        if self.task.format != OutputFormat::Png {
+            self.task.format.check_size([region.width, region.height])?;
+            let mut whole = Picture::default();
+            prepared.render_region(region, &mut whole)?;
+            let quality = self.args.quality.unwrap_or(DEFAULT_QUALITY);
+            let encode = || self.task.format.encode_picture(&whole, quality);
+            let bytes = self.timings.measure("encode", encode)?;
+            let mut sink = self.open_sink()?;
+            sink.write_all(&bytes).map_err(|cause| self.output_error(cause))?;
+            let picture = self.needs_picture().then_some(whole);
+            return Ok(EncodedPicture { sink, picture, warnings: prepared.into_warnings() });
+        }
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);

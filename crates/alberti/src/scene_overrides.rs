@@ -57,6 +57,9 @@ pub(crate) struct SceneOverrideArgs {
     pub(crate) viewpoint: ViewpointArgs,
     #[command(flatten)]
     pub(crate) calibrated: CalibratedCameraArgs,
+    /// Draw lines exactly and completely however long it takes, also of crowds of surfaces
+    #[arg(help_heading = "Lines", long)]
+    pub(crate) no_line_limits: bool,
     /// Guides drawn over the picture; can be repeated
     #[arg(help_heading = "Picture", long, value_name = "WHAT", value_delimiter = ',')]
     pub(crate) overlay: Vec<OverlayArg>,
@@ -106,11 +109,12 @@ impl SceneOverrideArgs {
         self.section.append_to(file);
         if let Some(style) = self.style {
             let is_cut = !file.sections.is_empty();
+            let chosen = StyleFile::from(style).with_fitting_lines(file.image.size);
             file.style = match style {
                 StyleArg::Technical | StyleArg::Blueprint if is_cut => {
-                    StyleFile::from(style).without_hidden_lines()
+                    chosen.without_hidden_lines()
                 }
-                style => style.into(),
+                _ => chosen,
             };
         }
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
@@ -169,7 +173,11 @@ impl SceneOverrideArgs {
 
     /// How scenes are resolved: a size of the command line may be any that there is.
     pub(crate) const fn resolve_options(&self, import: ImportOptions) -> ResolveOptions {
-        ResolveOptions { import, allow_large_picture: self.size.is_some() }
+        ResolveOptions {
+            import,
+            allow_large_picture: self.size.is_some(),
+            unlimited_lines: self.no_line_limits,
+        }
     }
 
     /// Frames the models from a direction, with the padding of a scene that frames them already.

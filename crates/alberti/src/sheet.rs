@@ -8,7 +8,7 @@ mod page_files;
 mod parts_list_json;
 
 use super::CliError;
-use super::format::{DxfArgs, OutputFormat, image_warning};
+use super::format::{DEFAULT_QUALITY, DxfArgs, OutputFormat, image_warning};
 use super::load_options::LoadArgs;
 use super::messages::{print_note, print_warnings};
 use super::model_state::ModelStateArgs;
@@ -171,7 +171,9 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     }
     warnings.extend(pages.iter().find_map(|page| image_warning(format, page)));
     let encode = |page: &Page| match format {
-        OutputFormat::Png => Ok(rasterize_page(page, args.dpi)?.to_png()),
+        format if format.is_raster() => {
+            format.encode_picture(&rasterize_page(page, args.dpi)?, DEFAULT_QUALITY)
+        }
         OutputFormat::Dxf => Ok(page.to_dxf(&args.dxf.apply_to(DxfOptions::on_paper(page)))),
         _ => Ok(format.encode_pages(std::slice::from_ref(page))),
     };

@@ -18,13 +18,19 @@ pub(super) fn find_unused_flags(
     task: &RenderTask,
     scene: &Scene,
 ) -> Vec<String> {
-    let is_vector = task.format != OutputFormat::Png;
+    let is_vector = !task.format.is_raster();
     let mut warnings = find_unused_overrides(&task.overrides, scene, is_vector);
     if is_vector {
         warnings.extend(undrawn_style(task));
     }
     if args.dxf.has_tolerance() && task.format != OutputFormat::Dxf {
         warnings.push("--arc-tolerance does nothing here: only a DXF has arcs".to_owned());
+    }
+    if args.quality.is_some() && task.format != OutputFormat::Jpeg {
+        warnings.push("--quality does nothing here: only a JPEG has a quality".to_owned());
+    }
+    if args.region.asks_sixteen_bits() && task.format != OutputFormat::Png {
+        warnings.push("--bits 16 does nothing here: only a PNG has 16 bits a channel".to_owned());
     }
     warnings
 }
@@ -52,6 +58,9 @@ pub(super) fn find_unused_overrides(
             format!("the style {name} is not lit")
         }
     };
+    if scene.style.is_false_color() && !draws_lines {
+        unused.extend(light.ground_flags());
+    }
     let shows_environment = !is_vector && scene.image.environment_blur.is_some();
     if draws_lines || !has_light(scene.style) {
         unused.extend(light.light_flags(shows_environment));

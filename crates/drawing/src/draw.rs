@@ -16,24 +16,27 @@
 //! The surface depends on models and sections only, everything below it on the viewer too. Edges
 //! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
-use super::edges::{CandidateEdge, SectionCap, WeldedSurface};
+use super::edges::{CandidateEdge, SectionCap, WeldedSurface, WorldMesh};
 use super::face_fill::{KeyLight, rasterize_fill};
 use super::hatching::Hatching;
 use super::hidden_line::{
-    DepthCover, MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge,
-    TriangleMesh as _,
+    DepthCover, MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge, TriangleMesh,
+    mesh_bvh,
 };
 use super::options::{DrawOptions, HiddenEdges};
 use super::parallel::map_in_order;
 use super::projector::Projector;
 use super::region::{Region, region_edges};
 use super::retained_points::idle_section_warnings;
+use super::view_cover::{Occluding, ViewCover, view_cover};
 use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
 use glam::DVec2;
 use homog::Point;
+use model::{ModelInstance, Primitive, Topology};
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use viewport::Viewport;
 
@@ -42,23 +45,33 @@ use viewport::Viewport;
 /// The drawing does not depend on the number of threads.
 ///
 /// # Errors
-/// If the image has no pixels.
+/// If the image has no pixels, or if copies of meshes have too many triangles.
 pub fn draw(
     subject: &Subject<'_>,
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(&subject.view_projection, &subject.viewport()?);
-    let mut surface = WeldedSurface::new(subject.models, subject.sections, subject.uncut);
+    if !options.is_unlimited {
+        refuse_many_copies(subject.models)?;
+    }
+    let mut mesh = WorldMesh::from_models(subject.models);
+    let has_cut_outs = mesh.faces.iter().any(|face| mesh.is_cut_out(face));
+    if options.leaves_out_cut_outs && has_cut_outs {
+        mesh.remove_cut_outs();
+    }
+    let mut surface = WeldedSurface::from_mesh(mesh, subject.sections, subject.uncut);
     let mut candidates = surface.mesh_edges(&projector, options);
     // There is no other view: memory of millions of edges is free for what follows.
     surface.forget_half_edges();
     let cover = view_cover(&surface, projector, subject.size, options);
-    let wanted = (options, cover.as_ref());
+    let wanted = (options, cover.as_ref().map(|view| &view.cover));
     let is_cut_off = surface.add_intersections(&mut candidates, wanted, threads);
     let view = (&subject.view_projection, subject.size);
     let candidates = Candidates { edges: candidates, is_cut_off, cover };
     let mut drawing = draw_candidates(&surface, candidates, view, options, threads)?;
+    let draws_whole = has_cut_outs && !options.leaves_out_cut_outs;
+    drawing.warnings.extend(draws_whole.then_some(Warning::CutOutsDrawnWhole));
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
     drawing.warnings.sort_unstable();
     Ok(drawing)
@@ -76,10 +89,11 @@ pub(crate) fn draw_surface(
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
     let mut candidates = surface.mesh_edges(&projector, options);
-    // Other views need other intersections: all are found once.
-    let is_cut_off = surface.add_intersections(&mut candidates, (options, None), threads);
-    let view = (view_projection, size);
     let cover = view_cover(surface, projector, size, options);
+    // Other views need other intersections: all are found once, unless they are too many.
+    let crowd = cover.as_ref().and_then(ViewCover::crowd);
+    let is_cut_off = surface.add_intersections(&mut candidates, (options, crowd), threads);
+    let view = (view_projection, size);
     let candidates = Candidates { edges: candidates, is_cut_off, cover };
     draw_candidates(surface, candidates, view, options, threads)
 }
@@ -89,21 +103,31 @@ struct Candidates {
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
-    /// The depths behind which nothing is visible; `None` where hidden edges are wanted, and where
-    /// no face is large enough.
-    cover: Option<DepthCover>,
+    /// What the surface hides of itself, as far as it is asked for.
+    cover: Option<ViewCover>,
 }
 
-/// What a surface hides of itself by single faces, where hidden lines are not drawn.
-fn view_cover(
-    surface: &WeldedSurface,
-    projector: Projector,
-    size: [u32; 2],
-    options: &DrawOptions,
-) -> Option<DepthCover> {
-    let is_removed = options.hidden_edges == HiddenEdges::Removed && !options.outline_only;
-    let cover = is_removed.then(|| surface.depth_cover(projector, size))?;
-    (!cover.is_empty()).then_some(cover)
+/// Copies of meshes may have this many triangles together, and twice as many as the models have.
+const TRIANGLES_OF_COPIES: u64 = 1 << 20;
+
+/// Lines take memory and time for each triangle, and a small file may have any number of copies.
+fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
+    let triangles = |primitive: &Primitive| match primitive.topology {
+        Topology::Triangles => primitive.item_count() as u64,
+        _ => 0,
+    };
+    let (mut count, mut distinct) = (0, 0);
+    for (index, placed) in models.iter().enumerate() {
+        count +=
+            placed.model.scene_primitives().map(|(_, primitive)| triangles(primitive)).sum::<u64>();
+        let is_copy = models[..index].iter().any(|other| Arc::ptr_eq(&other.model, &placed.model));
+        if !is_copy {
+            let meshes = placed.model.meshes.iter();
+            distinct += meshes.flat_map(|mesh| &mesh.primitives).map(triangles).sum::<u64>();
+        }
+    }
+    let most = TRIANGLES_OF_COPIES + 2 * distinct;
+    if count > most { Err(DrawError::TooManyCopies { count, distinct, most }) } else { Ok(()) }
 }
 
 /// Draws the candidate edges of a surface, and its hatching, where they are visible.
@@ -126,7 +150,11 @@ fn draw_candidates(
         let segments = hatching.segments.into_iter();
         edges.extend(segments.map(|(ends, object)| CandidateEdge { ends, class, object }));
     }
-    if let Some(cover) = cover {
+    let crowd = cover.as_ref().and_then(ViewCover::crowd);
+    warnings.extend(crowd.map(|_| Warning::CrowdApproximated));
+    if let Some(ViewCover { cover, .. }) = &cover
+        && options.hidden_edges != HiddenEdges::Retained
+    {
         edges.retain(|edge| !cover.hides_segment(edge.ends));
     }
     edges.sort_by_key(|candidate| candidate.object);
@@ -140,7 +168,7 @@ fn draw_candidates(
         }
         _ => None,
     };
-    let divider = EdgeDivider::new(surface, projector, options);
+    let divider = EdgeDivider::new(surface, projector, options, crowd);
     let (segments, is_complete) = divider.divide_edges(&edges, threads);
     warnings.extend((!is_complete).then_some(Warning::VisibilityIncomplete));
     warnings.sort_unstable();
@@ -222,7 +250,9 @@ const COMPARISONS_PER_FACE: u64 = 4096;
 struct EdgeDivider<'a> {
     projector: Projector,
     /// The faces of the surface; `None` where visibility is ignored.
-    occluders: Option<MeshOccluders<&'a WeldedSurface>>,
+    occluders: Option<MeshOccluders<Occluding<'a>>>,
+    /// What a crowd of faces hides.
+    crowd: Option<&'a DepthCover>,
     /// Which hidden segments are part of the drawing.
     hidden_edges: HiddenEdges,
     /// About how many comparisons there may be.
@@ -233,19 +263,29 @@ impl<'a> EdgeDivider<'a> {
     /// A divider with the faces of a surface as occluders, or none where visibility is ignored.
     ///
     /// For outlines faces hide what is before them as well: what is left has nothing beside it.
-    fn new(surface: &'a WeldedSurface, projector: Projector, options: &DrawOptions) -> Self {
+    fn new(
+        surface: &'a WeldedSurface,
+        projector: Projector,
+        options: &DrawOptions,
+        crowd: Option<&'a DepthCover>,
+    ) -> Self {
         let tolerance = surface.touch_tolerance();
         let is_ignored = options.hidden_edges == HiddenEdges::Ignored && !options.outline_only;
         let occluders = (!is_ignored).then(|| {
-            let faces = MeshOccluders::new(surface, surface.face_bvh(), projector, tolerance);
+            let triangles =
+                Occluding { surface, visible: crowd.map(|cover| surface.visible_triangles(cover)) };
+            let of_visible = triangles.visible.is_some().then(|| mesh_bvh(&triangles));
+            let bvh = of_visible.as_ref().unwrap_or_else(|| surface.face_bvh());
+            let faces = MeshOccluders::new(triangles, bvh, projector, tolerance);
             if options.outline_only { faces.at_any_depth() } else { faces }
         });
         let hidden_edges =
             if options.outline_only { HiddenEdges::Removed } else { options.hidden_edges };
-        let faces = u64::from((&surface).triangle_count());
+        let faces = u64::from(surface.triangle_count());
         let fitting = ANY_COMPARISONS.saturating_add(COMPARISONS_PER_FACE * faces);
-        let max_comparisons = options.max_comparisons.min(fitting);
-        Self { projector, occluders, hidden_edges, max_comparisons }
+        let limit = if options.is_unlimited { u64::MAX } else { fitting };
+        let max_comparisons = options.max_comparisons.min(limit);
+        Self { projector, occluders, crowd, hidden_edges, max_comparisons }
     }
 
     /// The segments of all edges, in the order of the edges; `false` if there was too much work.
@@ -297,6 +337,10 @@ impl<'a> EdgeDivider<'a> {
                 edge: edge_index,
             });
         };
+        let mut known = Vec::new();
+        if let Some(crowd) = self.crowd {
+            crowd.add_hidden_parts(&projected, &mut known);
+        }
         let mut deep = OcclusionIntervals::default();
         let hidden = match &self.occluders {
             Some(occluders) if hidden_edges == HiddenEdges::FirstLayer => {
@@ -305,7 +349,7 @@ impl<'a> EdgeDivider<'a> {
                 }
                 scratch.last_result()
             }
-            Some(occluders) => occluders.hidden_intervals(&projected, scratch),
+            Some(occluders) => occluders.hidden_intervals_but(&projected, &known, scratch),
             None => scratch.nothing_hidden(),
         };
         for (interval, hidden) in hidden.divide_unit_interval() {

@@ -13,4 +13,19 @@ pub enum DrawError {
     /// There are more triangles than the z-buffer has ids for.
     #[error("the scene has more than {} points, lines and triangles", u32::MAX)]
     TooManyPrimitives,
+    /// Copies of meshes have more triangles than lines are drawn of, unless
+    /// [`DrawOptions::is_unlimited`](crate::DrawOptions::is_unlimited) is set.
+    #[error(
+        "lines of {count} triangles would take long: the models have only {distinct}, and copies of them \
+         may have {most} together; show fewer copies, choose a style that shows surfaces, or lift \
+         the limit (`--no-line-limits`)"
+    )]
+    TooManyCopies {
+        /// The triangles of all copies.
+        count: u64,
+        /// Those of the models.
+        distinct: u64,
+        /// The greatest number for these models.
+        most: u64,
+    },
 }

@@ -344,6 +344,7 @@ impl<'a> LineKinds<'a> {
         let [wide, _] = self.style.line_widths.wide_and_narrow();
         let least = wide.max(LEAST_CHAIN_LENGTH);
         match kind.class {
+            EdgeClass::Line => ShortChains::Retained,
             _ if self.style.edges == EdgeSelection::Facets => ShortChains::Retained,
             // An outline has to close.
             _ if self.style.edges == EdgeSelection::Silhouette => ShortChains::RemovedAlone(least),
@@ -414,7 +415,9 @@ fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
     if hidden && style.hidden_lines == HiddenLines::Removed {
         return false;
     }
-    if !style.to_draw_options().classes.contains(class) {
+    // Of a model without faces all lines and points are drawn, whatever the style selects.
+    let is_own = matches!(class, EdgeClass::Line | EdgeClass::Marked);
+    if !is_own && !style.to_draw_options().classes.contains(class) {
         return false;
     }
     match class {

@@ -73,6 +73,7 @@ mod speckles;
 mod stroke_font;
 mod subject;
 mod svg;
+mod view_cover;
 mod warning;
 mod z_buffer_check;
 

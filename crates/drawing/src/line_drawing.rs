@@ -26,7 +26,7 @@ pub enum EdgeClass {
     Marked,
     /// Two surfaces of different materials meet smoothly.
     Tangent,
-    /// A line primitive of the model.
+    /// A line primitive of the model, or a point primitive: a stroke of two pixels.
     Line,
     /// A hatch line, on a section cap or by the luma of a face.
     Hatching,

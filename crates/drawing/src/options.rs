@@ -35,6 +35,9 @@ pub struct DrawOptions {
     /// Whether the drawing has the outlines of the whole, or of what section planes cut, as regions.
     /// Default: no.
     pub outlines: bool,
+    /// Whether faces with parts that their textures cut out, such as leaves on rectangles, neither
+    /// have edges nor hide any. Default: false.
+    pub leaves_out_cut_outs: bool,
     /// The fill of faces under the lines. Default: none.
     pub face_fill: FaceFill,
     /// Pixels of the fill image for each pixel of the drawing. Default: 3.
@@ -45,6 +48,10 @@ pub struct DrawOptions {
     /// have 512, whatever the number of edges; all together have no more than 2²⁶ and 4096 for each
     /// face. Default: 2³², minutes of work.
     pub max_comparisons: u64,
+    /// Whether drawings have no other limits of work: crowds of faces are drawn exactly as well,
+    /// and any number of triangles, of intersections and of comparisons for each face is taken.
+    /// Default: false.
+    pub is_unlimited: bool,
 }
 
 /// The treatment of the hidden parts of edges.
@@ -95,9 +102,11 @@ impl DrawOptions {
             outline_only: false,
             hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,
             outlines: false,
+            leaves_out_cut_outs: false,
             face_fill: FaceFill::None,
             fill_scale: 3.0,
             max_comparisons: 1 << 32,
+            is_unlimited: false,
         }
     }
 

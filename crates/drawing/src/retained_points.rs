@@ -38,6 +38,12 @@ pub fn retained_points(
         let ends = sections.iter().filter(|_| is_cut).try_fold(line.ends.map(position), cut_line);
         retained.extend(ends.into_iter().flatten());
     }
+    for dot in &mesh.dots {
+        let (at, is_cut) = (position(dot.point), uncut.binary_search(&dot.object).is_err());
+        if !is_cut || sections.iter().all(|plane| plane.evaluate(at) >= 0.0) {
+            retained.push(at);
+        }
+    }
     if retained.is_empty() { model::world_points(models) } else { retained }
 }
 

@@ -100,6 +100,15 @@ pub enum Warning {
     },
     /// Something that the pages of an assembly leave out.
     Assembly(AssemblyWarning),
+    /// The textures of some materials cut out parts of their faces, and lines show these whole.
+    CutOutsDrawnWhole,
+    /// So many faces lie behind each other that small gaps between them count as closed.
+    CrowdApproximated,
+    /// Nothing is in the picture.
+    PictureEmpty {
+        /// The reason.
+        reason: String,
+    },
     /// The search for intersection edges was cut off.
     IntersectionsIncomplete,
     /// The hatching was cut off.
@@ -222,9 +231,12 @@ impl fmt::Display for Warning {
                 )
             }
             Self::Assembly(warning) => warning.fmt(f),
+            Self::PictureEmpty { reason } => write!(f, "the picture is empty: {reason}"),
             Self::SectionsIgnored
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
+            | Self::CutOutsDrawnWhole
+            | Self::CrowdApproximated
             | Self::IntersectionsIncomplete
             | Self::HatchingIncomplete
             | Self::NothingDrawn
@@ -267,6 +279,14 @@ impl Warning {
             Self::AnaglyphIgnored => {
                 "only PNG pictures have anaglyphs: \
                  this one shows the view of the scene's camera alone"
+            }
+            Self::CrowdApproximated => {
+                "so many surfaces lie behind each other that lines behind gaps of a pixel or two are \
+                 left out: `--no-line-limits` draws them, and may take long"
+            }
+            Self::CutOutsDrawnWhole => {
+                "textures cut shapes such as leaves out of some faces: lines show the edges of the \
+                 whole faces"
             }
             Self::IntersectionsIncomplete => {
                 "so many faces may intersect that not all were compared: \

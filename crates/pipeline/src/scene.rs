@@ -134,6 +134,8 @@ pub struct Scene {
     /// The objects that the planes do not cut, in ascending order: nodes with a mesh, counted over
     /// all models.
     pub uncut: Vec<u32>,
+    /// Whether lines are drawn without limits of work.
+    pub unlimited_lines: bool,
 }
 
 impl Scene {
@@ -162,6 +164,7 @@ impl Scene {
             caption: None,
             sections: Vec::new(),
             uncut: Vec::new(),
+            unlimited_lines: false,
         }
     }
 
@@ -175,6 +178,12 @@ impl Scene {
     pub(crate) fn casts_shadows(&self) -> bool {
         let has_occlusion = self.ground.is_some_and(|ground| ground.occlusion.is_some());
         has_occlusion || self.lights.iter().any(|light| light.shadow().is_some())
+    }
+
+    /// Why a picture of the scene shows nothing.
+    #[must_use]
+    pub fn empty_reason(&self) -> String {
+        lints::explain_empty_picture(self)
     }
 
     /// The names of the models, each once.
@@ -233,6 +242,12 @@ impl Style {
     #[must_use]
     pub const fn draws_surfaces(self) -> bool {
         !matches!(self, Self::Wireframe | Self::Lines(_))
+    }
+
+    /// Whether colors stand for numbers: normals, depths, texture coordinates, parts.
+    #[must_use]
+    pub const fn is_false_color(self) -> bool {
+        matches!(self, Self::Normals | Self::Depth | Self::UvChecker | Self::Ids)
     }
 
     /// Whether surfaces look otherwise than their materials have it.

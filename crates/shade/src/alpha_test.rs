@@ -2,6 +2,10 @@
 //!
 //! The rasterizer asks it before depth is written, for eight fragments of one primitive at once:
 //! what fails the test hides nothing.
+//!
+//! Styles with one color for each fragment, such as those of normals and ids, ask it of blended
+//! primitives too: these have holes where textures and vertex colors make them less than half as
+//! opaque as their material is.
 
 use super::attributes::{PrimitiveIndices, interpolate};
 use super::fragment_lanes::{FragmentLanes, FragmentPacket};
@@ -58,19 +62,23 @@ impl DrawList<'_> {
 }
 
 impl Draw<'_> {
-    /// The alpha test at fragments; all pass unless the material is masked.
+    /// The alpha test at fragments; those of opaque materials all pass.
     #[inline(always)]
     fn passes_alpha_test<const N: usize>(
         &self,
         primitives: &PrimitiveIndices<N>,
         fragments: &impl FragmentLanes<N>,
     ) -> Mask<N> {
+        let cutoff = match self.material.alpha_mode {
+            AlphaMode::Opaque => return [true; N],
+            AlphaMode::Mask { cutoff } => cutoff,
+            // A pane of faint glass is a surface, the empty part of a leaf's picture is none.
+            AlphaMode::Blend => (0.5 * self.material.base_color[3]).max(f32::MIN_POSITIVE),
+        };
+        let alpha = self.sample_alpha(primitives, fragments);
         let mut passes = [true; N];
-        if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
-            let alpha = self.sample_alpha(primitives, fragments);
-            for (passes, alpha) in passes.iter_mut().zip(&alpha.0) {
-                *passes = *alpha >= cutoff;
-            }
+        for (passes, alpha) in passes.iter_mut().zip(&alpha.0) {
+            *passes = *alpha >= cutoff;
         }
         passes
     }

@@ -25,6 +25,27 @@ use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use irradiance::IrradianceHarmonics;
 use octahedral_map::{OctahedralMap, sample_trilinear};
 use prefilter::{LEVEL_COUNT, PrefilteredLevels};
+use std::fmt;
+use std::sync::Arc;
+
+/// A radiance for each direction, a unit vector of the world.
+type Radiance = dyn Fn([f32; 3]) -> [f32; 3] + Send + Sync;
+
+/// What an environment was made of, for pictures in which it is seen itself.
+#[derive(Clone)]
+struct Source(Arc<Radiance>);
+
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl fmt::Debug for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Source")
+    }
+}
 
 /// Nodes along a side of the octahedral map: 256 texels for all directions, about 1° each.
 const SIDE: usize = 257;
@@ -36,6 +57,8 @@ pub struct Environment {
     irradiance: IrradianceHarmonics,
     /// From mirrors to the roughest surfaces.
     prefiltered: PrefilteredLevels,
+    /// What a background shows, finer than the map is.
+    source: Option<Source>,
 }
 
 impl Environment {
@@ -49,7 +72,21 @@ impl Environment {
         Self {
             irradiance: IrradianceHarmonics::project(&map),
             prefiltered: PrefilteredLevels::new(map),
+            source: None,
         }
+    }
+
+    /// As [`from_radiance`](Self::from_radiance), with a function that is kept: as a background the
+    /// environment is then as sharp as the picture.
+    #[must_use]
+    pub fn from_source(radiance: impl Fn([f32; 3]) -> [f32; 3] + Send + Sync + 'static) -> Self {
+        let made = Self::from_radiance(&radiance);
+        Self { source: Some(Source(Arc::new(radiance))), ..made }
+    }
+
+    /// The function that it was made of, if it was kept.
+    pub(super) fn source(&self) -> Option<&Radiance> {
+        self.source.as_ref().map(|source| &*source.0)
     }
 
     /// The radiance of white Lambert surfaces with these unit normals: irradiance over π.

@@ -9,6 +9,7 @@ mod brdf;
 pub mod color;
 mod draw;
 mod environment;
+mod environment_background;
 mod fragment_lanes;
 mod ground_occlusion;
 mod lanes;

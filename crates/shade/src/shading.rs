@@ -56,6 +56,8 @@ pub struct Shading<'a> {
     /// The viewer: the eye, or in parallel projection the direction towards it, a point at
     /// infinity.
     pub viewer: HPoint<World>,
+    /// Whether the picture has 8 bits a channel, in which a sky shows steps: they are dithered.
+    pub has_eight_bits: bool,
     /// The vector instructions that eight fragments at once are shaded with.
     pub simd_level: SimdLevel,
 }
@@ -241,7 +243,7 @@ impl Shading<'_> {
         ShadedLanes::over(match draw.kind {
             DrawKind::Surface => return self.shade_surface(draw, primitives, fragments),
             DrawKind::Environment(blur) => {
-                self.shade_environment_backdrop(draw, primitives, fragments, blur)
+                self.shade_environment_background(draw, primitives, fragments, blur)
             }
             DrawKind::Backdrop => self.shade_backdrop(draw, primitives, fragments),
             DrawKind::ShadowCatcher => self.shade_shadow_catcher(draw, primitives, fragments),
@@ -304,29 +306,6 @@ impl Shading<'_> {
     #[inline(always)]
     fn framebuffer_behind(&self, draw: &Draw<'_>) -> Option<&TransmissionFramebuffer> {
         self.transmission_framebuffer.filter(|_| draw.material.bends_transmitted_light())
-    }
-
-    /// The environment behind everything, as a blurred mirror would show it.
-    ///
-    /// The draw is a quad at the far plane; its positions are only used for the direction of view.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
-    fn shade_environment_backdrop<const N: usize>(
-        &self,
-        draw: &Draw<'_>,
-        primitives: &PrimitiveIndices<N>,
-        fragments: &impl FragmentLanes<N>,
-        blur: f32,
-    ) -> [Lanes<N>; 4] {
-        let vertices = draw.vertex_indices(primitives);
-        let positions = draw.interpolate_positions(&vertices, fragments);
-        let mut color = Rgb::ZERO;
-        if let Some(environment) = self.environment {
-            let away = -view_directions(positions, self.viewer_position());
-            color = environment.prefiltered_radiance(away, Lanes::splat(blur));
-        }
-        let Rgb { r, g, b } = self.tone_mapper.map_colors(color);
-        [r, g, b, Lanes::ONE]
     }
 
     /// The backdrop at fragments whose positions are fractions of the picture; not tone mapped.

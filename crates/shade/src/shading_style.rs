@@ -16,6 +16,7 @@ use super::transmission::luminance;
 use super::vector::dot;
 use super::{Draw, DrawKind, Shading};
 use false_colors::{checker_color, decode_codes, matcap_ball_color, part_color};
+use model::AlphaMode;
 use raster::{F32x8, Fragment, Fragments, Kernel, LANES, Surface, shade_each};
 use std::f32::consts::FRAC_1_PI;
 
@@ -255,26 +256,45 @@ impl StyledShading<'_> {
         sum
     }
 
-    /// An opaque color from light, exposed and tone mapped.
-    fn tone_mapped(&self, light: [f32; 3]) -> [f32; 4] {
-        let color = self.shading.tone_mapper.map_colors(Rgb::<1>::splat(light));
-        opaque_color(color).map(|channel| channel[0])
+    /// The color of a material in some diffuse light, exposed and tone mapped, premultiplied by the
+    /// alpha of materials that blend. Unlit colors are those of the picture already: they are only
+    /// exposed.
+    fn material_color(
+        &self,
+        draw: &Draw<'_>,
+        fragment: &Fragment<'_>,
+        diffuse_light: impl FnOnce() -> [f32; 3],
+    ) -> [f32; 4] {
+        let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
+        let inputs = MaterialInputs::<1>::evaluate(draw, &vertices, fragment);
+        let tone_mapper = &self.shading.tone_mapper;
+        let color = if draw.is_lit() {
+            let diffuse = inputs.base_color * Rgb::splat(diffuse_light());
+            tone_mapper.map_colors(diffuse + inputs.emitted)
+        } else {
+            inputs.base_color * tone_mapper.exposure
+        };
+        let is_blended = draw.material.alpha_mode == AlphaMode::Blend;
+        let alpha = if is_blended { inputs.alpha[0] } else { 1.0 };
+        let [r, g, b] = color.lane(0).map(|channel| channel * alpha);
+        [r, g, b, alpha]
     }
 
     /// Light per vertex, interpolated; the base color per fragment.
     fn shade_gouraud(&self, draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
-        let primitive = draw.primitive_indices(&[fragment.id], true);
-        let mut light = [0.0; 3];
-        for vertex in 0..3 {
-            let at_vertex = VertexFragment::at_vertex(vertex);
-            let geometry = self.shading.surface_geometry(draw, &primitive, &at_vertex);
-            let vertex_light = self.diffuse_light(&geometry).lane(0);
-            for (sum, light) in light.iter_mut().zip(vertex_light) {
-                *sum += light * fragment.weights[vertex];
+        self.material_color(draw, fragment, || {
+            let primitive = draw.primitive_indices(&[fragment.id], true);
+            let mut light = [0.0; 3];
+            for vertex in 0..3 {
+                let at_vertex = VertexFragment::at_vertex(vertex);
+                let geometry = self.shading.surface_geometry(draw, &primitive, &at_vertex);
+                let vertex_light = self.diffuse_light(&geometry).lane(0);
+                for (sum, light) in light.iter_mut().zip(vertex_light) {
+                    *sum += light * fragment.weights[vertex];
+                }
             }
-        }
-        let (base, emitted) = base_and_emitted(draw, fragment);
-        self.tone_mapped([0, 1, 2].map(|k: usize| base[k] * light[k] + emitted[k]))
+            light
+        })
     }
 
     /// The base color in steps of light by its luminance.
@@ -287,12 +307,12 @@ impl StyledShading<'_> {
         fragment: &Fragment<'_>,
         geometry: &SurfaceGeometry<1>,
     ) -> [f32; 4] {
-        // The darkest tone whose limit is above the luminance.
-        let light = luminance(self.diffuse_light(geometry))[0];
-        let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
-        let brightness = tone.map_or(1.0, |(_, brightness)| *brightness);
-        let (base, emitted) = base_and_emitted(draw, fragment);
-        self.tone_mapped([0, 1, 2].map(|k: usize| base[k] * brightness + emitted[k]))
+        self.material_color(draw, fragment, || {
+            // The darkest tone whose limit is above the luminance.
+            let light = luminance(self.diffuse_light(geometry))[0];
+            let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
+            [tone.map_or(1.0, |(_, brightness)| *brightness); 3]
+        })
     }
 
     /// The matcap at the normal in a frame whose z points to the viewer of this pixel: in
@@ -332,13 +352,6 @@ impl StyledShading<'_> {
         let [r, g, b] = XRAY_COLOR.map(|channel| channel * alpha);
         [r, g, b, alpha]
     }
-}
-
-/// The base color of a material and the light that it emits.
-fn base_and_emitted(draw: &Draw<'_>, fragment: &Fragment<'_>) -> ([f32; 3], [f32; 3]) {
-    let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
-    let inputs = MaterialInputs::<1>::evaluate(draw, &vertices, fragment);
-    (inputs.base_color.lane(0), inputs.emitted.lane(0))
 }
 
 /// Colors with alpha 1.

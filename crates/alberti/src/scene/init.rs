@@ -15,8 +15,10 @@
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_text};
 use model::{Model, Topology, visible_path};
+use pipeline::scene::file::NonNegative;
 use pipeline::scene::{ResolveOptions, format_source};
 use pipeline::{Origin, ResolveError, Scene};
+use shade::Light;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -117,19 +119,46 @@ fn starter_scene(path: &str, output: &str, scene: &Scene, crease: Option<f64>) -
     );
     write_views(&mut text, scene);
     text.push_str("// or Orthographic(), Isometric, Cavalier(), TwoPoint() …\nprojection: Perspective(fov_y_degrees: 35),\n),\n");
-    if model.lights.is_empty() {
-        text.push_str("// The intensity of a directional light is in lux; a white matte surface shows intensity / π.\n");
-        text.push_str("// lights: [Directional(direction: (-1, -2, -1), intensity: 2.6)],\n");
-    } else {
+    write_light(&mut text, scene);
+    text.push_str(
+        "\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
+         image: Image(\nsize: (960, 720),\n// or Transparent\nbackground: Color(\"#f4f1ea\"),\n",
+    );
+    let exposure = libm::log2(f64::from(scene.tone_mapper.exposure));
+    if placed.model.scene_lights().next().is_some() {
+        text.push_str("// Bright lights keep their colors.\ntone_mapping: Neutral,\n");
+    }
+    if exposure != 0.0 {
+        let _ = writeln!(
+            text,
+            "// Stops; the lights of the model are bright.\nexposure_ev: {exposure:.4},"
+        );
+    }
+    text.push_str("),\n// overlays: [Axes(), Grid()],\n)\n");
+    text
+}
+
+/// Writes the light that the model has without a scene file: that of its own, or a key light; and
+/// the studio around it.
+fn write_light(text: &mut String, scene: &Scene) {
+    let placed = &scene.models[0];
+    let has_lights = placed.model.scene_lights().next().is_some();
+    if has_lights {
         text.push_str("// The lights of the model; more can be added: Directional(direction: (-1, -2, -1), intensity: 2.6).\n");
         text.push_str("lights: [FromModels],\n");
+    } else if let Some(Light::Sun { to_light, lux: [lux, ..], .. }) = scene.lights.first() {
+        let [x, y, z] = to_light.map(|coordinate| -coordinate);
+        text.push_str("// The intensity of a directional light is in lux; a white matte surface shows intensity / π.\n");
+        let _ = writeln!(
+            text,
+            "lights: [Directional(direction: ({x:.4}, {y:.4}, {z:.4}), intensity: {lux})],"
+        );
     }
-    text.push_str(
-        "// or Sky(), Uniform(), File(path: …)\nenvironment: Studio(strength: 0.6),\n\n// or Flat, Wireframe, Lines(hidden: Dashed)\nstyle: Shaded,\n\
-         image: Image(\nsize: (960, 720),\n// or Transparent\nbackground: Color(\"#f4f1ea\"),\n),\n\
-         // overlays: [Axes(), Grid()],\n)\n",
-    );
-    text
+    let studio = if has_lights { NonNegative::DIMMED_STUDIO } else { NonNegative::BARE_STUDIO };
+    let strength = studio.value() / f64::from(scene.tone_mapper.exposure);
+    let strength = libm::round(strength * 1e4) / 1e4;
+    text.push_str("// or Sky(), Uniform(), File(path: …)\n");
+    let _ = writeln!(text, "environment: Studio(strength: {strength}),");
 }
 
 /// The comment at the top: the size of the model, and commands to go on with.

@@ -45,21 +45,31 @@ const MAX_INTERSECTIONS: usize = 1 << 22;
 /// as it has pairs.
 const INTERSECTIONS_PER_FACE: usize = 64;
 
+/// What a search for intersections leaves out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SearchBounds<'a> {
+    /// Faces nearer than this only touch.
+    pub(super) touching: f64,
+    /// Intersections that it hides are left out.
+    pub(super) cover: Option<&'a DepthCover>,
+    /// Whether there may be any number of intersections.
+    pub(super) is_unlimited: bool,
+}
+
 /// A pair of faces that intersect, the one that asks first, and the segment.
 type IntersectingPair = ([u32; 2], IntersectionSegment);
 
 /// Finds all intersection edges of a mesh's faces, with up to `threads` threads.
 ///
-/// `bvh` has the faces as its first items. Faces nearer than `touching` only touch. Intersections
-/// along boundaries of both faces are left out, for the boundaries are drawn. Leaves of the
-/// hierarchy are compared with each other, each pair of them once. The work is bounded by
-/// [`Bvh::query_budget`] and [`MAX_INTERSECTIONS`]; whether a bound was met is in the result. With
-/// a cover, intersections that it hides are left out.
+/// `bvh` has the faces as its first items. Intersections along boundaries of both faces are left
+/// out, for the boundaries are drawn. Leaves of the hierarchy are compared with each other, each
+/// pair of them once. Unless it is unlimited, the work is bounded by [`Bvh::query_budget`] and
+/// [`MAX_INTERSECTIONS`]; whether a bound was met is in the result.
 pub(super) fn intersect_faces(
     mesh: &WorldMesh,
     bvh: &Bvh,
     (borders, weld_radii): (&[BorderEdge], &WeldRadii),
-    (touching, cover): (f64, Option<&DepthCover>),
+    SearchBounds { touching, cover, is_unlimited }: SearchBounds<'_>,
     threads: usize,
 ) -> Intersections {
     // Without what is out of sight there is less to compare.
@@ -70,6 +80,10 @@ pub(super) fn intersect_faces(
     let bvh = of_view.as_ref().unwrap_or(bvh);
     let leaves = bvh.leaf_nodes();
     let most = (INTERSECTIONS_PER_FACE * mesh.faces.len()).min(MAX_INTERSECTIONS);
+    let [most, budget] = match is_unlimited {
+        true => [usize::MAX; 2],
+        false => [most, Bvh::query_budget(leaves.len())],
+    };
     let search = IntersectionSearch {
         mesh,
         borders: FaceBorders::new(borders, weld_radii),
@@ -77,7 +91,6 @@ pub(super) fn intersect_faces(
         most_per_leaf: (most / leaves.len().max(1)).max(256),
         in_sight,
     };
-    let budget = Bvh::query_budget(leaves.len());
     let is_cut_off = AtomicBool::new(false);
     let mut pairs: Vec<IntersectingPair> =
         map_in_order(leaves.len(), threads, |range, memory: &mut LeafMemory, pairs| {
@@ -141,10 +154,7 @@ struct FacesInSight<'a> {
 
 impl<'a> FacesInSight<'a> {
     fn new(mesh: &WorldMesh, cover: &'a DepthCover) -> Self {
-        let is_visible = |face: &u32| {
-            let image = cover.image_of(&mesh.triangle(*face));
-            !image.is_some_and(|image| cover.hides(&image))
-        };
+        let is_visible = |face: &u32| !cover.hides_triangle(mesh.triangle(*face));
         let visible = (0..mesh.faces.len() as u32).filter(is_visible).collect();
         Self { cover, visible }
     }

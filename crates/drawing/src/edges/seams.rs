@@ -18,6 +18,9 @@ use glam::DVec3;
 /// The weld radius in diagonals of an object: 1/4096, the step of positions quantized to 12 bits.
 pub(super) const WELD_FRACTION: f64 = 1.0 / 4096.0;
 
+/// Boundary edges are cut at most this often for each of their vertices.
+const CUTS_PER_VERTEX: usize = 4;
+
 /// A boundary edge, or a part of one between T-junctions: its ends, the lower index first, and its
 /// half-edge.
 pub(super) type BorderEdge = ([u32; 2], HalfEdge);
@@ -78,13 +81,14 @@ pub(super) fn weld_near_borders(
     let mut is_taken = vec![false; points.len()];
     let mut stack = Vec::new();
     let mut has_welded = false;
+    let budget = Bvh::query_budget(points.len());
     for (index, &vertex) in points.iter().enumerate() {
         if is_taken[index] {
             continue;
         }
         let (position, radius) = (boxes[index].min, radii.0[vertex as usize]);
         let area = boxes[index].expanded_by(DVec3::splat(radius));
-        bvh.for_each_overlapping(&area, usize::MAX, &mut stack, |item| {
+        bvh.for_each_overlapping(&area, budget, &mut stack, |item| {
             let other = points[item as usize];
             let radius = radius.min(radii.0[other as usize]);
             let is_near = (boxes[item as usize].min - position).length() <= radius;
@@ -127,17 +131,20 @@ pub(super) fn split_at_t_junctions(
     let bvh = Bvh::new(boxes.iter().copied());
     let (mut stack, mut cuts) = (Vec::new(), Vec::new());
     let budget = Bvh::query_budget(borders.len());
+    // A vertex lies on one side of a face or two, unless the mesh has lost its shape.
+    let mut cuts_left = CUTS_PER_VERTEX * points.len();
     let (mut parts, mut fillings) = (Vec::with_capacity(borders.len()), Vec::new());
     for &([a, b], side) in borders {
         let (from, along) = (position(a), position(b) - position(a));
         let radius = radii.edge_radius([a, b]);
         cuts.clear();
-        let area = Aabb::from_points([position(a), position(b)]).expanded_by(DVec3::splat(radius));
-        bvh.for_each_overlapping(&area, budget, &mut stack, |item| {
+        let ends = [position(a), position(b)];
+        bvh.for_each_near_segment(ends, radius, budget, &mut stack, |item| {
             let (vertex, offset) = (points[item as usize], boxes[item as usize].min - from);
             let t = offset.dot(along) / along.length_squared();
             let is_on = t > 0.0 && t < 1.0 && (offset - along * t).length() <= radius;
-            if vertex != a && vertex != b && is_on {
+            if vertex != a && vertex != b && is_on && cuts_left > 0 {
+                cuts_left -= 1;
                 cuts.push((t, vertex));
             }
         });

@@ -16,7 +16,7 @@
 
 use super::section_caps::{SectionLoop, triangulate_caps};
 use super::vertex_normal::VertexNormal;
-use super::world_mesh::{Face, LineEdge, WorldMesh};
+use super::world_mesh::{Dot, Face, LineEdge, WorldMesh};
 use crate::Warning;
 use clip::{CutTriangle, Outline, cut_triangle};
 use glam::DVec3;
@@ -63,6 +63,7 @@ pub(super) fn cut_mesh(
     }
     mesh.faces = retained;
     cut_line_edges(mesh, plane);
+    remove_dots(mesh, plane);
     openings.sort_by_key(|(_, object)| *object);
     for &(ends, _) in &openings {
         let section_edge = ends.map(|end| add_point(mesh, end));
@@ -188,6 +189,14 @@ fn cut_line_edges(mesh: &mut WorldMesh, plane: Plane<World>) {
         };
         mesh.line_edges.push(LineEdge { ends: retained, ..line });
     }
+}
+
+/// Removes the points on the negative side of a plane.
+fn remove_dots(mesh: &mut WorldMesh, plane: Plane<World>) {
+    let dots = std::mem::take(&mut mesh.dots);
+    let position = |dot: &Dot| Point::from_raw(mesh.points[dot.point as usize]);
+    let is_retained = |dot: &Dot| !mesh.is_cut(dot.object) || plane.evaluate(position(dot)) >= 0.0;
+    mesh.dots = dots.into_iter().filter(is_retained).collect();
 }
 
 /// Joins cut edges to loops: first within each object, then what remains open across objects.

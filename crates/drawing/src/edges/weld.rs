@@ -78,6 +78,11 @@ pub(super) fn remap_vertices(mesh: &mut WorldMesh, same: &[u32]) {
     for stroke in &mut mesh.line_edges {
         stroke.ends = stroke.ends.map(|end| same[end as usize]);
     }
+    for dot in &mut mesh.dots {
+        dot.point = same[dot.point as usize];
+    }
+    mesh.dots.sort_unstable();
+    mesh.dots.dedup();
     for cut in &mut mesh.section_edges {
         let [a, b] = cut.map(|end| same[end as usize]);
         *cut = [a.min(b), a.max(b)];

@@ -12,14 +12,14 @@
 use super::classify::EdgeClassifier;
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::interpolated_contour::interpolated_contours;
-use super::intersections::{Intersections, intersect_faces};
+use super::intersections::{Intersections, SearchBounds, intersect_faces};
 use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, weld_near_borders};
 use super::section_cut::cut_mesh;
 use super::weld::weld_equal_vertices;
-use super::world_mesh::{Face, WorldMesh};
+use super::world_mesh::{Dot, Face, WorldMesh};
 use crate::hidden_line::{Aabb, Bvh, DepthCover, Tolerance, TriangleMesh, mesh_bvh};
 use crate::projector::Projector;
-use crate::{DrawOptions, EdgeClass, SilhouetteMethod, Warning};
+use crate::{DrawOptions, EdgeClass, EdgeClasses, SilhouetteMethod, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
 use model::ModelInstance;
@@ -91,7 +91,11 @@ impl WeldedSurface {
     /// While bodies are being cut, coincident faces of different objects are both retained, since
     /// each body must be closed by itself; the last welding removes them.
     pub(crate) fn new(models: &[ModelInstance], sections: &[Plane<World>], uncut: &[u32]) -> Self {
-        let mut mesh = WorldMesh::from_models(models);
+        Self::from_mesh(WorldMesh::from_models(models), sections, uncut)
+    }
+
+    /// The surface of a mesh that is not welded yet; the rest is as for [`new`](Self::new).
+    pub(crate) fn from_mesh(mut mesh: WorldMesh, sections: &[Plane<World>], uncut: &[u32]) -> Self {
         mesh.uncut = uncut.to_vec();
         mesh.keeps_duplicates = !sections.is_empty();
         weld_equal_vertices(&mut mesh);
@@ -274,9 +278,18 @@ impl WeldedSurface {
                 classify(ends, sides);
             }
         });
+        // Without faces, lines and points are all that any selection of edges could show.
+        let is_bare = mesh.faces.is_empty();
+        let classes = if is_bare { EdgeClasses::ALL } else { options.classes };
         for line in &mesh.line_edges {
             let class = if line.is_marked { EdgeClass::Marked } else { EdgeClass::Line };
-            add_candidate(line.ends, class, line.object);
+            if classes.contains(class) {
+                let ends = line.ends.map(|end| mesh.points[end as usize]);
+                candidates.push(CandidateEdge { ends, class, object: line.object });
+            }
+        }
+        if classes.contains(EdgeClass::Line) {
+            candidates.extend(dot_edges(mesh, projector));
         }
         let class = EdgeClass::Silhouette;
         if interpolates && options.classes.contains(class) {
@@ -302,12 +315,16 @@ impl WeldedSurface {
             return false;
         }
         let of_view;
+        let is_unlimited = options.is_unlimited;
         let Intersections { segments, is_cut_off } = match cover {
             Some(_) => {
-                of_view = self.find_intersections(cover, threads);
+                of_view = self.find_intersections(cover, is_unlimited, threads);
                 &of_view
             }
-            None => self.intersections.get_or_init(|| self.find_intersections(None, threads)),
+            None => {
+                let find = || self.find_intersections(None, is_unlimited, threads);
+                self.intersections.get_or_init(find)
+            }
         };
         let class = EdgeClass::Intersection;
         let edge = |&(ends, object): &_| CandidateEdge { ends, class, object };
@@ -316,16 +333,39 @@ impl WeldedSurface {
     }
 
     /// Where faces intersect; the number of threads does not change them.
-    fn find_intersections(&self, cover: Option<&DepthCover>, threads: usize) -> Intersections {
+    fn find_intersections(
+        &self,
+        cover: Option<&DepthCover>,
+        is_unlimited: bool,
+        threads: usize,
+    ) -> Intersections {
         let borders = (self.border_edges.as_slice(), &self.weld_radii);
         let touching = self.touch_tolerance().world;
-        intersect_faces(&self.mesh, self.face_bvh(), borders, (touching, cover), threads)
+        let bounds = SearchBounds { touching, cover, is_unlimited };
+        intersect_faces(&self.mesh, self.face_bvh(), borders, bounds, threads)
     }
 
     /// The depths behind which nothing of the surface is visible.
     pub(crate) fn depth_cover(&self, projector: Projector, size: [u32; 2]) -> DepthCover {
         let faces = self.occluder_triangles().map(|corners| corners.map(Point::raw));
         DepthCover::new(faces, projector, size, &self.touch_tolerance())
+    }
+
+    /// The depths behind which nothing of a crowd of faces is visible, up to gaps of some pixels;
+    /// `None` if they are no crowd.
+    pub(crate) fn crowd_cover(&self, projector: Projector, size: [u32; 2]) -> Option<DepthCover> {
+        DepthCover::of_crowd(
+            || self.occluder_triangles().map(|corners| corners.map(Point::raw)),
+            projector,
+            size,
+        )
+    }
+
+    /// The triangles that hide, by their indices, but for those that a cover hides.
+    pub(crate) fn visible_triangles(&self, cover: &DepthCover) -> Vec<u32> {
+        let triangles = (0..).zip(self.occluder_triangles());
+        let visible = triangles.filter(|(_, c)| !cover.hides_triangle(c.map(Point::raw)));
+        visible.map(|(triangle, _)| triangle).collect()
     }
 
     /// A triangle that hides, by its index among the faces, which come first, and the fillings.
@@ -336,12 +376,26 @@ impl WeldedSurface {
 
     /// The hierarchy of the triangles that hide: the faces, then the fillings.
     pub(crate) fn face_bvh(&self) -> &Bvh {
-        self.face_bvh.get_or_init(|| mesh_bvh(&self))
+        self.face_bvh.get_or_init(|| mesh_bvh(self))
     }
 }
 
+/// The strokes that stand for points: of two pixels, level in the picture.
+fn dot_edges(mesh: &WorldMesh, projector: &Projector) -> Vec<CandidateEdge> {
+    let screen_to_world = projector.world_to_screen().inverse();
+    let stroke = |dot: &Dot| {
+        let center = projector.world_to_clip_point(mesh.points[dot.point as usize]);
+        let screen = projector.project_to_screen(center)?;
+        let ends = [screen - DVec3::X, screen + DVec3::X];
+        let ends = ends.map(|end| screen_to_world.project_point3(end));
+        let edge = CandidateEdge { ends, class: EdgeClass::Line, object: dot.object };
+        ends.iter().all(|end| end.is_finite()).then_some(edge)
+    };
+    mesh.dots.iter().filter_map(stroke).collect()
+}
+
 /// All triangles that hide: the faces, then the slivers at T-junctions.
-impl TriangleMesh for &WeldedSurface {
+impl TriangleMesh for WeldedSurface {
     fn triangle_count(&self) -> u32 {
         (self.mesh.faces.len() + self.fillings.len()) as u32
     }

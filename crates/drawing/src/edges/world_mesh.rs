@@ -7,7 +7,8 @@ use super::vertex_normal::VertexNormal;
 use glam::DVec3;
 use homog::{Affine, Model as ModelSpace, World};
 use model::{
-    EdgeVisibility, MeshInstance, Model, ModelInstance, Primitive, SkinnedPrimitive, Topology,
+    AlphaMode, EdgeVisibility, Material, MeshInstance, Model, ModelInstance, Primitive,
+    SkinnedPrimitive, Topology,
 };
 
 /// A triangle of an object.
@@ -40,6 +41,15 @@ pub(crate) struct LineEdge {
     pub(crate) is_marked: bool,
 }
 
+/// A point primitive.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) struct Dot {
+    /// The object it belongs to.
+    pub(crate) object: u32,
+    /// Index into [`WorldMesh::points`].
+    pub(crate) point: u32,
+}
+
 /// Everything of a scene that has edges or hides them, as an indexed mesh in world space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WorldMesh {
@@ -49,11 +59,15 @@ pub(crate) struct WorldMesh {
     pub(crate) faces: Vec<Face>,
     /// Line primitives and lines that the file marks as edges.
     pub(crate) line_edges: Vec<LineEdge>,
+    /// Point primitives.
+    pub(crate) dots: Vec<Dot>,
     /// The edges that section planes made; once welded each from the lower index to the higher,
     /// sorted.
     pub(crate) section_edges: Vec<[u32; 2]>,
     /// Base colors of the materials by index, linear RGB.
     pub(crate) colors: Vec<[f32; 3]>,
+    /// Whether the textures of the materials cut out parts of their faces, by index.
+    pub(crate) cut_outs: Vec<bool>,
     /// Whether coincident faces of several objects are all retained: until the sections are made,
     /// since each body must be closed by itself.
     pub(crate) keeps_duplicates: bool,
@@ -87,6 +101,8 @@ impl WorldMesh {
                     mesh.add_primitive(primitive, &positions, to_world, (object, material));
                 }
             }
+            mesh.cut_outs.push(false);
+            mesh.cut_outs.extend(model.materials.iter().map(|material| has_holes(model, material)));
             let colors = model.materials.iter().map(|material| material.base_color);
             mesh.colors.push([1.0; 3]);
             mesh.colors.extend(colors.map(|[r, g, b, _]| [r, g, b]));
@@ -111,7 +127,11 @@ impl WorldMesh {
             |position: &[f32; 3]| to_world.transform_point(position.map(f64::from).into()).raw();
         self.points.extend(positions.iter().map(to_position));
         match primitive.topology {
-            Topology::Points => {}
+            Topology::Points => {
+                let points = primitive.indices.iter().map(|index| index + first);
+                let finite = points.filter(|point| are_finite(&self.points, &[*point]));
+                self.dots.extend(finite.map(|point| Dot { object, point }));
+            }
             Topology::Lines => {
                 let (pairs, _) = primitive.indices.as_chunks::<2>();
                 self.add_lines(pairs, first, object, false);
@@ -153,6 +173,17 @@ impl WorldMesh {
         self.faces.extend(faces.filter(|face| are_finite(&self.points, &face.vertices)));
     }
 
+    /// Whether the texture of a face's material cuts out parts of it.
+    pub(crate) fn is_cut_out(&self, face: &Face) -> bool {
+        self.cut_outs.get(face.material as usize).copied().unwrap_or_default()
+    }
+
+    /// Removes the faces whose textures cut out parts of them.
+    pub(crate) fn remove_cut_outs(&mut self) {
+        let faces = std::mem::take(&mut self.faces);
+        self.faces = faces.into_iter().filter(|face| !self.is_cut_out(face)).collect();
+    }
+
     /// Whether section planes cut an object.
     pub(crate) fn is_cut(&self, object: u32) -> bool {
         self.uncut.binary_search(&object).is_err()
@@ -172,6 +203,20 @@ impl WorldMesh {
 /// Whether all these vertices have finite coordinates.
 fn are_finite(points: &[DVec3], vertices: &[u32]) -> bool {
     vertices.iter().all(|&vertex| points[vertex as usize].is_finite())
+}
+
+/// Whether the base color texture of a material cuts out parts of its faces, as that of leaves on
+/// rectangles does. Without the decoded image, masks are assumed to.
+fn has_holes(model: &Model, material: &Material) -> bool {
+    let Some(used) = material.base_color_texture else { return false };
+    let texture = model.textures.get(used.texture);
+    let image = texture.and_then(|texture| model.images.get(texture.image?)?.as_ref());
+    let has_less = |limit: u8| image.is_some_and(|i| i.rgba.iter().any(|[.., a]| *a < limit));
+    match material.alpha_mode {
+        AlphaMode::Opaque => false,
+        AlphaMode::Mask { .. } => image.is_none() || has_less(255),
+        AlphaMode::Blend => has_less(128),
+    }
 }
 
 /// The name of an object: of its node, else of its mesh, else `node N`.

@@ -123,6 +123,28 @@ impl Bounds {
     }
 }
 
+impl Bounds {
+    /// Whether a segment meets the box, made larger by a radius on all sides: the interval of the
+    /// segment between each pair of sides, cut with the others.
+    fn is_near_segment(&self, [from, to]: [DVec3; 2], radius: f64) -> bool {
+        let (from, along) = (from.to_array(), (to - from).to_array());
+        let mut interval = [0.0_f64, 1.0];
+        for k in 0..3 {
+            let low = f64::from(self.min[k]) - radius - from[k];
+            let high = f64::from(self.max[k]) + radius - from[k];
+            if along[k] == 0.0 {
+                if low > 0.0 || high < 0.0 {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = (low / along[k], high / along[k]);
+            interval = [interval[0].max(a.min(b)), interval[1].min(a.max(b))];
+        }
+        interval[0] <= interval[1]
+    }
+}
+
 /// The lesser number: without the cases of `f32::min` for what is not a number, one instruction.
 pub(super) fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
@@ -257,6 +279,36 @@ impl Bvh {
         let mut remaining = most;
         while let Some(node) = open.pop() {
             if !self.nodes[node as usize].bounds.intersects(&area) {
+                continue;
+            }
+            match self.contents(node) {
+                NodeContents::Nodes(children) => open.extend(children),
+                NodeContents::Items(range) if range.len() <= remaining => {
+                    remaining -= range.len();
+                    self.order[range].iter().for_each(|&item| visit(item));
+                }
+                NodeContents::Items(_) => return false,
+            }
+        }
+        true
+    }
+
+    /// As [`for_each_overlapping`](Self::for_each_overlapping), with every item whose box may be
+    /// within `radius` of a segment: of a long one that is far less than its box overlaps.
+    pub(crate) fn for_each_near_segment(
+        &self,
+        [from, to]: [DVec3; 2],
+        radius: f64,
+        most: usize,
+        open: &mut Vec<u32>,
+        mut visit: impl FnMut(u32),
+    ) -> bool {
+        let segment = [from - self.origin, to - self.origin];
+        open.clear();
+        open.extend(self.root_node());
+        let mut remaining = most;
+        while let Some(node) = open.pop() {
+            if !self.nodes[node as usize].bounds.is_near_segment(segment, radius) {
                 continue;
             }
             match self.contents(node) {

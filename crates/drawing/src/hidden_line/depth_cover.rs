@@ -10,9 +10,14 @@
 //! farthest depth that it has there. So what it calls hidden is hidden; what it does not may be
 //! either, and is left to the exact tests. Where surfaces overlap many times, as in a soup of random
 //! triangles, most faces are out of the way before any pair of them is compared.
+//!
+//! Of small faces none covers a cell. Where they are a crowd, the cover is that of all faces
+//! together, sampled at the centers of cells as a z-buffer samples them: a gap of some pixels counts
+//! as closed, and the work is bounded by what can be seen.
 
 use super::super::projector::Projector;
 use super::occluders::Tolerance;
+use super::projected_edge::ProjectedEdge;
 use glam::{DVec2, DVec3};
 
 /// Cells along the longer side of the screen.
@@ -24,6 +29,17 @@ const SETBACK: f64 = 32.0;
 /// Faces seen at a smaller sine than this hide nothing here: moved back, they would still be
 /// nearer to what touches them than the touching distance.
 const LEAST_SINE: f64 = 0.125;
+
+/// Faces are a crowd if there are more of them at each pixel, on average.
+const CROWD: f64 = 64.0;
+/// The most samples of all faces together in the cover of a crowd.
+const MAX_SAMPLES: f64 = 134_217_728.0;
+/// The most cells along the longer side of the screen in the cover of a crowd.
+const MAX_CROWD_CELLS: f64 = 1024.0;
+/// What is in a surface is nearer than the samples of the surface less this.
+const ROUNDING: f64 = 1e-9;
+/// How often a segment or a triangle is divided before it counts as visible.
+const DIVISIONS: u32 = 6;
 
 /// The depths behind which nothing is visible, as a pyramid of grids.
 ///
@@ -56,15 +72,26 @@ pub(crate) struct ScreenBox {
 impl ScreenBox {
     /// The box around points in front of the viewer; `None` if one of them has no image.
     fn around(points: &[DVec3], projector: &Projector) -> Option<Self> {
-        let mut all =
-            Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f64::NEG_INFINITY };
+        let mut all = Self::around_images(&[]);
         for point in points {
-            let image = image_of(*point, projector)?;
-            all.min = all.min.min(image.truncate());
-            all.max = all.max.max(image.truncate());
-            all.nearest = all.nearest.max(image.z);
+            all.extend(image_of(*point, projector)?);
         }
         Some(all)
+    }
+
+    /// The box around points of the screen.
+    fn around_images(images: &[DVec3]) -> Self {
+        let mut all =
+            Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f64::NEG_INFINITY };
+        images.iter().for_each(|image| all.extend(*image));
+        all
+    }
+
+    /// Extends the box to a point of the screen.
+    fn extend(&mut self, image: DVec3) {
+        self.min = self.min.min(image.truncate());
+        self.max = self.max.max(image.truncate());
+        self.nearest = self.nearest.max(image.z);
     }
 
     /// The box of what is in both images.
@@ -92,10 +119,40 @@ impl DepthCover {
         for face in faces {
             cover.add_face(face, SETBACK * tolerance.world);
         }
-        while let Some(coarser) = cover.levels.last().and_then(Level::halved) {
-            cover.levels.push(coarser);
-        }
+        cover.add_levels();
         cover
+    }
+
+    /// The cover by a crowd of faces together; `None` if they are no crowd.
+    pub(crate) fn of_crowd<I: Iterator<Item = [DVec3; 3]>>(
+        faces: impl Fn() -> I,
+        projector: Projector,
+        size: [u32; 2],
+    ) -> Option<Self> {
+        let size = DVec2::from(size.map(f64::from));
+        let images = || faces().filter_map(|corners| images_of(&corners, &projector));
+        let area: f64 = images().map(|image| area_within(image, size)).sum();
+        let pixels = size.x * size.y;
+        if area < CROWD * pixels {
+            return None;
+        }
+        let finest = (MAX_CROWD_CELLS / size.max_element()).min(1.0);
+        let scale = libm::sqrt(MAX_SAMPLES / area).min(finest);
+        let cells = (size * scale).ceil().max(DVec2::ONE).to_array().map(|side| side as usize);
+        let mut samples = Level::empty(cells);
+        for image in images() {
+            samples.sample(image.map(|corner| (corner.truncate() * scale).extend(corner.z)));
+        }
+        let mut cover = Self { projector, scale, levels: vec![samples.eroded()] };
+        cover.add_levels();
+        Some(cover)
+    }
+
+    /// Adds the coarser levels of the pyramid.
+    fn add_levels(&mut self) {
+        while let Some(coarser) = self.levels.last().and_then(Level::halved) {
+            self.levels.push(coarser);
+        }
     }
 
     /// Whether all that has its image in a box is hidden.
@@ -121,7 +178,70 @@ impl DepthCover {
 
     /// Whether a segment of the world is hidden from end to end.
     pub(crate) fn hides_segment(&self, ends: [DVec3; 2]) -> bool {
-        self.image_of(&ends).is_some_and(|image| self.hides(&image))
+        images_of(&ends, &self.projector).is_some_and(|ends| self.hides_image(ends, DIVISIONS))
+    }
+
+    /// Adds the parts of an edge that are hidden, as intervals of its image.
+    pub(crate) fn add_hidden_parts(&self, edge: &ProjectedEdge, parts: &mut Vec<[f64; 2]>) {
+        let ends = [0.0, 1.0].map(|s| edge.screen_at(s).extend(edge.depth_at(s)));
+        self.divide_hidden(ends, [0.0, 1.0], DIVISIONS, parts);
+    }
+
+    /// Adds the hidden parts of a segment of the screen, which is an interval of a longer one.
+    fn divide_hidden(
+        &self,
+        [a, b]: [DVec3; 2],
+        [from, to]: [f64; 2],
+        divisions: u32,
+        parts: &mut Vec<[f64; 2]>,
+    ) {
+        if self.hides(&ScreenBox::around_images(&[a, b])) {
+            match parts.last_mut().filter(|last| last[1] == from) {
+                Some(last) => last[1] = to,
+                None => parts.push([from, to]),
+            }
+            return;
+        }
+        let is_short = ((b - a).truncate() * self.scale).abs().max_element() < 2.0;
+        if divisions > 0 && !is_short {
+            let (middle, at) = (0.5 * (a + b), 0.5 * (from + to));
+            self.divide_hidden([a, middle], [from, at], divisions - 1, parts);
+            self.divide_hidden([middle, b], [at, to], divisions - 1, parts);
+        }
+    }
+
+    /// Whether a triangle of the world is hidden as a whole.
+    pub(crate) fn hides_triangle(&self, corners: [DVec3; 3]) -> bool {
+        let images = images_of(&corners, &self.projector);
+        images.is_some_and(|corners| self.hides_image_of_triangle(corners, DIVISIONS))
+    }
+
+    /// Whether a segment of the screen is hidden: by its box, or else by those of its halves.
+    fn hides_image(&self, [a, b]: [DVec3; 2], divisions: u32) -> bool {
+        if self.hides(&ScreenBox::around_images(&[a, b])) {
+            return true;
+        }
+        let is_short = ((b - a).truncate() * self.scale).abs().max_element() < 2.0;
+        if divisions == 0 || is_short {
+            return false;
+        }
+        let middle = 0.5 * (a + b);
+        [[a, middle], [middle, b]].into_iter().all(|half| self.hides_image(half, divisions - 1))
+    }
+
+    /// Whether a triangle of the screen is hidden: by its box, or else by those of its quarters.
+    fn hides_image_of_triangle(&self, corners: [DVec3; 3], divisions: u32) -> bool {
+        let around = ScreenBox::around_images(&corners);
+        if self.hides(&around) {
+            return true;
+        }
+        if divisions == 0 || ((around.max - around.min) * self.scale).max_element() < 2.0 {
+            return false;
+        }
+        let [a, b, c] = corners;
+        let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
+        let quarters = [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]];
+        quarters.into_iter().all(|part| self.hides_image_of_triangle(part, divisions - 1))
     }
 
     /// The box around the images of points; `None` if one of them has no image.
@@ -165,6 +285,24 @@ fn image_of(point: DVec3, projector: &Projector) -> Option<DVec3> {
     }
     let image = projector.project_to_screen(clip)?;
     (0.0..=1.0).contains(&image.z).then_some(image)
+}
+
+/// The images of points within the depths of the view volume.
+fn images_of<const N: usize>(points: &[DVec3; N], projector: &Projector) -> Option<[DVec3; N]> {
+    let mut images = [DVec3::ZERO; N];
+    for (image, point) in images.iter_mut().zip(points) {
+        *image = image_of(*point, projector)?;
+    }
+    Some(images)
+}
+
+/// The area in pixels that a triangle may have on a screen of some size.
+fn area_within(images: [DVec3; 3], size: DVec2) -> f64 {
+    let around = ScreenBox::around_images(&images);
+    let visible = (around.max.min(size) - around.min.max(DVec2::ZERO)).max(DVec2::ZERO);
+    let [a, b, c] = images.map(DVec3::truncate);
+    let area = 0.5 * (b - a).perp_dot(c - a).abs();
+    area.min(visible.x * visible.y)
 }
 
 /// Depth as a linear function of the position on the screen, in cells: z / w is one in perspective
@@ -219,6 +357,50 @@ impl Level {
         Some(coarser)
     }
 
+    /// Raises the depths of the cells whose centers a triangle covers.
+    fn sample(&mut self, images: [DVec3; 3]) {
+        let Some(plane) = DepthPlane::through(images) else { return };
+        let corners = images.map(DVec3::truncate);
+        let [low, high] =
+            [f64::min, f64::max].map(|pick| pick(pick(corners[0].y, corners[1].y), corners[2].y));
+        for row in centers([low, high], self.size[1]) {
+            let y = row as f64 + 0.5;
+            let columns = centers(span_at(corners, y), self.size[0]);
+            let at_row = plane.at_origin + plane.slope.y * y;
+            let first = columns.start;
+            let cells = &mut self.depths[row * self.size[0]..][columns];
+            for (column, depth) in (first..).zip(cells) {
+                let sample = at_row + plane.slope.x * (column as f64 + 0.5);
+                *depth = if sample > *depth { sample } else { *depth };
+            }
+        }
+    }
+
+    /// The least depths of each cell and its neighbors: what is in the surface that a cell samples
+    /// is between their centers.
+    fn eroded(&self) -> Self {
+        let [width, height] = self.size;
+        // Nothing is between the outermost centers and the border of the screen.
+        let inner = |count: usize| 1..count.saturating_sub(1);
+        let mut rows = Self::empty(self.size);
+        for row in 0..height {
+            for column in inner(width) {
+                let at = row * width + column;
+                rows.depths[at] =
+                    self.depths[at - 1..=at + 1].iter().copied().fold(f64::INFINITY, f64::min);
+            }
+        }
+        let mut least = Self::empty(self.size);
+        for row in inner(height) {
+            for column in 0..width {
+                let at = row * width + column;
+                let near = [at - width, at, at + width].map(|at| rows.depths[at]);
+                least.depths[at] = near.into_iter().fold(f64::INFINITY, f64::min) - ROUNDING;
+            }
+        }
+        least
+    }
+
     /// Raises the depths of the cells that a triangle covers, less a margin.
     fn cover(&mut self, corners: [DVec2; 3], plane: &DepthPlane, margin: f64) {
         let [low, high] =
@@ -244,6 +426,14 @@ fn whole_cells([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
     // Casts saturate: beyond the border and where there is no interval.
     let first = from.max(0.0).ceil();
     let last = to.min(count as f64).floor();
+    if first < last { first as usize..last as usize } else { 0..0 }
+}
+
+/// The cells whose centers are in an interval.
+fn centers([from, to]: [f64; 2], count: usize) -> std::ops::Range<usize> {
+    // Casts saturate: beyond the border and where there is no interval.
+    let first = (from - 0.5).max(0.0).ceil();
+    let last = (to + 0.5).min(count as f64).floor();
     if first < last { first as usize..last as usize } else { 0..0 }
 }
 

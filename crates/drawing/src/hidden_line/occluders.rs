@@ -260,7 +260,19 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         edge: &ProjectedEdge,
         scratch: &'a mut OcclusionScratch,
     ) -> &'a OcclusionIntervals {
+        self.hidden_intervals_but(edge, &[], scratch)
+    }
+
+    /// As [`hidden_intervals`](Self::hidden_intervals), of an edge with parts that are known to be
+    /// hidden: nothing is compared with them.
+    pub(crate) fn hidden_intervals_but<'a>(
+        &self,
+        edge: &ProjectedEdge,
+        known: &[[f64; 2]],
+        scratch: &'a mut OcclusionScratch,
+    ) -> &'a OcclusionIntervals {
         scratch.restart(self.screen.root_node());
+        known.iter().for_each(|part| scratch.hidden.insert_interval(*part));
         let on_screen = ScreenEdge::new(edge, self.respects_depth);
         while let Some(node) = scratch.node_stack.pop() {
             if !scratch.take_work(1) {

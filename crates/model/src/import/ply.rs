@@ -65,6 +65,10 @@ pub(super) fn import_ply(
 ) -> Result<Model, Diagnostic> {
     let mut warnings = ImportWarnings::new(options.lenient);
     let header = Header::from_bytes(bytes)?;
+    for (line, text) in &header.stray_lines {
+        let message = format!("`{text}` is not a line of a PLY header; it is taken for a comment");
+        warnings.push_warning(&format!("line {line}"), message);
+    }
     let contents = options.timings.measure("parse", || read_body(bytes, &header, &mut warnings))?;
     let mut model = Model::default();
     let textures = read_textures(&header, &contents, resolver);
@@ -89,7 +93,9 @@ fn read_body(
     header: &Header,
     warnings: &mut ImportWarnings,
 ) -> Result<Contents, Diagnostic> {
-    let mut body = Body::new(bytes, header.body, header.encoding);
+    let records = header.elements.iter().fold(0, |sum: u64, it| sum.saturating_add(it.count));
+    let body = Body::new(bytes, header.body, header.encoding);
+    let mut body = body.with_records(records);
     let count = header.elements.iter().find(|element| element.name == "vertex");
     let count = count.map_or(0, |element| element.count);
     let mut contents = Contents::default();
@@ -112,9 +118,15 @@ fn read_body(
             break;
         }
     }
+    if let Some((place, message)) = body.longer_records() {
+        warnings.push_warning(place, message);
+    }
     let without_area = contents.faces.without_area;
     if without_area > 0 {
-        let message = format!("{without_area} faces with less than three corners are left out");
+        let message = match without_area {
+            1 => "a face with fewer than three corners is left out".to_owned(),
+            _ => format!("{without_area} faces with fewer than three corners are left out"),
+        };
         warnings.push_warning("element face", message);
     }
     Ok(contents)

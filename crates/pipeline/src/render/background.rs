@@ -7,7 +7,7 @@
 //!
 //! | kind | vertices carry | shading |
 //! | --- | --- | --- |
-//! | environment | positions on the far plane | direction from the eye, blurred radiance |
+//! | environment | positions on the far plane, pixels | radiance along the direction from the eye, or blurred |
 //! | backdrop | fractions of the picture | color, gradient or image |
 
 use super::RenderError;
@@ -16,7 +16,7 @@ use crate::scene::ImageSpec;
 use homog::{Ndc, PixelRect, Point};
 use model::Primitive;
 use raster::{CullMode, Opacity, ScreenVertex};
-use shade::{Backdrop, Draw, DrawKind, MaterialTextures, POSITION, Tangents, Vertex};
+use shade::{Backdrop, Draw, DrawKind, MaterialTextures, POSITION, Tangents, UV, Vertex};
 
 /// The corners of the picture in NDC: lower left, lower right, upper right, upper left.
 const NDC_CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -31,7 +31,10 @@ impl PrimitiveAssembler<'_> {
             (corner.truncate() / corner.w).as_vec3().to_array()
         };
         let corners = NDC_CORNERS.map(unproject);
-        self.add_screen_quad(DrawKind::Environment(blur), corners, Opacity::Opaque)
+        let PixelRect { x, y, width, height } = self.memory.tile.rect;
+        let [left, top, right, bottom] = [x, y, x + width, y + height].map(|side| side as f32);
+        let pixels = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        self.add_screen_quad(DrawKind::Environment(blur), corners, pixels, Opacity::Opaque)
     }
 
     /// Adds a backdrop. The vertices carry fractions of the whole picture's width and height, so
@@ -47,15 +50,16 @@ impl PrimitiveAssembler<'_> {
         let (top, bottom) = (fraction(y, image.height), fraction(y + height, image.height));
         let uvs = [[left, bottom, 0.0], [right, bottom, 0.0], [right, top, 0.0], [left, top, 0.0]];
         let opacity = if backdrop.is_opaque() { Opacity::Opaque } else { Opacity::Translucent };
-        self.add_screen_quad(DrawKind::Backdrop, uvs, opacity)
+        self.add_screen_quad(DrawKind::Backdrop, uvs, [[0.0; 2]; 4], opacity)
     }
 
-    /// Adds a rectangle that fills the picture at the least depth, with an attribute at each
-    /// corner.
+    /// Adds a rectangle that fills the picture at the least depth, with a position and texture
+    /// coordinates at each corner.
     fn add_screen_quad(
         &mut self,
         kind: DrawKind,
-        attributes: [[f32; 3]; 4],
+        positions: [[f32; 3]; 4],
+        uvs: [[f32; 2]; 4],
         opacity: Opacity,
     ) -> Result<(), RenderError> {
         let first_id = self.next_id;
@@ -68,9 +72,10 @@ impl PrimitiveAssembler<'_> {
             let least_depth = -f64::from(raster::MAX_DEPTH);
             ScreenVertex::snap(Point::new(corner.x(), corner.y(), least_depth), 1.0)
         });
-        let vertex = |position: [f32; 3]| {
+        let vertex = |(position, uv): ([f32; 3], [f32; 2])| {
             let mut vertex: Vertex = [0.0; 8];
             vertex[POSITION..POSITION + 3].copy_from_slice(&position);
+            vertex[UV..].copy_from_slice(&uv);
             vertex
         };
         let primitive: &'static Primitive = &QUAD;
@@ -80,7 +85,7 @@ impl PrimitiveAssembler<'_> {
             primitive,
             material: &DEFAULT_MATERIAL,
             textures: MaterialTextures::default(),
-            vertices: attributes.map(vertex).to_vec(),
+            vertices: positions.into_iter().zip(uvs).map(vertex).collect(),
             tangents: Tangents::None,
             is_smooth: false,
             uv_set: None,

@@ -29,6 +29,7 @@ pub(super) fn fragment_shading<'a>(
         environment: scene.environment.as_deref(),
         tone_mapper: scene.tone_mapper,
         viewer: scene.view_projection.viewer(),
+        has_eight_bits: false,
         simd_level: memory.frame.simd_level(),
     }
 }

@@ -13,8 +13,8 @@ use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
 use crate::Picture;
 use crate::scene::{ImageSpec, Inset, Scene, Style};
 use drawing::{
-    Group, Ink, Join, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL, Overlay, Page, Pen,
-    PlacedImage, Polyline, Warning, to_micrometers,
+    DrawOptions, Group, Ink, Join, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL, Overlay,
+    Page, Pen, PlacedImage, Polyline, Warning, to_micrometers,
 };
 use glam::DVec2;
 use homog::PixelRect;
@@ -48,6 +48,9 @@ pub fn draw_lines(scene: &Scene, threads: usize, timings: &Timings) -> Result<Pa
             paste_inset(&mut page, view, inset, number + 1);
         }
     }
+    if page.layers.is_empty() && page.images.is_empty() {
+        page.warnings.push(Warning::PictureEmpty { reason: scene.empty_reason() });
+    }
     write_caption(&mut page, scene);
     page.warnings.sort_unstable();
     page.warnings.dedup();
@@ -61,9 +64,9 @@ pub(super) fn draw_view(
     timings: &Timings,
 ) -> Result<Page, RenderError> {
     let style = scene.style.line_style();
-    let drawing = timings.measure("lines", || {
-        drawing::draw(&scene.drawing_subject(), &style.to_draw_options(), threads)
-    })?;
+    let options = DrawOptions { is_unlimited: scene.unlimited_lines, ..style.to_draw_options() };
+    let drawing =
+        timings.measure("lines", || drawing::draw(&scene.drawing_subject(), &options, threads))?;
     let page = || {
         let mut page =
             drawing.to_page(&style, &scene.model_names(), paper_color(scene.image.background));
@@ -163,7 +166,13 @@ pub(super) fn surface_line_layers(
         },
         _ => return Ok(Vec::new()),
     };
-    let drawing = drawing::draw(&scene.drawing_subject(), &style.to_draw_options(), threads)?;
+    let options = DrawOptions {
+        // The picture shows leaves, and lines would show the rectangles that they are cut out of.
+        leaves_out_cut_outs: true,
+        is_unlimited: scene.unlimited_lines,
+        ..style.to_draw_options()
+    };
+    let drawing = drawing::draw(&scene.drawing_subject(), &options, threads)?;
     Ok(drawing.to_page(&style, "", None).layers)
 }
 

@@ -47,10 +47,39 @@ pub struct PreparedScene<'a> {
     full_occlusion: Option<AmbientOcclusion>,
     /// The picture behind refracting and rough glass, once it is needed.
     transmission_framebuffer: Option<TransmissionFramebuffer>,
+    /// The color of the picture as long as all that was rendered of it has one.
+    only_color: OnlyColor,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
     insets: Vec<Self>,
+}
+
+/// Whether the pixels of a picture differ.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum OnlyColor {
+    /// There are none yet.
+    Unknown,
+    /// All have this color so far, in 8 bits a channel.
+    One([u8; 4]),
+    /// They differ.
+    Several,
+}
+
+impl OnlyColor {
+    /// Takes the pixels of a further region into account, up to the first that differs.
+    fn add_pixels<C: Channel>(&mut self, picture: &Picture<C>) {
+        if *self == Self::Several {
+            return;
+        }
+        let mut colors = picture.pixels.iter().map(|pixel| pixel.map(C::to_byte));
+        let first = match *self {
+            Self::One(color) => Some(color),
+            _ => colors.next(),
+        };
+        let Some(first) = first else { return };
+        *self = if colors.all(|color| color == first) { Self::One(first) } else { Self::Several };
+    }
 }
 
 impl<'a> PreparedScene<'a> {
@@ -86,6 +115,7 @@ impl<'a> PreparedScene<'a> {
             has_shadow_maps: false,
             full_occlusion: None,
             transmission_framebuffer: None,
+            only_color: OnlyColor::Unknown,
             warnings,
             insets,
         })
@@ -95,6 +125,10 @@ impl<'a> PreparedScene<'a> {
     #[must_use]
     pub fn into_warnings(self) -> Vec<Warning> {
         let mut all = self.warnings;
+        if matches!(self.only_color, OnlyColor::One(_)) {
+            let reason = self.context.scene.empty_reason();
+            all.push(Warning::PictureEmpty { reason });
+        }
         for warning in self.insets.into_iter().flat_map(Self::into_warnings) {
             if !all.contains(&warning) {
                 all.push(warning);
@@ -129,6 +163,7 @@ impl<'a> PreparedScene<'a> {
                 inset.composite_into(&pixels, in_picture, region, picture);
             }
         }
+        self.only_color.add_pixels(picture);
         draw_caption_over(scene, region, picture);
         Ok(())
     }
@@ -228,7 +263,8 @@ impl<'a> PreparedScene<'a> {
         let occlusion = full_occlusion.as_ref().or(own_occlusion.as_ref());
         let shadows = &buffers.shadow_maps;
         let framebuffer = transmission_framebuffer.as_ref();
-        let shading = fragment_shading(scene, &memory, shadows, occlusion, framebuffer);
+        let mut shading = fragment_shading(scene, &memory, shadows, occlusion, framebuffer);
+        shading.has_eight_bits = C::BITS == 8;
         let styled = style_shading(scene, &shading);
         let surface: &dyn Surface = styled.as_ref().map_or(&shading as _, |styled| styled as _);
         let (frame, background) = (&memory.frame, scene.image.background);

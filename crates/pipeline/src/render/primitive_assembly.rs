@@ -118,7 +118,8 @@ impl<'a> PrimitiveAssembler<'a> {
                 self.draw_primitive(model_instance, instance, primitive, texture)?;
             }
         }
-        if let Some(ground) = scene.ground {
+        // In a picture of numbers a shadow would be a false one.
+        if let Some(ground) = scene.ground.filter(|_| !scene.style.is_false_color()) {
             self.add_ground(ground)?;
         }
         if let Some(blur) = scene.image.environment_blur {

@@ -1,8 +1,9 @@
 //! The vertex attributes, opacity and faces that a style needs of each draw call.
 //!
 //! A style that overrides materials (clay, normals, ids …) still needs some of their properties:
-//! the alpha test for the holes of masked surfaces, and whether surfaces are double-sided. The
-//! X-ray style makes everything translucent and shows back faces as well.
+//! their alpha, and whether surfaces are double-sided. Styles that show the base color blend what
+//! is blended; the others have one color for each fragment, and holes in its place. The X-ray style
+//! makes everything translucent and shows back faces as well.
 
 use super::vertex_processing::material_uv_set;
 use crate::scene::Style;
@@ -29,8 +30,10 @@ pub(super) struct VertexInputs {
 enum OpacityRule {
     /// By the alpha mode and transmission of their materials.
     FromMaterial,
-    /// Opaque, except for the holes of alpha-tested (masked) materials.
-    ForceOpaque,
+    /// By their alpha modes alone.
+    AlphaMode,
+    /// Opaque, with holes where masked materials and the textures of blended ones have them.
+    CutOut,
     /// One opacity for all primitives.
     Force(Opacity),
 }
@@ -40,7 +43,8 @@ impl VertexInputs {
     pub(super) fn for_style(style: Style, opacity: Option<Opacity>) -> Self {
         let default_rule = match style {
             Style::XRay => OpacityRule::Force(Opacity::Translucent),
-            style if style.overrides_materials() => OpacityRule::ForceOpaque,
+            Style::Gouraud | Style::Toon => OpacityRule::AlphaMode,
+            style if style.overrides_materials() => OpacityRule::CutOut,
             _ => OpacityRule::FromMaterial,
         };
         Self {
@@ -56,7 +60,8 @@ impl VertexInputs {
     pub(super) fn opacity(&self, material: &Material) -> Opacity {
         match (self.opacity_rule, material.alpha_mode) {
             (OpacityRule::Force(opacity), _) => opacity,
-            (OpacityRule::ForceOpaque, AlphaMode::Opaque | AlphaMode::Blend) => Opacity::Opaque,
+            (OpacityRule::AlphaMode | OpacityRule::CutOut, AlphaMode::Opaque) => Opacity::Opaque,
+            (OpacityRule::CutOut, AlphaMode::Blend) => Opacity::Masked,
             // Its color holds what is behind it already: it hides that, and is shaded where it is
             // visible alone, without the cost of layers.
             (_, AlphaMode::Opaque) if material.bends_transmitted_light() => Opacity::Opaque,

@@ -93,7 +93,7 @@ scene_struct! {
         /// The ground below the models. Default: none.
         pub ground: Option<GroundFile> = None,
         /// Light from all directions. Default: none; a model without a scene file and without
-        /// lights of its own stands in a `Studio(strength: 0.6)`.
+        /// lights of its own stands in a `Studio(strength: 0.45)` with a key light.
         pub environment: Option<EnvironmentFile> = None,
         /// Screen-space ambient occlusion. Default: none.
         pub ambient_occlusion: Option<AmbientOcclusionFile> = None,

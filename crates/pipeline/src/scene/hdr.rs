@@ -28,15 +28,16 @@ pub(crate) struct Panorama {
 }
 
 impl Panorama {
-    /// Decodes a Radiance file, and halves the image until it is at most 1024 texels wide.
+    /// Decodes a Radiance file, and halves the image until it is at most `most` texels wide.
     ///
-    /// Environment lighting is filtered to far lower resolution, so nothing visible is lost. Memory
+    /// Environment lighting is filtered to far lower resolution than 1024, so nothing visible is
+    /// lost; a background shows more. Memory
     /// grows with the rows that are really in the file: a short file with a large header cannot
     /// demand more.
     ///
     /// # Errors
     /// A description of the first error in the file.
-    pub(crate) fn decode_hdr(bytes: &[u8]) -> Result<Self, String> {
+    pub(crate) fn decode_hdr(bytes: &[u8], most: usize) -> Result<Self, String> {
         let (width, height, data) = parse_hdr_header(bytes)?;
         let fits = |side: usize| (1..=MAX_HDR_SIDE).contains(&side);
         if !fits(width) || !fits(height) || width * height > MAX_HDR_TEXELS {
@@ -49,7 +50,7 @@ impl Panorama {
         if data.len() / 4 < height {
             return Err("the file ends before its picture does".to_owned());
         }
-        let mut rows = HalvedRows::new(width, height);
+        let mut rows = HalvedRows::new(width, height, most);
         let mut rest = data;
         let mut row = vec![[0; 4]; width];
         for _ in 0..height {
@@ -86,7 +87,7 @@ impl Panorama {
     }
 }
 
-/// Rows of an image, halved by 2 × 2 box filters until they are at most 1024 texels wide; an odd
+/// Rows of an image, halved by 2 × 2 box filters until they are narrow enough; an odd
 /// last row or column is dropped each time.
 struct HalvedRows {
     /// For each halving the upper row of the next pair, if it has come.
@@ -96,9 +97,9 @@ struct HalvedRows {
 }
 
 impl HalvedRows {
-    fn new(width: usize, height: usize) -> Self {
+    fn new(width: usize, height: usize, most: usize) -> Self {
         let (mut width, mut height, mut pending) = (width, height, Vec::new());
-        while width > 1024 && height > 1 {
+        while width > most && height > 1 {
             (width, height) = (width / 2, height / 2);
             pending.push(None);
         }
@@ -260,7 +261,7 @@ mod tests {
     #[test]
     fn plain_rows_and_runs_are_read() {
         let plain =
-            Panorama::decode_hdr(&file("-Y 1 +X 2", &[128, 0, 64, 129, 1, 1, 1, 1])).unwrap();
+            Panorama::decode_hdr(&file("-Y 1 +X 2", &[128, 0, 64, 129, 1, 1, 1, 1]), 1024).unwrap();
         let due = [128.5, 0.5, 64.5].map(|mantissa| mantissa / 128.0);
         assert_eq!(plain.texels, [due, due]);
         let mut runs = vec![2, 2, 0, 8];
@@ -268,7 +269,7 @@ mod tests {
             runs.extend([128 + 5, channel, 3, channel, 1, 2]);
         }
         runs.extend([128 + 8, 128]);
-        let found = Panorama::decode_hdr(&file("-Y 1 +X 8", &runs)).unwrap();
+        let found = Panorama::decode_hdr(&file("-Y 1 +X 8", &runs), 1024).unwrap();
         assert_eq!(found.texels[0], [10.5, 20.5, 30.5].map(|c| c / 256.0));
         assert_eq!(found.texels[7], [2.5 / 256.0; 3]);
     }
@@ -281,10 +282,10 @@ mod tests {
     #[test]
     fn wide_rows_are_halved_by_means_and_an_odd_last_row_is_dropped() {
         let data = [equal_row(10), equal_row(30), equal_row(90)].concat();
-        let found = Panorama::decode_hdr(&file("-Y 3 +X 2048", &data)).unwrap();
+        let found = Panorama::decode_hdr(&file("-Y 3 +X 2048", &data), 1024).unwrap();
         assert_eq!((found.width, found.height), (1024, 1));
         assert_eq!(found.texels, vec![[20.5, 0.5, 0.5]; 1024]);
-        let single = Panorama::decode_hdr(&file("-Y 1 +X 2048", &equal_row(10))).unwrap();
+        let single = Panorama::decode_hdr(&file("-Y 1 +X 2048", &equal_row(10)), 1024).unwrap();
         assert_eq!((single.width, single.height, single.texels.len()), (2048, 1, 2048));
     }
 
@@ -303,7 +304,7 @@ mod tests {
             file("-Y 1 +X 8", &[2, 2, 0, 9, 128 + 8, 1]),
             file("-Y 1 +X 3", &[1, 1, 1, 2, 0, 0, 0, 0]),
         ] {
-            assert!(Panorama::decode_hdr(&wrong).is_err());
+            assert!(Panorama::decode_hdr(&wrong, 1024).is_err());
         }
     }
 

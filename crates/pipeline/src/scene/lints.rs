@@ -105,8 +105,7 @@ pub fn lint_scene(
 
 /// The visibility survey of each model of a scene, in its order.
 fn survey_scene(scene: &Scene) -> Vec<VisibilitySurvey> {
-    let viewer = scene.view_projection.viewer().divide();
-    let survey = |placed| VisibilitySurvey::from_model(&scene.view_projection, placed, viewer);
+    let survey = |placed| VisibilitySurvey::from_model(scene, placed);
     scene.models.iter().map(survey).collect()
 }
 
@@ -189,7 +188,7 @@ impl Linter<'_> {
         let models = self.survey_models().into_iter();
         let unseen = models.filter(|(_, _, survey)| survey.is_unseen());
         let advice = unseen.map(|(number, instance, survey)| {
-            let what = self.describe_rejection(&survey);
+            let what = describe_rejection(self.scene, &survey);
             let message = format!("{} is not in the picture: {what}", self.model_name(instance));
             let help = "place it where the camera looks, or leave it out".to_owned();
             let fault =
@@ -205,8 +204,9 @@ impl Linter<'_> {
             return None;
         }
         let whole = self.surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
-        let message = format!("nothing is in the picture: {}", self.describe_rejection(&whole));
-        let help = self.suggest_visibility_fix(&whole);
+        let message =
+            format!("nothing is in the picture: {}", describe_rejection(self.scene, &whole));
+        let help = suggest_visibility_fix(self.scene, &whole);
         let error = self.origin.error_at(&[Field("camera")], message, Some(help));
         Some(Lint { code: "nothing-visible", error })
     }
@@ -287,53 +287,64 @@ impl Linter<'_> {
         let fault = self.origin.error_at(&[Field("lights")], message, Some(help.to_owned()));
         Some(Lint { code: "no-light", error: fault })
     }
+}
 
-    /// Whether all vertices are behind the eye of a perspective; a parallel projection has no eye
-    /// (w = 0).
-    fn is_behind_eye(&self, survey: &VisibilitySurvey) -> bool {
-        let perspective = self.scene.view_projection.viewer().w() != 0.0;
-        perspective && survey.depth_range().is_some_and(|(_, far)| far <= 0.0)
+/// Why a picture of a scene shows nothing.
+pub(super) fn explain_empty_picture(scene: &Scene) -> String {
+    let surveys = survey_scene(scene);
+    let whole = surveys.iter().fold(VisibilitySurvey::default(), VisibilitySurvey::merge);
+    if whole.total == 0 {
+        "there is nothing to draw".to_owned()
+    } else if whole.is_unseen() {
+        let fix = suggest_visibility_fix(scene, &whole);
+        format!("{}; {fix}", describe_rejection(scene, &whole))
+    } else {
+        "what it would show is seen edge-on, transparent, or too small; look from another side, or \
+         from nearer"
+            .to_owned()
     }
+}
 
-    /// The planes that everything is outside of, in words. Without a common plane the primitives
-    /// are counted at each of the six; one may be outside of several.
-    fn describe_rejection(&self, survey: &VisibilitySurvey) -> String {
-        if self.is_behind_eye(survey) {
-            return "all of it is behind the eye".to_owned();
+/// Whether all vertices are behind the eye of a perspective; a parallel projection has no eye
+/// (w = 0).
+fn is_behind_eye(scene: &Scene, survey: &VisibilitySurvey) -> bool {
+    let perspective = scene.view_projection.viewer().w() != 0.0;
+    perspective && survey.depth_range().is_some_and(|(_, far)| far <= 0.0)
+}
+
+/// The planes that everything is outside of, in words. Without a common plane the primitives
+/// are counted at each of the six; one may be outside of several.
+fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
+    if is_behind_eye(scene, survey) {
+        return "all of it is behind the eye".to_owned();
+    }
+    let counts = PlaneIndex::BOX.iter().zip(survey.outside).filter(|(_, count)| *count > 0);
+    let whole = counts.clone().filter(|(_, count)| *count == survey.total);
+    let whole: Vec<String> = whole.map(|(plane, _)| plane.to_string()).collect();
+    match whole.as_slice() {
+        [] => {
+            let each = counts.map(|(plane, count)| format!("{count} outside of {plane}"));
+            let each = each.collect::<Vec<_>>().join(", ");
+            format!("of {} points, lines and triangles {each}", survey.total)
         }
-        let counts = PlaneIndex::BOX.iter().zip(survey.outside).filter(|(_, count)| *count > 0);
-        let whole = counts.clone().filter(|(_, count)| *count == survey.total);
-        let whole: Vec<String> = whole.map(|(plane, _)| plane.to_string()).collect();
-        match whole.as_slice() {
-            [] => {
-                let each = counts.map(|(plane, count)| format!("{count} outside of {plane}"));
-                let each = each.collect::<Vec<_>>().join(", ");
-                format!("of {} points, lines and triangles {each}", survey.total)
-            }
-            [plane] => format!("all of it is outside of the {plane} plane"),
-            [planes @ .., last] => {
-                format!(
-                    "all of it is outside of the {} and the {last} plane",
-                    planes.join(", the ")
-                )
-            }
+        [plane] => format!("all of it is outside of the {plane} plane"),
+        [planes @ .., last] => {
+            format!("all of it is outside of the {} and the {last} plane", planes.join(", the "))
         }
     }
+}
 
-    /// A remedy: turn the camera if the models are behind it, change the depth planes if they
-    /// reject, else aim at the models. Distances are measured along the gaze, in world units.
-    fn suggest_visibility_fix(&self, survey: &VisibilitySurvey) -> String {
-        let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
-        let span = survey.depth_range();
-        let in_depth = span.filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR));
-        match in_depth {
-            _ if self.is_behind_eye(survey) => "turn the camera round, or use Frame(…)".to_owned(),
-            Some((near, far)) => format!(
-                "it is {near:.4} to {far:.4} in front of the eye: leave `near` and `far` out, or set them around that"
-            ),
-            None => {
-                "look towards it, or use Frame(…), which finds the place to look from".to_owned()
-            }
-        }
+/// A remedy: turn the camera if the models are behind it, change the depth planes if they
+/// reject, else aim at the models. Distances are measured along the gaze, in world units.
+fn suggest_visibility_fix(scene: &Scene, survey: &VisibilitySurvey) -> String {
+    let of = |plane: PlaneIndex| survey.outside[plane.index()] == survey.total;
+    let span = survey.depth_range();
+    let in_depth = span.filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR));
+    match in_depth {
+        _ if is_behind_eye(scene, survey) => "turn the camera round, or use Frame(…)".to_owned(),
+        Some((near, far)) => format!(
+            "it is {near:.4} to {far:.4} in front of the eye: leave `near` and `far` out, or set them around that"
+        ),
+        None => "look towards it, or use Frame(…), which finds the place to look from".to_owned(),
     }
 }

@@ -54,7 +54,14 @@ impl Scene {
         let allowed = &options.import.allow_outside;
         let frame = || Self::resolve_with_models(origin, file, models.clone(), allowed);
         let scene = options.import.timings.measure("frame", frame);
-        scene.map_err(|error| error.or_all(|| errors_around_models(origin, file, models, allowed)))
+        let mut scene = scene.map_err(|error| {
+            error.or_all(|| errors_around_models(origin, file, models, allowed))
+        })?;
+        scene.unlimited_lines = options.unlimited_lines;
+        for inset in &mut scene.insets {
+            inset.scene.unlimited_lines = options.unlimited_lines;
+        }
+        Ok(scene)
     }
 
     /// Decides everything that the file leaves open around models that are loaded, posed and
@@ -178,6 +185,7 @@ impl Scene {
             caption,
             sections,
             uncut,
+            unlimited_lines: false,
         })
     }
 }

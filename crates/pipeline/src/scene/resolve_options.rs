@@ -16,6 +16,9 @@ pub struct ResolveOptions {
     /// Whether the picture may have more than 2²⁸ pixels. For sizes that a person chose: a line
     /// in a scene file is enough to ask for hours of work.
     pub allow_large_picture: bool,
+    /// Whether lines are drawn without limits of work, exactly also where hundreds of surfaces lie
+    /// behind each other.
+    pub unlimited_lines: bool,
 }
 
 impl ResolveOptions {

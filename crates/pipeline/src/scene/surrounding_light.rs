@@ -3,7 +3,7 @@
 //! Prefiltering is the expensive part of a small scene, so the last few environments are cached by
 //! their content, across scenes and threads.
 
-use super::file::{EnvironmentFile, Finite, SceneFile};
+use super::file::{BackgroundFile, EnvironmentFile, Finite, SceneFile};
 use super::hdr::Panorama;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
@@ -14,6 +14,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The longest file that is read, in bytes.
 const MAX_FILE_BYTES: u64 = 256 << 20;
+/// The most texels of a row of an image that lights a scene, and of one that is seen.
+const LIGHT_WIDTH: usize = 1024;
+const SEEN_WIDTH: usize = 4096;
 /// The most environments in the cache.
 const MAX_CACHED_ENVIRONMENTS: usize = 4;
 
@@ -103,7 +106,7 @@ pub(super) fn resolve_environment(
             let strength = strength.value() / exposure;
             let turn = EnvironmentRotation::new(strength, degrees(*rotation_degrees));
             cached_environment(turn.cache_key(0, 0), || {
-                Environment::from_radiance(|way| turn.rotated_radiance(way, studio_radiance))
+                Environment::from_source(move |way| turn.rotated_radiance(way, studio_radiance))
             })
         }
         EnvironmentFile::Sky { sun, strength } => {
@@ -117,7 +120,7 @@ pub(super) fn resolve_environment(
             let key = (1, [bits[0], bits[1], bits[2], u64::from(strength.to_bits())]);
             let sky = PreethamSky::new(sun);
             cached_environment(key, || {
-                Environment::from_radiance(|way| sky.radiance(way).map(|c| c * strength))
+                Environment::from_source(move |way| sky.radiance(way).map(|c| c * strength))
             })
         }
         EnvironmentFile::Uniform { strength, color } => {
@@ -130,13 +133,22 @@ pub(super) fn resolve_environment(
         EnvironmentFile::File { path, strength, rotation_degrees } => {
             let at = [Field("environment"), Field("path")];
             let bytes = read_image_bytes(origin, &at, path, allowed)?;
-            let panorama = Panorama::decode_hdr(&bytes)
+            let is_seen = matches!(
+                file.image.background,
+                Some(BackgroundFile::Environment { blur }) if blur.is_none_or(|blur| blur.value() == 0.0)
+            );
+            let (kind, most) = if is_seen { (4, SEEN_WIDTH) } else { (3, LIGHT_WIDTH) };
+            let panorama = Panorama::decode_hdr(&bytes, most)
                 .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
             let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
-            cached_environment(turn.cache_key(3, fnv1a_hash(&bytes)), || {
-                Environment::from_radiance(|way| {
-                    turn.rotated_radiance(way, |way| panorama.sample_direction(way))
-                })
+            cached_environment(turn.cache_key(kind, fnv1a_hash(&bytes)), || {
+                let radiance =
+                    move |way| turn.rotated_radiance(way, |way| panorama.sample_direction(way));
+                if is_seen {
+                    Environment::from_source(radiance)
+                } else {
+                    Environment::from_radiance(radiance)
+                }
             })
         }
     }))

@@ -16,13 +16,61 @@ pub(super) struct Body<'a> {
     encoding: Encoding,
     /// Goes on from one fault to the next.
     lines: RefCell<LineCounter<'a>>,
+    /// Whether each record of a text begins a line: what is left of the line is then not part of the
+    /// next.
+    has_lines: bool,
+    /// The place of the first record with more numbers than the header declares, and how many there
+    /// are.
+    longer: Option<(String, usize)>,
 }
 
 impl<'a> Body<'a> {
     /// The body that begins at an offset of the file.
     pub(super) fn new(bytes: &'a [u8], at: usize, encoding: Encoding) -> Self {
         let lines = RefCell::new(LineCounter::new(bytes));
-        Self { bytes, at: at.min(bytes.len()), encoding, lines }
+        let at = at.min(bytes.len());
+        Self { bytes, at, encoding, lines, has_lines: false, longer: None }
+    }
+
+    /// The body of a file with this many records: if a text has as many lines, each is one.
+    pub(super) fn with_records(mut self, count: u64) -> Self {
+        if self.encoding == Encoding::Ascii {
+            let lines = self.bytes[self.at..].split(|byte| *byte == b'\n' || *byte == b'\r');
+            let used = lines.filter(|line| !line.iter().all(u8::is_ascii_whitespace));
+            self.has_lines = used.count() as u64 >= count;
+        }
+        self
+    }
+
+    /// Ends a record: passes over what else is on its line, as other readers do.
+    pub(super) fn end_record(&mut self) {
+        if !self.has_lines {
+            return;
+        }
+        let rest = &self.bytes[self.at..];
+        let end = rest.iter().position(|byte| *byte == b'\n' || *byte == b'\r');
+        let end = end.unwrap_or(rest.len());
+        if !rest[..end].iter().all(u8::is_ascii_whitespace) {
+            let place = match self.longer.take() {
+                Some((place, count)) => (place, count + 1),
+                None => (self.location(), 1),
+            };
+            self.longer = Some(place);
+        }
+        self.at += end;
+    }
+
+    /// The warning about records that are longer than the header declares.
+    pub(super) fn longer_records(&self) -> Option<(&str, String)> {
+        let (place, count) = self.longer.as_ref()?;
+        let message = match count {
+            1 => "a record has more numbers than the header declares; the others are left out"
+                .to_owned(),
+            _ => format!(
+                "{count} records from here on have more numbers than the header declares; the others are left out"
+            ),
+        };
+        Some((place, message))
     }
 
     /// The number of records that the file can hold at most from here, for reserving memory.
@@ -69,7 +117,12 @@ impl<'a> Body<'a> {
         if number >= 0.0 && number <= possible as f64 && number.fract() == 0.0 {
             return Ok(number as usize);
         }
-        Err(self.fault(&format!("there cannot be a list of {number} values here")))
+        let message = if number >= 0.0 && number.fract() == 0.0 {
+            format!("a list of {number} numbers begins here, and the file does not have as many")
+        } else {
+            format!("the length of a list is {number} here, and must be a whole number")
+        };
+        Err(self.fault(&message))
     }
 
     /// Skips the records of an element that nothing is known about.
@@ -88,6 +141,7 @@ impl<'a> Body<'a> {
                 };
                 self.skip_numbers(count, property.scalar)?;
             }
+            self.end_record();
         }
         Ok(())
     }
@@ -186,7 +240,7 @@ mod tests {
     fn lengths_of_lists_are_bounded_by_the_file() {
         let mut body = Body::new(&[255, 255, 255, 127, 0], 0, Encoding::LittleEndian);
         let message = body.next_list_length(ScalarType::I32, ScalarType::U8).unwrap_err();
-        assert!(message.sentence().starts_with("byte 4: there cannot be a list of 2147483647"));
+        assert!(message.sentence().starts_with("byte 4: a list of 2147483647 numbers begins here"));
         let mut body = Body::new(b"3 1 2 3", 0, Encoding::Ascii);
         assert_eq!(body.next_list_length(ScalarType::U8, ScalarType::U8), Ok(3));
     }

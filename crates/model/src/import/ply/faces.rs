@@ -94,6 +94,7 @@ pub(super) fn read_faces(
                 break;
             }
         }
+        body.end_record();
     }
     if let Some(colors) = &mut faces.colors {
         linearize_colors(colors, &element.properties, warnings, "element face");

@@ -121,6 +121,9 @@ pub(super) struct Header {
     pub(super) elements: Vec<PlyElement>,
     /// Names of texture files from `comment TextureFile NAME`.
     pub(super) texture_files: Vec<String>,
+    /// The first lines that begin with no word of the format, with their numbers: comments that
+    /// lack the word.
+    pub(super) stray_lines: Vec<(usize, String)>,
     /// The offset of the body.
     pub(super) body: usize,
 }
@@ -136,6 +139,7 @@ impl Header {
             encoding: Encoding::Ascii,
             elements: Vec::new(),
             texture_files: Vec::new(),
+            stray_lines: Vec::new(),
             body: 0,
         };
         let mut has_format = false;
@@ -174,20 +178,44 @@ impl Header {
                 Some("end_header") => {
                     return Err(Diagnostic::invalid(&location, "the header has no `format` line"));
                 }
-                Some(word) => {
-                    let message = format!("{:?} begins no line of a PLY header", shorten(word));
-                    return Err(Diagnostic::invalid(&location, message));
-                }
+                Some(word) => header.add_stray_line(lines.number, line, word)?,
             }
         }
         let location = format!("line {}", lines.number);
         Err(Diagnostic::invalid(&location, "the file ends before `end_header`"))
     }
+
+    /// Takes a line that begins with a word outside of the format for a comment.
+    ///
+    /// # Errors
+    /// If the word is nearly one of the format, or if there are too many such lines.
+    fn add_stray_line(&mut self, number: usize, line: &str, word: &str) -> Result<(), Diagnostic> {
+        if is_misspelled(word) || self.stray_lines.len() == MAX_STRAY_LINES {
+            let message = format!(
+                "a line of a PLY header cannot begin with `{}`: expected comment, element, property \
+                 or end_header",
+                shorten(word)
+            );
+            return Err(Diagnostic::invalid(&format!("line {number}"), message));
+        }
+        self.stray_lines.push((number, shorten(line)));
+        Ok(())
+    }
 }
 
-/// The first characters of a word that is quoted in a message.
-fn shorten(word: &str) -> String {
-    word.chars().take(32).collect()
+/// The most lines of a header that are taken for comments.
+const MAX_STRAY_LINES: usize = 16;
+
+/// Whether a word could be meant as one of the format: what it says then matters.
+fn is_misspelled(word: &str) -> bool {
+    let starts = ["com", "ele", "end", "for", "list", "obj", "ply", "pro"];
+    let word = word.to_ascii_lowercase();
+    starts.iter().any(|start| word.starts_with(start))
+}
+
+/// The first characters of a text that is quoted in a message.
+fn shorten(text: &str) -> String {
+    text.chars().take(32).collect()
 }
 
 /// The name of a texture in a comment of MeshLab's, without the spaces around it.
@@ -323,7 +351,7 @@ mod tests {
             ("ply\nelement vertex -1\n", "line 2: the number of \"vertex\" is \"-1\""),
             ("ply\nelement a 1\nproperty half x\n", "line 3: \"half\" is no type of PLY's"),
             ("ply\nformat text 1.0\n", "line 2: the format \"text\" is none of PLY's"),
-            ("ply\nvertex 1\n", "line 2: \"vertex\" begins no line of a PLY header"),
+            ("ply\nelment vertex 1\n", "line 2: a line of a PLY header cannot begin with `elment`"),
         ];
         for (text, expected) in table {
             let message = parse(text).unwrap_err();

@@ -196,3 +196,27 @@ fn declared_counts_are_not_believed() {
     let file = format!("ply\nformat ascii 1.0\nelement a {}\nend_header\n", u64::MAX);
     assert!(load(file.as_bytes()).meshes[0].primitives.is_empty());
 }
+
+#[test]
+fn what_other_readers_accept_is_read_with_a_warning() {
+    let text = b"ply\nformat ascii 1.0\nCreated by somebody\nelement vertex 4\nproperty float x\n\
+        property float y\nproperty float z\nelement face 2\n\
+        property list uchar int vertex_indices\nend_header\n\
+        0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 255 128 0\n3 0 2 3 255 128 0\n";
+    let model = load(text);
+    let expected = [
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
+        [[0.0; 3], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+    ];
+    assert_eq!(corners(&model), expected);
+    let warnings: Vec<String> = model.warnings.iter().map(crate::Diagnostic::sentence).collect();
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert!(warnings[0].starts_with("line 3: `Created by somebody` is not a line of a PLY header"));
+    assert!(warnings[1].contains("2 records from here on have more numbers"), "{warnings:?}");
+    // Records that share a line are read as before.
+    let joined = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+        property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+        0 0 0 1 0 0 1 1 0 3 0 1 2\n";
+    let model = load(joined.as_bytes());
+    assert_eq!((corners(&model).len(), model.warnings.len()), (1, 0));
+}

@@ -89,7 +89,10 @@ pub(super) fn read_vertices(
     };
     for _ in 0..element.count {
         match read_row(body, &element.properties, &places) {
-            Ok(row) => vertices.push_row(&row, is_splat),
+            Ok(row) => {
+                vertices.push_row(&row, is_splat);
+                body.end_record();
+            }
             Err(fault) => {
                 warnings.downgrade_if_lenient(fault, "the vertices from here on are left out")?;
                 break;

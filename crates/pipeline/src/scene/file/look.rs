@@ -155,6 +155,28 @@ impl StyleFile {
         })
     }
 
+    /// The style with a line group of ISO 128 that suits a picture of this size in pixels, if its
+    /// lines are those of a group: 0.25 mm below 300 pixels, 0.35 mm below 600.
+    #[must_use]
+    pub fn with_fitting_lines(self, (width, height): (u32, u32)) -> Self {
+        let most = match width.min(height) {
+            0..300 => 0.25,
+            300..600 => 0.35,
+            _ => return self,
+        };
+        match self {
+            Self::Lines(mut lines) => {
+                if let WidthFile::Iso(wide) = &mut lines.width
+                    && wide.value() > most
+                {
+                    *wide = Positive::constant(most);
+                }
+                Self::Lines(lines)
+            }
+            other => other,
+        }
+    }
+
     /// The style without hidden lines if it is a line drawing: a section shows what is inside, and
     /// hidden edges would only confuse (ISO 128-3).
     #[must_use]

@@ -3,7 +3,7 @@
 //! Ray casting in the course of the survey decides whether the eye is inside of the model: for a
 //! closed surface, each ray from an inner point leaves once more than it enters.
 
-use camera::ViewProjection;
+use crate::scene::Scene;
 use clip::{Outcode, PlaneIndex, Volume, clip_point, clip_segment, clip_triangle};
 use glam::DVec3;
 use homog::{Clip, HPoint, Point, World};
@@ -41,16 +41,12 @@ pub(super) struct VisibilitySurvey {
 }
 
 impl VisibilitySurvey {
-    /// Surveys every visible primitive of a model, in O(vertices + primitives). `eye` is the center
-    /// of projection of a perspective; rays from it decide whether the model encloses it.
-    pub(super) fn from_model(
-        view_projection: &ViewProjection,
-        placed: &ModelInstance,
-        eye: Option<Point<World>>,
-    ) -> Self {
+    /// Surveys every visible primitive of a model of the scene, in O(vertices + primitives). Rays
+    /// from the center of projection decide whether the model encloses it.
+    pub(super) fn from_model(scene: &Scene, placed: &ModelInstance) -> Self {
         let mut survey = Self::default();
         for (instance, primitive) in placed.model.scene_primitives() {
-            survey.survey_primitive(view_projection, placed, instance, primitive, eye);
+            survey.survey_primitive(scene, placed, instance, primitive);
         }
         survey
     }
@@ -118,12 +114,15 @@ impl VisibilitySurvey {
     /// which `sign` undoes.
     fn survey_primitive(
         &mut self,
-        view_projection: &ViewProjection,
+        scene: &Scene,
         placed: &ModelInstance,
         instance: MeshInstance,
         primitive: &Primitive,
-        eye: Option<Point<World>>,
     ) {
+        let view_projection = &scene.view_projection;
+        let eye = view_projection.viewer().divide();
+        // Near and far plane enclose what sections leave.
+        let sections = if scene.style.draws_surfaces() { &[][..] } else { &scene.sections };
         let posed = placed.model.skin_primitive(instance, primitive);
         let to_world = posed.to_model.then(placed.model_to_world);
         let world: Vec<Point<World>> = posed
@@ -140,7 +139,11 @@ impl VisibilitySurvey {
         for item in primitive.indices.chunks_exact(primitive.topology.vertices_per_item()) {
             let item: Vec<usize> = item.iter().map(|&at| at as usize).collect();
             for &at in &item {
-                self.count_vertex(codes[at], -world_to_view.transform_point(world[at]).z());
+                let distance = -world_to_view.transform_point(world[at]).z();
+                self.extend_depth_range(distance);
+                if sections.iter().all(|plane| plane.evaluate(world[at]) >= 0.0) {
+                    self.count_vertex(codes[at], distance);
+                }
             }
             self.count_primitive(&item, &clip, &codes);
             if let (Some(eye), &[a, b, c]) = (eye, item.as_slice()) {
@@ -152,12 +155,11 @@ impl VisibilitySurvey {
         }
     }
 
-    /// Counts a vertex with its distance along the gaze.
+    /// Counts a vertex at a distance along the gaze that a depth plane cuts off.
     ///
     /// A vertex counts as cut only if a depth plane is the one plane that it is outside of.
     /// Vertices shared by several primitives are counted for each of them.
     fn count_vertex(&mut self, code: Outcode, distance: f64) {
-        self.extend_depth_range(distance);
         if code == Outcode::INSIDE.with_plane(PlaneIndex::NEAR) && distance > 0.0 {
             self.before_near += 1;
         }

@@ -1,0 +1,107 @@
+//! `render --watch`: renders again whenever the inputs change, or files that they use.
+//!
+//! Files are asked for their time and length a few times a second, which works on every file system.
+//! A change counts once the files have stayed as they are from one look to the next: editors and
+//! exporters write for a while.
+
+use super::CliError;
+use super::messages::{print_message, print_note};
+use super::referenced_files::referenced_files;
+use super::render::is_scene_file;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+/// The time between two looks.
+const INTERVAL: Duration = Duration::from_millis(150);
+/// The most files that are watched.
+const MAX_FILES: usize = 4096;
+/// The longest file that is searched for the names of others.
+const MAX_SEARCHED_BYTES: u64 = 64 << 20;
+
+/// When each file was changed, and its length; `None` if it does not exist.
+type Stamps = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
+
+/// Runs `make` now and after every change, until the program is interrupted; its errors are printed.
+///
+/// # Errors
+/// If an input is the standard input, which cannot change.
+pub(super) fn repeat(
+    inputs: &[PathBuf],
+    mut make: impl FnMut() -> Result<(), CliError>,
+) -> Result<(), CliError> {
+    if inputs.iter().any(|input| input.as_os_str() == "-") {
+        let message = "--watch needs files: the standard input does not change";
+        return Err(CliError::Usage(message.to_owned()));
+    }
+    loop {
+        let before = stamp_files(inputs);
+        if let Err(error) = make() {
+            print_message("error", &error.to_message());
+        }
+        let count = before.len();
+        let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+        print_note(&format!("watching {files}; Ctrl+C ends"));
+        let mut now = stamp_files(inputs);
+        while now == before {
+            sleep(INTERVAL);
+            now = stamp_files(inputs);
+        }
+        loop {
+            sleep(INTERVAL);
+            let later = stamp_files(inputs);
+            if later == now {
+                break;
+            }
+            now = later;
+        }
+    }
+}
+
+/// The stamps of all files that the inputs use.
+fn stamp_files(inputs: &[PathBuf]) -> Stamps {
+    let mut stamps = Stamps::new();
+    let mut waiting: Vec<PathBuf> = inputs.to_vec();
+    while let Some(path) = waiting.pop() {
+        if stamps.len() == MAX_FILES || stamps.contains_key(&path) {
+            continue;
+        }
+        let about = std::fs::metadata(&path).ok().filter(std::fs::Metadata::is_file);
+        let is_short = about.as_ref().is_some_and(|about| about.len() <= MAX_SEARCHED_BYTES);
+        stamps.insert(path.clone(), about.and_then(|it| Some((it.modified().ok()?, it.len()))));
+        if is_short {
+            waiting.extend(used_files(&path));
+        }
+    }
+    stamps
+}
+
+/// The files that a scene or a model names and that exist.
+fn used_files(path: &Path) -> Vec<PathBuf> {
+    let Ok(bytes) = std::fs::read(path) else { return Vec::new() };
+    let names: Vec<String> = if is_scene_file(path) {
+        // Whatever is between quotation marks may be a path.
+        let text = String::from_utf8_lossy(&bytes);
+        text.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+    } else {
+        referenced_files(&path.to_string_lossy(), &bytes)
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let paths = names.iter().filter(|name| !name.is_empty()).map(|name| folder.join(name));
+    paths.filter(|path| path.is_file()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_files_of_a_scene_and_of_its_models_are_found() {
+        let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+        let scene = scenes.join("teapot.ron");
+        let stamps = stamp_files(std::slice::from_ref(&scene));
+        assert!(stamps.contains_key(&scene) && stamps.len() > 1, "{stamps:?}");
+        assert!(stamps.keys().any(|path| path.ends_with("models/teapot.glb")), "{stamps:?}");
+    }
+}

@@ -1,0 +1,110 @@
+//! Every model in every style, still and as a thumbnail: no picture is empty, and lines leave some of
+//! the paper free.
+
+use pipeline::scene::file::StyleFile;
+use pipeline::scene::{ResolveOptions, SceneFile, Style};
+use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
+use std::path::Path;
+
+/// The size of a thumbnail.
+const THUMBNAIL: (u32, u32) = (64, 64);
+/// The least share of the picture that has its most frequent color: paper, where lines are drawn.
+const LEAST_PAPER: f64 = 0.25;
+/// The least share of the pixels that differ from the most frequent color.
+const LEAST_DRAWN: f64 = 0.0005;
+
+/// How many pictures of each model there are without the environment variable `THOROUGH`.
+const FEW_CASES: usize = 4;
+
+/// Models that cover all of a picture, or of which next to nothing is seen, and why.
+const ODD_MODELS: [(&str, &str); 0] = [];
+
+/// All styles of the command line, with their names.
+pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
+    vec![
+        ("shaded", StyleFile::Shaded),
+        ("flat", StyleFile::Flat),
+        ("gouraud", StyleFile::Gouraud),
+        ("clay", StyleFile::Clay),
+        ("matcap", StyleFile::Matcap),
+        ("normals", StyleFile::Normals),
+        ("depth", StyleFile::Depth),
+        ("uv", StyleFile::UvChecker),
+        ("ids", StyleFile::Ids),
+        ("toon", StyleFile::Toon),
+        ("x-ray", StyleFile::XRay),
+        ("wireframe", StyleFile::Wireframe),
+        ("depth-cued", StyleFile::lines_depth_cued()),
+        ("lines", StyleFile::lines_hidden_removed()),
+        ("dashed", StyleFile::lines_hidden_dashed()),
+        ("silhouette", StyleFile::lines_silhouette()),
+        ("outline", StyleFile::lines_outline()),
+        ("technical", StyleFile::lines_technical()),
+        ("patent", StyleFile::lines_patent()),
+        ("blueprint", StyleFile::lines_blueprint()),
+        ("sketch", StyleFile::lines_sketch()),
+    ]
+}
+
+/// What is wrong with the pictures of a model in some of the styles, or in all.
+pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
+    if ODD_MODELS.iter().any(|(odd, _)| *odd == name) {
+        return Vec::new();
+    }
+    let (origin, file) = Origin::from_model_path(model);
+    let Ok(loaded) = Scene::resolve(&origin, &file, &ResolveOptions::default()) else {
+        return Vec::new();
+    };
+    let textures = Textures::for_models(&loaded.models);
+    let mut cases: Vec<_> = all_styles()
+        .into_iter()
+        .flat_map(|style| [super::SIZE, THUMBNAIL].map(|size| (style.clone(), size)))
+        .collect();
+    // A few for each model, chosen by its name, so that each style meets some of the models.
+    if std::env::var_os("THOROUGH").is_none() {
+        let turn =
+            name.bytes().fold(0, |sum, byte| (31 * sum + usize::from(byte)) % 10_007) % cases.len();
+        cases.rotate_left(turn);
+        cases.truncate(FEW_CASES);
+    }
+    let mut faults = Vec::new();
+    for ((style_name, style), size) in cases {
+        let style = style.with_fitting_lines(size);
+        let mut file = SceneFile { style, ..file.clone() };
+        file.image.size = size;
+        let fault = Scene::from_models(&origin, &file, loaded.models.clone())
+            .map_err(|error| error.to_string())
+            .and_then(|scene| judge_picture(&scene, &textures));
+        let [width, height] = [size.0, size.1];
+        let in_style = |fault| format!("{style_name}, {width} x {height}: {fault}");
+        faults.extend(fault.err().map(in_style));
+    }
+    faults
+}
+
+/// Renders a scene and looks at the picture.
+fn judge_picture(scene: &Scene, textures: &Textures<'_>) -> Result<(), String> {
+    let mut picture = Picture::<u8>::default();
+    let context = RenderContext::new(scene, textures, 1);
+    let warnings = Renderer::default().render(&context, &mut picture);
+    let warnings = warnings.map_err(|error| error.to_string())?;
+    if let Some(empty) =
+        warnings.iter().find(|it| matches!(it, drawing::Warning::PictureEmpty { .. }))
+    {
+        return Err(empty.to_string());
+    }
+    let mut counts = std::collections::BTreeMap::new();
+    for pixel in &picture.pixels {
+        *counts.entry(pixel).or_insert(0_usize) += 1;
+    }
+    let most = counts.values().max().copied().unwrap_or_default();
+    let share = most as f64 / picture.pixels.len() as f64;
+    if 1.0 - share < LEAST_DRAWN {
+        return Err(format!("{:.3} % of the picture has one color", 100.0 * share));
+    }
+    let is_drawing = matches!(scene.style, Style::Wireframe | Style::Lines(_));
+    if is_drawing && share < LEAST_PAPER {
+        return Err(format!("lines leave {:.1} % of the paper", 100.0 * share));
+    }
+    Ok(())
+}
