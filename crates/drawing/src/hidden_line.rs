@@ -31,10 +31,12 @@
 //!   face lies, and their intersection is hidden. A crack between two objects that is narrower than
 //!   a pen hides in the same way what runs along it.
 
+mod bounds;
 mod bvh;
 mod covering_faces;
 mod crack_intervals;
 mod depth_cover;
+mod depth_level;
 mod occluder;
 mod occluders;
 mod occlusion_intervals;

@@ -15,6 +15,7 @@
 //! Boxes are stored in single precision, relative to the middle of all and rounded outward: a query
 //! may meet a box that it just misses, never the other way round.
 
+use super::bounds::Bounds;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -74,97 +75,6 @@ impl Aabb {
         let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
     }
-}
-
-/// A box in single precision.
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    min: [f32; 3],
-    max: [f32; 3],
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
-
-    /// A box relative to an origin, rounded outward.
-    fn around(area: &Aabb, origin: DVec3) -> Self {
-        Self {
-            min: (area.min - origin).to_array().map(round_down),
-            max: (area.max - origin).to_array().map(round_up),
-        }
-    }
-
-    /// Grows to hold another box.
-    fn extend(&mut self, other: &Self) {
-        for k in 0..3 {
-            self.min[k] = least(self.min[k], other.min[k]);
-            self.max[k] = greatest(self.max[k], other.max[k]);
-        }
-    }
-
-    /// Grows to hold a point.
-    fn extend_to(&mut self, point: [f32; 3]) {
-        self.extend(&Self { min: point, max: point });
-    }
-
-    /// The midpoint, by which items are sorted into bins.
-    fn box_center(&self) -> [f32; 3] {
-        [0, 1, 2].map(|k| (self.min[k] + self.max[k]) * 0.5)
-    }
-
-    fn half_surface_area(&self) -> f32 {
-        let [x, y, z] = [0, 1, 2].map(|k| self.max[k] - self.min[k]);
-        x * y + y * z + z * x
-    }
-
-    /// Whether two boxes have a point in common, borders included.
-    fn intersects(&self, other: &Self) -> bool {
-        (0..3).all(|k| self.min[k] <= other.max[k] && other.min[k] <= self.max[k])
-    }
-}
-
-impl Bounds {
-    /// Whether a segment meets the box, made larger by a radius on all sides: the interval of the
-    /// segment between each pair of sides, cut with the others.
-    fn is_near_segment(&self, [from, to]: [DVec3; 2], radius: f64) -> bool {
-        let (from, along) = (from.to_array(), (to - from).to_array());
-        let mut interval = [0.0_f64, 1.0];
-        for k in 0..3 {
-            let low = f64::from(self.min[k]) - radius - from[k];
-            let high = f64::from(self.max[k]) + radius - from[k];
-            if along[k] == 0.0 {
-                if low > 0.0 || high < 0.0 {
-                    return false;
-                }
-                continue;
-            }
-            let (a, b) = (low / along[k], high / along[k]);
-            interval = [interval[0].max(a.min(b)), interval[1].min(a.max(b))];
-        }
-        interval[0] <= interval[1]
-    }
-}
-
-/// The lesser number: without the cases of `f32::min` for what is not a number, one instruction.
-pub(super) fn least(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-/// The greater number, as [`least`].
-pub(super) fn greatest(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-/// The nearest number of single precision that is not above.
-pub(super) fn round_down(x: f64) -> f32 {
-    let rounded = x as f32;
-    if f64::from(rounded) > x { rounded.next_down() } else { rounded }
-}
-
-/// The nearest number of single precision that is not below.
-pub(super) fn round_up(x: f64) -> f32 {
-    let rounded = x as f32;
-    if f64::from(rounded) < x { rounded.next_up() } else { rounded }
 }
 
 /// A node of the hierarchy: a leaf with items or an inner node with two children.

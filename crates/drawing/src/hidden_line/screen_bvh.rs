@@ -14,7 +14,8 @@
 //! take several times the memory of the mesh.
 
 use super::super::projector::Projector;
-use super::bvh::{Bvh, NodeContents, greatest, least, round_down, round_up};
+use super::bounds::{greatest, least, round_down, round_up};
+use super::bvh::{Bvh, NodeContents};
 use super::projected_edge::ProjectedEdge;
 use clip::{ClipVertex, Outcode, Volume, clip_triangle};
 use glam::{DVec2, DVec3};

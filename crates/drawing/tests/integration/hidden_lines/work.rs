@@ -1,4 +1,4 @@
-//! The bound on the work of hidden-line removal.
+//! The bounds on the work of hidden-line removal, and crowds of faces.
 
 use super::stage::*;
 use drawing::{DrawOptions, LineDrawing, Warning, draw};
@@ -17,7 +17,14 @@ fn stack_of_sheets(count: u16) -> Model {
 }
 
 fn draw_stack(count: u16, max_comparisons: u64, threads: usize) -> LineDrawing {
-    let model = Arc::new(stack_of_sheets(count));
+    // The stack is a crowd, and this is about the bound on the exact comparisons.
+    let options =
+        DrawOptions { max_comparisons, is_unlimited: true, ..DrawOptions::hidden_edges_removed() };
+    draw_model(stack_of_sheets(count), &options, threads)
+}
+
+fn draw_model(model: Model, options: &DrawOptions, threads: usize) -> LineDrawing {
+    let model = Arc::new(model);
     let instance = ModelInstance { model, model_to_world: Affine::scale(1.0, 1.0, 1.0) };
     let models = vec![instance];
     let scene = TestScene {
@@ -26,8 +33,46 @@ fn draw_stack(count: u16, max_comparisons: u64, threads: usize) -> LineDrawing {
         sections: Vec::new(),
         uncut: Vec::new(),
     };
-    let options = DrawOptions { max_comparisons, ..DrawOptions::hidden_edges_removed() };
-    draw(&scene.drawing_subject(), &options, threads).unwrap()
+    draw(&scene.drawing_subject(), options, threads).unwrap()
+}
+
+/// Triangles of all sizes at random places before each other, the same at each call.
+fn soup(count: usize) -> Model {
+    let mut state = 1_u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / 16_777_216.0
+    };
+    let mut triangle = || {
+        let center = [0; 3].map(|_| 3.0 * random() - 1.5);
+        let corner = |random: &mut dyn FnMut() -> f32| center.map(|c| c + 3.2 * random() - 1.6);
+        let [a, b, c] = [0; 3].map(|_| corner(&mut random));
+        quad_mesh([a, b, c, c])
+    };
+    build_model((0..count).map(|_| triangle()).collect())
+}
+
+/// The lengths of the visible and of the hidden segments in pixels.
+fn lengths(drawing: &LineDrawing) -> [f64; 2] {
+    [true, false].map(|visible| {
+        let segments = drawing.segments.iter().filter(|segment| segment.visible == visible);
+        segments.map(|segment| segment.ends[0].distance(segment.ends[1])).sum()
+    })
+}
+
+#[test]
+fn a_crowd_is_drawn_nearly_as_exactly_as_without_limits() {
+    let options = DrawOptions::hidden_edges_retained();
+    let exact = draw_model(soup(2000), &DrawOptions { is_unlimited: true, ..options }, 2);
+    assert_eq!(exact.warnings, []);
+    let crowd = draw_model(soup(2000), &options, 1);
+    assert!(crowd.warnings.contains(&Warning::CrowdApproximated), "{:?}", crowd.warnings);
+    assert_eq!(crowd, draw_model(soup(2000), &options, 3));
+    let ([seen, _], [all, _]) = (lengths(&crowd), lengths(&exact));
+    assert!(seen > 0.95 * all && seen < 1.001 * all, "{seen} of {all} pixels are visible");
+    // A tenth of them are fewer faces, and no crowd.
+    let few = draw_model(soup(200), &options, 1);
+    assert!(!few.warnings.contains(&Warning::CrowdApproximated));
 }
 
 #[test]
