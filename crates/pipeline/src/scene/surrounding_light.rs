@@ -131,25 +131,35 @@ pub(super) fn resolve_environment(
             })
         }
         EnvironmentFile::File { path, strength, rotation_degrees } => {
-            let at = [Field("environment"), Field("path")];
-            let bytes = read_image_bytes(origin, &at, path, allowed)?;
-            let is_seen = matches!(
-                file.image.background,
-                Some(BackgroundFile::Environment { blur }) if blur.is_none_or(|blur| blur.value() == 0.0)
-            );
-            let (kind, most) = if is_seen { (4, SEEN_WIDTH) } else { (3, LIGHT_WIDTH) };
-            let panorama = Panorama::decode_hdr(&bytes, most)
-                .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
             let turn = EnvironmentRotation::new(strength.value(), degrees(*rotation_degrees));
-            cached_environment(turn.cache_key(kind, fnv1a_hash(&bytes)), || {
-                let radiance =
-                    move |way| turn.rotated_radiance(way, |way| panorama.sample_direction(way));
-                if is_seen {
-                    Environment::from_source(radiance)
-                } else {
-                    Environment::from_radiance(radiance)
-                }
-            })
+            environment_from_file(origin, file, path, turn, allowed)?
+        }
+    }))
+}
+
+/// The environment in an image file, finer if the picture shows it.
+fn environment_from_file(
+    origin: &Origin,
+    file: &SceneFile,
+    path: &str,
+    turn: EnvironmentRotation,
+    allowed: &[PathBuf],
+) -> Result<Arc<Environment>, SceneError> {
+    let at = [Field("environment"), Field("path")];
+    let bytes = read_image_bytes(origin, &at, path, allowed)?;
+    let is_seen = matches!(
+        file.image.background,
+        Some(BackgroundFile::Environment { blur }) if blur.is_none_or(|blur| blur.value() == 0.0)
+    );
+    let (kind, most) = if is_seen { (4, SEEN_WIDTH) } else { (3, LIGHT_WIDTH) };
+    let panorama = Panorama::decode_hdr(&bytes, most)
+        .map_err(|problem| environment_error(origin, format!("{path}: {problem}"), None))?;
+    Ok(cached_environment(turn.cache_key(kind, fnv1a_hash(&bytes)), || {
+        let radiance = move |way| turn.rotated_radiance(way, |way| panorama.sample_direction(way));
+        if is_seen {
+            Environment::from_source(radiance)
+        } else {
+            Environment::from_radiance(radiance)
         }
     }))
 }
