@@ -73,7 +73,6 @@ mod thumbnailer;
 mod unused_flags;
 mod usage_advice;
 mod viewpoint;
-mod watch;
 
 pub use program::run_within;
 pub use signals::clean_up_on_signals;

@@ -8,13 +8,14 @@
 
 mod shared_scale;
 pub(super) mod tasks;
+mod watch;
 
 use super::args::RenderArgs;
 use super::messages::{print_message, print_note, print_warnings};
 use super::progress::Progress;
 use super::render_job::RenderJob;
 use super::unused_flags::find_unused_flags;
-use super::{CliError, render_report, terminal_image, watch};
+use super::{CliError, render_report, terminal_image};
 use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use model::import::{FileFormat, ImageLoading, ImportOptions};
 use model::visible_path;
