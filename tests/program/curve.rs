@@ -150,7 +150,7 @@ fn errors_are_reported_and_leave_no_file() {
         (&["--near", "1", "--far", "2", "--distances", "0"], "distance"),
         (
             &["--near", "1", "--far", "2", "-o", "out.html"],
-            "has no known extension: .svg, .pdf, .dxf, .png, .txt, .md, .csv or .json",
+            "unsupported output format; use .svg, .pdf, .dxf, .png, .txt, .md, .csv or .json",
         ),
     ] {
         let run = depth(flags);

@@ -233,9 +233,9 @@ fn drawing_errors_are_reported_and_leave_no_file() {
     let failing = [
         (
             &["render", "box.gltf", "-o", "out.dwg"][..],
-            "has no known extension: .png, .svg, .pdf or .dxf",
+            "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf",
         ),
-        (&["sheet", "box.gltf", "-o", "out"], "has no known extension: .png, .svg, .pdf or .dxf"),
+        (&["sheet", "box.gltf", "-o", "out"], "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf"),
         (&["sheet", "box.gltf", "--scale", "1:1", "--paper", "a4", "-o", "out.pdf"], "; 1:20 fits"),
     ];
     for (arguments, message) in failing {

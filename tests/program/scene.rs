@@ -111,7 +111,7 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "camera: (view: LookTo(eye: (0, 0.5, 6), gaze: (0, 0, 1)), projection: Perspective(near: 0.1, far: 100))",
         "nothing-visible",
         "3:11",
-        "all of it is behind the eye",
+        "everything is behind the camera",
     ),
     (
         "camera: (view: LookTo(eye: (0, 0.5, 90), gaze: (0, 0, -1)), projection: Perspective(near: 1, far: 9))",

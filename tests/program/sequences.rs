@@ -116,10 +116,10 @@ fn what_cannot_be_is_refused() {
     let sandbox = Sandbox::new("animate_refused");
     sandbox.copy_model("crate.glb");
     let cases: [(&[&str], i32, &str); 4] = [
-        (&["-o", "film.mp4"], 1, "film.mp4: video is not written"),
+        (&["-o", "film.mp4"], 1, "film.mp4: video output is not supported"),
         (&["-o", "f_{frame:4}.png"], 1, "write {frame}, or {frame:04}"),
         (&["-o", "f.png", "--fps", "0"], 2, "from 0.1 to 1000"),
-        (&["-o", "f.png", "--animation", "Walk"], 1, "the model crate has no animation"),
+        (&["-o", "f.png", "--animation", "Walk"], 1, "crate has no animations"),
     ];
     for (arguments, code, reason) in cases {
         let run = sandbox.run(&[&["animate", "crate.glb"], arguments].concat());

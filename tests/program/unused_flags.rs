@@ -28,11 +28,11 @@ fn flags_that_do_nothing_are_told() {
         ),
         (
             &["--style", "ids", "--environment", "sky"],
-            "warning: --environment does nothing here: the style ids is not lit\n",
+            "warning: --environment does nothing here: the style ids has no lighting\n",
         ),
         (
             &["--style", "shaded", "-o", "x.svg"],
-            "warning: --style shaded does nothing here: SVG output is a line drawing; name a .png for surfaces\n",
+            "warning: --style shaded does nothing here: SVG output is always a line drawing; for surfaces write a .png\n",
         ),
         (
             &["--camera-axes", "opencv"],

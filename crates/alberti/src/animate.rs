@@ -57,7 +57,7 @@ pub(crate) struct AnimateArgs {
     #[arg(long, value_name = "SECONDS", value_parser = parse_finite, allow_hyphen_values = true)]
     to: Option<Finite>,
     /// Number of threads; the frames do not depend on it [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     threads: Option<u16>,
     #[command(flatten)]
     overrides: SceneOverrideArgs,

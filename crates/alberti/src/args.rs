@@ -184,7 +184,7 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) dxf: DxfArgs,
     /// Number of threads; the picture does not depend on it [default: one per core]
-    #[arg(help_heading = "Output", long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(help_heading = "Output", long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     pub(crate) threads: Option<u16>,
     /// Print the time of each stage
     #[arg(help_heading = "Output", long)]

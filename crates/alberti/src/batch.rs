@@ -134,7 +134,7 @@ pub(crate) struct BatchArgs {
     #[arg(long, value_name = "FILE")]
     metrics: Option<PathBuf>,
     /// Number of models to render at a time [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     threads: Option<u16>,
     #[command(flatten)]
     flags: GivenFlags,

@@ -134,7 +134,7 @@ fn write_output(
     OutputFormat::from_path(output).map_err(|_| {
         let (name, extensions) =
             (visible_path(output), ".svg, .pdf, .dxf, .png, .txt, .md, .csv or .json");
-        CliError::Usage(format!("the output {name} has no known extension: {extensions}"))
+        CliError::Usage(format!("{name}: unsupported output format; use {extensions}"))
     })?;
     write_page(output, &table.to_page(rows, distances))
 }

@@ -57,20 +57,20 @@ impl OutputFormat {
     fn unknown_extension_error(output: &Path, ending: &str) -> CliError {
         let name = visible_path(output);
         let unwritten = |format: &str, help: String| {
-            CliError::Usage(format!("{name}: {format} is not written\n  = help: {help}"))
+            CliError::Usage(format!("{name}: {format} output is not supported\n  = help: {help}"))
         };
         let convert = |format: &str| {
             let png = output.with_extension("png");
             let png = visible_path(&png);
             unwritten(
                 format,
-                format!("write {png} and convert it, as with ImageMagick: `magick {png} {name}`"),
+                format!("write {png} and convert it, for example with ImageMagick: `magick {png} {name}`"),
             )
         };
         let animate = || {
             let gif = output.with_extension("gif");
             CliError::Usage(format!(
-                "{name}: this command writes stills\n  = help: for moving pictures run `alberti animate model.glb -o {}`; with `-o -` its frames go to ffmpeg",
+                "{name}: this command writes still pictures\n  = help: for an animation run `alberti animate model.glb -o {}`; for a video, `alberti animate model.glb -o film.mp4` prints the command with ffmpeg",
                 gif.display()
             ))
         };
@@ -85,7 +85,7 @@ impl OutputFormat {
             ),
             "gif" | "mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" => animate(),
             _ => CliError::Usage(format!(
-                "the output {name} has no known extension: .png, .jpg, .webp, .svg, .pdf or .dxf\n  = help: change the extension, or choose the format with --format"
+                "{name}: unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf"
             )),
         }
     }

@@ -59,6 +59,12 @@ where
     })
 }
 
+/// Parses a number of threads.
+pub(crate) fn parse_thread_count(text: &str) -> Result<u16, String> {
+    let count = text.parse().ok().filter(|count| (1..=256).contains(count));
+    count.ok_or_else(|| "expected a whole number from 1 to 256".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

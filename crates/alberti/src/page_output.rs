@@ -63,7 +63,7 @@ pub(super) fn check_panel_output(output: &Path) -> Result<(), CliError> {
     OutputFormat::from_path(output).map(|_| ()).map_err(|_| {
         let name = visible_path(output);
         CliError::Usage(format!(
-            "the output {name} has no known extension: .svg, .pdf, .dxf, .png, .jpg, .webp or .html"
+            "{name}: unsupported output format; use .svg, .pdf, .dxf, .png, .jpg, .webp or .html"
         ))
     })
 }

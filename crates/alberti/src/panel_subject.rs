@@ -31,7 +31,7 @@ pub(super) struct PanelSubjectArgs {
     #[command(flatten)]
     model_state: ModelStateArgs,
     /// Number of threads; the page does not depend on it [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     pub(super) threads: Option<u16>,
     #[command(flatten)]
     pub(super) load_options: LoadArgs,

@@ -40,7 +40,8 @@ use tasks::RenderTask;
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, CliError> {
     if args.watch {
         tasks::plan_tasks(args)?;
-        watch::repeat(&args.inputs, || render_all(args).map(drop))?;
+        let to_stdout = args.output.as_deref() == Some(Path::new("-"));
+        watch::repeat(&args.inputs, to_stdout, || render_all(args).map(drop))?;
     }
     render_all(args)
 }

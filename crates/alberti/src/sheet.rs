@@ -120,7 +120,7 @@ pub(crate) struct SheetArgs {
     #[command(flatten)]
     model_state: ModelStateArgs,
     /// Number of threads; the sheet does not depend on it [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, value_name = "N", value_parser = crate::options::parse_thread_count)]
     threads: Option<u16>,
     #[command(flatten)]
     load_options: LoadArgs,

@@ -27,7 +27,7 @@ pub(super) fn find_unused_flags(
         warnings.push("--arc-tolerance does nothing here: only a DXF has arcs".to_owned());
     }
     if args.quality.is_some() && task.format != OutputFormat::Jpeg {
-        warnings.push("--quality does nothing here: only a JPEG has a quality".to_owned());
+        warnings.push("--quality does nothing here: it applies only to JPEG; write a .jpg to use it".to_owned());
     }
     if args.region.asks_sixteen_bits() && task.format != OutputFormat::Png {
         warnings.push("--bits 16 does nothing here: only a PNG has 16 bits a channel".to_owned());
@@ -55,7 +55,7 @@ pub(super) fn find_unused_overrides(
         if has_light(scene.style) {
             format!("the style {name} has neither shadows nor ambient occlusion")
         } else {
-            format!("the style {name} is not lit")
+            format!("the style {name} has no lighting")
         }
     };
     if scene.style.is_false_color() && !draws_lines {
@@ -87,7 +87,7 @@ fn undrawn_style(task: &RenderTask) -> Option<String> {
     let name = style.to_possible_value()?.get_name().to_owned();
     let format = task.format.extension().to_uppercase();
     Some(format!(
-        "--style {name} does nothing here: {format} output is a line drawing; name a .png for surfaces"
+        "--style {name} does nothing here: {format} output is always a line drawing; for surfaces write a .png"
     ))
 }
 

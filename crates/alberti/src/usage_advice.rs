@@ -91,6 +91,7 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("grid", "overlay", "--overlay grid"),
     ("clip cut slice clipping-plane cross-section", "section", "--section x=0"),
     ("up-axis z-up zup", "up", "--up z"),
+    ("s size-px", "size", "--size 1920x1080"),
     ("units", "unit", "--unit mm"),
     ("animation-time", "time", "--time 1.5"),
     ("animation-index animation-name", "animation", "--animation 0"),
@@ -171,10 +172,12 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
     let command = called_command(program, words);
     let word = context(error, ContextKind::InvalidArg)?.to_owned();
     let name = word.split('=').next().unwrap_or(&word).to_owned();
-    let Some(flag) = name.strip_prefix("--") else {
+    let short = name.strip_prefix('-').filter(|short| foreign_flag(short, command).is_some());
+    let Some(flag) = name.strip_prefix("--").or(short) else {
         return advise_on_detached_value(words, command);
     };
     if let Some(advice) = foreign_flag(flag, command) {
+        let advice = with_given_value(advice, &word, words, command);
         let is_command = advice.starts_with("alberti ");
         let help = if is_command { format!("run `{advice}`") } else { format!("use `{advice}`") };
         return Some(format!(
@@ -232,6 +235,34 @@ fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     FOREIGN_FLAGS.iter().find(is_meant).map(|(.., advice)| *advice)
 }
 
+/// The advice with the value that was given for the other program's flag, where the flag here takes
+/// it.
+fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Command) -> String {
+    let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
+    let given = match word.split_once('=') {
+        Some((_, value)) => Some(value.to_owned()),
+        None => words.iter().skip_while(|it| *it != word).nth(1).cloned(),
+    };
+    let given = given.filter(|value| !value.starts_with('-') && !value.is_empty());
+    let (Some(given), Some((flag, rest))) = (given, advice.split_once(' ')) else {
+        return advice.to_owned();
+    };
+    let example = rest.split(" --").next().unwrap_or(rest);
+    let attempt = [command.get_name().to_owned(), format!("{flag}={given}")];
+    let is_valid = match command.clone().try_get_matches_from(attempt) {
+        Ok(_) => true,
+        Err(error) => error.kind() == ErrorKind::MissingRequiredArgument,
+    };
+    // A word that chooses what the flag is set to, such as `wireframe`, is no example.
+    let takes_any = example.contains(|c: char| c.is_ascii_digit() || c == '#' || c == '.');
+    if !is_valid || !takes_any || !flag.starts_with("--") {
+        return advice.to_owned();
+    }
+    let is_plain = given.chars().all(|c| c.is_ascii_alphanumeric() || "._-,/=+:".contains(c));
+    let given = if is_plain { given } else { format!("'{given}'") };
+    advice.replacen(example, &given, 1)
+}
+
 /// What to write for a value that was given apart from a flag that wants an equals sign, as in
 /// `--turntable 180`.
 fn advise_on_detached_value(words: &[OsString], command: &Command) -> Option<String> {
@@ -248,9 +279,25 @@ fn advise_on_detached_value(words: &[OsString], command: &Command) -> Option<Str
     })
 }
 
-/// What to do with a file or a folder in the place of a command.
+/// Commands of other programs, and what to write.
+const FOREIGN_COMMANDS: &[(&str, &str)] = &[
+    ("view show open display preview", "to look at a model run `alberti explore model.glb`; to make a picture, `alberti render model.glb`"),
+    ("thumbnail thumb", "run `alberti render model.glb --size 256x256 -o thumb.png`"),
+    ("turntable spin video film movie", "run `alberti animate model.glb --turntable -o turn.gif`"),
+    ("draw drawing lines", "run `alberti render model.glb --style lines -o drawing.svg`, or `alberti sheet model.glb` for views to scale"),
+    ("validate lint verify", "run `alberti check model.glb`"),
+    ("inspect stat stats identify", "run `alberti info model.glb`"),
+    ("convert export", "models are not converted: `alberti render` writes pictures and drawings of them"),
+    ("init new", "run `alberti scene init model.glb`"),
+];
+
+/// What to do with a file, a folder or another program's command in the place of a command.
 fn advise_on_command(error: &Error, program: &Command) -> Option<String> {
     let word = context(error, ContextKind::InvalidSubcommand)?;
+    let is_meant = |(words, _): &&(&str, &str)| words.split(' ').any(|known| known == word);
+    if let Some((_, advice)) = FOREIGN_COMMANDS.iter().find(is_meant) {
+        return Some(format!("`{word}` is not a command of `alberti`; {advice}"));
+    }
     let path = Path::new(word);
     if path.is_dir() {
         return Some(format!(

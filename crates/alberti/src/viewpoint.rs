@@ -112,7 +112,7 @@ fn set_field_of_view(file: &mut CameraFile, angle: FieldOfView) -> Result<(), Cl
             Ok(())
         }
         _ => Err(CliError::Usage(
-            "--fov needs a perspective, and this picture has another projection\n  = help: use --projection perspective, or make everything larger with --zoom 1.5"
+            "`--fov` sets the lens of a plain perspective, and this picture has another projection\n  = help: use `--projection perspective`, or enlarge the picture with `--zoom 1.5`"
                 .to_owned(),
         )),
     }

@@ -16,6 +16,7 @@
 
 mod accents;
 mod glyphs;
+mod greek;
 mod han;
 
 use glam::DVec2;
@@ -79,9 +80,16 @@ pub(super) fn missing_glyphs(text: &str) -> String {
 /// Whether the font has a character; white space is empty.
 fn has_glyph(character: char) -> bool {
     character.is_whitespace()
-        || glyphs::GLYPHS.iter().any(|(c, ..)| *c == character)
+        || plain_glyph(character).is_some()
         || accents::accented_glyph(character).is_some()
         || han::GLYPHS.iter().any(|(c, _)| *c == character)
+}
+
+/// The width and the path of a character that is not composed of others.
+fn plain_glyph(character: char) -> Option<(f64, &'static str)> {
+    let wanted = greek::look_alike(character);
+    let all = glyphs::GLYPHS.iter().chain(greek::GLYPHS);
+    all.into_iter().find(|(c, ..)| *c == wanted).map(|(_, width, path)| (*width, *path))
 }
 
 /// The glyph of a character; a box for characters that the font lacks.
@@ -89,8 +97,8 @@ fn glyph_for_char(character: char) -> Glyph {
     if character.is_whitespace() {
         return Glyph { width: SPACE_WIDTH, strokes: Vec::new() };
     }
-    if let Some((_, width, path)) = glyphs::GLYPHS.iter().find(|(c, ..)| *c == character) {
-        return Glyph { width: *width, strokes: parse_strokes(path) };
+    if let Some((width, path)) = plain_glyph(character) {
+        return Glyph { width, strokes: parse_strokes(path) };
     }
     if let Some((_, path)) = han::GLYPHS.iter().find(|(c, _)| *c == character) {
         return Glyph { width: han::WIDTH, strokes: parse_strokes(path) };
@@ -160,7 +168,7 @@ mod tests {
             let is_point = word.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y));
             "mlhvc".contains(word) || is_point
         };
-        for (character, width, path) in glyphs::GLYPHS {
+        for (character, width, path) in glyphs::GLYPHS.iter().chain(greek::GLYPHS) {
             let words = path.split_ascii_whitespace();
             assert!(words.clone().all(known), "{character}: {path}");
             let points: Vec<DVec2> = parse_strokes(path).concat();
@@ -179,7 +187,8 @@ mod tests {
                 assert!((-0.6..=10.4).contains(&point.y), "{character}: {point}");
             }
         }
-        let mut characters: Vec<char> = glyphs::GLYPHS.iter().map(|(c, ..)| *c).collect();
+        let all = glyphs::GLYPHS.iter().chain(greek::GLYPHS);
+        let mut characters: Vec<char> = all.map(|(c, ..)| *c).collect();
         characters.sort_unstable();
         assert!(characters.windows(2).all(|pair| pair[0] != pair[1]), "a character has two glyphs");
     }
@@ -190,7 +199,9 @@ mod tests {
         let latin =
             (0xa1..=0xff).filter(|c| ![0xa4, 0xa6, 0xa8, 0xad, 0xaf, 0xb4, 0xb8].contains(c));
         let more = "ĀāăćČčďĐđēěğıŁłńňőœŒřśŠšťůűźŻżŽž⌀−–—…‘’“”„".chars().map(u32::from);
-        for code in (0x21..0x7f).chain(latin).chain(more) {
+        let greek = (0x391..=0x3a9).chain(0x3b1..=0x3c9).filter(|code| *code != 0x3a2);
+        let signs = "↑↓↔→←⇒∞≈≤≥≠√⊥∥′″∠∆∑Ω".chars().map(u32::from);
+        for code in (0x21..0x7f).chain(latin).chain(more).chain(greek).chain(signs) {
             let character = char::from_u32(code).expect("a character");
             let glyph = glyph_for_char(character);
             assert!(glyph.strokes != tofu && !glyph.strokes.is_empty(), "{character}");

@@ -269,7 +269,7 @@ impl Warning {
     const fn fixed_text(&self) -> &'static str {
         match self {
             Self::SectionsIgnored => {
-                "sections cut line drawings only: this style shows whole models; \
+                "only line drawings can be cut, and this style shows whole models: \
                  choose another, such as `--style lines`"
             }
             Self::StyleIgnored => {

@@ -31,8 +31,9 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     let cpu_seconds: f64 = reports.iter().map(|report| report.cpu_seconds).sum();
     println!("  total {:23.1} s{cpu_seconds:8.1} s", run.seconds);
     let skipped: Vec<&String> = reports.iter().flat_map(|report| &report.skipped).collect();
-    for line in &skipped {
-        println!("  {line}");
+    for (line, count) in count_lines(&skipped) {
+        let times = if count > 1 { format!(" ({count} times)") } else { String::new() };
+        println!("  {line}{times}");
     }
     if !run.left_out.is_empty() {
         println!("  LEFT OUT for lack of time: {}", run.left_out.join(", "));
@@ -56,6 +57,18 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
     }
     check_skips(&skipped, &read_text(&project_root().join(ALLOWED_SKIPS))?)?;
     if is_first_tier { check_budget(cpu_seconds, machine_slowness()) } else { Ok(()) }
+}
+
+/// Each line once, in the order of the first, with how often it is there.
+fn count_lines<'a>(lines: &[&'a String]) -> Vec<(&'a str, usize)> {
+    let mut counted: Vec<(&str, usize)> = Vec::new();
+    for line in lines {
+        match counted.iter_mut().find(|(known, _)| known == line.as_str()) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((line, 1)),
+        }
+    }
+    counted
 }
 
 /// A skip in CI must be expected.
@@ -103,6 +116,13 @@ mod tests {
         assert!(check_skips(&lines, "# none\ncluster:\nviewers: chromium\n").is_ok());
         let fault = check_skips(&lines, "cluster:\n").unwrap_err();
         assert!(fault.contains("viewers: chromium") && !fault.contains("slurmd"), "{fault}");
+    }
+
+    #[test]
+    fn a_skip_that_is_there_often_is_printed_once() {
+        let lines = ["SKIPPED a", "SKIPPED b", "SKIPPED a"].map(str::to_owned);
+        let lines: Vec<&String> = lines.iter().collect();
+        assert_eq!(count_lines(&lines), [("SKIPPED a", 2), ("SKIPPED b", 1)]);
     }
 
     #[test]

@@ -46,7 +46,7 @@ fn unwritten_video_error(
     let is_even = width % 2 == 0 && height % 2 == 0;
     let even = if is_even { "" } else { "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' " };
     CliError::Usage(format!(
-        "{name}: video is not written\n  = help: pipe the frames to ffmpeg, and add your other flags: `alberti animate {input} --size {width}x{height} --fps {fps} --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size {width}x{height} -framerate {fps} -i - {even}-pix_fmt yuv420p {name}`"
+        "{name}: video output is not supported\n  = help: pipe the frames to ffmpeg, with your other flags before `-o`: `alberti animate {input} --size {width}x{height} --fps {fps} --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size {width}x{height} -framerate {fps} -i - {even}-pix_fmt yuv420p {name}`"
     ))
 }
 

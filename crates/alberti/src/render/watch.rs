@@ -26,13 +26,14 @@ type Stamps = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
 /// Runs `make` now and after every change, until the program is interrupted; its errors are printed.
 ///
 /// # Errors
-/// If an input is the standard input, which cannot change.
+/// If an input is the standard input, or the output the standard output.
 pub(super) fn repeat(
     inputs: &[PathBuf],
+    to_stdout: bool,
     mut make: impl FnMut() -> Result<(), CliError>,
 ) -> Result<(), CliError> {
-    if inputs.iter().any(|input| input.as_os_str() == "-") {
-        let message = "--watch needs files: the standard input does not change";
+    if inputs.iter().any(|input| input.as_os_str() == "-") || to_stdout {
+        let message = "--watch needs files: standard input does not change, and standard output holds one picture";
         return Err(CliError::Usage(message.to_owned()));
     }
     loop {

@@ -10,7 +10,7 @@
 //! Labels are over the models, also where these hide the point.
 
 use super::{LETTER_HEIGHT, LINE_WIDTH, PicturePlane, overlay_layer};
-use crate::page::{Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Polyline};
+use crate::page::{Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline, to_millimeters};
 use crate::stroke_font::missing_glyphs;
 use crate::{Label, Overlay, Subject, TextAlign, Warning};
 use camera::ViewProjection;
@@ -19,6 +19,10 @@ use homog::{Point, World};
 
 /// The distance between a leader line and the text, in heights of letters.
 const LEADER_GAP: f64 = 0.3;
+/// The distance between the baselines of lines, in heights of letters.
+const LINE_PITCH: f64 = 1.7;
+/// How far a halo reaches beyond the strokes of letters, in millimeters.
+const HALO: f64 = 0.5;
 /// The radius of the dot at the end of a leader line, in millimeters.
 const DOT_RADIUS: f64 = 0.15 * LETTER_HEIGHT;
 /// The number of sides of the dot.
@@ -31,7 +35,7 @@ const BORDER_DISTANCE: f64 = 0.8;
 pub struct PointLabel {
     /// The point.
     pub at: Point<World>,
-    /// The text.
+    /// The text; it may have several lines.
     pub text: String,
     /// From the image of the point to the nearest corner of the text, or the middle of its nearest
     /// side where a component is 0: pixels, y down.
@@ -117,8 +121,11 @@ impl PicturePlane {
         let at = self.ndc_to_page(image.truncate() / image.z);
         let height = label.height * MILLIMETERS_PER_PIXEL;
         let offset = label.offset * MILLIMETERS_PER_PIXEL;
-        let line = Label::new(&label.text, at, height);
-        let extent = DVec2::new(line.width(), height);
+        let lines: Vec<Label<'_>> =
+            label.text.lines().map(|line| Label::new(line, at, height)).collect();
+        let width = lines.iter().map(Label::width).fold(0.0, f64::max);
+        let pitch = LINE_PITCH * height;
+        let extent = DVec2::new(width, height + pitch * lines.len().saturating_sub(1) as f64);
         // From the corner at the offset to the upper left one.
         let back = |offset: f64, extent: f64| match offset {
             x if x > 0.0 => 0.0,
@@ -131,12 +138,53 @@ impl PicturePlane {
         // Kept in the picture; what is too large for it begins at its left.
         let corner = (at + offset + back).min(high).max(low);
         let mut text = overlay_layer("label", &format!("label: {}", label.text), label.ink);
-        text.pen = line.pen(label.ink);
-        let line = Label { anchor: corner + DVec2::new(0.0, height), ..line };
-        text.groups.push(line.with_align(TextAlign::Start).group());
+        text.pen = Label::new("", at, height).pen(label.ink);
+        for (index, line) in lines.into_iter().enumerate() {
+            let anchor = corner + DVec2::new(0.0, height + pitch * index as f64);
+            text.groups.push(Label { anchor, ..line }.with_align(TextAlign::Start).group());
+        }
         let leader = label.leader.then(|| leader_layer(label, [at, corner - back]));
         leader.into_iter().chain([text]).collect()
     }
+}
+
+/// The layers with a halo below each label: its letters once more, wider and in the opposite color,
+/// so that they are read before anything. Other layers are as they were.
+#[must_use]
+pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
+    let add_halo = |layer: Layer| {
+        let halo = is_label(&layer).then(|| {
+            let is_dark = layer.pen.ink.iter().map(|code| u32::from(*code)).sum::<u32>() < 384;
+            let ink = if is_dark { [255; 3] } else { [0; 3] };
+            let pen = Pen { width: layer.pen.width + 2.0 * HALO, ink, ..Pen::solid(HALO, ink) };
+            let strokes = |group: &Group| Group { strokes: group.strokes.clone(), ..Group::default() };
+            let groups = layer.groups.iter().map(strokes).collect();
+            let (id, title) = (format!("{}-halo", layer.id), format!("halo of the {}", layer.title));
+            Layer { pen, groups, ..Layer::new(id, &title, pen) }
+        });
+        halo.into_iter().chain([layer])
+    };
+    layers.into_iter().flat_map(add_halo).collect()
+}
+
+/// The rectangles of the page that labels take, in millimeters, with a border about them.
+#[must_use]
+pub fn label_rectangles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
+    let labels = layers.iter().filter(|layer| is_label(layer));
+    let rectangle = |layer: &Layer| {
+        let lines = layer.groups.iter().flat_map(|group| &group.strokes);
+        let mut points = lines.flat_map(|line| &line.points).map(|point| to_millimeters(*point));
+        let first = points.next()?;
+        let around = points.fold([first; 2], |[low, high], at| [low.min(at), high.max(at)]);
+        let border = DVec2::splat(HALO + 0.5 * layer.pen.width);
+        Some([around[0] - border, around[1] + border])
+    };
+    labels.filter_map(rectangle).collect()
+}
+
+/// Whether a layer is the text of a label of the scene.
+fn is_label(layer: &Layer) -> bool {
+    layer.id.starts_with("overlay-") && layer.id.ends_with("-label")
 }
 
 /// A line from a point to its label, less a gap, with a dot at the point.

@@ -72,7 +72,12 @@ pub(super) fn draw_view(
             drawing.to_page(&style, &scene.model_names(), paper_color(scene.image.background));
         page.images
             .extend(scene.backdrop.as_ref().map(|backdrop| backdrop_image(backdrop, scene.image)));
-        page.layers.extend(overlay_layers(scene));
+        let overlays = overlay_layers(scene);
+        // Lines end before labels, as on drawings.
+        for [low, high] in drawing::label_rectangles(&overlays) {
+            page.erase_rectangle(low, high);
+        }
+        page.layers.extend(overlays);
         page.warnings.extend(text_warnings(scene));
         page
     };

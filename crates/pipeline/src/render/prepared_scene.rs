@@ -98,7 +98,8 @@ impl<'a> PreparedScene<'a> {
         warnings.extend(ignores_sections.then_some(Warning::SectionsIgnored));
         let mut overlay_layers = line_drawing::surface_line_layers(scene, context.threads)?;
         if draws_surfaces {
-            overlay_layers.extend(line_drawing::overlay_layers(scene));
+            let overlays = line_drawing::overlay_layers(scene);
+            overlay_layers.extend(drawing::with_label_halos(overlays));
             warnings.extend(text_warnings(scene));
         }
         let Renderer { buffers, insets } = renderer;

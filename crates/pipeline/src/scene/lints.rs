@@ -316,7 +316,7 @@ fn is_behind_eye(scene: &Scene, survey: &VisibilitySurvey) -> bool {
 /// are counted at each of the six; one may be outside of several.
 fn describe_rejection(scene: &Scene, survey: &VisibilitySurvey) -> String {
     if is_behind_eye(scene, survey) {
-        return "all of it is behind the eye".to_owned();
+        return "everything is behind the camera".to_owned();
     }
     let counts = PlaneIndex::BOX.iter().zip(survey.outside).filter(|(_, count)| *count > 0);
     let whole = counts.clone().filter(|(_, count)| *count == survey.total);
@@ -341,10 +341,10 @@ fn suggest_visibility_fix(scene: &Scene, survey: &VisibilitySurvey) -> String {
     let span = survey.depth_range();
     let in_depth = span.filter(|_| of(PlaneIndex::NEAR) || of(PlaneIndex::FAR));
     match in_depth {
-        _ if is_behind_eye(scene, survey) => "turn the camera round, or use Frame(…)".to_owned(),
+        _ if is_behind_eye(scene, survey) => "turn the camera around, or write `view: Frame(from: Front)`".to_owned(),
         Some((near, far)) => format!(
             "it is {near:.4} to {far:.4} in front of the eye: leave `near` and `far` out, or set them around that"
         ),
-        None => "look towards it, or use Frame(…), which finds the place to look from".to_owned(),
+        None => "look towards it, or write `view: Frame(from: Front)`, which finds the place to look from".to_owned(),
     }
 }

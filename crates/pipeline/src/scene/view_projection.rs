@@ -437,10 +437,10 @@ impl<'a> CameraResolver<'a> {
         };
         let (message, help) = if names.is_empty() {
             let help =
-                "choose a view instead: Frame(from: Front) in a scene, or the flag --view front";
-            ("the models have no camera".to_owned(), Some(help.to_owned()))
+                "choose a view instead: the flag --view front, or `view: Frame(from: Front)` in a scene";
+            ("the file has no cameras".to_owned(), Some(help.to_owned()))
         } else {
-            (format!("the models have no camera `{wanted}`"), suggest_name(&wanted, names))
+            (format!("there is no camera `{wanted}`"), suggest_name(&wanted, names))
         };
         self.origin.error_at(&VIEW_PATH, message, help)
     }

@@ -404,7 +404,7 @@ impl<'a> Checker<'a> {
         } else {
             ""
         };
-        let expected = format!("one of the words of `{}`{quotes}", entry.name);
+        let expected = format!("a value of `{}`{quotes}", entry.name);
         self.report_type(node, &expected, Some(help));
     }
 }

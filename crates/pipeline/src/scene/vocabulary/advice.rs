@@ -81,7 +81,7 @@ const ADVICE: &[(&str, &str, &str)] = &[
     (
         "Light::Spot",
         "target lookat towards",
-        "write direction: (0, -1, 0), the way in which the light travels: the target minus the position",
+        "write direction: (x, y, z), the target minus the position",
     ),
     (
         "Light::Directional",
