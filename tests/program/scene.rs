@@ -35,7 +35,7 @@ fn a_starter_is_drawn_checked_and_laid_out_and_each_of_its_comments_is_a_choice(
             assert!(run.stdout.contains("chosen.ron: no mistakes"), "{field}\n{}", run.stdout);
             seen += 1;
         }
-        assert!(seen >= 4, "{model}: {seen} choices");
+        assert!(seen >= 3, "{model}: {seen} choices");
     }
 }
 

@@ -36,16 +36,16 @@ fn draw_everywhere(name: &str, obj: &str, flags: &[&str]) -> (Sandbox, RunResult
 #[test]
 fn models_without_size_or_lines_have_a_message() {
     let point = "v 1 2 3\n".repeat(3) + "f 1 2 3\n";
-    for (name, obj) in [("no_size", point.as_str()), ("dots", "v 0 0 0\nv 1 1 1\np 1 2\n")] {
-        for flags in [&[][..], &ALL_PAGES, &["--face-fill", "gray"], &["--face-fill", "flat"]] {
-            let (_, run) = draw_everywhere(&format!("unusual_{name}"), obj, flags);
-            assert!(run.stderr.contains("the views are empty"), "{name}: {}", run.stderr);
-        }
+    for flags in [&[][..], &ALL_PAGES, &["--face-fill", "gray"], &["--face-fill", "flat"]] {
+        let (_, run) = draw_everywhere("unusual_no_size", &point, flags);
+        assert!(run.stderr.contains("the views are empty"), "{}", run.stderr);
     }
-    // Lines are parts, and drawn.
-    let lines = "v 0 0 0\nv 1 1 1\nv 1 0 0\nl 1 2 3\n";
-    let (_, run) = draw_everywhere("unusual_lines", lines, &ALL_PAGES);
-    assert_eq!(run.stderr, "");
+    // Lines and points are parts, and drawn.
+    for own in ["l 1 2 3\n", "p 1 2 3\n"] {
+        let obj = format!("v 0 0 0\nv 1 1 1\nv 1 0 0\n{own}");
+        let (_, run) = draw_everywhere("unusual_lines", &obj, &ALL_PAGES);
+        assert_eq!(run.stderr, "", "{own}");
+    }
 }
 
 #[test]

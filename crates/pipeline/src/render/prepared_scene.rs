@@ -49,6 +49,8 @@ pub struct PreparedScene<'a> {
     transmission_framebuffer: Option<TransmissionFramebuffer>,
     /// The color of the picture as long as all that was rendered of it has one.
     only_color: OnlyColor,
+    /// How many pixels were rendered.
+    pixels_seen: u64,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
@@ -64,6 +66,11 @@ enum OnlyColor {
     One([u8; 4]),
     /// They differ.
     Several,
+}
+
+/// The number of pixels of a rectangle.
+fn pixel_count(rect: PixelRect) -> u64 {
+    u64::from(rect.width) * u64::from(rect.height)
 }
 
 impl OnlyColor {
@@ -117,6 +124,7 @@ impl<'a> PreparedScene<'a> {
             full_occlusion: None,
             transmission_framebuffer: None,
             only_color: OnlyColor::Unknown,
+            pixels_seen: 0,
             warnings,
             insets,
         })
@@ -126,7 +134,8 @@ impl<'a> PreparedScene<'a> {
     #[must_use]
     pub fn into_warnings(self) -> Vec<Warning> {
         let mut all = self.warnings;
-        if matches!(self.only_color, OnlyColor::One(_)) {
+        let is_whole = self.pixels_seen >= pixel_count(self.context.scene.image.pixel_rect());
+        if is_whole && matches!(self.only_color, OnlyColor::One(_)) {
             let reason = self.context.scene.empty_reason();
             all.push(Warning::PictureEmpty { reason });
         }
@@ -165,6 +174,7 @@ impl<'a> PreparedScene<'a> {
             }
         }
         self.only_color.add_pixels(picture);
+        self.pixels_seen += pixel_count(region);
         draw_caption_over(scene, region, picture);
         Ok(())
     }

@@ -50,7 +50,12 @@ impl<'a> Body<'a> {
         let rest = &self.bytes[self.at..];
         let end = rest.iter().position(|byte| *byte == b'\n' || *byte == b'\r');
         let end = end.unwrap_or(rest.len());
-        if !rest[..end].iter().all(u8::is_ascii_whitespace) {
+        let mut words = rest[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        // A word is an error, as anywhere.
+        if words.clone().any(|word| parse_f64(word).is_none()) {
+            return;
+        }
+        if words.next().is_some() {
             let place = match self.longer.take() {
                 Some((place, count)) => (place, count + 1),
                 None => (self.location(), 1),

@@ -208,9 +208,9 @@ const MAX_STRAY_LINES: usize = 16;
 
 /// Whether a word could be meant as one of the format: what it says then matters.
 fn is_misspelled(word: &str) -> bool {
-    let starts = ["com", "ele", "end", "for", "list", "obj", "ply", "pro"];
+    let words = ["comment", "element", "end_header", "format", "obj_info", "property"];
     let word = word.to_ascii_lowercase();
-    starts.iter().any(|start| word.starts_with(start))
+    words.iter().any(|known| strsim::levenshtein(known, &word) <= 2)
 }
 
 /// The first characters of a text that is quoted in a message.
