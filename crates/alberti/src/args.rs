@@ -18,6 +18,7 @@ use super::format::{DxfArgs, OutputFormat, parse_quality};
 use super::load_options::LoadArgs;
 use super::manual::{CompletionArgs, ManArgs};
 use super::matrix::MatrixArgs;
+use super::memory_limit::parse_memory_size;
 use super::model_state::ModelStateArgs;
 use super::passes::PassArgs;
 use super::reference::FullReferenceArgs;
@@ -44,6 +45,10 @@ pub(crate) struct Args {
     /// When to color messages; `auto` colors them on a terminal unless NO_COLOR is set
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(crate) color: ColorChoice,
+    /// Memory that the command may take, such as 2GiB, on Linux; one that needs more ends with an
+    /// error [default: no limit but those of single things]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = parse_memory_size)]
+    pub(crate) max_memory: Option<u64>,
 }
 
 /// Examples and exit codes at the end of `alberti --help`.

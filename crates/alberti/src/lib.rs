@@ -74,7 +74,7 @@ mod unused_flags;
 mod usage_advice;
 mod viewpoint;
 
-pub use program::run_within;
+pub use program::{run_program, run_within};
 pub use signals::clean_up_on_signals;
 
 use args::{Args, Command};

@@ -4,5 +4,5 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     alberti::clean_up_on_signals();
-    ExitCode::from(alberti::run(std::env::args_os()))
+    ExitCode::from(alberti::run_program(std::env::args_os()))
 }

@@ -1,4 +1,7 @@
-//! How this program is started again, for the workers of a batch.
+//! How this program is started again: for the workers of a batch, and where its memory is limited.
+
+#[cfg(target_os = "linux")]
+mod supervisor;
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -18,6 +21,19 @@ pub fn run_within(
 ) -> u8 {
     PROGRAM_WORDS.get_or_init(|| program.into_iter().collect());
     crate::run(arguments)
+}
+
+/// Runs the program as [`run`](crate::run) does; if its memory is limited, in a second process, so
+/// that a command that needs more ends with a message.
+///
+/// Only for the program itself, which may be started again.
+pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = arguments.into_iter().collect();
+    #[cfg(target_os = "linux")]
+    if let Some(code) = supervisor::supervise(&words) {
+        return code;
+    }
+    crate::run(words)
 }
 
 /// A command that starts this program again.

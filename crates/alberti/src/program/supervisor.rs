@@ -1,0 +1,117 @@
+//! A second process for a command whose memory is limited.
+//!
+//! A program that gets no more memory is ended by the system in the middle of its work, without a
+//! word. Where there is a limit, by `--max-memory`, by `ulimit` or by that of thumbnails, the command
+//! runs in a process of its own, and this one says what has happened, removes what is left of its
+//! files, and ends with exit code 1.
+//!
+//! ```text
+//!  alberti --max-memory 1GiB render … ─► the same words, limited ─► picture, or killed
+//!        ▲ messages, exit code ◄──────────────────────┘
+//! ```
+
+use crate::args::{Args, Command};
+use crate::memory_limit::limit_process_memory;
+use crate::messages::print_message;
+use crate::{negative_numbers, usage_advice};
+use clap::CommandFactory as _;
+use rustix::process::{Resource, Signal, getrlimit, set_parent_process_death_signal};
+use std::ffi::OsString;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::os::unix::process::ExitStatusExt as _;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+
+/// The environment variable by which a process knows that it is the limited one: the bytes that it
+/// may take, or 0 if the system knows.
+const LIMITED: &str = "ALBERTI_LIMITED_PROCESS";
+/// What the standard library prints before it gives up.
+const LAST_WORDS: &str = "memory allocation of";
+
+/// Runs the command in a limited process if there is a limit; `None` if there is none, or if this is
+/// that process.
+pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
+    if let Some(bytes) = std::env::var(LIMITED).ok().and_then(|text| text.parse().ok()) {
+        // The one that waits may be killed.
+        let _ = set_parent_process_death_signal(Some(Signal::TERM));
+        if bytes > 0 {
+            limit_process_memory(bytes);
+        }
+        return None;
+    }
+    let (limit, what) = memory_limit(words)?;
+    let mut command = super::program_command().ok()?;
+    command.args(words.iter().skip(1)).env(LIMITED, limit.to_string()).stderr(Stdio::piped());
+    let child = command.spawn().ok()?;
+    let process = child.id();
+    let status = forward_messages(child).ok()?;
+    if let Some(code) = status.code() {
+        return Some(u8::try_from(code).unwrap_or(1));
+    }
+    remove_left_over(words, process);
+    print_message("error", &format!("the command ran out of memory: {what}"));
+    Some(1)
+}
+
+/// The bytes that the command may take, or 0 where the system has a limit of its own, and the
+/// sentence for one who exceeds it; `None` without a limit.
+fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
+    let limits = [Resource::As, Resource::Data].map(|resource| getrlimit(resource).current);
+    let of_system = limits.into_iter().flatten().min();
+    let may_ask = words.iter().filter_map(|word| word.to_str()).any(|word| {
+        word.starts_with("--max-memory") || word == "thumbnailer"
+    });
+    if !may_ask && of_system.is_none() {
+        return None;
+    }
+    // What is wrong with the words is said where they are read again.
+    let words = negative_numbers::join_negative_numbers(words.iter().cloned(), Args::command);
+    let args = usage_advice::parse_args(&words).ok()?;
+    let size = |bytes: u64| format!("{} MiB", bytes >> 20);
+    if let Some(bytes) = args.max_memory {
+        let help = "a smaller picture, fewer samples or a larger `--max-memory` help";
+        return Some((bytes, format!("--max-memory allows {}\n  = help: {help}", size(bytes))));
+    }
+    if matches!(args.command, Command::Thumbnailer(_)) {
+        let help = "raise --max-memory-bytes";
+        return Some((0, format!("this thumbnail needs more than it may take\n  = help: {help}")));
+    }
+    let bytes = of_system?;
+    Some((0, format!("the system allows {}\n  = help: raise the limit (`ulimit`)", size(bytes))))
+}
+
+/// Writes the messages of a process as they come, but for the last words of one that is out of
+/// memory, and waits for its end.
+fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatus> {
+    if let Some(messages) = child.stderr.take() {
+        let mut reader = BufReader::new(messages);
+        let mut line = Vec::new();
+        while reader.read_until(b'\n', &mut line)? > 0 {
+            if !line.starts_with(LAST_WORDS.as_bytes()) {
+                // A closed stream is not an error.
+                let _ = std::io::stderr().write_all(&line);
+            }
+            line.clear();
+        }
+    }
+    child.wait().inspect(|status| debug_assert!(status.code().is_some() || status.signal().is_some()))
+}
+
+/// Removes the temporary files of a process that was killed, in the folders that the words name.
+fn remove_left_over(words: &[OsString], process: u32) {
+    let ending = format!(".{process}.part");
+    let of_words = words.iter().skip(1).filter_map(|word| Path::new(word).parent());
+    let mut folders: Vec<PathBuf> = of_words.map(Path::to_owned).collect();
+    folders.push(PathBuf::new());
+    folders.sort_unstable();
+    folders.dedup();
+    for folder in folders {
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+            if entry.file_name().to_string_lossy().ends_with(&ending) {
+                // It may be gone already.
+                let _ = std::fs::remove_file(entry.path());
+            }
+        }
+    }
+}
