@@ -93,6 +93,7 @@ fn leaves() -> Vec<u8> {
     let scalar = json!({"componentType": 5123, "type": "SCALAR", "count": 6});
     let indices = document.add_accessor(&indices, scalar);
     let mut primitives = Vec::new();
+    document.json["materials"] = json!([null, null, null]);
     for (index, mode) in MODES.iter().enumerate() {
         let (left, right) = (2.0 * index as f32 - 3.0, 2.0 * index as f32 - 1.0);
         let corners = [left, -1.0, 0.0, right, -1.0, 0.0, right, 1.0, 0.0, left, 1.0, 0.0];

@@ -108,7 +108,8 @@ fn errors_are_reported_and_leave_no_file() {
     let run = sandbox.run(&[COMMAND, "box.gltf", "--projections", "isometrik"]);
     assert!(run.code == 2 && run.stderr.contains("isometric"), "{}", run.stderr);
     let run = sandbox.run(&[COMMAND, "box.gltf", "-o", "out.txt"]);
-    let expected = "out.txt: unsupported output format; use .svg, .pdf, .dxf, .png, .jpg, .webp or .html";
+    let expected =
+        "out.txt: unsupported output format; use .svg, .pdf, .dxf, .png, .jpg, .webp or .html";
     assert!(run.code == 1 && run.stderr.contains(expected), "{}", run.stderr);
     let run = sandbox.run(&[COMMAND, "none.gltf"]);
     assert!(run.code == 1 && run.stderr.contains("none.gltf"), "{}", run.stderr);

@@ -235,7 +235,10 @@ fn drawing_errors_are_reported_and_leave_no_file() {
             &["render", "box.gltf", "-o", "out.dwg"][..],
             "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf",
         ),
-        (&["sheet", "box.gltf", "-o", "out"], "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf"),
+        (
+            &["sheet", "box.gltf", "-o", "out"],
+            "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf",
+        ),
         (&["sheet", "box.gltf", "--scale", "1:1", "--paper", "a4", "-o", "out.pdf"], "; 1:20 fits"),
     ];
     for (arguments, message) in failing {

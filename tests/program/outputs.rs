@@ -63,7 +63,10 @@ fn names_that_meet_are_refused_before_anything_is_drawn() {
         (&["--views", "front,top", "-o", "{stem}.png"], "would both be written to crate.png"),
         (&["-o", "-"], "cannot write 2 pictures to the standard output"),
         (&["-o", "{stm}.png"], "unknown field `{stm}`"),
-        (&["-o", "{stem}.xyz"], "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf"),
+        (
+            &["-o", "{stem}.xyz"],
+            "unsupported output format; use .png, .jpg, .webp, .svg, .pdf or .dxf",
+        ),
         (&["-o", "{stem}.tiff"], "TIFF output is not supported"),
     ] {
         let run = sandbox.run(&[&["render", "crate.glb", "lamp.glb"], flags].concat());

@@ -64,7 +64,9 @@ impl OutputFormat {
             let png = visible_path(&png);
             unwritten(
                 format,
-                format!("write {png} and convert it, for example with ImageMagick: `magick {png} {name}`"),
+                format!(
+                    "write {png} and convert it, for example with ImageMagick: `magick {png} {name}`"
+                ),
             )
         };
         let animate = || {

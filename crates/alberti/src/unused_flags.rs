@@ -27,7 +27,10 @@ pub(super) fn find_unused_flags(
         warnings.push("--arc-tolerance does nothing here: only a DXF has arcs".to_owned());
     }
     if args.quality.is_some() && task.format != OutputFormat::Jpeg {
-        warnings.push("--quality does nothing here: it applies only to JPEG; write a .jpg to use it".to_owned());
+        warnings.push(
+            "--quality does nothing here: it applies only to JPEG; write a .jpg to use it"
+                .to_owned(),
+        );
     }
     if args.region.asks_sixteen_bits() && task.format != OutputFormat::Png {
         warnings.push("--bits 16 does nothing here: only a PNG has 16 bits a channel".to_owned());

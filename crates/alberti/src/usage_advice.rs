@@ -281,13 +281,22 @@ fn advise_on_detached_value(words: &[OsString], command: &Command) -> Option<Str
 
 /// Commands of other programs, and what to write.
 const FOREIGN_COMMANDS: &[(&str, &str)] = &[
-    ("view show open display preview", "to look at a model run `alberti explore model.glb`; to make a picture, `alberti render model.glb`"),
+    (
+        "view show open display preview",
+        "to look at a model run `alberti explore model.glb`; to make a picture, `alberti render model.glb`",
+    ),
     ("thumbnail thumb", "run `alberti render model.glb --size 256x256 -o thumb.png`"),
     ("turntable spin video film movie", "run `alberti animate model.glb --turntable -o turn.gif`"),
-    ("draw drawing lines", "run `alberti render model.glb --style lines -o drawing.svg`, or `alberti sheet model.glb` for views to scale"),
+    (
+        "draw drawing lines",
+        "run `alberti render model.glb --style lines -o drawing.svg`, or `alberti sheet model.glb` for views to scale",
+    ),
     ("validate lint verify", "run `alberti check model.glb`"),
     ("inspect stat stats identify", "run `alberti info model.glb`"),
-    ("convert export", "models are not converted: `alberti render` writes pictures and drawings of them"),
+    (
+        "convert export",
+        "models are not converted: `alberti render` writes pictures and drawings of them",
+    ),
     ("init new", "run `alberti scene init model.glb`"),
 ];
 

@@ -96,8 +96,8 @@ pub use line_type::{IsoLineGroup, LineType};
 pub use markup::escape_markup;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 pub use overlay::{
-    LabelFault, Overlay, PointLabel, SheetLabelFault, label_warnings, missing_glyph_warning,
-    overlay_layers,
+    LabelFault, Overlay, PointLabel, SheetLabelFault, label_rectangles, label_warnings,
+    missing_glyph_warning, overlay_layers, with_label_halos,
 };
 pub use page::{
     Cap, Group, GroupContent, HatchArea, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint,

@@ -104,6 +104,8 @@ pub enum Warning {
     CutOutsDrawnWhole,
     /// So many faces lie behind each other that small gaps between them count as closed.
     CrowdApproximated,
+    /// Outlines over surfaces are left out, because copies have too many triangles.
+    OutlinesLeftOut,
     /// Nothing is in the picture.
     PictureEmpty {
         /// The reason.
@@ -237,6 +239,7 @@ impl fmt::Display for Warning {
             | Self::AnaglyphIgnored
             | Self::CutOutsDrawnWhole
             | Self::CrowdApproximated
+            | Self::OutlinesLeftOut
             | Self::IntersectionsIncomplete
             | Self::HatchingIncomplete
             | Self::NothingDrawn
@@ -283,6 +286,10 @@ impl Warning {
             Self::CrowdApproximated => {
                 "so many surfaces lie behind each other that lines behind gaps of a pixel or two are \
                  left out: `--no-line-limits` draws them, and may take long"
+            }
+            Self::OutlinesLeftOut => {
+                "the models have so many copies that their outlines would take long, and they are left \
+                 out: `--no-line-limits` draws them"
             }
             Self::CutOutsDrawnWhole => {
                 "textures cut shapes such as leaves out of some faces: lines show the edges of the \

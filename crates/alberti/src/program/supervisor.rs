@@ -58,9 +58,10 @@ pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
 fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     let limits = [Resource::As, Resource::Data].map(|resource| getrlimit(resource).current);
     let of_system = limits.into_iter().flatten().min();
-    let may_ask = words.iter().filter_map(|word| word.to_str()).any(|word| {
-        word.starts_with("--max-memory") || word == "thumbnailer"
-    });
+    let may_ask = words
+        .iter()
+        .filter_map(|word| word.to_str())
+        .any(|word| word.starts_with("--max-memory") || word == "thumbnailer");
     if !may_ask && of_system.is_none() {
         return None;
     }
@@ -94,7 +95,9 @@ fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatu
             line.clear();
         }
     }
-    child.wait().inspect(|status| debug_assert!(status.code().is_some() || status.signal().is_some()))
+    child
+        .wait()
+        .inspect(|status| debug_assert!(status.code().is_some() || status.signal().is_some()))
 }
 
 /// Removes the temporary files of a process that was killed, in the folders that the words name.

@@ -157,9 +157,11 @@ pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
             let is_dark = layer.pen.ink.iter().map(|code| u32::from(*code)).sum::<u32>() < 384;
             let ink = if is_dark { [255; 3] } else { [0; 3] };
             let pen = Pen { width: layer.pen.width + 2.0 * HALO, ink, ..Pen::solid(HALO, ink) };
-            let strokes = |group: &Group| Group { strokes: group.strokes.clone(), ..Group::default() };
+            let strokes =
+                |group: &Group| Group { strokes: group.strokes.clone(), ..Group::default() };
             let groups = layer.groups.iter().map(strokes).collect();
-            let (id, title) = (format!("{}-halo", layer.id), format!("halo of the {}", layer.title));
+            let (id, title) =
+                (format!("{}-halo", layer.id), format!("halo of the {}", layer.title));
             Layer { pen, groups, ..Layer::new(id, &title, pen) }
         });
         halo.into_iter().chain([layer])

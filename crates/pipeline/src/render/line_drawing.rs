@@ -13,8 +13,8 @@ use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
 use crate::Picture;
 use crate::scene::{ImageSpec, Inset, Scene, Style};
 use drawing::{
-    DrawOptions, Group, Ink, Join, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL, Overlay,
-    Page, Pen, PlacedImage, Polyline, Warning, to_micrometers,
+    DrawError, DrawOptions, Group, Ink, Join, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL,
+    Overlay, Page, Pen, PlacedImage, Polyline, Warning, to_micrometers,
 };
 use glam::DVec2;
 use homog::PixelRect;
@@ -155,21 +155,21 @@ impl Style {
 }
 
 /// The lines drawn over shaded surfaces: silhouettes of the toon style, and the overlay of feature
-/// edges. None for styles that draw lines only.
+/// edges; with a warning if they are left out. None for styles that draw lines only.
 pub(super) fn surface_line_layers(
     scene: &Scene,
     threads: usize,
-) -> Result<Vec<Layer>, RenderError> {
+) -> Result<(Vec<Layer>, Option<Warning>), RenderError> {
     let wants_edges = scene.overlays.iter().any(|overlay| matches!(overlay, Overlay::Edges));
     let style = match scene.style {
-        _ if !scene.style.draws_surfaces() => return Ok(Vec::new()),
+        _ if !scene.style.draws_surfaces() => return Ok(Default::default()),
         _ if wants_edges => LineStyle { ink: Some(OVERLAY_INK), ..LineStyle::HIDDEN_REMOVED },
         Style::Toon => LineStyle {
             line_widths: LineWidths::Pixels(2.0),
             ink: Some(OVERLAY_INK),
             ..LineStyle::CONTOURS
         },
-        _ => return Ok(Vec::new()),
+        _ => return Ok(Default::default()),
     };
     let options = DrawOptions {
         // The picture shows leaves, and lines would show the rectangles that they are cut out of.
@@ -177,8 +177,12 @@ pub(super) fn surface_line_layers(
         is_unlimited: scene.unlimited_lines,
         ..style.to_draw_options()
     };
-    let drawing = drawing::draw(&scene.drawing_subject(), &options, threads)?;
-    Ok(drawing.to_page(&style, "", None).layers)
+    match drawing::draw(&scene.drawing_subject(), &options, threads) {
+        Ok(drawing) => Ok((drawing.to_page(&style, "", None).layers, None)),
+        // The surfaces are there without them.
+        Err(DrawError::TooManyCopies { .. }) => Ok((Vec::new(), Some(Warning::OutlinesLeftOut))),
+        Err(error) => Err(error.into()),
+    }
 }
 
 /// The layers of the scene's overlays (axes, grid, view volumes …) on a page of the picture's size.

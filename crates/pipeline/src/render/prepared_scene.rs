@@ -103,7 +103,9 @@ impl<'a> PreparedScene<'a> {
             page.as_mut().map_or(Vec::new(), |page| std::mem::take(&mut page.warnings));
         let ignores_sections = draws_surfaces && !scene.sections.is_empty();
         warnings.extend(ignores_sections.then_some(Warning::SectionsIgnored));
-        let mut overlay_layers = line_drawing::surface_line_layers(scene, context.threads)?;
+        let (mut overlay_layers, left_out) =
+            line_drawing::surface_line_layers(scene, context.threads)?;
+        warnings.extend(left_out);
         if draws_surfaces {
             let overlays = line_drawing::overlay_layers(scene);
             overlay_layers.extend(drawing::with_label_halos(overlays));

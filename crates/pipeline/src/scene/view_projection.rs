@@ -436,8 +436,7 @@ impl<'a> CameraResolver<'a> {
             CameraChoice::Name(name) => name.clone(),
         };
         let (message, help) = if names.is_empty() {
-            let help =
-                "choose a view instead: the flag --view front, or `view: Frame(from: Front)` in a scene";
+            let help = "choose a view instead: the flag --view front, or `view: Frame(from: Front)` in a scene";
             ("the file has no cameras".to_owned(), Some(help.to_owned()))
         } else {
             (format!("there is no camera `{wanted}`"), suggest_name(&wanted, names))
