@@ -14,7 +14,7 @@ const LEAST_PAPER: f64 = 0.25;
 const LEAST_DRAWN: f64 = 0.0005;
 
 /// How many pictures of each model there are without the environment variable `THOROUGH`.
-const FEW_CASES: usize = 4;
+const FEW_CASES: usize = 2;
 
 /// Models that cover all of a picture, or of which next to nothing is seen, and why.
 const ODD_MODELS: [(&str, &str); 0] = [];

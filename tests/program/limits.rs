@@ -101,3 +101,20 @@ fn lines_of_triangles_that_all_cross_take_no_longer_than_they_are_worth() {
         assert!(drawing.contains("<path"), "{style}");
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_command_that_needs_more_memory_than_it_may_take_ends_with_an_error() {
+    let sandbox = Sandbox::new("max_memory");
+    sandbox.copy_model("crate.glb");
+    sandbox.write_file("a.png", "old");
+    let words = ["render", "crate.glb", "--size", "9000x9000", "--samples", "16", "-o", "a.png"];
+    let run = sandbox.run(&[&words[..], &["--max-memory", "64MiB"]].concat());
+    let expected = "error: the command ran out of memory: --max-memory allows 64 MiB\n  = help: ";
+    assert!(run.code == 1 && run.stderr.starts_with(expected), "{}: {}", run.code, run.stderr);
+    assert_eq!(sandbox.file_names(), ["a.png", "crate.glb"]);
+    assert_eq!(std::fs::read(sandbox.path_of("a.png")).expect("the old file"), b"old");
+    let small = ["render", "crate.glb", "--size", "64x48", "--max-memory", "256MiB"];
+    let run = sandbox.run(&small);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+}

@@ -50,6 +50,7 @@ mod outputs;
 mod overlays;
 #[cfg(unix)]
 mod partial_files;
+mod picture_formats;
 mod pictures;
 mod poses;
 mod reference;

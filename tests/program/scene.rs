@@ -160,7 +160,7 @@ const SUSPICIOUS: &[(&str, &str, &str, &str)] = &[
         "viewports: [(at: (0, 0, 0.3, 0.3), camera: (view: LookAt(eye: (0, 0, 9), target: (0, 0, 20))))]",
         "nothing-visible",
         "3:46",
-        "behind the eye",
+        "behind the camera",
     ),
     (
         "camera: (view: LookAt(eye: (0, 0, 200), target: (0, 0, 0)))",

@@ -40,10 +40,10 @@ fn models_without_size_or_lines_have_a_message() {
         let (_, run) = draw_everywhere("unusual_no_size", &point, flags);
         assert!(run.stderr.contains("the views are empty"), "{}", run.stderr);
     }
-    // Lines and points are parts, and drawn.
-    for own in ["l 1 2 3\n", "p 1 2 3\n"] {
+    // Lines are parts; points are drawn too.
+    for (own, flags) in [("l 1 2 3\n", &ALL_PAGES[..]), ("p 1 2 3\n", &[])] {
         let obj = format!("v 0 0 0\nv 1 1 1\nv 1 0 0\n{own}");
-        let (_, run) = draw_everywhere("unusual_lines", &obj, &ALL_PAGES);
+        let (_, run) = draw_everywhere("unusual_lines", &obj, flags);
         assert_eq!(run.stderr, "", "{own}");
     }
 }

@@ -12,15 +12,15 @@ fn sandbox_with_teapot(name: &str) -> Sandbox {
 fn flags_of_other_programs_lead_to_ours() {
     let sandbox = sandbox_with_teapot("foreign_flags");
     for (flags, told) in [
-        (&["--resolution", "8x8"][..], "use `--size 1920x1080`"),
+        (&["--resolution", "8x8"][..], "use `--size 8x8`"),
         (&["--width", "8"], "use `--size 1920x1080`"),
         (&["--height=8"], "use `--size 1920x1080`"),
-        (&["--bg-color", "red"], "use `--background '#f4f1ea'`"),
-        (&["--background-color=red"], "use `--background '#f4f1ea'`"),
+        (&["--bg-color", "red"], "use `--background red`"),
+        (&["--background-color=red"], "use `--background red`"),
         (&["--wireframe"], "use `--style wireframe`"),
-        (&["--hdri", "a.hdr"], "use `--environment studio.hdr`"),
-        (&["--camera-position", "1,2,3"], "use `--eye 4,3,6 --target 0,0,0`"),
-        (&["--out-file", "a.png"], "use `--output picture.png`"),
+        (&["--hdri", "a.hdr"], "use `--environment a.hdr`"),
+        (&["--camera-position", "1,2,3"], "use `--eye 1,2,3 --target 0,0,0`"),
+        (&["--out-file", "a.png"], "use `--output a.png`"),
         (&["--turntable"], "run `alberti animate model.glb --turntable -o turn.gif`"),
     ] {
         let run = sandbox.run(&[&["render", "teapot.glb"], flags].concat());

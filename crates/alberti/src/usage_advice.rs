@@ -239,10 +239,10 @@ fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
 /// it.
 fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Command) -> String {
     let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
-    let given = match word.split_once('=') {
-        Some((_, value)) => Some(value.to_owned()),
-        None => words.iter().skip_while(|it| *it != word).nth(1).cloned(),
-    };
+    let name = word.split('=').next().unwrap_or(word);
+    let joined = words.iter().find_map(|it| it.strip_prefix(name)?.strip_prefix('='));
+    let next = || words.iter().skip_while(|it| *it != name).nth(1);
+    let given = joined.map(str::to_owned).or_else(|| next().cloned());
     let given = given.filter(|value| !value.starts_with('-') && !value.is_empty());
     let (Some(given), Some((flag, rest))) = (given, advice.split_once(' ')) else {
         return advice.to_owned();

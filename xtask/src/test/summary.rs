@@ -63,7 +63,7 @@ pub fn print_summary(run: &Run, is_first_tier: bool) -> Outcome {
 fn count_lines<'a>(lines: &[&'a String]) -> Vec<(&'a str, usize)> {
     let mut counted: Vec<(&str, usize)> = Vec::new();
     for line in lines {
-        match counted.iter_mut().find(|(known, _)| known == line.as_str()) {
+        match counted.iter_mut().find(|(known, _)| *known == line.as_str()) {
             Some((_, count)) => *count += 1,
             None => counted.push((line, 1)),
         }

@@ -86,9 +86,11 @@ fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
 fn forward_messages(mut child: Child) -> std::io::Result<std::process::ExitStatus> {
     if let Some(messages) = child.stderr.take() {
         let mut reader = BufReader::new(messages);
-        let mut line = Vec::new();
+        let (mut line, mut is_over) = (Vec::new(), false);
         while reader.read_until(b'\n', &mut line)? > 0 {
-            if !line.starts_with(LAST_WORDS.as_bytes()) {
+            // A backtrace may follow.
+            is_over |= line.starts_with(LAST_WORDS.as_bytes());
+            if !is_over {
                 // A closed stream is not an error.
                 let _ = std::io::stderr().write_all(&line);
             }

@@ -162,7 +162,7 @@ pub fn with_label_halos(layers: Vec<Layer>) -> Vec<Layer> {
             let groups = layer.groups.iter().map(strokes).collect();
             let (id, title) =
                 (format!("{}-halo", layer.id), format!("halo of the {}", layer.title));
-            Layer { pen, groups, ..Layer::new(id, &title, pen) }
+            Layer { groups, ..Layer::new(id, &title, pen) }
         });
         halo.into_iter().chain([layer])
     };
