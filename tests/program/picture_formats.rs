@@ -112,7 +112,7 @@ fn a_label_has_lines_greek_letters_and_a_halo() {
         let run = sandbox.run(&["render", "scene.ron", "-o", "out.png"]);
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{text}");
         let rows = sandbox.read_picture("out.png").2;
-        let has_white = |row: &[[u8; 4]]| row.iter().any(|pixel| *pixel == [255; 4]);
+        let has_white = |row: &[[u8; 4]]| row.contains(&[255; 4]);
         rows.chunks_exact(240).filter(|row| has_white(row)).count()
     };
     // Black letters before black are seen by their halo.
