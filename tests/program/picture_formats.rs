@@ -119,3 +119,27 @@ fn a_label_has_lines_greek_letters_and_a_halo() {
     let (one, two) = (white("α → β"), white("α → β\\nΔφ ≤ 2π"));
     assert!(one > 8 && two > one + 10, "{one} rows, {two} of two lines");
 }
+
+#[test]
+fn points_are_as_large_as_wanted_and_passes_are_openexr_on_request() {
+    let sandbox = Sandbox::new("points_and_exr");
+    sandbox.write_file("dots.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
+    let covered = |size: &str| {
+        let words = ["render", "dots.obj", "--size", "64x48", "--point-size", size, "-o", "a.png"];
+        let run = sandbox.run(&words);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{size}");
+        sandbox.read_picture("a.png").2.iter().filter(|pixel| pixel[3] > 0).count()
+    };
+    let (small, large) = (covered("2"), covered("8"));
+    assert!(small >= 12 && large > 8 * small, "{small} and {large} pixels");
+    sandbox.copy_model("crate.glb");
+    let words = ["render", "crate.glb", "--size", "20x10", "--passes", "depth,id"];
+    let run = sandbox.run(&[&words[..], &["--pass-format", "exr", "-o", "b.png"]].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    for name in ["b.depth.exr", "b.id.exr"] {
+        let bytes = std::fs::read(sandbox.path_of(name)).expect("a pass");
+        assert!(bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]), "{name}");
+        // Ten rows of twenty values, each row after its number and its length.
+        assert!(bytes.len() > 10 * (8 + 80), "{name}: {}", bytes.len());
+    }
+}

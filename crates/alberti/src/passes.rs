@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Which render passes to write, and in which format.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct PassArgs {
-    /// Render passes to write beside the picture, as NAME.PASS.png
+    /// Render passes to write beside the picture, as NAME.PASS.png (or .npy, .exr)
     ///
     /// Each holds one property of the nearest surface at the center of each pixel: depth along the
     /// view axis and distance from the eye in scene units; normal (world space) and view-normal;

@@ -23,7 +23,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use model::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
-    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, NonNegative, OverlayFile,
+    BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, NonNegative, OverlayFile, PointSize,
     ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
 use pipeline::{Origin, Scene};
@@ -76,6 +76,9 @@ pub(crate) struct SceneOverrideArgs {
     /// Up to this many trilinear samples are taken along the longer axis of a pixel's footprint.
     #[arg(help_heading = "Picture", long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) max_anisotropy: Option<u32>,
+    /// Side of the points of a model in pixels, from 1 to 256 [default: 3]
+    #[arg(help_heading = "Picture", long, value_name = "N", value_parser = parse_point_size)]
+    pub(crate) point_size: Option<PointSize>,
     #[command(flatten)]
     pub(crate) light: LightArgs,
 }
@@ -102,6 +105,9 @@ impl SceneOverrideArgs {
         }
         if let Some(anisotropy) = self.max_anisotropy {
             file.image.max_anisotropy = anisotropy;
+        }
+        if let Some(size) = self.point_size {
+            file.image.point_size = size;
         }
         if self.background.is_some() {
             file.image.background.clone_from(&self.background);
@@ -289,6 +295,12 @@ pub(super) fn named_view_parser() -> impl TypedValueParser<Value = NamedView> {
         _ => PossibleValue::new(view.name()),
     };
     PossibleValuesParser::new(NamedView::ALL.map(value)).try_map(|name| name.parse::<NamedView>())
+}
+
+/// Parses the size of points.
+fn parse_point_size(text: &str) -> Result<PointSize, String> {
+    let size = text.parse().ok().and_then(PointSize::new);
+    size.ok_or_else(|| "expected a number of pixels from 1 to 256, such as 5".to_owned())
 }
 
 /// Parses a factor above 0, up to 64.

@@ -93,6 +93,7 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("up-axis z-up zup", "up", "--up z"),
     ("s size-px", "size", "--size 1920x1080"),
     ("units", "unit", "--unit mm"),
+    ("pointsize point-sprites point-radius", "point-size", "--point-size 5"),
     ("animation-time", "time", "--time 1.5"),
     ("animation-index animation-name", "animation", "--animation 0"),
     ("frame-rate framerate", "fps", "--fps 30"),

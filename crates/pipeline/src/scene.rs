@@ -278,6 +278,8 @@ pub struct ImageSpec {
     /// The most samples of anisotropic texture filtering, along the longer axis of a pixel's
     /// footprint, from 1 to 8.
     pub max_anisotropy: u32,
+    /// The side of points in pixels, from 1 to 256.
+    pub point_size: f64,
 }
 
 impl ImageSpec {
@@ -293,6 +295,7 @@ impl ImageSpec {
             environment_blur: None,
             samples: Samples::One,
             max_anisotropy: 1,
+            point_size: 3.0,
         }
     }
 

@@ -19,8 +19,6 @@ use std::ops::Range;
 
 /// The width of line primitives in pixels. glTF leaves it open.
 const LINE_WIDTH_PIXELS: f64 = 1.5;
-/// The side of point primitives in pixels. glTF leaves it open.
-const POINT_SIZE_PIXELS: f64 = 3.0;
 
 /// The state of one draw call: its projected vertices and how its triangles enter the frame.
 pub(super) struct DrawCall<'a> {
@@ -34,6 +32,8 @@ pub(super) struct DrawCall<'a> {
     pub(super) opacity: Opacity,
     /// The winding of back faces, if they are culled.
     pub(super) cull_mode: CullMode,
+    /// The side of point primitives in pixels.
+    pub(super) point_size: f64,
 }
 
 impl DrawCall<'_> {
@@ -73,7 +73,7 @@ impl DrawCall<'_> {
     /// A point is a square of constant size, drawn if its center is inside the guard band.
     fn submit_point(&mut self, vertex: u32, id: u32) {
         if let Some(center) = self.mesh.screen_vertices[vertex as usize] {
-            self.frame.add_point(center, POINT_SIZE_PIXELS, id, self.opacity);
+            self.frame.add_point(center, self.point_size, id, self.opacity);
         }
     }
 

@@ -53,7 +53,8 @@ impl PrimitiveAssembler<'_> {
         let world_to_clip = transform.model_to_clip(Affine::IDENTITY);
         mesh.project_vertices(&transform, world_to_clip, &ground.corners, 1);
         let opacity = Opacity::Translucent;
-        DrawCall { transform: &transform, mesh, frame, opacity, cull_mode }.submit(&QUAD, first_id);
+        DrawCall { transform: &transform, mesh, frame, opacity, cull_mode, point_size: 0.0 }
+            .submit(&QUAD, first_id);
         self.memory.draws.draws.push(draw);
         Ok(())
     }

@@ -12,6 +12,7 @@
 
 mod buffer;
 mod geometry;
+mod exr;
 mod npy;
 mod pass;
 mod to_png;

@@ -50,7 +50,7 @@ pub struct PreparedScene<'a> {
     /// The color of the picture as long as all that was rendered of it has one.
     only_color: OnlyColor,
     /// How many pixels were rendered.
-    pixels_seen: u64,
+    pixels_seen: usize,
     /// Warnings about this scene, without those of its insets.
     warnings: Vec<Warning>,
     /// The insets of the scene, in their order.
@@ -66,11 +66,6 @@ enum OnlyColor {
     One([u8; 4]),
     /// They differ.
     Several,
-}
-
-/// The number of pixels of a rectangle.
-fn pixel_count(rect: PixelRect) -> u64 {
-    u64::from(rect.width) * u64::from(rect.height)
 }
 
 impl OnlyColor {
@@ -136,7 +131,7 @@ impl<'a> PreparedScene<'a> {
     #[must_use]
     pub fn into_warnings(self) -> Vec<Warning> {
         let mut all = self.warnings;
-        let is_whole = self.pixels_seen >= pixel_count(self.context.scene.image.pixel_rect());
+        let is_whole = self.pixels_seen >= self.context.scene.image.pixel_rect().area();
         if is_whole && matches!(self.only_color, OnlyColor::One(_)) {
             let reason = self.context.scene.empty_reason();
             all.push(Warning::PictureEmpty { reason });
@@ -176,7 +171,7 @@ impl<'a> PreparedScene<'a> {
             }
         }
         self.only_color.add_pixels(picture);
-        self.pixels_seen += pixel_count(region);
+        self.pixels_seen += region.area();
         draw_caption_over(scene, region, picture);
         Ok(())
     }

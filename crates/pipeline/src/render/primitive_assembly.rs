@@ -70,6 +70,8 @@ pub(super) struct PrimitiveAssembler<'a> {
     only_behind_glass: bool,
     /// The most texture samples per fragment along the longer axis of its footprint.
     anisotropy: u32,
+    /// The side of points in pixels.
+    point_size: f64,
     /// The most threads for large meshes.
     threads: usize,
     /// The frame and its draw calls.
@@ -101,6 +103,7 @@ impl<'a> PrimitiveAssembler<'a> {
             inputs: VertexInputs::for_style(scene.style, opacity),
             only_behind_glass: false,
             anisotropy: scene.image.max_anisotropy,
+            point_size: scene.image.point_size,
             threads,
             memory,
             next_id: 0,
@@ -218,7 +221,8 @@ impl<'a> PrimitiveAssembler<'a> {
         let cull_mode = self.cull_mode(draw);
         let FrameMemory { mesh, frame, .. } = &mut self.memory;
         let opacity = self.inputs.opacity(draw.material);
-        DrawCall { transform: &self.transform, mesh, frame, opacity, cull_mode }
+        let point_size = self.point_size;
+        DrawCall { transform: &self.transform, mesh, frame, opacity, cull_mode, point_size }
             .submit(draw.primitive, draw.first_id);
     }
 

@@ -83,6 +83,16 @@ impl Percent {
     pub const EIGHTY: Self = Self(80.0);
 }
 
+checked_number! {
+    /// The side of points in pixels, from 1 to 256.
+    PointSize, "a size from 1 to 256 pixels", |x| (1.0..=256.0).contains(&x)
+}
+
+impl PointSize {
+    /// 3 pixels.
+    pub const DEFAULT: Self = Self(3.0);
+}
+
 impl CreaseAngle {
     /// 30 degrees: a cylinder of twelve sides is still round.
     pub const DEFAULT: Self = Self(30.0);

@@ -213,6 +213,7 @@ named_values! {
     PassEncoding as "PassEncoding" {
         Png = "PNG of 16 bits; the text chunk `Description` says what the codes mean.",
         Npy = "NumPy arrays: f32, or u32 for whole numbers.",
+        Exr = "OpenEXR images: f32, or u32 for whole numbers.",
     }
 }
 

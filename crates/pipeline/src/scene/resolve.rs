@@ -224,6 +224,7 @@ pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSp
         environment_blur,
         samples,
         max_anisotropy,
+        point_size: file.image.point_size.value(),
     })
 }
 

@@ -62,17 +62,44 @@ impl<'a> FaultCounts<'a> {
     /// One warning for each kind, in the order of the file.
     pub(super) fn report(&self, lines: &mut LineCounter<'_>, warnings: &mut ImportWarnings) {
         let kinds = [
-            (self.short_elements, "elements with too few vertices: they are left out"),
-            (self.missing_uvs, "references to texture coordinates that do not exist"),
-            (self.missing_normals, "references to normals that do not exist: they are computed"),
-            (self.broken_uvs, "texture coordinates that are not numbers: they are 0"),
-            (self.further_statements, "more statements are not read"),
+            (
+                self.short_elements,
+                "an element with too few vertices is left out",
+                "elements with too few vertices are left out",
+            ),
+            (
+                self.missing_uvs,
+                "a reference to texture coordinates that do not exist",
+                "references to texture coordinates that do not exist",
+            ),
+            (
+                self.missing_normals,
+                "a reference to a normal that does not exist: it is computed",
+                "references to normals that do not exist: they are computed",
+            ),
+            (
+                self.broken_uvs,
+                "a texture coordinate that is not a number is 0",
+                "texture coordinates that are not numbers are 0",
+            ),
+            (
+                self.further_statements,
+                "one more statement is not read",
+                "more statements are not read",
+            ),
         ];
-        let told = kinds.map(|(fault, what)| (fault, format!("{} {what}", fault.count)));
+        let told = kinds.map(|(fault, one, many)| match fault.count {
+            1 => (fault, one.to_owned()),
+            count => (fault, format!("{count} {many}")),
+        });
         let mut told = told.to_vec();
         for (name, fault) in &self.statements {
             let name: String = String::from_utf8_lossy(name).chars().take(32).collect();
-            told.push((*fault, format!("{} statements {name:?} are not read", fault.count)));
+            let message = match fault.count {
+                1 => format!("a statement {name:?} is not read"),
+                count => format!("{count} statements {name:?} are not read"),
+            };
+            told.push((*fault, message));
         }
         told.retain(|(fault, _)| fault.count > 0);
         told.sort_by_key(|(fault, _)| fault.first);

@@ -96,7 +96,8 @@ pub(super) fn parse_mtl<'a>(
     unread.sort_by_key(|(_, at)| at.1);
     for (what, (count, offset)) in unread {
         let location = format!("{name}: {}", lines.locate(offset));
-        warnings.push_warning(&location, format!("{what} is not read ({count} times)"));
+        let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
+        warnings.push_warning(&location, format!("{what} is not read{times}"));
     }
     parser.materials
 }

@@ -1,7 +1,7 @@
 //! Pass buffers: the values of one pass for every pixel of a region.
 //!
-//! Floating-point passes hold f32, integer passes u32. They are written as NumPy arrays without
-//! loss, or as 16-bit PNG files quantized to the range of the values.
+//! Floating-point passes hold f32, integer passes u32. They are written as NumPy arrays or
+//! OpenEXR images without loss, or as 16-bit PNG files quantized to the range of the values.
 
 use super::geometry::{Hit, SceneGeometry};
 use super::pass::{Pass, PassEncoding};
@@ -73,6 +73,7 @@ impl PassBuffer {
         match encoding {
             PassEncoding::Png => self.to_png(),
             PassEncoding::Npy => self.to_npy(),
+            PassEncoding::Exr => self.to_exr(),
         }
     }
 

@@ -54,6 +54,8 @@ pub enum PassEncoding {
     Png,
     /// NumPy array of the exact values, f32 or u32.
     Npy,
+    /// OpenEXR image of the exact values, f32 or u32, for compositing programs.
+    Exr,
 }
 
 impl PassEncoding {
@@ -63,6 +65,7 @@ impl PassEncoding {
         match self {
             Self::Png => "png",
             Self::Npy => "npy",
+            Self::Exr => "exr",
         }
     }
 }

@@ -100,7 +100,8 @@ impl<'a> CasterPass<'a, '_> {
         mesh.cull_clusters(transform, model_to_clip, primitive, &skinned, None);
         mesh.project_vertices(transform, model_to_clip, &skinned.positions, threads);
         let cull_mode = CullMode::Nothing;
-        DrawCall { transform, mesh, frame, opacity, cull_mode }.submit(primitive, first_id);
+        DrawCall { transform, mesh, frame, opacity, cull_mode, point_size: 0.0 }
+            .submit(primitive, first_id);
         if opacity == Opacity::Masked {
             let textures = MaterialTextures::new(material, 1, texture);
             let draw = masked_draw(model, instance, primitive, textures, mesh);

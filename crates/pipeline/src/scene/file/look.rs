@@ -3,7 +3,7 @@
 use super::background::BackgroundFile;
 use super::lines::{LinesFile, WidthFile};
 use crate::scene::color::Color;
-use crate::scene::number::{Finite, HandDrawn, HatchSpacing, Percent, Positive};
+use crate::scene::number::{Finite, HandDrawn, HatchSpacing, Percent, PointSize, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
 use drawing::palette::{BLUEPRINT_BLUE, GRAPHITE};
 use drawing::{EdgeSelection, FaceFill, HiddenLines};
@@ -209,5 +209,8 @@ scene_struct! {
         /// The most samples of anisotropic texture filtering, from 1 to 8: with 1, surfaces at
         /// grazing angles are blurred; with more they are sharp. Default: 4.
         pub max_anisotropy: u32 = 4,
+        /// The side of points in pixels, from 1 to 256: those of models, which glTF leaves open.
+        /// Lines draw them as strokes instead. Default: 3.
+        pub point_size: PointSize = PointSize::DEFAULT,
     }
 }

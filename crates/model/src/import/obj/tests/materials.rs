@@ -171,7 +171,7 @@ fn texture_options_that_a_material_can_have_are_kept() {
     assert_eq!(model.images[0].as_ref().unwrap().rgba, [[255, 0, 0, 255]]);
     let told = warnings(&model);
     for expected in ["`-boost`", "`-t`", "`map_Ks`"] {
-        assert!(told.contains(&format!("{expected} is not read (1 times)")), "{told}");
+        assert!(told.contains(&format!("{expected} is not read")), "{told}");
     }
     assert_eq!(told.lines().count(), 3, "{told}");
     assert!(told.starts_with("a.mtl: line 4, column 8: "), "{told}");
