@@ -66,7 +66,10 @@ impl TestPrograms {
         let is_of_crate = |program: &&TestProgram| {
             program.package != TESTS || !matches!(program.target.as_str(), "suites" | "program")
         };
-        self.programs.iter().filter(is_of_crate).try_for_each(|program| self.run(program, &[], &[]))
+        // A fault in one crate hides none in another.
+        let run = |program| self.run(program, &[], &[]).err();
+        let faults: Vec<String> = self.programs.iter().filter(is_of_crate).filter_map(run).collect();
+        if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
     }
 
     /// Runs the integration tests of a crate with all cases and sizes.
