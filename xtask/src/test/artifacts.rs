@@ -68,7 +68,8 @@ impl TestPrograms {
         };
         // A fault in one crate hides none in another.
         let run = |program| self.run(program, &[], &[]).err();
-        let faults: Vec<String> = self.programs.iter().filter(is_of_crate).filter_map(run).collect();
+        let faults: Vec<String> =
+            self.programs.iter().filter(is_of_crate).filter_map(run).collect();
         if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
     }
 

@@ -11,8 +11,8 @@
 //! exact triangle, the weights are those of a point on its border.
 
 mod buffer;
-mod geometry;
 mod exr;
+mod geometry;
 mod npy;
 mod pass;
 mod to_png;

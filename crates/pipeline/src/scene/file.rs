@@ -53,7 +53,9 @@ pub use self::sheet_view::{AxisFile, SheetViewFile, ViewSideFile};
 pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
 pub use super::color::{Color, LightColor};
 use super::number::Scale;
-pub use super::number::{CreaseAngle, FieldOfView, Finite, NonNegative, PointSize, Positive, Triple};
+pub use super::number::{
+    CreaseAngle, FieldOfView, Finite, NonNegative, PointSize, Positive, Triple,
+};
 use super::schema::{scene_enum, scene_struct};
 use crate::import;
 use model::{LengthUnit, UpAxis};

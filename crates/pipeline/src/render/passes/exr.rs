@@ -33,7 +33,8 @@ impl PassBuffer {
             bytes.extend((row as u32).to_le_bytes());
             bytes.extend((row_bytes as u32).to_le_bytes());
             for channel in 0..names.len() {
-                let places = (0..width).map(|column| (row * width + column) * names.len() + channel);
+                let places =
+                    (0..width).map(|column| (row * width + column) * names.len() + channel);
                 match &self.values {
                     PassValues::Floats(values) => {
                         bytes.extend(places.flat_map(|at| values[at].to_le_bytes()));
@@ -69,7 +70,8 @@ impl PassBuffer {
         attribute("channels", "chlist", &channels);
         attribute("compression", "compression", &[0]);
         let [right, bottom] = [self.width, self.height].map(|side| side.saturating_sub(1));
-        let window: Vec<u8> = [0, 0, right, bottom].into_iter().flat_map(u32::to_le_bytes).collect();
+        let window: Vec<u8> =
+            [0, 0, right, bottom].into_iter().flat_map(u32::to_le_bytes).collect();
         attribute("dataWindow", "box2i", &window);
         attribute("displayWindow", "box2i", &window);
         attribute("lineOrder", "lineOrder", &[0]);
@@ -100,10 +102,14 @@ mod tests {
         let bytes = PassBuffer { pass: Pass::Normal, width: 2, height: 2, values }.to_exr();
         assert!(bytes.starts_with(&MAGIC_AND_VERSION));
         let text = String::from_utf8_lossy(&bytes);
-        for word in ["channels\0chlist\0", "X\0", "dataWindow\0box2i\0", "compression\0compression\0"] {
+        for word in
+            ["channels\0chlist\0", "X\0", "dataWindow\0box2i\0", "compression\0compression\0"]
+        {
             assert!(text.contains(word), "{word}");
         }
-        let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+        let word = |at: usize| {
+            u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+        };
         // Two rows of two pixels with three channels, each row after its number and its length.
         let rows = bytes.len() - 2 * (8 + 24);
         let table = rows - 16;
