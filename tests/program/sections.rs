@@ -56,7 +56,7 @@ fn invalid_sections_are_reported() {
         );
     }
     let run = sandbox.run(&["render", "box.gltf", "-o", "out.png", "--section", "x=0.05"]);
-    assert!(run.code == 0 && run.stderr.contains("warning: only line drawings can be cut"));
+    assert!(run.code == 0 && run.stderr.contains("warning: sections do nothing here"));
     for (more, message) in [
         ("sections: [Section(normal: (0, 0, 0))]", "wrong.ron:2:28"),
         ("sections: [Section(point: (1, 0, 0))]", "normal"),

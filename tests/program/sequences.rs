@@ -119,7 +119,7 @@ fn what_cannot_be_is_refused() {
         (&["-o", "film.mp4"], 1, "film.mp4: video output is not supported"),
         (&["-o", "f_{frame:4}.png"], 1, "write {frame}, or {frame:04}"),
         (&["-o", "f.png", "--fps", "0"], 2, "from 0.1 to 1000"),
-        (&["-o", "f.png", "--animation", "Walk"], 1, "crate has no animations"),
+        (&["-o", "f.png", "--animation", "Walk"], 1, "`crate` has no animations"),
     ];
     for (arguments, code, reason) in cases {
         let run = sandbox.run(&[&["animate", "crate.glb"], arguments].concat());

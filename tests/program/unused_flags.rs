@@ -24,11 +24,11 @@ fn flags_that_do_nothing_are_told() {
         ),
         (
             &["--style", "clay", "--ambient-occlusion"],
-            "warning: --ambient-occlusion does nothing here: the style clay has neither shadows nor ambient occlusion\n",
+            "warning: --ambient-occlusion does nothing here: the `clay` style has neither shadows nor ambient occlusion\n",
         ),
         (
             &["--style", "ids", "--environment", "sky"],
-            "warning: --environment does nothing here: the style ids has no lighting\n",
+            "warning: --environment does nothing here: the `ids` style has no lighting\n",
         ),
         (
             &["--style", "shaded", "-o", "x.svg"],

@@ -13,8 +13,8 @@ fn flags_of_other_programs_lead_to_ours() {
     let sandbox = sandbox_with_teapot("foreign_flags");
     for (flags, told) in [
         (&["--resolution", "8x8"][..], "use `--size 8x8`"),
-        (&["--width", "8"], "use `--size 1920x1080`"),
-        (&["--height=8"], "use `--size 1920x1080`"),
+        (&["--width", "8"], "the flag here is `--size`, as in `--size 1920x1080`"),
+        (&["--height=8"], "the flag here is `--size`, as in `--size 1920x1080`"),
         (&["--bg-color", "red"], "use `--background red`"),
         (&["--background-color=red"], "use `--background red`"),
         (&["--wireframe"], "use `--style wireframe`"),

@@ -72,7 +72,7 @@ impl OutputFormat {
         let animate = || {
             let gif = output.with_extension("gif");
             CliError::Usage(format!(
-                "{name}: this command writes still pictures\n  = help: for an animation run `alberti animate model.glb -o {}`; for a video, `alberti animate model.glb -o film.mp4` prints the command with ffmpeg",
+                "{name}: this command writes still pictures\n  = help: for an animation run `alberti animate model.glb --turntable -o {}`; for a video, the same with `-o {name}` shows how to pipe its frames to ffmpeg",
                 gif.display()
             ))
         };

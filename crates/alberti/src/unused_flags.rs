@@ -56,9 +56,9 @@ pub(super) fn find_unused_overrides(
     } else {
         let name = style_name(scene.style);
         if has_light(scene.style) {
-            format!("the style {name} has neither shadows nor ambient occlusion")
+            format!("the `{name}` style has neither shadows nor ambient occlusion")
         } else {
-            format!("the style {name} has no lighting")
+            format!("the `{name}` style has no lighting")
         }
     };
     if scene.style.is_false_color() && !draws_lines {

@@ -178,9 +178,12 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
         return advise_on_detached_value(words, command);
     };
     if let Some(advice) = foreign_flag(flag, command) {
-        let advice = with_given_value(advice, &word, words, command);
-        let is_command = advice.starts_with("alberti ");
-        let help = if is_command { format!("run `{advice}`") } else { format!("use `{advice}`") };
+        let help = match with_given_value(advice, &word, words, command) {
+            _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
+            Given::Nothing => format!("use `{advice}`"),
+            Given::Fits(advice) => format!("use `{advice}`"),
+            Given::FitsNot(flag) => format!("the flag here is `{flag}`, as in `{advice}`"),
+        };
         return Some(format!(
             "`{name}` is not a flag of `{}`; {help}",
             full_name(command, program)
@@ -236,9 +239,19 @@ fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     FOREIGN_FLAGS.iter().find(is_meant).map(|(.., advice)| *advice)
 }
 
+/// The value that was given for another program's flag.
+enum Given {
+    /// There is none, or it says nothing.
+    Nothing,
+    /// The flag here takes it: the advice with the value.
+    Fits(String),
+    /// The flag here, which does not take it.
+    FitsNot(String),
+}
+
 /// The advice with the value that was given for the other program's flag, where the flag here takes
 /// it.
-fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Command) -> String {
+fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Command) -> Given {
     let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
     let name = word.split('=').next().unwrap_or(word);
     let joined = words.iter().find_map(|it| it.strip_prefix(name)?.strip_prefix('='));
@@ -246,7 +259,7 @@ fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Comm
     let given = joined.map(str::to_owned).or_else(|| next().cloned());
     let given = given.filter(|value| !value.starts_with('-') && !value.is_empty());
     let (Some(given), Some((flag, rest))) = (given, advice.split_once(' ')) else {
-        return advice.to_owned();
+        return Given::Nothing;
     };
     let example = rest.split(" --").next().unwrap_or(rest);
     let attempt = [command.get_name().to_owned(), format!("{flag}={given}")];
@@ -256,12 +269,15 @@ fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Comm
     };
     // A word that chooses what the flag is set to, such as `wireframe`, is no example.
     let takes_any = example.contains(|c: char| c.is_ascii_digit() || c == '#' || c == '.');
-    if !is_valid || !takes_any || !flag.starts_with("--") {
-        return advice.to_owned();
+    if !takes_any || !flag.starts_with("--") {
+        return Given::Nothing;
+    }
+    if !is_valid {
+        return Given::FitsNot(flag.to_owned());
     }
     let is_plain = given.chars().all(|c| c.is_ascii_alphanumeric() || "._-,/=+:".contains(c));
     let given = if is_plain { given } else { format!("'{given}'") };
-    advice.replacen(example, &given, 1)
+    Given::Fits(advice.replacen(example, &given, 1))
 }
 
 /// What to write for a value that was given apart from a flag that wants an equals sign, as in
@@ -296,7 +312,7 @@ const FOREIGN_COMMANDS: &[(&str, &str)] = &[
     ("inspect stat stats identify", "run `alberti info model.glb`"),
     (
         "convert export",
-        "models are not converted: `alberti render` writes pictures and drawings of them",
+        "it renders models and does not convert them: use another program, such as Blender",
     ),
     ("init new", "run `alberti scene init model.glb`"),
 ];

@@ -272,8 +272,8 @@ impl Warning {
     const fn fixed_text(&self) -> &'static str {
         match self {
             Self::SectionsIgnored => {
-                "only line drawings can be cut, and this style shows whole models: \
-                 choose another, such as `--style lines`"
+                "sections do nothing here: only line drawings can be cut; choose a style such as \
+                 `--style lines`"
             }
             Self::StyleIgnored => {
                 "sheets are line drawings, and do not show the style of the scene: \

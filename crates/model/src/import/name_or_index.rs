@@ -37,11 +37,11 @@ impl NameOrIndex {
             });
             let available: Vec<String> = available.collect();
             let message = match available.as_slice() {
-                [] => format!("the file has no {what}s, and `{wanted}` was asked for"),
+                [] => format!("the file has no {what}s, so `{wanted}` cannot be chosen"),
                 _ => format!("there is no {what} `{wanted}`"),
             };
             let help = match available.as_slice() {
-                [] => format!("leave the {what} out"),
+                [] => format!("remove the {what}"),
                 available => format!("choose one of {}", available.join(", ")),
             };
             Diagnostic::error(codes::NO_SUCH_ITEM, pointer, message, &help)
@@ -65,6 +65,6 @@ mod tests {
         assert_eq!(diagnostic.message, "there is no scene `night`");
         assert_eq!(diagnostic.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
         let diagnostic = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
-        assert_eq!(diagnostic.help.unwrap(), "leave the variant out");
+        assert_eq!(diagnostic.help.unwrap(), "remove the variant");
     }
 }

@@ -477,9 +477,9 @@ pub fn select_animation(
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        let help = "leave out the animation and the time; \
-                    `alberti animate model.glb --turntable -o turn.gif` turns a model that stands still";
-        return Err((format!("{} has no animations", model.name), Some(help.to_owned())));
+        let help = "remove the animation and the time; to turn a model that has none, run \
+                    `alberti animate model.glb --turntable -o turn.gif`";
+        return Err((format!("`{}` has no animations", model.name), Some(help.to_owned())));
     }
     let named = |wanted: &str| {
         model.animations.iter().position(|animation| animation.name.as_deref() == Some(wanted))
@@ -492,7 +492,7 @@ pub fn select_animation(
     found.ok_or_else(|| {
         let names = model.animations.iter().filter_map(|animation| animation.name.clone());
         let names: Vec<String> = names.chain((0..count).map(|at| at.to_string())).collect();
-        let message = format!("{} has no animation `{wanted}`", model.name);
+        let message = format!("`{}` has no animation `{wanted}`", model.name);
         (message, suggest_name(&wanted, &names))
     })
 }
