@@ -241,7 +241,7 @@ fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
 
 /// The value that was given for another program's flag.
 enum Given {
-    /// There is none, or it says nothing.
+    /// No value was given, or the flag here takes none.
     Nothing,
     /// The flag here takes it: the advice with the value.
     Fits(String),

@@ -103,7 +103,7 @@ struct Candidates {
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
-    /// What the surface hides of itself, as far as it is asked for.
+    /// What the surface hides of itself; `None` where hidden lines do not matter.
     cover: Option<ViewCover>,
 }
 

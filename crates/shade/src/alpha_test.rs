@@ -72,7 +72,7 @@ impl Draw<'_> {
         let cutoff = match self.material.alpha_mode {
             AlphaMode::Opaque => return [true; N],
             AlphaMode::Mask { cutoff } => cutoff,
-            // A pane of faint glass is a surface, the empty part of a leaf's picture is none.
+            // A pane of faint glass is a surface; the empty part of a leaf's texture is not.
             AlphaMode::Blend => (0.5 * self.material.base_color[3]).max(f32::MIN_POSITIVE),
         };
         let alpha = self.sample_alpha(primitives, fragments);

@@ -2,8 +2,8 @@
 //!
 //! A program that gets no more memory is ended by the system in the middle of its work, without a
 //! word. Where there is a limit, by `--max-memory`, by `ulimit` or by that of thumbnails, the command
-//! runs in a process of its own, and this one says what has happened, removes what is left of its
-//! files, and ends with exit code 1.
+//! runs in a second process. The first one reports what happened, removes unfinished files, and ends
+//! with exit code 1.
 //!
 //! ```text
 //!  alberti --max-memory 1GiB render … ─► the same words, limited ─► picture, or killed
@@ -28,8 +28,8 @@ const LIMITED: &str = "ALBERTI_LIMITED_PROCESS";
 /// What the standard library prints before it gives up.
 const LAST_WORDS: &str = "memory allocation of";
 
-/// Runs the command in a limited process if there is a limit; `None` if there is none, or if this is
-/// that process.
+/// Runs the command in a second process if its memory is limited. Returns `None` without a limit,
+/// and in the second process.
 pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     if let Some(bytes) = std::env::var(LIMITED).ok().and_then(|text| text.parse().ok()) {
         // The one that waits may be killed.
@@ -53,8 +53,8 @@ pub(super) fn supervise(words: &[OsString]) -> Option<u8> {
     Some(1)
 }
 
-/// The bytes that the command may take, or 0 where the system has a limit of its own, and the
-/// sentence for one who exceeds it; `None` without a limit.
+/// The bytes that the command may take, 0 if the system enforces a limit already, and the message
+/// for a command that exceeds it. `None` without a limit.
 fn memory_limit(words: &[OsString]) -> Option<(u64, String)> {
     let limits = [Resource::As, Resource::Data].map(|resource| getrlimit(resource).current);
     let of_system = limits.into_iter().flatten().min();

@@ -138,8 +138,8 @@ fn starter_scene(path: &str, output: &str, scene: &Scene, crease: Option<f64>) -
     text
 }
 
-/// Writes the light that the model has without a scene file: that of its own, or a key light; and
-/// the studio around it.
+/// Writes the light of the bare model, which is its lights or else a key light, and the studio
+/// around it.
 fn write_light(text: &mut String, scene: &Scene) {
     let placed = &scene.models[0];
     let has_lights = placed.model.scene_lights().next().is_some();

@@ -181,14 +181,26 @@ impl Bvh {
         area: &Aabb,
         most: usize,
         open: &mut Vec<u32>,
-        mut visit: impl FnMut(u32),
+        visit: impl FnMut(u32),
     ) -> bool {
         let area = Bounds::around(area, self.origin);
+        self.for_each_item(|bounds| bounds.intersects(&area), most, open, visit)
+    }
+
+    /// Calls `visit` with every item of the leaves whose boxes, and all boxes above them, `may_hold`
+    /// it; stops and returns `false` after `most` items.
+    fn for_each_item(
+        &self,
+        may_hold: impl Fn(&Bounds) -> bool,
+        most: usize,
+        open: &mut Vec<u32>,
+        mut visit: impl FnMut(u32),
+    ) -> bool {
         open.clear();
         open.extend(self.root_node());
         let mut remaining = most;
         while let Some(node) = open.pop() {
-            if !self.nodes[node as usize].bounds.intersects(&area) {
+            if !may_hold(&self.nodes[node as usize].bounds) {
                 continue;
             }
             match self.contents(node) {
@@ -211,26 +223,10 @@ impl Bvh {
         radius: f64,
         most: usize,
         open: &mut Vec<u32>,
-        mut visit: impl FnMut(u32),
+        visit: impl FnMut(u32),
     ) -> bool {
         let segment = [from - self.origin, to - self.origin];
-        open.clear();
-        open.extend(self.root_node());
-        let mut remaining = most;
-        while let Some(node) = open.pop() {
-            if !self.nodes[node as usize].bounds.is_near_segment(segment, radius) {
-                continue;
-            }
-            match self.contents(node) {
-                NodeContents::Nodes(children) => open.extend(children),
-                NodeContents::Items(range) if range.len() <= remaining => {
-                    remaining -= range.len();
-                    self.order[range].iter().for_each(|&item| visit(item));
-                }
-                NodeContents::Items(_) => return false,
-            }
-        }
-        true
+        self.for_each_item(|bounds| bounds.is_near_segment(segment, radius), most, open, visit)
     }
 
     /// The leaves, by their nodes.

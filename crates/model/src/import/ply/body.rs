@@ -16,8 +16,7 @@ pub(super) struct Body<'a> {
     encoding: Encoding,
     /// Goes on from one fault to the next.
     lines: RefCell<LineCounter<'a>>,
-    /// Whether each record of a text begins a line: what is left of the line is then not part of the
-    /// next.
+    /// Whether each record of a text begins a line; the rest of a line is then ignored.
     has_lines: bool,
     /// The place of the first record with more numbers than the header declares, and how many there
     /// are.
