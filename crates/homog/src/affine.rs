@@ -121,6 +121,7 @@ impl<A: Space, B: Space> Affine<A, B> {
 
     /// The image of a point.
     #[must_use]
+    #[inline(always)]
     pub fn transform_point(self, point: Point<A>) -> Point<B> {
         Point::from_raw(self.raw.transform_point3(point.raw()))
     }

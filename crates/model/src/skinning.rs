@@ -18,7 +18,7 @@
 //! bits.
 
 use super::{MeshInstance, Model, MorphTarget, Primitive, Skin};
-use glam::{DMat3, DMat4, DVec3};
+use glam::{DMat3, DMat4, DVec3, Vec3};
 use homog::{Affine, Model as ModelSpace};
 use std::borrow::Cow;
 
@@ -273,7 +273,7 @@ fn skin_vertices<'a>(
 
 /// A vector in double precision, in which all sums are formed.
 fn to_f64(v: [f32; 3]) -> DVec3 {
-    DVec3::from(v.map(f64::from))
+    Vec3::from_array(v).as_dvec3()
 }
 
 /// Rounds to single precision; numbers out of range become the largest finite one.

@@ -21,8 +21,7 @@ impl Shading<'_> {
     ///
     /// The draw is a quad at the far plane: its positions are only used for the direction of view,
     /// its texture coordinates are those of the picture in pixels.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+    #[inline(always)]
     pub(super) fn shade_environment_background<const N: usize>(
         &self,
         draw: &Draw<'_>,

@@ -17,8 +17,8 @@
 //! Shading is written once for any `N`: with one lane for the scalar path and with eight for the
 //! packets of the rasterizer. Each operator is a loop over the lanes of constant length and inlines
 //! into a kernel that is compiled for the processor's vector instructions, where it becomes one
-//! instruction. Browsers compile large functions slowly, and so does LLVM: for WebAssembly and in debug
-//! builds, which take a quarter of the time then, large parts of a kernel are separate functions.
+//! instruction. LLVM and browsers compile large functions slowly, so a kernel is cut in parts
+//! ([`kernel_part`](crate::kernel_part)), for WebAssembly and in debug builds in more of them.
 //!
 //! `[f32; N]` inside is what the rasterizer hands over as `F32x8`; conversions cost nothing. Loops
 //! are over iterators of arrays and not over indices, which keeps them free of bounds checks.

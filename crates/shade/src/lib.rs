@@ -12,6 +12,7 @@ mod environment;
 mod environment_background;
 mod fragment_lanes;
 mod ground_occlusion;
+mod kernel_part;
 mod lanes;
 mod light;
 mod light_shadow;

@@ -25,6 +25,7 @@ use super::{
     Backdrop, Draw, DrawKind, DrawList, Environment, GroundOcclusion, Light, LightShadow,
     ToneMapper,
 };
+use crate::kernel_part::kernel_part;
 use homog::{HPoint, World};
 use model::{AlphaMode, Topology};
 use raster::{
@@ -242,11 +243,16 @@ impl Shading<'_> {
     ) -> ShadedLanes<N> {
         ShadedLanes::over(match draw.kind {
             DrawKind::Surface => return self.shade_surface(draw, primitives, fragments),
-            DrawKind::Environment(blur) => {
+            DrawKind::Environment(blur) => kernel_part!(
+                N,
                 self.shade_environment_background(draw, primitives, fragments, blur)
+            ),
+            DrawKind::Backdrop => {
+                kernel_part!(N, self.shade_backdrop(draw, primitives, fragments))
             }
-            DrawKind::Backdrop => self.shade_backdrop(draw, primitives, fragments),
-            DrawKind::ShadowCatcher => self.shade_shadow_catcher(draw, primitives, fragments),
+            DrawKind::ShadowCatcher => {
+                kernel_part!(N, self.shade_shadow_catcher(draw, primitives, fragments))
+            }
         })
     }
 
@@ -264,7 +270,7 @@ impl Shading<'_> {
     ) -> ShadedLanes<N> {
         // Material: factors times textures.
         let vertices = draw.vertex_indices(primitives);
-        let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
+        let mut inputs = kernel_part!(N, MaterialInputs::evaluate(draw, &vertices, fragments));
         // Rendering equation: emitted, reflected and transmitted radiance.
         let SurfaceLight { radiance, transmission, behind } = if draw.is_lit() {
             self.light_surface(draw, primitives, fragments, &mut inputs)
@@ -275,7 +281,7 @@ impl Shading<'_> {
         // Display: exposure and tone curve, then premultiplied alpha. Unlit colors are those of the
         // picture already (KHR_materials_unlit): they are only exposed.
         let mut color = if draw.is_lit() {
-            self.tone_mapper.map_colors(radiance)
+            kernel_part!(N, self.tone_mapper.map_colors(radiance))
         } else {
             radiance * self.tone_mapper.exposure
         };
@@ -309,8 +315,7 @@ impl Shading<'_> {
     }
 
     /// The backdrop at fragments whose positions are fractions of the picture; not tone mapped.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+    #[inline(always)]
     fn shade_backdrop<const N: usize>(
         &self,
         draw: &Draw<'_>,
@@ -343,9 +348,10 @@ impl Shading<'_> {
         fragments: &impl FragmentLanes<N>,
         inputs: &mut MaterialInputs<N>,
     ) -> SurfaceLight<N> {
-        let geometry = self.surface_geometry(draw, primitives, fragments);
+        let geometry = kernel_part!(N, self.surface_geometry(draw, primitives, fragments));
         if let Some(occlusion) = self.occlusion {
-            let visibility = occlusion.visibility(geometry.positions, geometry.normals);
+            let visibility =
+                kernel_part!(N, occlusion.visibility(geometry.positions, geometry.normals));
             inputs.screen_visibility = Some(visibility);
         }
         // Tangent frame for normal maps and anisotropy.
@@ -357,22 +363,21 @@ impl Shading<'_> {
             receiver = Some(ShadowReceiver::from_geometry(draw, &vertices, fragments, &geometry));
         }
         // Direct light, then image-based lighting.
-        let mut brdf = LayeredBrdf::new(draw, inputs, geometry, &tangents);
-        brdf.add_lights(self.lights, self.shadows, receiver.as_ref());
+        let mut brdf = kernel_part!(N, LayeredBrdf::new(draw, inputs, geometry, &tangents));
+        kernel_part!(N, brdf.add_lights(self.lights, self.shadows, receiver.as_ref()));
         if let Some(environment) = self.environment {
-            brdf.add_environment(environment);
+            kernel_part!(N, brdf.add_environment(environment));
         }
         let mut behind = None;
         if let Some(framebuffer) = self.framebuffer_behind(draw) {
-            behind = brdf.add_light_behind(draw, framebuffer);
+            behind = kernel_part!(N, brdf.add_light_behind(draw, framebuffer));
         }
         // The BRDF is large: it is not returned, which would copy it.
         SurfaceLight { radiance: brdf.finish(), transmission: brdf.transmission, behind }
     }
 
     /// Positions, views and smooth normals at fragments; normal maps are not applied yet.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+    #[inline(always)]
     pub(super) fn surface_geometry<const N: usize>(
         &self,
         draw: &Draw<'_>,

@@ -64,8 +64,7 @@ impl ToneMapper {
     ///
     /// Exposure is applied first. Light below 0, which filtering may leave, counts as 0 under a
     /// curve.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+    #[inline(always)]
     pub(super) fn map_colors<const N: usize>(&self, light: Rgb<N>) -> Rgb<N> {
         let mut light = light;
         if self.exposure != 1.0 {

@@ -1,7 +1,7 @@
 //! Normal repair: every normal of an imported primitive has unit length.
 
 use crate::{Primitive, Topology};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Numbers of normals that had to be corrected.
 #[derive(Default, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     let Some(mut normals) = primitive.normals.take() else { return repairs };
     let mut undirected = Vec::new();
     for (vertex, normal) in normals.iter_mut().enumerate() {
-        let [x, y, z] = normal.map(f64::from);
+        let [x, y, z] = Vec3::from_array(*normal).as_dvec3().to_array();
         let square = x * x + y * y + z * z;
         if (square - 1.0).abs() < 1e-6 {
             continue;

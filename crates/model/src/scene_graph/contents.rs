@@ -2,7 +2,7 @@
 //! morphing.
 
 use crate::{MeshInstance, Model, Primitive, SceneRoots, SkinnedPrimitive};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use homog::{Bounds, Model as ModelSpace, Point};
 
 impl Model {
@@ -49,7 +49,8 @@ impl Model {
                 self.skin_primitive(instance, primitive);
             let used = used_vertices(primitive);
             for (&position, _) in positions.iter().zip(used).filter(|(_, used)| *used) {
-                visit(to_model.transform_point(position.map(f64::from).into()));
+                let position = Vec3::from_array(position).as_dvec3();
+                visit(to_model.transform_point(position.to_array().into()));
             }
         }
     }

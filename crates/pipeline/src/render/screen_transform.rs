@@ -13,7 +13,7 @@ use super::image_tiles::ImageTile;
 use crate::scene::Scene;
 use camera::{ViewProjection, ViewTransform};
 use clip::{Outcode, OutcodeSummary, Volume, clip_segment};
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4, Vec3};
 use homog::{Affine, Clip, HPoint, Model, Ndc, Point, Projective, Screen, World};
 use raster::{GUARD_BAND, ScreenVertex};
 use viewport::Viewport;
@@ -176,7 +176,7 @@ pub(super) fn all_vertices<const N: usize>(
 /// A vertex position in f64. All geometry before the rasterizer is f64: the models are f32, and
 /// products of matrices and positions shall not lose a bit of them.
 pub(super) fn model_point(position: [f32; 3]) -> Point<Model> {
-    Point::from_raw(DVec3::from_array(position.map(f64::from)))
+    Point::from_raw(Vec3::from_array(position).as_dvec3())
 }
 
 /// The center of a view volume in the world; the eye if the volume is infinite.

@@ -5,7 +5,7 @@
 //! clusters only. Attributes are f32: they are interpolated, not compared.
 
 use super::screen_transform::model_point;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
 use homog::{Affine, Model, World};
 use model::{self, Material, MeshInstance, Primitive, SkinnedPrimitive, Topology};
 use raster::MeshSelection;
@@ -171,7 +171,7 @@ pub(super) fn normal_matrix(map: Affine<Model, World>) -> DMat3 {
 /// A unit normal in the world; zero if it has no direction there.
 #[inline(always)]
 pub(super) fn transform_normal(map: DMat3, normal: [f32; 3]) -> [f32; 3] {
-    let in_world = map * DVec3::from_array(normal.map(f64::from));
+    let in_world = map * Vec3::from_array(normal).as_dvec3();
     let length = in_world.length();
     let unit = if length > 0.0 && length.is_finite() { in_world / length } else { DVec3::ZERO };
     unit.as_vec3().to_array()
@@ -188,14 +188,14 @@ mod tests {
         for size in [[1.0, 2.0, 3.0], [-1e-40, 1e-40, 2e-40], [1e30, -2e30, 5e30]] {
             let map = rotation.then(Affine::<Model, World>::scale(size[0], size[1], size[2]));
             for normal in [[0.0, 0.6, 0.8], [-0.48, 0.6, -0.64]] {
-                let raw = DVec3::from_array(normal.map(f64::from));
+                let raw = Vec3::from_array(normal).as_dvec3();
                 let expected = map
                     .transform_normal(Normal::from_raw(raw))
                     .normalized()
                     .unwrap()
                     .raw()
                     .as_vec3();
-                let actual = glam::Vec3::from_array(transform_normal(normal_matrix(map), normal));
+                let actual = Vec3::from_array(transform_normal(normal_matrix(map), normal));
                 assert!((expected - actual).abs().max_element() < 1e-6, "{expected} {actual}");
             }
         }

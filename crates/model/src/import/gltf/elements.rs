@@ -138,6 +138,7 @@ impl ResolvedAccessor<'_> {
 }
 
 /// Converts the components of one element.
+#[inline(always)]
 fn convert_element<const N: usize, C: Component, T>(
     to: &mut [T; N],
     from: &[u8],

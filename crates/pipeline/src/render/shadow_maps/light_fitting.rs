@@ -12,7 +12,7 @@
 
 use crate::scene::Scene;
 use camera::{Basis, Camera, ViewProjection};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use homog::{Point, Vector, View, World};
 use model::ModelInstance;
 use projection::{Convention, Frustum, Orthographic, Window};
@@ -122,7 +122,7 @@ fn for_each_vertex(models: &[ModelInstance], camera: Camera, mut each: impl FnMu
             let skinned = model.skin_primitive(instance, primitive);
             let to_view = skinned.to_model.then(*model_to_world).then(world_to_view).raw();
             for position in skinned.positions.iter() {
-                each(to_view.transform_point3(DVec3::from_array(position.map(f64::from))));
+                each(to_view.transform_point3(Vec3::from_array(*position).as_dvec3()));
             }
         }
     }
