@@ -33,7 +33,8 @@ const NAME: &str = "cluster";
 const INSIDE: &str = "--inside";
 
 pub fn run() -> ExitCode {
-    let mut words = std::env::args().skip(1);
+    // The name of the suite goes before.
+    let mut words = std::env::args().skip(2);
     if words.next().as_deref() == Some(INSIDE) {
         let folder = words.next().map(PathBuf::from);
         return run_program(NAME, |_| test_cluster(&folder.ok_or("there is no folder")?));
@@ -59,7 +60,7 @@ fn run_sandbox(arguments: &Arguments) -> Result<ExitCode, String> {
     let folder = TemporaryFolder::create(NAME)?;
     let test = std::env::current_exe().map_err(|error| error.to_string())?;
     let mut inside = sandbox::isolated_command(&test);
-    inside.arg(INSIDE).arg(folder.path()).env("ALBERTI", program);
+    inside.arg(NAME).arg(INSIDE).arg(folder.path()).env("ALBERTI", program);
     let status = inside.status().map_err(|error| format!("unshare: {error}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -90,7 +90,8 @@ impl Environment {
     }
 
     /// The radiance of white Lambert surfaces with these unit normals: irradiance over π.
-    #[inline(always)]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn irradiance_over_pi<const N: usize>(&self, normals: Vec3Lanes<N>) -> Rgb<N> {
         self.irradiance.irradiance_over_pi(normals)
     }
@@ -112,7 +113,8 @@ impl Environment {
     /// trilinear between the two nearest levels.
     ///
     /// The level 0 is a mirror's, level 5 that of roughness 1; between two the lookup is linear.
-    #[inline(always)]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn prefiltered_radiance<const N: usize>(
         &self,
         directions: Vec3Lanes<N>,

@@ -377,7 +377,8 @@ impl Shading<'_> {
     }
 
     /// Positions, views and smooth normals at fragments; normal maps are not applied yet.
-    #[inline(always)]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn surface_geometry<const N: usize>(
         &self,
         draw: &Draw<'_>,

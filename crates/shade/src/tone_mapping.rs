@@ -64,7 +64,8 @@ impl ToneMapper {
     ///
     /// Exposure is applied first. Light below 0, which filtering may leave, counts as 0 under a
     /// curve.
-    #[inline(always)]
+    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
+    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
     pub(super) fn map_colors<const N: usize>(&self, light: Rgb<N>) -> Rgb<N> {
         let mut light = light;
         if self.exposure != 1.0 {
