@@ -62,4 +62,15 @@ fn the_examples_do_what_the_program_does() {
             ["frames/", ""].map(|folder| sandbox.read_picture(&format!("{folder}{frame:02}.png")));
         assert!(one == other, "frame {frame}");
     }
+    run_example(&sandbox, "thousand_scenes", &["crate.glb", "scenes"]);
+    for number in ["0000", "0999"] {
+        let (scene, picture) = (format!("scenes/{number}.ron"), format!("scenes/{number}.png"));
+        let run = sandbox.run(&["render", &scene, "--allow-outside", ".", "-o", "again.png"]);
+        // The path of the model begins at its folder, not at that of the text.
+        assert_eq!(run.code, 1, "{}", run.stderr);
+        std::fs::copy(sandbox.path_of(&scene), sandbox.path_of("scene.ron")).expect(number);
+        let run = sandbox.run(&["render", "scene.ron", "-o", "again.png"]);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+        assert!(sandbox.read_picture("again.png") == sandbox.read_picture(&picture), "{number}");
+    }
 }

@@ -57,6 +57,7 @@ mod reference;
 mod regions;
 mod sandbox;
 mod scene;
+mod scene_data;
 mod sections;
 mod sequences;
 mod sheet_options;

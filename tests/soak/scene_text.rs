@@ -6,7 +6,7 @@
 //! A field that the language gets tomorrow is in these scenes tomorrow. Most values are sensible,
 //! so that most scenes are drawn; what does not fit together has to be refused with a message.
 
-use crate::bits::Bits;
+use super::bits::Bits;
 use pipeline::scene::reference::{
     FieldEntry, Shape, TypeEntry, ValueType, VariantEntry, all_types,
 };
@@ -39,6 +39,14 @@ pub fn random_scene_text(number: u64, files: &SceneFiles) -> String {
     format!("Scene(\n{written})\n")
 }
 
+/// The fields of a struct.
+fn fields_of(value_type: &ValueType) -> Option<&'static [FieldEntry]> {
+    match value_type {
+        ValueType::Declared(TypeEntry { shape: Shape::Fields(fields), .. }) => Some(fields),
+        _ => None,
+    }
+}
+
 /// Writes values from a source of bits.
 struct SceneWriter<'a> {
     bits: Bits,
@@ -58,7 +66,7 @@ impl SceneWriter<'_> {
 
     fn value_of_type(&mut self, owner: &str, field: &str, value_type: &ValueType) -> String {
         match value_type {
-            ValueType::Plain(words) => self.plain_value(owner, field, words),
+            ValueType::Plain(words, _) => self.plain_value(owner, field, words),
             ValueType::Declared(entry) => self.declared_value(field, entry),
             ValueType::List(element) => {
                 let values = (0..=self.below(2)).map(|_| self.value_of_type(owner, field, element));
@@ -73,7 +81,7 @@ impl SceneWriter<'_> {
 
     fn declared_value(&mut self, field: &str, entry: &TypeEntry) -> String {
         match entry.shape {
-            Shape::Plain => self.number_or_color(field, entry.name),
+            Shape::Plain(_) => self.number_or_color(field, entry.name),
             Shape::Fields(fields) => self.fields(entry.name, fields),
             Shape::Variants(variants) => {
                 let variant = &variants[self.below(variants.len())];
@@ -96,6 +104,11 @@ impl SceneWriter<'_> {
 
     fn variant(&mut self, variant: &VariantEntry) -> String {
         match variant.value_type {
+            // The brackets of the variant are those of the struct.
+            Some(value_type) if fields_of(&value_type()).is_some() => {
+                let fields = fields_of(&value_type()).unwrap_or_default();
+                self.fields(variant.name, fields)
+            }
             Some(value_type) => {
                 let value = self.value_of_type(variant.name, variant.name, &value_type());
                 format!("{}({value})", variant.name)
@@ -143,10 +156,11 @@ impl SceneWriter<'_> {
             "NonNegative" => [0.0, 5.0],
             "FieldOfView" => [5.0, 120.0],
             "Percent" => [0.0, 40.0],
-            "Fraction" => [0.0, 1.0],
+            "Fraction" | "HandDrawn" => [0.0, 1.0],
             "Softness" => [0.0, 10.0],
             "CreaseAngle" => [0.0, 180.0],
             "HatchSpacing" => [0.5, 20.0],
+            "PointSize" => [1.0, 20.0],
             "LabelSize" => [4.0, 30.0],
             "Scale" => [0.3, 2.0],
             "Triple" => {

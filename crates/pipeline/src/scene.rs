@@ -49,6 +49,7 @@ mod parse;
 pub mod reference;
 mod resolve;
 mod resolve_options;
+mod ron_text;
 mod schema;
 mod section;
 mod shadows;
@@ -82,6 +83,7 @@ pub use outputs::Outputs;
 pub use parse::parse_scene;
 pub use resolve::select_animation;
 pub use resolve_options::ResolveOptions;
+pub use ron_text::scene_ron_options;
 #[cfg(feature = "sheets")]
 pub use sheet::{SheetContent, resolve_sheet};
 #[cfg(feature = "sheets")]

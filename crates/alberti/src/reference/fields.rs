@@ -14,7 +14,7 @@ pub(super) fn type_sections() -> Vec<ReferenceSection> {
 /// The section of one type.
 fn type_section(entry: &TypeEntry) -> ReferenceSection {
     let entries = match entry.shape {
-        Shape::Plain => Vec::new(),
+        Shape::Plain(_) => Vec::new(),
         Shape::Fields(fields) => fields.iter().map(field_entry).collect(),
         Shape::Variants(variants) => variants.iter().map(variant_entry).collect(),
     };

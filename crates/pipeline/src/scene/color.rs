@@ -3,12 +3,19 @@
 
 mod names;
 
-use super::number::{read_three_numbers, unnamed_group};
-use super::schema::{Checker, Declared, SceneValue, Shape, TypeEntry, ValueType};
+use super::number::{check_three_numbers, unnamed_group};
+use super::schema::{
+    AnyForm, Checker, Declared, Notation, SceneValue, Shape, TypeEntry, ValueType,
+    serde_by_scene_value, three_numbers, write_three_numbers,
+};
 use super::suggest::closest_name;
 use super::syntax::{Node, NodeKind};
 use names::CSS_COLORS;
+use serde::de::{Deserialize, Deserializer, Error as _};
+use serde::ser::Serializer;
 use shade::color::{parse_hex_srgb, srgb_to_linear_table};
+
+serde_by_scene_value! { Color, LightColor }
 
 /// A color in sRGB, eight bits a channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -50,7 +57,7 @@ impl Declared for Color {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Color",
         doc: "A color in sRGB in quotation marks: \"#rgb\", \"#rrggbb\", or the name of a color of CSS such as \"white\".",
-        shape: Shape::Plain,
+        shape: Shape::Plain(Notation(check_color)),
     };
 }
 
@@ -59,34 +66,48 @@ impl SceneValue for Color {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
-        match &node.kind {
-            NodeKind::String(_) => read_color_string(node, checker),
-            NodeKind::Word(word) if Self::parse(word).is_some() => {
-                let help = format!("colors are written in quotation marks: \"{word}\"");
-                checker.report_type(node, "a color", Some(help));
-                None
-            }
-            NodeKind::Group(_) => {
-                let help = color_of_numbers(node).map_or_else(hex_help, |[r, g, b]| {
-                    format!("write \"#{r:02x}{g:02x}{b:02x}\", if the numbers are sRGB from 0 to 1")
-                });
-                checker.report_type(node, "a color", Some(help));
-                None
-            }
-            _ => {
-                checker.report_type(node, "a color", Some(hex_help()));
-                None
-            }
+    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        Self::parse(&text).ok_or_else(|| D::Error::custom(format_args!("`{text}` is not a color")))
+    }
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [r, g, b] = self.0;
+        serializer.collect_str(&format_args!("#{r:02x}{g:02x}{b:02x}"))
+    }
+}
+
+/// Reports what is wrong with a color.
+fn check_color(node: &Node<'_>, checker: &mut Checker<'_>) {
+    let help = match &node.kind {
+        NodeKind::String(_) => return check_color_string(node, checker),
+        NodeKind::Word(word) if Color::parse(word).is_some() => {
+            format!("colors are written in quotation marks: \"{word}\"")
+        }
+        NodeKind::Group(_) => color_of_numbers(node).map_or_else(hex_help, |[r, g, b]| {
+            format!("write \"#{r:02x}{g:02x}{b:02x}\", if the numbers are sRGB from 0 to 1")
+        }),
+        _ => hex_help(),
+    };
+    checker.report_type(node, "a color", Some(help));
+}
+
+/// Reports what is wrong with the color of light.
+fn check_light_color(node: &Node<'_>, checker: &mut Checker<'_>) {
+    match (&node.kind, unnamed_group(node)) {
+        (NodeKind::String(_), _) => check_color_string(node, checker),
+        (_, Some(group)) => check_three_numbers(node, group, checker),
+        _ => {
+            let help = "linear red, green and blue such as (1, 0.9, 0.8), or \"#ffe0c0\"";
+            checker.report_type(node, "a color", Some(help.to_owned()));
         }
     }
 }
 
-/// Reads a string that is a color; a misspelt name gets the closest one as a hint.
-fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color> {
-    let text = String::from_node(node, checker)?;
-    let color = Color::parse(&text);
-    if color.is_none() {
+/// Reports a string that is not a color; a misspelt name gets the closest one as a hint.
+fn check_color_string(node: &Node<'_>, checker: &mut Checker<'_>) {
+    let Some(text) = checker.read_string(node) else { return };
+    if Color::parse(&text).is_none() {
         let names: Vec<&str> = CSS_COLORS.iter().map(|(name, _)| *name).collect();
         let help = match closest_name(&text, &names).filter(|_| !text.starts_with('#')) {
             Some(name) => format!("did you mean `{name}`? {}", hex_help()),
@@ -95,7 +116,6 @@ fn read_color_string(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Color
         let message = format!("`{text}` is not a color");
         checker.report(node.span.clone(), message, Some(help));
     }
-    color
 }
 
 /// The help on the notation of colors.
@@ -130,7 +150,7 @@ impl Declared for LightColor {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "LightColor",
         doc: "The color of light: linear red, green and blue such as (1, 0.9, 0.8), or a color in sRGB such as \"#ffe0c0\" or \"white\".",
-        shape: Shape::Plain,
+        shape: Shape::Plain(Notation(check_light_color)),
     };
 }
 
@@ -139,18 +159,18 @@ impl SceneValue for LightColor {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
-        match (&node.kind, unnamed_group(node)) {
-            (NodeKind::String(_), _) => {
-                let color = read_color_string(node, checker)?;
-                Some(Self(color.to_linear().map(f64::from)))
-            }
-            (_, Some(group)) => read_three_numbers(node, group, checker).map(Self),
-            _ => {
-                let help = "linear red, green and blue such as (1, 0.9, 0.8), or \"#ffe0c0\"";
-                checker.report_type(node, "a color", Some(help.to_owned()));
-                None
-            }
+    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match AnyForm::deserialize(deserializer)? {
+            AnyForm::List(numbers) => three_numbers(&numbers).map(Self),
+            AnyForm::Text(text) => match Color::parse(&text) {
+                Some(color) => Ok(Self(color.to_linear().map(f64::from))),
+                None => Err(D::Error::custom(format_args!("`{text}` is not a color"))),
+            },
+            _ => Err(D::Error::custom("expected a color")),
         }
+    }
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        write_three_numbers(self.0, serializer)
     }
 }

@@ -8,6 +8,7 @@ mod assembly;
 mod background;
 mod camera;
 mod camera_path;
+mod constructors;
 mod dimension;
 mod environment;
 mod ground;
@@ -33,6 +34,7 @@ pub use self::camera::{
     CameraChoice, CameraFile, DEFAULT_PADDING, FromFile, RotationFile, ViewFile,
 };
 pub use self::camera_path::{CameraKeyFile, CameraPathFile, CurveFile};
+pub(super) use self::dimension::is_dimensions_list;
 pub use self::dimension::{DimensionFile, DimensionView, DimensionsFile, PickFile, PlaceFile};
 pub use self::environment::EnvironmentFile;
 pub use self::ground::GroundFile;
@@ -52,9 +54,9 @@ pub use self::sheet::{AxonometricView, PageOrientation, PaperSize, SheetFile, Si
 pub use self::sheet_view::{AxisFile, SheetViewFile, ViewSideFile};
 pub use self::viewport::{BorderFile, StereoFile, ViewportFile, ViewportsScale};
 pub use super::color::{Color, LightColor};
-use super::number::Scale;
 pub use super::number::{
-    CreaseAngle, FieldOfView, Finite, NonNegative, PointSize, Positive, Triple,
+    CreaseAngle, FieldOfView, Finite, Fraction, HandDrawn, HatchSpacing, InvalidNumber, LabelSize,
+    NonNegative, Percent, PointSize, Positive, Scale, Softness, Triple,
 };
 use super::schema::{scene_enum, scene_struct};
 use crate::import;
@@ -180,21 +182,6 @@ impl SceneFile {
     /// A scene of one model with every default.
     #[must_use]
     pub fn from_model_path(path: String) -> Self {
-        let model = ModelFile {
-            path,
-            translation: Triple::ZERO,
-            rotation_degrees: Triple::ZERO,
-            scale: Scale::ONE,
-            up: None,
-            unit: None,
-            crease_degrees: None,
-            scene: None,
-            variant: None,
-            animation: None,
-            time: None,
-            instances: None,
-            materials: Vec::new(),
-        };
-        Self { models: vec![model], ..Self::default() }
+        Self::new([ModelFile::new(path)])
     }
 }

@@ -1,19 +1,17 @@
-//! The formatter of scene files: one layout for all, with the words of today.
+//! The formatter of scene files: one layout for all.
 //!
 //! ```text
-//!  text ─► older words replaced ─► tokens with their line breaks ─► groups of items ─► lines
+//!  text ─► tokens with their line breaks ─► groups of items ─► lines
 //! ```
 //! A group that fits on a line is written on one line; everything else has a line for each part;
 //! comments stay. A bracket that is followed by a line break stays open: the author decides what is
 //! worth several lines, and formatting again changes nothing. Blank lines between items stay too,
 //! one at a time.
 
-mod modernize;
 mod tree;
 
 use super::syntax::tokenize;
 use super::{SceneError, SceneErrors, parse_scene};
-use modernize::replace_legacy_words;
 use tree::{Element, FormatGroup, FormatItem, Part};
 
 /// The longest line that is not broken.
@@ -21,13 +19,12 @@ const MAX_LINE_WIDTH: usize = 100;
 /// Columns of an indentation level.
 const INDENT_WIDTH: usize = 4;
 
-/// Formats the text of a scene file, and replaces words of older scene files. `file` is its name in
-/// messages.
+/// Formats the text of a scene file. `file` is its name in messages.
 ///
 /// ```
-/// let old = "(models: [(path: \"a.glb\", translate: (1, 2, 3))])";
-/// let new = pipeline::scene::format_source("scene.ron", old)?;
-/// assert_eq!(new, "(models: [(path: \"a.glb\", translation: (1, 2, 3))])\n");
+/// let text = "(models:[( path:\"a.glb\",translation:(1,2,3) )])";
+/// let formatted = pipeline::scene::format_source("scene.ron", text)?;
+/// assert_eq!(formatted, "(models: [(path: \"a.glb\", translation: (1, 2, 3))])\n");
 /// # Ok::<(), pipeline::SceneErrors>(())
 /// ```
 ///
@@ -38,9 +35,8 @@ const INDENT_WIDTH: usize = 4;
 /// The result is parsed again and compared with the scene of the input: a defect of the formatter
 /// cannot damage a file. Formatting is idempotent, and comments are never lost.
 pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
-    let text = replace_legacy_words(text);
-    let scene = parse_scene(file, &text)?;
-    let top = tree::group_tokens(&tokenize(&text));
+    let scene = parse_scene(file, text)?;
+    let top = tree::group_tokens(&tokenize(text));
     let mut page = String::new();
     write_items(&mut page, &top, 0, "");
     if parse_scene(file, &page).is_ok_and(|again| again == scene) {
@@ -48,7 +44,8 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     }
     // No text is known that comes here; a person's file is not the place to find one.
     let message = "this file cannot be formatted without changing what it means".to_owned();
-    let error = SceneError { file: file.into(), source: text, span: 0..0, message, help: None };
+    let error =
+        SceneError { file: file.into(), source: text.to_owned(), span: 0..0, message, help: None };
     Err(error.into())
 }
 

@@ -12,7 +12,7 @@
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::mistake::Mistake;
 use super::origin::{normalize_path, read_scene_text};
-use super::parse::{ParsedScene, parse_recovering, strip_byte_order_mark};
+use super::parse::{ParsedScene, read_recovering, strip_byte_order_mark};
 use super::syntax::PathStep::{self, Field, Index};
 use super::syntax::{parse_tree, span_of};
 use super::{Origin, SceneError, SceneFile};
@@ -180,7 +180,7 @@ impl IncludeResolver<'_> {
         open: &mut Vec<(PathBuf, String)>,
     ) -> MergedScene {
         let text = strip_byte_order_mark(source.text);
-        let ParsedScene { scene: mut file, mistakes, retained } = parse_recovering(text);
+        let ParsedScene { scene: mut file, mistakes, retained } = read_recovering(text);
         self.mistakes.extend(mistakes.into_iter().map(|mistake| FileMistake {
             error: mistake.to_error(source.name, text),
             scope: mistake.scope,

@@ -2,8 +2,25 @@
 //!
 //! RON itself accepts `NaN`, `inf` and `1e400`; none of these types does.
 
-use super::schema::{Checker, Declared, SceneValue, Shape, TypeEntry, ValueType, checked_number};
-use super::syntax::{Group, Node, NodeKind};
+use super::schema::{
+    AnyForm, Checker, Declared, Notation, SceneValue, Shape, TypeEntry, ValueType, checked_number,
+    serde_by_scene_value, three_numbers, write_number, write_three_numbers,
+};
+use super::syntax::{Group, Key, Node, NodeKind, parse_integer, parse_number};
+use serde::de::{Deserialize, Deserializer, Error as _};
+use serde::ser::Serializer;
+
+serde_by_scene_value! { Triple, Scale }
+
+/// A number that a field of scene files does not admit.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[error("expected {expected}, found {found}")]
+pub struct InvalidNumber {
+    /// The numbers that are possible.
+    pub expected: &'static str,
+    /// The number.
+    pub found: f64,
+}
 
 checked_number! {
     /// Any number that is neither infinite nor NaN.
@@ -165,11 +182,28 @@ impl Triple {
     pub(super) const ONES: Self = Self([1.0; 3]);
 }
 
+impl From<[f64; 3]> for Triple {
+    fn from(numbers: [f64; 3]) -> Self {
+        Self(numbers)
+    }
+}
+
+impl TryFrom<f64> for Scale {
+    type Error = InvalidNumber;
+
+    /// One factor for all axes.
+    fn try_from(factor: f64) -> Result<Self, InvalidNumber> {
+        let is_valid = factor.is_finite() && factor != 0.0;
+        let expected = "a finite factor other than 0";
+        is_valid.then_some(Self([factor; 3])).ok_or(InvalidNumber { expected, found: factor })
+    }
+}
+
 impl Declared for Triple {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Triple",
         doc: "Three finite numbers: a point, a vector, or angles about three axes. Written `(1, 2, 3)` or `[1, 2, 3]`.",
-        shape: Shape::Plain,
+        shape: Shape::Plain(Notation(check_triple)),
     };
 }
 
@@ -178,15 +212,15 @@ impl SceneValue for Triple {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
-        match unnamed_group(node) {
-            Some(group) => read_three_numbers(node, group, checker).map(Self),
-            None => {
-                let help = axis_vector(node).map(|axis| format!("write {axis}"));
-                checker.report_type(node, "three numbers, such as (1, 2, 3)", help);
-                None
-            }
+    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match AnyForm::deserialize(deserializer)? {
+            AnyForm::List(numbers) => three_numbers(&numbers).map(Self),
+            _ => Err(D::Error::custom("expected three numbers, such as (1, 2, 3)")),
         }
+    }
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        write_three_numbers(self.0, serializer)
     }
 }
 
@@ -227,7 +261,7 @@ impl Declared for Scale {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Scale",
         doc: "A factor for each axis; none of them is 0. Written as one number or as three.",
-        shape: Shape::Plain,
+        shape: Shape::Plain(Notation(check_scale)),
     };
 }
 
@@ -236,44 +270,86 @@ impl SceneValue for Scale {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
-        let expected = "one factor, such as 2, or three, such as (1, 2, 1)";
-        let factors = match unnamed_group(node) {
-            Some(group) => read_three_numbers(node, group, checker)?,
-            None => [checker.read_number(node, expected)?; 3],
+    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let factors = match AnyForm::deserialize(deserializer)? {
+            AnyForm::List(numbers) => three_numbers(&numbers)?,
+            AnyForm::Number(factor) => [factor; 3],
+            _ => return Err(D::Error::custom("expected one factor, such as 2, or three")),
         };
         let is_valid = factors.iter().all(|factor| factor.is_finite() && *factor != 0.0);
-        if !is_valid {
-            checker.report_value(node, "expected finite factors other than 0", None);
+        is_valid
+            .then_some(Self(factors))
+            .ok_or_else(|| D::Error::custom("expected finite factors other than 0"))
+    }
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            [x, y, z] if x == y && y == z => write_number(x, serializer),
+            factors => write_three_numbers(factors, serializer),
         }
-        is_valid.then_some(Self(factors))
     }
 }
 
-/// The group of a vector, in brackets of either kind.
+/// Reports what is wrong with three numbers.
+fn check_triple(node: &Node<'_>, checker: &mut Checker<'_>) {
+    match unnamed_group(node) {
+        Some(group) => check_three_numbers(node, group, checker),
+        None => {
+            let help = axis_vector(node).map(|axis| format!("write {axis}"));
+            checker.report_type(node, "three numbers, such as (1, 2, 3)", help);
+        }
+    }
+}
+
+/// Reports what is wrong with the factors of a scale.
+fn check_scale(node: &Node<'_>, checker: &mut Checker<'_>) {
+    let is_zero = |node: &Node<'_>| match node.kind {
+        NodeKind::Number(word) => parse_number(word) == Some(0.0) || parse_integer(word) == Some(0),
+        _ => false,
+    };
+    let has_zero = match unnamed_group(node) {
+        Some(group) => {
+            check_three_numbers(node, group, checker);
+            group.items.iter().any(|item| is_zero(&item.value))
+        }
+        // A value that may be a number or three has whole numbers of every base.
+        None if matches!(node.kind, NodeKind::Number(word) if parse_integer(word).is_some()) => {
+            is_zero(node)
+        }
+        None => {
+            let expected = "one factor, such as 2, or three, such as (1, 2, 1)";
+            let factor = checker.read_number(node, expected);
+            factor.is_some_and(|factor| !factor.is_finite() || factor == 0.0)
+        }
+    };
+    if has_zero {
+        checker.report_value(node, "expected finite factors other than 0", None);
+    }
+}
+
+/// The group of a vector, in brackets of either kind. The name of a struct before it is passed
+/// over, as `ron` does.
 pub(super) fn unnamed_group<'n, 'a>(node: &'n Node<'a>) -> Option<&'n Group<'a>> {
-    match &node.kind {
-        NodeKind::Group(group) if group.name.is_none() && group.open != '{' => Some(group),
-        _ => None,
-    }
+    let is_struct_name = |key: &Key<'_>| {
+        let is_word = key.name.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        is_word && !["true", "false", "Some", "None", "inf", "NaN"].contains(&key.name)
+    };
+    let has_values =
+        |group: &Group<'_>| group.items.len() > 1 && group.items.iter().all(|i| i.key.is_none());
+    let is_vector = |group: &&Group<'_>| match &group.name {
+        None => group.open != '{',
+        Some(name) => group.open == '(' && is_struct_name(name) && has_values(group),
+    };
+    node.group().filter(is_vector)
 }
 
-/// Exactly three finite numbers.
-pub(super) fn read_three_numbers(
-    node: &Node<'_>,
-    group: &Group<'_>,
-    checker: &mut Checker<'_>,
-) -> Option<[f64; 3]> {
+/// Reports what is wrong with exactly three finite numbers.
+pub(super) fn check_three_numbers(node: &Node<'_>, group: &Group<'_>, checker: &mut Checker<'_>) {
     if group.items.len() != 3 {
         let problem = format!("expected three numbers, found {}", group.items.len());
         let help = checker.suggest_three_axes(group);
         checker.report_value(node, &problem, help);
-        return None;
+        return;
     }
-    let mut numbers = group.items.iter().enumerate();
-    let [x, y, z] = std::array::from_fn(|_| {
-        let (index, item) = numbers.next()?;
-        checker.read_element::<Finite>(index, item)
-    });
-    Some([x?.value(), y?.value(), z?.value()])
+    checker.check_elements(&group.items, &Finite::value_type());
 }

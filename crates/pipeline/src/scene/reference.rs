@@ -31,7 +31,7 @@ fn collect_types(entry: &'static TypeEntry, types: &mut Vec<&'static TypeEntry>)
     }
     types.push(entry);
     let value_types: Vec<fn() -> ValueType> = match entry.shape {
-        Shape::Plain => Vec::new(),
+        Shape::Plain(_) => Vec::new(),
         Shape::Fields(fields) => fields.iter().map(|field| field.value_type).collect(),
         Shape::Variants(variants) => {
             let of_variant = |variant: &VariantEntry| {
@@ -65,7 +65,7 @@ mod tests {
         for entry in all_types() {
             assert!(!entry.doc.is_empty(), "{}", entry.name);
             match entry.shape {
-                Shape::Plain => {}
+                Shape::Plain(_) => {}
                 Shape::Fields(fields) => inspect(entry.name, fields),
                 Shape::Variants(variants) => variants.iter().for_each(|variant| {
                     assert!(!variant.doc.is_empty(), "{}::{}", entry.name, variant.name);

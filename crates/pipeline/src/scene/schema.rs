@@ -4,33 +4,39 @@
 //! ```text
 //!  scene_struct! { pub struct ModelFile as "Model" { pub path: String, pub scale: Scale = … } }
 //!        ├─► struct ModelFile            what resolution works with
-//!        ├─► impl SceneValue             reads it from a syntax tree; reports every mistake in it
-//!        └─► ModelFile::ENTRY          fields, types, defaults, doc comments: `alberti scene doc`
+//!        ├─► impl Serialize, Deserialize reads and writes it by `ron` and every other format of serde
+//!        └─► ModelFile::ENTRY          fields, types, doc comments: the checker, `alberti scene doc`
 //! ```
 //! A field with `= value`, or of type `Option`, may be left out.
 //!
-//! The declarations are the only description of the language: parser, reference, formatter,
+//! The declarations are the only description of the language: reader, checker, reference, formatter,
 //! suggestions and the search for misplaced fields all read the same `ENTRY` constants, so they
 //! cannot drift apart. All of it is `const` data; nothing is registered at run time.
 
 mod checker;
 mod declare;
 mod search;
+mod serialized;
 mod values;
 
-pub(super) use checker::{Checked, Checker};
+pub(super) use checker::Checker;
 use declare::join_doc_lines;
 pub(crate) use declare::{
-    default_value, documentation, field_entry, inner_type, named_enum, named_values, scene_enum,
-    scene_struct, scene_variant,
+    default_value, documentation, field_entry, inner_type, named_enum, named_values, read_fields,
+    read_variant, scene_enum, scene_struct, variant_value, write_fields, write_variant,
 };
 pub(super) use search::{example_of, fields_where, variants_where};
+pub(super) use serialized::{AnyForm, three_numbers, write_three_numbers};
+pub(crate) use serialized::{
+    FieldSet, FieldSetVisitor, NameOf, SerdeField, SerdeRef, SerdeValue, is_written, read_named,
+    serde_by_scene_value, write_named, write_number,
+};
 pub(crate) use values::checked_number;
 
 use super::syntax::Node;
 
 /// A type of values in scene files.
-pub(super) trait SceneValue: Sized {
+pub(super) trait SceneValue: Sized + PartialEq {
     /// Whether a field of this type may be left out even if its declaration gives no default.
     const IS_OPTIONAL: bool = false;
 
@@ -38,11 +44,11 @@ pub(super) trait SceneValue: Sized {
     /// tuples are built from the types of their elements.
     fn value_type() -> ValueType;
 
-    /// Reads a value from its syntax tree, and reports every mistake in it.
-    ///
-    /// Returns `None` if no value can be made; the mistake has been reported then, and callers
-    /// report nothing more about it.
-    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self>;
+    /// Reads a value from any format of serde's.
+    fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
+
+    /// Writes the value to any format of serde's.
+    fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
 
     /// The value of a field that is left out. `None`, for types that are not optional, makes the
     /// struct around it unreadable.
@@ -61,7 +67,7 @@ pub(super) trait Declared {
 #[derive(Clone, Debug)]
 pub enum ValueType {
     /// A type without parts, such as a number, in words.
-    Plain(&'static str),
+    Plain(&'static str, Notation),
     /// A type that the reference describes.
     Declared(&'static TypeEntry),
     /// A list in square brackets.
@@ -77,7 +83,7 @@ impl ValueType {
     #[must_use]
     pub fn words(&self) -> String {
         match self {
-            Self::Plain(words) => (*words).to_owned(),
+            Self::Plain(words, _) => (*words).to_owned(),
             Self::Declared(entry) => entry.name.to_owned(),
             Self::List(element) => format!("list of {}", element.words()),
             Self::Tuple(parts) => {
@@ -100,7 +106,7 @@ impl ValueType {
     #[must_use]
     pub fn declared(&self) -> Vec<&'static TypeEntry> {
         match self {
-            Self::Plain(_) => Vec::new(),
+            Self::Plain(..) => Vec::new(),
             Self::Declared(entry) => vec![entry],
             Self::List(element) => element.declared(),
             Self::Tuple(parts) => parts.iter().flat_map(Self::declared).collect(),
@@ -127,8 +133,12 @@ pub enum Shape {
     /// One of several words, some with fields or a value in brackets.
     Variants(&'static [VariantEntry]),
     /// A number, a color, or another value without named parts.
-    Plain,
+    Plain(Notation),
 }
+
+/// How a value without named parts is written: the function that reports the mistakes in one.
+#[derive(Clone, Copy, Debug)]
+pub struct Notation(pub(super) fn(&Node<'_>, &mut Checker<'_>));
 
 /// The declaration of a field.
 #[derive(Clone, Copy, Debug)]
@@ -141,6 +151,8 @@ pub struct FieldEntry {
     pub value_type: fn() -> ValueType,
     /// Whether it may be left out: its declaration gives a default, or its type is an `Option`.
     pub is_optional: bool,
+    /// Whether it may be `None` or `Some(…)`: its type is an `Option`.
+    pub accepts_none: bool,
 }
 
 /// The declaration of a variant.
@@ -160,6 +172,12 @@ pub struct VariantEntry {
 }
 
 impl TypeEntry {
+    /// The number of a variant, for formats that have no names; 0 if there is no such variant.
+    pub(super) fn variant_index(&self, name: &str) -> u32 {
+        let Shape::Variants(variants) = self.shape else { return 0 };
+        variants.iter().position(|variant| variant.name == name).unwrap_or(0) as u32
+    }
+
     /// The documentation of the type.
     #[must_use]
     pub fn about(&self) -> String {
@@ -176,6 +194,11 @@ impl FieldEntry {
 }
 
 impl VariantEntry {
+    /// Whether it is written with brackets.
+    pub(super) fn has_brackets(&self) -> bool {
+        self.value_type.is_some() || !self.fields.is_empty()
+    }
+
     /// The documentation of the variant.
     #[must_use]
     pub fn about(&self) -> String {

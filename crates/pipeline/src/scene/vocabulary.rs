@@ -7,9 +7,6 @@
 
 mod advice;
 mod foreign;
-mod legacy;
-
-pub(super) use legacy::{LEGACY_WORDS, LegacyWord};
 
 use super::SceneFile;
 use super::file::{FromFile, ViewportFile};
@@ -62,7 +59,7 @@ pub(super) fn suggest_field(
     let targets = targets_of(word);
     let own = targets.iter().find(|(target, _)| *target == owner);
     if let Some(&(_, name)) = own.filter(|(_, name)| siblings.contains(name)) {
-        let mut help = format!("did you mean `{name}`?{}", legacy_note(owner, word));
+        let mut help = format!("did you mean `{name}`?");
         // A field of the scene itself is not all that the word can mean there.
         let declared =
             if owner == SceneFile::ENTRY.name { declared_elsewhere(word) } else { vec![] };
@@ -123,7 +120,7 @@ pub(super) fn suggest_variant(
     let targets = targets_of(word);
     let own = targets.iter().find(|(target, name)| *target == entry.name && names.contains(name));
     if let Some((_, name)) = own {
-        return known(format!("did you mean `{name}`?{}", legacy_note(entry.name, word)));
+        return known(format!("did you mean `{name}`?"));
     }
     if super::color::Color::parse(word).is_some() && names.contains(&"Color") {
         return known(format!("did you mean `Color(\"{}\")`?", word.to_lowercase()));
@@ -166,26 +163,18 @@ pub(super) fn meanings_of(word: &str) -> Vec<String> {
     targets_of(word).into_iter().map(path).collect()
 }
 
-/// The meanings of a word in the tables, in their order: older words first.
+/// The meanings of a word in the table, in its order.
 fn targets_of(word: &str) -> Vec<Target> {
     let word = normalize(word);
-    let legacy = LEGACY_WORDS.iter().filter(|legacy| normalize(legacy.old) == word);
-    let legacy = legacy.map(|legacy| (legacy.owner, legacy.new));
-    let foreign =
+    let meanings =
         FOREIGN_WORDS.iter().filter(|(words, ..)| words.split(' ').any(|known| known == word));
-    legacy.chain(foreign.map(|&(_, owner, name)| (owner, name))).collect()
+    meanings.map(|&(_, owner, name)| (owner, name)).collect()
 }
 
 /// A word without capitals, underscores and hyphens: `DirectionalLight`, `directional_light` and
 /// `directional-light` are one.
 fn normalize(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
-
-/// For a legacy word, that the formatter replaces it.
-fn legacy_note(owner: &str, word: &str) -> &'static str {
-    let is_legacy = LEGACY_WORDS.iter().any(|legacy| legacy.owner == owner && legacy.old == word);
-    if is_legacy { " `alberti scene fmt` rewrites older scene files" } else { "" }
 }
 
 /// How the first of the targets is written, those in the same field of the scene before others.

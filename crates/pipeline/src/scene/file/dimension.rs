@@ -2,10 +2,14 @@
 
 use crate::scene::number::Triple;
 use crate::scene::schema::{
-    Checker, SceneValue, ValueType, named_enum, named_values, scene_enum, scene_struct,
+    AnyForm, Declared as _, SceneValue, ValueType, named_enum, named_values, scene_enum,
+    scene_struct, serde_by_scene_value,
 };
-use crate::scene::syntax::{Node, NodeKind};
 use drawing::{DimensionSide, LengthDirection};
+use serde::de::{Deserialize, Deserializer, Error as _};
+use serde::ser::Serializer;
+
+serde_by_scene_value! { DimensionsFile }
 
 /// The dimensions of a sheet: a list, or `true` for the overall ones and `false` for none.
 #[derive(Clone, PartialEq, Debug)]
@@ -30,13 +34,27 @@ impl SceneValue for DimensionsFile {
         Vec::<DimensionFile>::value_type()
     }
 
-    fn from_node(node: &Node<'_>, checker: &mut Checker<'_>) -> Option<Self> {
-        match node.kind {
-            NodeKind::Word("true") => Some(Self::overall()),
-            NodeKind::Word("false") => Some(Self::none()),
-            _ => Vec::from_node(node, checker).map(Self),
+    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match AnyForm::deserialize(deserializer)? {
+            AnyForm::Bool(true) => Ok(Self::overall()),
+            AnyForm::Bool(false) => Ok(Self::none()),
+            AnyForm::List(dimensions) => Ok(Self(dimensions)),
+            _ => Err(D::Error::custom("expected true, false or a list of dimensions")),
         }
     }
+
+    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0.as_slice() {
+            [] => serializer.serialize_bool(false),
+            [DimensionFile::Overall] => serializer.serialize_bool(true),
+            dimensions => serializer.collect_seq(dimensions),
+        }
+    }
+}
+
+/// Whether values of this type stand in the list of a sheet's dimensions.
+pub(in crate::scene) fn is_dimensions_list(element: &ValueType) -> bool {
+    matches!(element, ValueType::Declared(entry) if entry.name == DimensionFile::ENTRY.name)
 }
 
 scene_enum! {

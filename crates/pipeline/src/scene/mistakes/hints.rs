@@ -88,7 +88,7 @@ const FIELDS: &[(&str, &str, &str)] = &[
     ("camera: Wireframe", "style: Wireframe", "style: Wireframe"),
     ("sheet: (paper: \"A4\")", "`A4`", "sheet: (paper: A4)"),
     ("sheet: (unit: mm)", "`Millimeter`", "sheet: (unit: Millimeter)"),
-    ("shadows: true", "`On`", "shadows: On"),
+    ("shadows: true", "`On()`", "shadows: On()"),
     ("camera: (view: Left)", "Frame(from: Left)", "camera: (view: Frame(from: Left))"),
     ("sections: [(normal: Z)]", "write (0, 0, 1)", "sections: [(normal: (0, 0, 1))]"),
     ("passes: [Depth]", "write (write: [Depth])", "passes: (write: [Depth])"),

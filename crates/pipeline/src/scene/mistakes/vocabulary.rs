@@ -60,7 +60,7 @@ const WORDS: [(&str, &str); 66] = [
     ("camera: (projection: Perspective(clip_start: 1))", "`near`"),
     ("camera: (projection: Orthographic(ortho_scale: 1))", "`height`"),
     ("shadow_catcher: true", "ground"),
-    ("style: Freestyle", "`Lines`"),
+    ("style: Freestyle", "`Lines()`"),
     // glTF
     ("camera: (projection: Perspective(yfov: 35))", "`fov_y_degrees`"),
     ("camera: (projection: Perspective(znear: 1))", "`near`"),
@@ -138,7 +138,7 @@ fn fields_in_the_wrong_place_are_answered_with_their_place() {
     let types = all_types();
     let fields_of = |shape: Shape| -> Vec<&'static FieldEntry> {
         match shape {
-            Shape::Plain => Vec::new(),
+            Shape::Plain(_) => Vec::new(),
             Shape::Fields(fields) => fields.iter().collect(),
             Shape::Variants(variants) => variants.iter().flat_map(|v| v.fields).collect(),
         }
@@ -158,17 +158,19 @@ fn fields_in_the_wrong_place_are_answered_with_their_place() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A variant of which nothing has to be said stands with brackets and without.
+/// Variants have the brackets that `ron` wants; the message shows them.
 #[test]
-fn brackets_with_nothing_inside_may_be_left_out() {
-    use crate::scene::parse_scene;
-    let styles = ["Lines", "Shaded"].map(|word| format!("style: {word}"));
-    let others = ["camera: (projection: Perspective)", "camera: (view: Frame)", "shadows: On"];
-    for field in styles.into_iter().chain(others.map(str::to_owned)) {
-        let word = field.trim_end_matches(')').to_owned();
-        let closed = format!("{word}(){}", &field[word.len()..]);
-        let read = |field: &str| parse_scene("a.ron", &scene_with(field));
-        assert!(read(&field).is_ok(), "{field}: {:?}", read(&field));
-        assert_eq!(read(&field), read(&closed), "{field}");
+fn variants_with_fields_have_brackets_and_others_have_none() {
+    for (field, help) in [
+        ("style: Lines", "write Lines()"),
+        ("style: Shaded()", "write Shaded"),
+        ("camera: (projection: Perspective)", "write Perspective()"),
+        ("camera: (view: LookAt)", "write LookAt(…) with its fields"),
+        ("camera: (view: FromModel)", "write FromModel(…) with a CameraChoice"),
+        ("style: Lines((width: Px(2)))", "write Lines(…)"),
+        ("shadows: On", "write On()"),
+    ] {
+        let found = mistakes(&scene_with(field));
+        assert!(matches!(found.as_slice(), [(.., told)] if told == help), "{field}: {found:?}");
     }
 }

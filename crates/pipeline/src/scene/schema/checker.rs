@@ -1,11 +1,13 @@
-//! Checks a syntax tree against the declarations, and reads values from it.
+//! Checks a syntax tree against the declarations, where `ron` could not read it.
 //!
 //! Every mistake is reported once, where it is. What follows from it is not: a value that could not
 //! be read has no other mistakes, and a field that was meant by a misspelt one is not missing.
 //!
 //! ```text
-//!  node ─► open_struct ─► Fields ──► read(field) ─► T::from_node ─► value or mistakes
-//!       └► open_variant ─► Variant ─► open_fields / read_inner / expect_empty
+//!  check ─► find_struct  ─► find_fields ─► check_fields ─► check …
+//!       ├─► find_variant ─► check_variant_fields / check_inner / check_empty
+//!       ├─► check_list, check_tuple
+//!       └─► Notation: numbers, strings, colors, vectors
 //! ```
 //! The checker holds the path to the value, for messages, and the scope, which is the innermost
 //! field or element around it: a later resolution skips errors in a scope that already has one.
@@ -13,20 +15,19 @@
 mod corrections;
 mod fields;
 mod lists;
+mod plain;
 mod variant;
 
-use super::{FieldEntry, Shape, TypeEntry, VariantEntry};
+use super::{FieldEntry, Notation, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
 use crate::scene::syntax::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
 use core::fmt::Write as _;
 use core::ops::Range;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use corrections::{bracket_map, bracket_string};
-pub(in crate::scene) use fields::Fields;
-pub(in crate::scene) use variant::Variant;
+use fields::FoundFields;
 
 /// A step of the path to the value that is being read: `camera`, `.LookAt`, `[2]`.
 #[derive(Clone, Copy, Debug)]
@@ -39,28 +40,18 @@ enum Segment {
     Index(usize),
 }
 
-/// Reads values and collects the mistakes in them.
+/// Collects the mistakes in a text.
 #[derive(Debug, Default)]
 pub(in crate::scene) struct Checker<'a> {
     /// The text of the file, which spans of nodes index into.
     source: &'a str,
     mistakes: Vec<Mistake>,
-    /// The path from the scene to the value that is being read.
+    /// The path from the scene to the value that is being checked.
     path: Vec<Segment>,
     /// The fields and elements around the value that is being read.
     scopes: Vec<Range<usize>>,
-    /// For each list of the whole scene the indices of the elements that could be read.
-    retained: BTreeMap<&'static str, Vec<usize>>,
     /// The beginnings of values that are known to lack the brackets of a list.
     told_lists: Vec<usize>,
-}
-
-/// The results of a check besides the value.
-pub(in crate::scene) struct Checked {
-    /// The mistakes in the order in which they were found.
-    pub(in crate::scene) mistakes: Vec<Mistake>,
-    /// For each list of the whole scene the indices of the elements that could be read.
-    pub(in crate::scene) retained: BTreeMap<&'static str, Vec<usize>>,
 }
 
 impl<'a> Checker<'a> {
@@ -69,8 +60,26 @@ impl<'a> Checker<'a> {
         Self { source, ..Self::default() }
     }
     /// The mistakes, in the order in which they were found.
-    pub(in crate::scene) fn finish(self) -> Checked {
-        Checked { mistakes: self.mistakes, retained: self.retained }
+    pub(in crate::scene) fn finish(self) -> Vec<Mistake> {
+        self.mistakes
+    }
+
+    /// Reports every mistake in a value of this type.
+    pub(in crate::scene) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
+        match value_type {
+            ValueType::Plain(_, Notation(check)) => check(node, self),
+            ValueType::List(element) => self.check_list(node, element),
+            ValueType::Tuple(parts) => self.check_tuple(node, parts),
+            ValueType::Declared(entry) => match entry.shape {
+                Shape::Plain(Notation(check)) => check(node, self),
+                Shape::Variants(_) => self.check_variant(node, entry),
+                Shape::Fields(_) => {
+                    if let Some(fields) = self.find_struct(node, entry) {
+                        self.check_fields(&fields);
+                    }
+                }
+            },
+        }
     }
 
     /// Reports a mistake at `span`.
@@ -166,15 +175,15 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Opens the brackets of a struct and finds its fields; `None` if the node is not a struct.
+    /// The fields in the brackets of a struct; `None` if the node is not a struct.
     ///
     /// The type's name before the bracket is optional: `Camera(…)` and `(…)` are the same. A word
     /// that is a variant of another type gets the hint where it belongs.
-    pub(in crate::scene) fn open_struct<'n>(
+    fn find_struct<'n>(
         &mut self,
         node: &'n Node<'n>,
         entry: &'static TypeEntry,
-    ) -> Option<Fields<'n>> {
+    ) -> Option<FoundFields<'n>> {
         let Shape::Fields(fields) = entry.shape else { return None };
         let owner = Owner { key: entry.name.to_owned(), shown: entry.name };
         match &node.kind {
@@ -182,7 +191,7 @@ impl<'a> Checker<'a> {
                 if let Some(name) = group.name.as_ref().filter(|name| name.name != entry.name) {
                     self.report_struct_name(name, entry)?;
                 }
-                self.read_fields(group, &node.span, &owner, fields)
+                self.find_fields(group, &node.span, &owner, fields)
             }
             NodeKind::Invalid => None,
             NodeKind::Word(word) if suggest_variant(entry, word, None).is_known() => {
@@ -231,16 +240,16 @@ impl<'a> Checker<'a> {
     /// else: `modles: […]` is reported as a misspelling of `models`, and `models` not as missing
     /// besides. If no item has a name, the brackets hold a tuple or a list, and one message says
     /// so. Linear in items × declared fields, which are at most a few dozen.
-    fn read_fields<'n>(
+    fn find_fields<'n>(
         &mut self,
         group: &'n Group<'n>,
         span: &Range<usize>,
         owner: &Owner,
         declared: &'static [FieldEntry],
-    ) -> Option<Fields<'n>> {
-        let mut found: Vec<(&'static str, &'n SyntaxItem<'n>)> = Vec::new();
+    ) -> Option<FoundFields<'n>> {
+        let mut found: FoundFields<'n> = Vec::new();
         let mut meant: Vec<&'static str> = Vec::new();
-        let mut misspelt: Vec<(&'static str, &'n SyntaxItem<'n>)> = Vec::new();
+        let mut misspelt: FoundFields<'n> = Vec::new();
         let mut unknown = 0;
         for item in &group.items {
             self.scopes.push(item.span());
@@ -258,10 +267,12 @@ impl<'a> Checker<'a> {
                         let sibling = self.report_unknown_field(item, key, owner, declared);
                         // Mistakes inside of what a misspelt field holds are told in the same run.
                         let structured = sibling.filter(|_| has_named_parts(&item.value));
-                        misspelt.extend(structured.map(|name| (name, item)));
+                        let structured = structured
+                            .and_then(|name| declared.iter().find(|field| field.name == name));
+                        misspelt.extend(structured.map(|field| (field, item)));
                         meant.extend(sibling);
                     }
-                    Some(field) if found.iter().any(|(name, _)| *name == field.name) => {
+                    Some(field) if found.iter().any(|(other, _)| other.name == field.name) => {
                         let message = format!("the field `{}` is there twice", field.name);
                         self.report(
                             key.span.clone(),
@@ -269,7 +280,7 @@ impl<'a> Checker<'a> {
                             Some("remove one of them".to_owned()),
                         );
                     }
-                    Some(field) => found.push((field.name, item)),
+                    Some(field) => found.push((field, item)),
                 },
             }
             self.scopes.pop();
@@ -278,15 +289,15 @@ impl<'a> Checker<'a> {
         let has_unexplained = unknown > meant.len();
         for field in declared.iter().filter(|_| !has_unexplained) {
             let is_there = field.is_optional || meant.contains(&field.name);
-            if !is_there && !found.iter().any(|(name, _)| *name == field.name) {
+            if !is_there && !found.iter().any(|(other, _)| other.name == field.name) {
                 let message = format!("the field `{}` of `{}` is missing", field.name, owner.shown);
                 let help = format!("add `{}: …`", field.name);
                 self.report(span.clone(), message, Some(help));
             }
         }
-        misspelt.retain(|(name, _)| found.iter().all(|(other, _)| other != name));
+        misspelt.retain(|(field, _)| found.iter().all(|(other, _)| other.name != field.name));
         found.extend(misspelt);
-        Some(Fields { items: found })
+        Some(found)
     }
 
     /// Reports a value without a name among fields, such as the 5 of `fov_y_degrees: 3,5`.
@@ -326,15 +337,12 @@ impl<'a> Checker<'a> {
         sibling
     }
 
-    /// The variant that a node names; `None` if there is no such variant.
-    ///
-    /// It is part of the path until [`close_variant`](Self::close_variant), which has to follow if
-    /// and only if a variant is returned.
-    pub(in crate::scene) fn open_variant<'n>(
+    /// The variant that a node names, and its brackets; `None` if there is no such variant.
+    fn find_variant<'n>(
         &mut self,
         node: &'n Node<'n>,
         entry: &'static TypeEntry,
-    ) -> Option<Variant<'n>> {
+    ) -> Option<(&'static VariantEntry, Option<&'n Group<'n>>)> {
         let Shape::Variants(variants) = entry.shape else { return None };
         let (name, span, group) = match &node.kind {
             NodeKind::Word(word) => (*word, node.span.clone(), None),
@@ -347,18 +355,19 @@ impl<'a> Checker<'a> {
                 return None;
             }
         };
-        let Some(variant) = variants.iter().find(|variant| variant.name == name) else {
+        let variant = variants.iter().find(|variant| variant.name == name);
+        if variant.is_none() {
             let message = format!("unexpected `{name}` for `{}`", entry.name);
-            let suggestion = suggest_variant(entry, name, self.top_level_field());
-            self.report(span, message, Some(suggestion.help));
-            return None;
-        };
-        self.path.push(Segment::Variant(variant.name));
-        Some(Variant { entry, variant, group, span: node.span.clone() })
-    }
-    /// Ends the variant that [`open_variant`](Self::open_variant) began.
-    pub(in crate::scene) fn close_variant(&mut self) {
-        self.path.pop();
+            let mut help = suggest_variant(entry, name, self.top_level_field()).help;
+            let is_meant =
+                |variant: &&VariantEntry| help == format!("did you mean `{}`?", variant.name);
+            let meant = variants.iter().find(is_meant).filter(|_| group.is_none());
+            if meant.is_some_and(VariantEntry::has_brackets) {
+                help.insert_str(help.len() - "`?".len(), "()");
+            }
+            self.report(span, message, Some(help));
+        }
+        variant.map(|variant| (variant, group))
     }
 
     /// Reports a value that names no variant, with the variant that holds such values, if there is

@@ -49,9 +49,7 @@ macro_rules! documentation {
 /// may be left out. If every field has a default, so has the struct.
 ///
 /// The first rule matches structs whose fields all have defaults and adds `impl Default`; the
-/// second matches any other; `@declare` is the common part. Fields are read in the order of their
-/// declaration and all of them before the first `?`, so that every mistake in the struct is
-/// reported.
+/// second matches any other; `@declare` is the common part.
 macro_rules! scene_struct {
     (
         $(#[doc = $doc:literal])*
@@ -118,27 +116,38 @@ macro_rules! scene_struct {
                 )
             }
 
-            fn from_node(
-                node: &$crate::scene::syntax::Node<'_>,
-                checker: &mut $crate::scene::schema::Checker<'_>,
-            ) -> Option<Self> {
-                let entry = <Self as $crate::scene::schema::Declared>::ENTRY;
-                let fields = checker.open_struct(node, entry)?;
-                $(let $field: Option<$type> = fields.read(
-                    checker,
-                    stringify!($field),
-                    $crate::scene::schema::default_value!($type $(= $default)?),
-                );)*
-                Some(Self { $($field: $field?),* })
+            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                serde::Deserialize::deserialize(deserializer)
+            }
+
+            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serde::Serialize::serialize(self, serializer)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $name {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $crate::scene::schema::read_fields!(
+                    $($field: $type $(= $default)?),*;
+                    names, visitor => deserializer.deserialize_struct($shown, names, visitor);
+                    $name
+                )
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let Self { $($field),* } = self;
+                $crate::scene::schema::write_fields!(
+                    $($field: $type $(= $default)?),*;
+                    serde::ser::SerializeStruct, count => serializer.serialize_struct($shown, count)
+                )
             }
         }
     };
 }
 
 /// Declares an enum of scene files, whose variants have no value, fields, or one value.
-///
-/// The generated reader calls `close_variant` on every path, whether or not the variant could be
-/// read.
 macro_rules! scene_enum {
     (
         $(#[doc = $doc:literal])*
@@ -188,22 +197,58 @@ macro_rules! scene_enum {
                 )
             }
 
-            fn from_node(
-                node: &$crate::scene::syntax::Node<'_>,
-                checker: &mut $crate::scene::schema::Checker<'_>,
-            ) -> Option<Self> {
-                let entry = <Self as $crate::scene::schema::Declared>::ENTRY;
-                let variant = checker.open_variant(node, entry)?;
-                let value = match variant.name() {
-                    $(stringify!($variant) => $crate::scene::schema::scene_variant!(
-                        variant, checker, $name, $variant
+            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                serde::Deserialize::deserialize(deserializer)
+            }
+
+            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serde::Serialize::serialize(self, serializer)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $name {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Variants;
+                impl<'de> serde::de::Visitor<'de> for Variants {
+                    type Value = $name;
+
+                    fn expecting(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                        formatter.write_str($shown)
+                    }
+
+                    fn visit_enum<A: serde::de::EnumAccess<'de>>(
+                        self,
+                        data: A,
+                    ) -> Result<$name, A::Error> {
+                        let names = $crate::scene::schema::NameOf(NAMES);
+                        let (name, variant) = data.variant_seed(names)?;
+                        match name {
+                            $(stringify!($variant) => $crate::scene::schema::read_variant!(
+                                variant, $name, $variant
+                                $({ $($field: $type $(= $default)?),* })?
+                                $(($inner))?
+                            ),)*
+                            _ => Err(serde::de::Error::unknown_variant(name, NAMES)),
+                        }
+                    }
+                }
+                const NAMES: &[&str] = &[$(stringify!($variant)),*];
+                deserializer.deserialize_enum($shown, NAMES, Variants)
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                match self {$(
+                    Self::$variant
+                    $({ $($field),* })?
+                    $(($crate::scene::schema::variant_value!(value, $inner)))?
+                    => $crate::scene::schema::write_variant!(
+                        serializer, value, $name, $shown, $variant
                         $({ $($field: $type $(= $default)?),* })?
                         $(($inner))?
-                    ),)*
-                    _ => None,
-                };
-                checker.close_variant();
-                value
+                    )
+                ),*}
             }
         }
     };
@@ -217,6 +262,7 @@ macro_rules! field_entry {
             doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
             value_type: <$type as $crate::scene::schema::SceneValue>::value_type,
             is_optional: true,
+            accepts_none: <$type as $crate::scene::schema::SceneValue>::IS_OPTIONAL,
         }
     };
     ([$($doc:literal)*] $field:ident: $type:ty) => {
@@ -225,6 +271,7 @@ macro_rules! field_entry {
             doc: $crate::scene::schema::documentation!($($doc, "\n"),*),
             value_type: <$type as $crate::scene::schema::SceneValue>::value_type,
             is_optional: <$type as $crate::scene::schema::SceneValue>::IS_OPTIONAL,
+            accepts_none: <$type as $crate::scene::schema::SceneValue>::IS_OPTIONAL,
         }
     };
 }
@@ -250,37 +297,124 @@ macro_rules! inner_type {
     };
 }
 
-/// Reads the content of a variant: nothing, fields, or one value.
-///
-/// The labeled block replaces `?`, which would return from the whole reader before the variant is
-/// closed.
-macro_rules! scene_variant {
-    ($read:ident, $checker:ident, $name:ident, $variant:ident) => {
-        $read.expect_empty($checker).then_some($name::$variant)
-    };
-    ($read:ident, $checker:ident, $name:ident, $variant:ident
-        { $($field:ident: $type:ty $(= $default:expr)?),* }) => {
-        'fields: {
-            let Some(fields) = $read.open_fields($checker) else { break 'fields None };
-            $(let $field: Option<$type> = fields.read(
-                $checker,
-                stringify!($field),
-                $crate::scene::schema::default_value!($type $(= $default)?),
-            );)*
-            $(let Some($field) = $field else { break 'fields None };)*
-            Some($name::$variant { $($field),* })
-        }
-    };
-    ($read:ident, $checker:ident, $name:ident, $variant:ident ($inner:ty)) => {
-        $read.read_inner::<$inner>($checker).map($name::$variant)
+/// The name of the value in a variant's brackets, in a pattern.
+macro_rules! variant_value {
+    ($value:ident, $inner:ty) => {
+        $value
     };
 }
 
-pub(crate) use {default_value, documentation, field_entry, inner_type};
-pub(crate) use {scene_enum, scene_struct, scene_variant};
+/// Reads the fields of a struct or a variant, each by [`SceneValue`](crate::scene::schema::SceneValue).
+///
+/// By hand, because what serde derives makes the program larger by two thirds of a megabyte: for each
+/// struct a type for the names of its fields, and code for formats in which fields have none.
+macro_rules! read_fields {
+    (
+        $($field:ident: $type:ty $(= $default:expr)?),*;
+        $names:ident, $visitor:ident => $open:expr;
+        $($constructor:tt)*
+    ) => {{
+        #[derive(Default)]
+        struct Partial {
+            $($field: $crate::scene::schema::SerdeField<$type>,)*
+        }
+        impl $crate::scene::schema::FieldSet for Partial {
+            fn read_field<'de, A: serde::de::MapAccess<'de>>(
+                &mut self,
+                name: &'static str,
+                map: &mut A,
+            ) -> Result<(), A::Error> {
+                match name {
+                    $(stringify!($field) => self.$field.read(name, map),)*
+                    _ => Ok(()),
+                }
+            }
+        }
+        let $names: &'static [&'static str] = &[$(stringify!($field)),*];
+        let $visitor = $crate::scene::schema::FieldSetVisitor::<Partial>::new($names);
+        let fields = $open?;
+        Ok($($constructor)* {
+            $($field: fields.$field.or_default(
+                stringify!($field),
+                $crate::scene::schema::default_value!($type $(= $default)?),
+            )?),*
+        })
+    }};
+}
 
-/// Names the values of an enum without fields: implements `NamedOption`, and reads it from scene
-/// files. Each summary is the entry of the value in the reference.
+/// Reads a variant: nothing behind its name, its fields, or its value.
+macro_rules! read_variant {
+    ($data:ident, $name:ident, $variant:ident) => {
+        serde::de::VariantAccess::unit_variant($data).map(|()| $name::$variant)
+    };
+    ($data:ident, $name:ident, $variant:ident
+        { $($field:ident: $type:ty $(= $default:expr)?),* }) => {
+        $crate::scene::schema::read_fields!(
+            $($field: $type $(= $default)?),*;
+            names, visitor => serde::de::VariantAccess::struct_variant($data, names, visitor);
+            $name::$variant
+        )
+    };
+    ($data:ident, $name:ident, $variant:ident ($inner:ty)) => {{
+        let value = serde::de::VariantAccess::newtype_variant($data);
+        value.map(|value: $crate::scene::schema::SerdeValue<$inner>| $name::$variant(value.0))
+    }};
+}
+
+/// Writes the fields that are bound to variables, without those that have their defaults.
+macro_rules! write_fields {
+    (
+        $($field:ident: $type:ty $(= $default:expr)?),*;
+        $trait:path, $count:ident => $open:expr
+    ) => {{
+        use $trait as _;
+        let written = [$($crate::scene::schema::is_written(
+            $field,
+            $crate::scene::schema::default_value!($type $(= $default)?),
+        )),*];
+        let $count = written.iter().filter(|is_written| **is_written).count();
+        let mut written = written.into_iter();
+        let mut fields = $open?;
+        $(
+            if written.next().unwrap_or(true) {
+                let value = $crate::scene::schema::SerdeRef($field);
+                fields.serialize_field(stringify!($field), &value)?;
+            } else {
+                fields.skip_field(stringify!($field))?;
+            }
+        )*
+        fields.end()
+    }};
+}
+
+/// Writes a variant: its name, its fields, or its value.
+macro_rules! write_variant {
+    ($serializer:ident, $value:ident, $name:ident, $shown:literal, $variant:ident) => {{
+        let index = <$name as $crate::scene::schema::Declared>::ENTRY.variant_index(stringify!($variant));
+        $serializer.serialize_unit_variant($shown, index, stringify!($variant))
+    }};
+    ($serializer:ident, $value:ident, $name:ident, $shown:literal, $variant:ident
+        { $($field:ident: $type:ty $(= $default:expr)?),* }) => {{
+        let index = <$name as $crate::scene::schema::Declared>::ENTRY.variant_index(stringify!($variant));
+        $crate::scene::schema::write_fields!(
+            $($field: $type $(= $default)?),*;
+            serde::ser::SerializeStructVariant, count =>
+                $serializer.serialize_struct_variant($shown, index, stringify!($variant), count)
+        )
+    }};
+    ($serializer:ident, $value:ident, $name:ident, $shown:literal, $variant:ident ($inner:ty)) => {{
+        let index = <$name as $crate::scene::schema::Declared>::ENTRY.variant_index(stringify!($variant));
+        let value = $crate::scene::schema::SerdeRef($value);
+        $serializer.serialize_newtype_variant($shown, index, stringify!($variant), &value)
+    }};
+}
+
+pub(crate) use {default_value, documentation, field_entry, inner_type};
+pub(crate) use {read_fields, read_variant, scene_enum, scene_struct};
+pub(crate) use {variant_value, write_fields, write_variant};
+
+/// Names the values of an enum without fields: implements `NamedOption`, and reads and writes it in
+/// scene files. Each summary is the entry of the value in the reference.
 macro_rules! named_values {
     (
         $(#[doc = $doc:literal])*
@@ -326,16 +460,12 @@ macro_rules! named_values {
                 )
             }
 
-            fn from_node(
-                node: &$crate::scene::syntax::Node<'_>,
-                checker: &mut $crate::scene::schema::Checker<'_>,
-            ) -> Option<Self> {
-                let entry = <Self as $crate::scene::schema::Declared>::ENTRY;
-                let variant = checker.open_variant(node, entry)?;
-                let value = <Self as $crate::scene::options::NamedOption>::from_name(variant.name());
-                let is_empty = variant.expect_empty(checker);
-                checker.close_variant();
-                value.filter(|_| is_empty)
+            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $crate::scene::schema::read_named(deserializer, &[$(stringify!($variant)),*])
+            }
+
+            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                $crate::scene::schema::write_named(*self, serializer)
             }
         }
     };
@@ -357,6 +487,8 @@ macro_rules! named_enum {
             $(#[doc = $doc])*
             $name as $shown { $($variant = $summary),* }
         }
+
+        $crate::scene::schema::serde_by_scene_value! { $name }
     };
 }
 

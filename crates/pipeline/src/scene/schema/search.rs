@@ -108,7 +108,7 @@ fn add_sites(
     };
     let mut own = site(entry.name.to_owned(), before, after);
     match entry.shape {
-        Shape::Plain => return,
+        Shape::Plain(_) => return,
         Shape::Fields(fields) => {
             own.fields = fields.iter().map(|field| field.name).collect();
             for field in fields {
@@ -152,7 +152,7 @@ fn opened(
     after: &str,
 ) -> Vec<(&'static TypeEntry, String, String)> {
     match value_type {
-        ValueType::Plain(_) | ValueType::Tuple(_) => Vec::new(),
+        ValueType::Plain(..) | ValueType::Tuple(_) => Vec::new(),
         ValueType::List(element) => opened(element, &format!("{before}["), &format!("]{after}")),
         ValueType::Declared(entry) => match entry.shape {
             Shape::Fields(_) => vec![(*entry, format!("{before}("), format!("){after}"))],

@@ -69,8 +69,8 @@ pub(in crate::scene) fn looks_like_number(word: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(unsigned, "inf" | "NaN")
 }
 
-/// The value of a number: decimal with an optional point and exponent, `0x…`, `0o…`, `0b…`, `inf`
-/// or `NaN`; digits may be grouped by underscores. `None` if the word is no number.
+/// The value of a number: decimal with an optional point and exponent, `inf` or `NaN`; digits may be
+/// grouped by underscores. `None` if the word is not a number.
 pub(in crate::scene) fn parse_number(word: &str) -> Option<f64> {
     let digits = without_underscores(word)?;
     // `f64::from_str` takes "infinity" and "nan" in any case; RON does not.
@@ -78,8 +78,7 @@ pub(in crate::scene) fn parse_number(word: &str) -> Option<f64> {
     let is_named = matches!(digits.trim_start_matches(['+', '-']), "inf" | "NaN");
     let has_letters = digits.contains(|c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E'));
     let plausible = is_named || (is_decimal && !has_letters);
-    let decimal = digits.parse().ok().filter(|_| plausible);
-    decimal.or_else(|| parse_integer(word).map(|integer| integer as f64))
+    digits.parse().ok().filter(|_| plausible)
 }
 
 /// The value of a whole number without point and exponent; `None` if the word is none, or out of

@@ -14,7 +14,7 @@ pub(super) fn bracket_string(node: &Node<'_>, entry: &TypeEntry) -> Option<Strin
     let mut required = fields.iter().filter(|field| !field.is_optional);
     let field = match (required.next(), required.next()) {
         (Some(field), None) => {
-            matches!((field.value_type)(), ValueType::Plain("string")).then_some(field)?
+            matches!((field.value_type)(), ValueType::Plain("string", _)).then_some(field)?
         }
         (None, _) if Color::parse(text.trim_matches('"')).is_some() => {
             let is_color = |field: &&FieldEntry| (field.value_type)().words() == "Color";

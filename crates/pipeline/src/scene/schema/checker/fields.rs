@@ -1,35 +1,34 @@
-//! The fields in the brackets of a struct or a variant, read by their names.
+//! The fields in the brackets of a struct or a variant.
 
 use super::{Checker, Segment};
-use crate::scene::schema::SceneValue;
-use crate::scene::syntax::SyntaxItem;
+use crate::scene::schema::FieldEntry;
+use crate::scene::syntax::{Node, NodeKind, SyntaxItem};
 
-/// The fields of a struct or a variant that are in the text.
-pub(in crate::scene) struct Fields<'n> {
-    /// The declared fields that were found, each once, in the order of the text.
-    pub(super) items: Vec<(&'static str, &'n SyntaxItem<'n>)>,
+/// The fields of a struct or a variant that are in the text, each once, in its order.
+pub(super) type FoundFields<'n> = Vec<(&'static FieldEntry, &'n SyntaxItem<'n>)>;
+
+impl Checker<'_> {
+    /// Reports the mistakes in the values of fields.
+    pub(super) fn check_fields(&mut self, fields: &FoundFields<'_>) {
+        for (field, item) in fields {
+            self.path.push(Segment::Field(field.name));
+            self.scopes.push(item.span());
+            let value_type = (field.value_type)();
+            match &item.value.kind {
+                NodeKind::Word("None") if field.accepts_none => {}
+                NodeKind::Group(group) if field.accepts_none && is_some(&item.value) => {
+                    self.check_inner("Some", Some(group), &item.value, &value_type);
+                }
+                _ => self.check(&item.value, &value_type),
+            }
+            self.scopes.pop();
+            self.path.pop();
+        }
+    }
 }
 
-impl Fields<'_> {
-    /// The value of a field. A field that is left out, or that cannot be read, has the value of
-    /// `default`, if it has one.
-    ///
-    /// The default also stands in for a value that cannot be read, so that one mistake does not
-    /// make the struct and everything around it unreadable.
-    pub(in crate::scene) fn read<T: SceneValue>(
-        &self,
-        checker: &mut Checker<'_>,
-        name: &'static str,
-        default: fn() -> Option<T>,
-    ) -> Option<T> {
-        let Some((_, item)) = self.items.iter().find(|(found, _)| *found == name) else {
-            return default();
-        };
-        checker.path.push(Segment::Field(name));
-        checker.scopes.push(item.span());
-        let value = T::from_node(&item.value, checker);
-        checker.scopes.pop();
-        checker.path.pop();
-        value.or_else(default)
-    }
+/// Whether a value is written `Some(…)`.
+fn is_some(node: &Node<'_>) -> bool {
+    let name = node.group().and_then(|group| group.name.as_ref());
+    name.is_some_and(|name| name.name == "Some")
 }

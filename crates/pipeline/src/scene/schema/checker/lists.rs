@@ -1,25 +1,33 @@
 //! Lists, and values that should have been in one.
 
 use super::{Checker, Segment, bracket_map, bracket_string};
-use crate::scene::schema::{FieldEntry, SceneValue, Shape, TypeEntry, ValueType};
+use crate::scene::file::is_dimensions_list;
+use crate::scene::schema::{FieldEntry, Shape, TypeEntry, ValueType};
 use crate::scene::syntax::{Group, Node, NodeKind, SyntaxItem};
 
 /// Corrections that are longer than this are not shown.
 const LONGEST_EXAMPLE: usize = 120;
 
 impl Checker<'_> {
-    /// Reads a list in square brackets.
+    /// Reports the mistakes in a list in square brackets.
     ///
     /// Of one element without its brackets the mistakes are reported too, so that they all come in
     /// one run.
-    pub(in crate::scene) fn read_list_value<T: SceneValue>(
-        &mut self,
-        node: &Node<'_>,
-    ) -> Option<Vec<T>> {
+    pub(super) fn check_list(&mut self, node: &Node<'_>, element: &ValueType) {
         if let Some(group) = node.group().filter(|group| group.open == '[') {
-            return self.read_list(&group.items);
+            return self.check_elements(&group.items, element);
         }
-        let list = self.write_as_list(node, &ValueType::List(Box::new(T::value_type())));
+        if is_dimensions_list(element) {
+            // `true` and `false` are lists of dimensions, and so are values in round brackets.
+            match node.group() {
+                None if matches!(node.kind, NodeKind::Word("true" | "false")) => return,
+                Some(group) if group.items.iter().all(|item| item.key.is_none()) => {
+                    return self.check_elements(&group.items, element);
+                }
+                _ => {}
+            }
+        }
+        let list = self.write_as_list(node, &ValueType::List(Box::new(element.clone())));
         let help = match (list, self.path.last()) {
             (Some(list), Some(Segment::Field(name))) => {
                 format!("lists are written in square brackets: {name}: {list}")
@@ -31,60 +39,42 @@ impl Checker<'_> {
         if !self.told_lists.contains(&node.span.start) {
             self.report_type(node, "a list", Some(help));
         }
-        if is_written_as_element(node, &T::value_type()) {
-            T::from_node(node, self);
+        if is_written_as_element(node, element) {
+            self.check(node, element);
         }
-        None
     }
 
-    /// Reads the elements of a list.
-    ///
-    /// In lists of the whole scene, such as `models`, elements that cannot be read are left out and
-    /// the indices of the others recorded, so that the rest of the scene can be checked in the same
-    /// run. Any other list is read whole or not at all.
-    pub(in crate::scene) fn read_list<T: SceneValue>(
+    /// Reports the mistakes in the elements of a list.
+    pub(in crate::scene) fn check_elements(
         &mut self,
         items: &[SyntaxItem<'_>],
-    ) -> Option<Vec<T>> {
-        let mut values = Vec::new();
-        let mut indices = Vec::new();
+        element: &ValueType,
+    ) {
         for (index, item) in items.iter().enumerate() {
-            if let Some(value) = self.read_element(index, item) {
-                values.push(value);
-                indices.push(index);
-            }
+            self.check_element(index, item, element);
         }
-        if let [Segment::Field(name)] = *self.path.as_slice() {
-            self.retained.insert(name, indices);
-            return Some(values);
-        }
-        (values.len() == items.len()).then_some(values)
     }
 
-    /// Reads an element of a list or a tuple.
+    /// Reports the mistakes in an element of a list or a tuple.
     ///
-    /// The element is a scope of its own: a mistake in it does not hide those of its neighbors.
-    pub(in crate::scene) fn read_element<T: SceneValue>(
+    /// The element is a scope by itself: a mistake in it does not hide those of its neighbors.
+    pub(in crate::scene) fn check_element(
         &mut self,
         index: usize,
         item: &SyntaxItem<'_>,
-    ) -> Option<T> {
+        element: &ValueType,
+    ) {
         self.path.push(Segment::Index(index));
         self.scopes.push(item.span());
-        let value = if let Some(key) = &item.key {
+        if let Some(key) = &item.key {
             let message = format!("elements of lists have no names, found `{}: …`", key.name);
-            self.report(
-                key.span.clone(),
-                message,
-                Some("remove the name, or put it in round brackets".to_owned()),
-            );
-            None
+            let help = "remove the name, or put it in round brackets".to_owned();
+            self.report(key.span.clone(), message, Some(help));
         } else {
-            T::from_node(&item.value, self)
-        };
+            self.check(&item.value, element);
+        }
         self.scopes.pop();
         self.path.pop();
-        value
     }
 
     /// A list as a struct with one field for a list: `(write: [Depth])`.
@@ -137,6 +127,6 @@ fn is_written_as_element(node: &Node<'_>, element: &ValueType) -> bool {
                 && group.items.iter().all(|SyntaxItem { key, .. }| key.is_some()))
     };
     let has_parts =
-        matches!(element, ValueType::Declared(entry) if !matches!(entry.shape, Shape::Plain));
+        matches!(element, ValueType::Declared(entry) if !matches!(entry.shape, Shape::Plain(_)));
     has_parts && node.group().is_some_and(|group| group.open == '(' && is_named(group))
 }

@@ -1,0 +1,94 @@
+//! Scenes as data: read and written by `ron` and other formats of serde, with public means only.
+
+#[allow(dead_code, reason = "long runs use more of it")]
+#[path = "../soak/bits.rs"]
+mod bits;
+#[path = "../soak/scene_text.rs"]
+mod scene_text;
+
+use pipeline::SceneFile;
+use pipeline::scene::scene_ron_options;
+use scene_text::{SceneFiles, random_scene_text};
+use std::fs;
+use std::path::PathBuf;
+
+/// The random scenes of a run.
+const CASES: u64 = 10_000;
+
+/// All files of scenes in a folder and below.
+fn scene_files(folder: PathBuf, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("the folder is there") {
+        let path = entry.expect("the folder can be read").path();
+        if path.is_dir() {
+            scene_files(path, found);
+        } else if path.extension().is_some_and(|extension| extension == "ron") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn plain_ron_reads_every_scene_of_the_repository() {
+    let mut paths = Vec::new();
+    scene_files(alberti_tests::project_root().join("scenes"), &mut paths);
+    assert!(paths.len() > 40, "{}", paths.len());
+    for path in paths {
+        let text = fs::read_to_string(&path).expect("the scene is there");
+        let scene: SceneFile = scene_ron_options()
+            .from_str(&text)
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert_reads_back(&scene, &path.display().to_string());
+    }
+}
+
+#[test]
+fn random_scenes_read_back_as_they_were_written() {
+    let files = SceneFiles {
+        models: vec!["crate.glb".to_owned(), "part \"2\".gltf".to_owned()],
+        environment: "sky.hdr",
+        image: "image.png",
+        include: "part.ron",
+    };
+    let mut read = 0;
+    for number in 0..CASES {
+        let text = random_scene_text(number, &files);
+        // Most values are sensible, not all: what is refused has its test elsewhere.
+        let Ok(scene) = SceneFile::from_ron(&text) else { continue };
+        read += 1;
+        assert_reads_back(&scene, &format!("scene {number}"));
+    }
+    assert!(read > CASES / 2, "only {read} scenes can be read");
+}
+
+/// A scene is the same after RON, as `to_ron` lays it out and compact, and after JSON.
+#[track_caller]
+fn assert_reads_back(scene: &SceneFile, name: &str) {
+    let text = scene.to_ron().expect(name);
+    assert_eq!(&SceneFile::from_ron(&text).expect(name), scene, "{name}:\n{text}");
+    let compact = scene_ron_options().to_string(scene).expect(name);
+    assert_eq!(&scene_ron_options().from_str::<SceneFile>(&compact).expect(name), scene, "{name}");
+    let json = serde_json::to_string(scene).expect(name);
+    assert_eq!(&serde_json::from_str::<SceneFile>(&json).expect(name), scene, "{name}:\n{json}");
+}
+
+#[test]
+fn what_has_its_default_is_not_written() {
+    let scene = SceneFile::from_model_path("a.glb".to_owned());
+    assert_eq!(scene.to_ron().expect("it is written"), "Scene(models: [(path: \"a.glb\")])\n");
+    let json = serde_json::to_string(&scene).expect("it is written");
+    assert_eq!(json, r#"{"models":[{"path":"a.glb"}]}"#);
+}
+
+#[test]
+fn other_formats_refuse_what_ron_refuses() {
+    for (json, reason) in [
+        (r#"{"modles": []}"#, "unknown field `modles`"),
+        (r#"{"models": [{}]}"#, "missing field `path`"),
+        (r#"{"camera": {"zoom": 0}}"#, "expected a number greater than 0, found 0"),
+        (r#"{"style": "Falt"}"#, "unknown field `Falt`"),
+        (r#"{"camera": {"view": {"LookAt": {"eye": [1, 2], "target": [0, 0, 0]}}}}"#, "three"),
+    ] {
+        let error = serde_json::from_str::<SceneFile>(json).expect_err(json).to_string();
+        assert!(error.contains(reason), "{json}: {error}");
+    }
+}
