@@ -1,4 +1,4 @@
-//! A thousand scenes of one model, each with a view and a light of its own, rendered and written as RON.
+//! Renders a thousand scenes of one model from different views and in different light, and writes them as RON.
 //!
 //! Run it with `cargo run --release -p alberti-pipeline --example thousand_scenes -- model.glb folder`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]

@@ -60,7 +60,8 @@ const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections
 /// How often a text is read again without what `ron` refused.
 const MAX_READINGS: usize = 8;
 
-/// Reads a text without a byte order mark by `ron`; if it refuses, as far as possible.
+/// Reads a scene with `ron`. If that fails, reports every mistake and reads whatever has none. The
+/// text has no byte order mark.
 pub(super) fn read_recovering(source: &str) -> ParsedScene {
     let error = match scene_ron_options().from_str::<SceneFile>(source) {
         Ok(scene) => {
@@ -111,20 +112,21 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
 }
 
 impl ParsedScene {
-    /// Reads what is left of a text without the fields and elements that have mistakes, so that
-    /// what is wrong in the rest can be told in the same run.
+    /// Reads the scene without the fields and elements that contain mistakes, so that errors of
+    /// meaning in the others are reported in the same run.
     ///
-    /// Where a required field is missing then, what is around it goes as well.
+    /// If a required field is lost, the value around it is left out as well.
     fn read_rest(&mut self, root: &Node<'_>) {
         let mut removed: Vec<Range<usize>> =
             self.mistakes.iter().map(|mistake| mistake.scope.clone()).collect();
         for _ in 0..MAX_READINGS {
-            let mut rest = Rest { removed: &removed, text: String::new(), items: Vec::new() };
+            let spans = RemovedSpans::new(&removed);
+            let mut rest = Rest { removed: &spans, text: String::new(), items: Vec::new() };
             rest.write(root);
             let error = match scene_ron_options().from_str::<SceneFile>(&rest.text) {
                 Ok(scene) => {
                     self.scene = scene;
-                    self.retained = retained_elements(root, &removed);
+                    self.retained = retained_elements(root, &spans);
                     return;
                 }
                 Err(error) => error,
@@ -140,7 +142,7 @@ impl ParsedScene {
 /// The text of a tree without some of its fields and elements.
 struct Rest<'a> {
     /// The bytes of the source that are left out.
-    removed: &'a [Range<usize>],
+    removed: &'a RemovedSpans,
     text: String,
     /// For each field and element that is there its bytes in this text, and in the source.
     items: Vec<(Range<usize>, Range<usize>)>,
@@ -167,7 +169,7 @@ impl Rest<'_> {
     }
 
     fn write_item(&mut self, item: &SyntaxItem<'_>) {
-        if item.value.kind == NodeKind::Invalid || is_removed(&item.span(), self.removed) {
+        if item.value.kind == NodeKind::Invalid || self.removed.contains(&item.span()) {
             return;
         }
         let start = self.text.len();
@@ -187,23 +189,41 @@ impl Rest<'_> {
     }
 }
 
-/// Whether a range of bytes lies in one of those that were removed.
-fn is_removed(span: &Range<usize>, removed: &[Range<usize>]) -> bool {
-    removed.iter().any(|outer| outer.start <= span.start && span.end <= outer.end)
+/// Ranges of bytes that are left out, sorted: a text may have as many mistakes as fields.
+struct RemovedSpans(Vec<Range<usize>>);
+
+impl RemovedSpans {
+    fn new(removed: &[Range<usize>]) -> Self {
+        let mut spans = removed.to_vec();
+        spans.sort_by_key(|span| span.start);
+        // Each ends where the longest of those before it does.
+        let mut end = 0;
+        for span in &mut spans {
+            end = end.max(span.end);
+            span.end = end;
+        }
+        Self(spans)
+    }
+
+    /// Whether a range lies within one of these.
+    fn contains(&self, span: &Range<usize>) -> bool {
+        let count = self.0.partition_point(|outer| outer.start <= span.start);
+        count > 0 && span.end <= self.0[count - 1].end
+    }
 }
 
 /// For each list of a scene the indices of the elements that are still there.
 fn retained_elements(
     root: &Node<'_>,
-    removed: &[Range<usize>],
+    removed: &RemovedSpans,
 ) -> BTreeMap<&'static str, Vec<usize>> {
     let items = root.group().map_or(&[][..], |group| &group.items);
     let elements = |list: &'static str| {
         let is_list =
             |item: &&SyntaxItem<'_>| item.key.as_ref().is_some_and(|key| key.name == list);
         let field = items.iter().find(is_list)?;
-        let group = field.value.group().filter(|_| !is_removed(&field.span(), removed))?;
-        let is_there = |(_, item): &(usize, &SyntaxItem<'_>)| !is_removed(&item.span(), removed);
+        let group = field.value.group().filter(|_| !removed.contains(&field.span()))?;
+        let is_there = |(_, item): &(usize, &SyntaxItem<'_>)| !removed.contains(&item.span());
         let indices = group.items.iter().enumerate().filter(is_there).map(|(index, _)| index);
         Some((list, indices.collect()))
     };

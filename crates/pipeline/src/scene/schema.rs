@@ -23,7 +23,8 @@ pub(super) use checker::Checker;
 use declare::join_doc_lines;
 pub(crate) use declare::{
     default_value, documentation, field_entry, inner_type, named_enum, named_values, read_fields,
-    read_variant, scene_enum, scene_struct, variant_value, write_fields, write_variant,
+    read_variant, scene_enum, scene_struct, serde_methods, variant_value, write_fields,
+    write_variant,
 };
 pub(super) use search::{example_of, fields_where, variants_where};
 pub(super) use serialized::{AnyForm, three_numbers, write_three_numbers};

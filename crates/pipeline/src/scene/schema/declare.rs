@@ -116,13 +116,7 @@ macro_rules! scene_struct {
                 )
             }
 
-            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                serde::Deserialize::deserialize(deserializer)
-            }
-
-            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serde::Serialize::serialize(self, serializer)
-            }
+            $crate::scene::schema::serde_methods!();
         }
 
         impl<'de> serde::Deserialize<'de> for $name {
@@ -197,13 +191,7 @@ macro_rules! scene_enum {
                 )
             }
 
-            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                serde::Deserialize::deserialize(deserializer)
-            }
-
-            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serde::Serialize::serialize(self, serializer)
-            }
+            $crate::scene::schema::serde_methods!();
         }
 
         impl<'de> serde::Deserialize<'de> for $name {
@@ -250,6 +238,19 @@ macro_rules! scene_enum {
                     )
                 ),*}
             }
+        }
+    };
+}
+
+/// The methods of `SceneValue` for a type that implements serde's traits.
+macro_rules! serde_methods {
+    () => {
+        fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            serde::Deserialize::deserialize(deserializer)
+        }
+
+        fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            serde::Serialize::serialize(self, serializer)
         }
     };
 }
@@ -306,8 +307,8 @@ macro_rules! variant_value {
 
 /// Reads the fields of a struct or a variant, each by [`SceneValue`](crate::scene::schema::SceneValue).
 ///
-/// By hand, because what serde derives makes the program larger by two thirds of a megabyte: for each
-/// struct a type for the names of its fields, and code for formats in which fields have none.
+/// Written by hand: serde's derive generates a type for the field names of each struct, and code for
+/// formats without field names, which adds another 0.2 MB to the program.
 macro_rules! read_fields {
     (
         $($field:ident: $type:ty $(= $default:expr)?),*;
@@ -411,7 +412,7 @@ macro_rules! write_variant {
 
 pub(crate) use {default_value, documentation, field_entry, inner_type};
 pub(crate) use {read_fields, read_variant, scene_enum, scene_struct};
-pub(crate) use {variant_value, write_fields, write_variant};
+pub(crate) use {serde_methods, variant_value, write_fields, write_variant};
 
 /// Names the values of an enum without fields: implements `NamedOption`, and reads and writes it in
 /// scene files. Each summary is the entry of the value in the reference.

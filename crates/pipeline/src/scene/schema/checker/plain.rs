@@ -10,7 +10,7 @@ use crate::scene::syntax::{
 impl Checker<'_> {
     /// A number of any value; `expected` names the numbers that are possible.
     ///
-    /// A number in quotation marks gets a help of its own. Infinities and NaN parse here and are
+    /// A number in quotation marks has a special hint. Infinities and NaN parse here and are
     /// refused by the range.
     pub(in crate::scene) fn read_number(&mut self, node: &Node<'_>, expected: &str) -> Option<f64> {
         if let NodeKind::Number(word) = node.kind {
@@ -31,7 +31,7 @@ impl Checker<'_> {
         None
     }
 
-    /// For a number of percent what is written here: without the sign, or as a fraction.
+    /// The correction for a number with a percent sign: the number alone, or a fraction.
     fn suggest_fraction(&self, word: &str, expected: &str) -> Option<String> {
         let percent = word.strip_suffix('%')?;
         let number = parse_number(percent)?;
