@@ -3,16 +3,14 @@
 
 mod names;
 
-use super::number::{check_three_numbers, unnamed_group};
+use super::number::{Finite, Triple, check_three_numbers, unnamed_group};
 use super::schema::{
-    AnyForm, Checker, Declared, Notation, SceneValue, Shape, TypeEntry, ValueType,
-    serde_by_scene_value, three_numbers, write_three_numbers,
+    Checker, Data, Declared, Form, Notation, SceneValue, Shape, TypeEntry, ValueType, read_plain,
+    serde_by_scene_value,
 };
 use super::suggest::closest_name;
 use super::syntax::{Node, NodeKind};
 use names::CSS_COLORS;
-use serde::de::{Deserialize, Deserializer, Error as _};
-use serde::ser::Serializer;
 use shade::color::{parse_hex_srgb, srgb_to_linear_table};
 
 serde_by_scene_value! { Color, LightColor }
@@ -57,7 +55,11 @@ impl Declared for Color {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Color",
         doc: "A color in sRGB in quotation marks: \"#rgb\", \"#rrggbb\", or the name of a color of CSS such as \"white\".",
-        shape: Shape::Plain(Notation(check_color)),
+        shape: Shape::Plain(Notation {
+            check: check_color,
+            form: Form::Text,
+            read: read_plain::<Self>,
+        }),
     };
 }
 
@@ -66,14 +68,14 @@ impl SceneValue for Color {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        Self::parse(&text).ok_or_else(|| D::Error::custom(format_args!("`{text}` is not a color")))
+    fn from_data(data: &Data) -> Result<Self, String> {
+        let text = String::from_data(data)?;
+        Self::parse(&text).ok_or_else(|| format!("`{text}` is not a color"))
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+    fn to_data(&self) -> Data {
         let [r, g, b] = self.0;
-        serializer.collect_str(&format_args!("#{r:02x}{g:02x}{b:02x}"))
+        Data::Text(format!("#{r:02x}{g:02x}{b:02x}"))
     }
 }
 
@@ -150,7 +152,11 @@ impl Declared for LightColor {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "LightColor",
         doc: "The color of light: linear red, green and blue such as (1, 0.9, 0.8), or a color in sRGB such as \"#ffe0c0\" or \"white\".",
-        shape: Shape::Plain(Notation(check_light_color)),
+        shape: Shape::Plain(Notation {
+            check: check_light_color,
+            form: Form::Any(Finite::value_type),
+            read: read_plain::<Self>,
+        }),
     };
 }
 
@@ -159,18 +165,17 @@ impl SceneValue for LightColor {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match AnyForm::deserialize(deserializer)? {
-            AnyForm::List(numbers) => three_numbers(&numbers).map(Self),
-            AnyForm::Text(text) => match Color::parse(&text) {
-                Some(color) => Ok(Self(color.to_linear().map(f64::from))),
-                None => Err(D::Error::custom(format_args!("`{text}` is not a color"))),
-            },
-            _ => Err(D::Error::custom("expected a color")),
+    fn from_data(data: &Data) -> Result<Self, String> {
+        match data {
+            Data::Text(_) => {
+                let color = Color::from_data(data)?;
+                Ok(Self(color.to_linear().map(f64::from)))
+            }
+            other => Triple::from_data(other).map(|numbers| Self(numbers.0)),
         }
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        write_three_numbers(self.0, serializer)
+    fn to_data(&self) -> Data {
+        Data::of_three_numbers(self.0)
     }
 }

@@ -3,12 +3,10 @@
 //! RON itself accepts `NaN`, `inf` and `1e400`; none of these types does.
 
 use super::schema::{
-    AnyForm, Checker, Declared, Notation, SceneValue, Shape, TypeEntry, ValueType, checked_number,
-    serde_by_scene_value, three_numbers, write_number, write_three_numbers,
+    Checker, Data, Declared, Form, Notation, SceneValue, Shape, TypeEntry, ValueType,
+    checked_number, read_plain, serde_by_scene_value,
 };
 use super::syntax::{Group, Key, Node, NodeKind, parse_integer, parse_number};
-use serde::de::{Deserialize, Deserializer, Error as _};
-use serde::ser::Serializer;
 
 serde_by_scene_value! { Triple, Scale }
 
@@ -203,7 +201,11 @@ impl Declared for Triple {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Triple",
         doc: "Three finite numbers: a point, a vector, or angles about three axes. Written `(1, 2, 3)` or `[1, 2, 3]`.",
-        shape: Shape::Plain(Notation(check_triple)),
+        shape: Shape::Plain(Notation {
+            check: check_triple,
+            form: Form::Any(Finite::value_type),
+            read: read_plain::<Self>,
+        }),
     };
 }
 
@@ -212,15 +214,13 @@ impl SceneValue for Triple {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match AnyForm::deserialize(deserializer)? {
-            AnyForm::List(numbers) => three_numbers(&numbers).map(Self),
-            _ => Err(D::Error::custom("expected three numbers, such as (1, 2, 3)")),
-        }
+    fn from_data(data: &Data) -> Result<Self, String> {
+        let numbers = data.three_numbers().map(Self);
+        numbers.ok_or_else(|| "expected three numbers, such as (1, 2, 3)".to_owned())
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        write_three_numbers(self.0, serializer)
+    fn to_data(&self) -> Data {
+        Data::of_three_numbers(self.0)
     }
 }
 
@@ -261,7 +261,11 @@ impl Declared for Scale {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Scale",
         doc: "A factor for each axis; none of them is 0. Written as one number or as three.",
-        shape: Shape::Plain(Notation(check_scale)),
+        shape: Shape::Plain(Notation {
+            check: check_scale,
+            form: Form::Any(Finite::value_type),
+            read: read_plain::<Self>,
+        }),
     };
 }
 
@@ -270,22 +274,18 @@ impl SceneValue for Scale {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let factors = match AnyForm::deserialize(deserializer)? {
-            AnyForm::List(numbers) => three_numbers(&numbers)?,
-            AnyForm::Number(factor) => [factor; 3],
-            _ => return Err(D::Error::custom("expected one factor, such as 2, or three")),
-        };
+    fn from_data(data: &Data) -> Result<Self, String> {
+        let factors = data.number().map(|factor| [factor; 3]).or_else(|| data.three_numbers());
+        let factors = factors.ok_or("expected one factor, such as 2, or three")?;
         let is_valid = factors.iter().all(|factor| factor.is_finite() && *factor != 0.0);
-        is_valid
-            .then_some(Self(factors))
-            .ok_or_else(|| D::Error::custom("expected finite factors other than 0"))
+        let valid = is_valid.then_some(Self(factors));
+        valid.ok_or_else(|| "expected finite factors other than 0".to_owned())
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+    fn to_data(&self) -> Data {
         match self.0 {
-            [x, y, z] if x == y && y == z => write_number(x, serializer),
-            factors => write_three_numbers(factors, serializer),
+            [x, y, z] if x == y && y == z => Data::Number(x),
+            factors => Data::of_three_numbers(factors),
         }
     }
 }

@@ -14,25 +14,22 @@
 //! cannot drift apart. All of it is `const` data; nothing is registered at run time.
 
 mod checker;
+mod data;
 mod declare;
 mod search;
 mod serialized;
 mod values;
 
 pub(super) use checker::Checker;
+pub(crate) use data::{Data, read_named, write_named, written_field};
 use declare::join_doc_lines;
 pub(crate) use declare::{
     default_value, documentation, field_entry, inner_type, named_enum, named_values, read_fields,
-    read_variant, scene_enum, scene_struct, serde_methods, variant_value, write_fields,
-    write_variant,
+    read_variant, scene_enum, scene_struct, variant_value, write_fields, write_variant,
 };
 pub(super) use search::{example_of, fields_where, variants_where};
-pub(super) use serialized::{AnyForm, three_numbers, write_three_numbers};
-pub(crate) use serialized::{
-    FieldSet, FieldSetVisitor, NameOf, SerdeField, SerdeRef, SerdeValue, is_written, read_named,
-    serde_by_scene_value, write_named, write_number,
-};
-pub(crate) use values::checked_number;
+pub(crate) use serialized::{read_value, serde_by_scene_value, write_value};
+pub(crate) use values::{checked_number, read_plain};
 
 use super::syntax::Node;
 
@@ -45,11 +42,14 @@ pub(super) trait SceneValue: Sized + PartialEq {
     /// tuples are built from the types of their elements.
     fn value_type() -> ValueType;
 
-    /// Reads a value from any format of serde's.
-    fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
+    /// Reads a value.
+    ///
+    /// # Errors
+    /// If it is not one of this type, in words.
+    fn from_data(data: &Data) -> Result<Self, String>;
 
-    /// Writes the value to any format of serde's.
-    fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
+    /// Writes the value, without fields that have their defaults.
+    fn to_data(&self) -> Data;
 
     /// The value of a field that is left out. `None`, for types that are not optional, makes the
     /// struct around it unreadable.
@@ -137,9 +137,31 @@ pub enum Shape {
     Plain(Notation),
 }
 
-/// How a value without named parts is written: the function that reports the mistakes in one.
+/// How a value without named parts is written.
 #[derive(Clone, Copy, Debug)]
-pub struct Notation(pub(super) fn(&Node<'_>, &mut Checker<'_>));
+pub struct Notation {
+    /// Reports the mistakes in one.
+    pub(super) check: fn(&Node<'_>, &mut Checker<'_>),
+    /// What it looks like.
+    pub(super) form: Form,
+    /// Whether a value of this form is one of the type.
+    pub(super) read: fn(&Data) -> Result<(), String>,
+}
+
+/// What a value without named parts looks like.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form {
+    /// `true` or `false`.
+    Bool,
+    /// A whole number.
+    Whole,
+    /// A number.
+    Number,
+    /// A string.
+    Text,
+    /// Any of these, or values of the returned type in brackets.
+    Any(fn() -> ValueType),
+}
 
 /// The declaration of a field.
 #[derive(Clone, Copy, Debug)]

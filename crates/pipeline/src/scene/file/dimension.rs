@@ -2,12 +2,10 @@
 
 use crate::scene::number::Triple;
 use crate::scene::schema::{
-    AnyForm, Declared as _, SceneValue, ValueType, named_enum, named_values, scene_enum,
-    scene_struct, serde_by_scene_value,
+    Data, Declared as _, SceneValue, ValueType, named_enum, named_values, scene_enum, scene_struct,
+    serde_by_scene_value,
 };
 use drawing::{DimensionSide, LengthDirection};
-use serde::de::{Deserialize, Deserializer, Error as _};
-use serde::ser::Serializer;
 
 serde_by_scene_value! { DimensionsFile }
 
@@ -34,20 +32,19 @@ impl SceneValue for DimensionsFile {
         Vec::<DimensionFile>::value_type()
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match AnyForm::deserialize(deserializer)? {
-            AnyForm::Bool(true) => Ok(Self::overall()),
-            AnyForm::Bool(false) => Ok(Self::none()),
-            AnyForm::List(dimensions) => Ok(Self(dimensions)),
-            _ => Err(D::Error::custom("expected true, false or a list of dimensions")),
+    fn from_data(data: &Data) -> Result<Self, String> {
+        match data {
+            Data::Bool(true) => Ok(Self::overall()),
+            Data::Bool(false) => Ok(Self::none()),
+            list => Vec::from_data(list).map(Self),
         }
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+    fn to_data(&self) -> Data {
         match self.0.as_slice() {
-            [] => serializer.serialize_bool(false),
-            [DimensionFile::Overall] => serializer.serialize_bool(true),
-            dimensions => serializer.collect_seq(dimensions),
+            [] => Data::Bool(false),
+            [DimensionFile::Overall] => Data::Bool(true),
+            _ => self.0.to_data(),
         }
     }
 }

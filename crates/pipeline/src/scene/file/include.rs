@@ -1,12 +1,10 @@
 //! The scene files that a scene file includes.
 
 use crate::scene::schema::{
-    AnyForm, Checker, Declared, Notation, SceneValue, Shape, TypeEntry, ValueType,
+    Checker, Data, Declared, Form, Notation, SceneValue, Shape, TypeEntry, ValueType, read_plain,
     serde_by_scene_value,
 };
 use crate::scene::syntax::Node;
-use serde::de::{Deserialize, Deserializer, Error as _};
-use serde::ser::Serializer;
 
 serde_by_scene_value! { Paths }
 
@@ -18,7 +16,11 @@ impl Declared for Paths {
     const ENTRY: &'static TypeEntry = &TypeEntry {
         name: "Paths",
         doc: "One path, `\"studio.ron\"`, or several, `[\"studio.ron\", \"paper.ron\"]`, from the folder of the file that names them.",
-        shape: Shape::Plain(Notation(check_paths)),
+        shape: Shape::Plain(Notation {
+            check: check_paths,
+            form: Form::Any(String::value_type),
+            read: read_plain::<Self>,
+        }),
     };
 }
 
@@ -27,18 +29,17 @@ impl SceneValue for Paths {
         ValueType::Declared(Self::ENTRY)
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match AnyForm::deserialize(deserializer)? {
-            AnyForm::List(paths) => Ok(Self(paths)),
-            AnyForm::Text(path) => Ok(Self(vec![path])),
-            _ => Err(D::Error::custom("expected a path or a list of paths")),
+    fn from_data(data: &Data) -> Result<Self, String> {
+        match data {
+            Data::Text(path) => Ok(Self(vec![path.clone()])),
+            list => Vec::from_data(list).map(Self),
         }
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+    fn to_data(&self) -> Data {
         match self.0.as_slice() {
-            [path] => serializer.serialize_str(path),
-            paths => serializer.collect_seq(paths),
+            [path] => path.to_data(),
+            _ => self.0.to_data(),
         }
     }
 }

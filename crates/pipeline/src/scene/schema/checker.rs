@@ -67,11 +67,11 @@ impl<'a> Checker<'a> {
     /// Reports every mistake in a value of this type.
     pub(in crate::scene) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
         match value_type {
-            ValueType::Plain(_, Notation(check)) => check(node, self),
+            ValueType::Plain(_, Notation { check, .. }) => check(node, self),
             ValueType::List(element) => self.check_list(node, element),
             ValueType::Tuple(parts) => self.check_tuple(node, parts),
             ValueType::Declared(entry) => match entry.shape {
-                Shape::Plain(Notation(check)) => check(node, self),
+                Shape::Plain(Notation { check, .. }) => check(node, self),
                 Shape::Variants(_) => self.check_variant(node, entry),
                 Shape::Fields(_) => {
                     if let Some(fields) = self.find_struct(node, entry) {

@@ -116,28 +116,19 @@ macro_rules! scene_struct {
                 )
             }
 
-            $crate::scene::schema::serde_methods!();
-        }
-
-        impl<'de> serde::Deserialize<'de> for $name {
-            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            fn from_data(data: &$crate::scene::schema::Data) -> Result<Self, String> {
                 $crate::scene::schema::read_fields!(
-                    $($field: $type $(= $default)?),*;
-                    names, visitor => deserializer.deserialize_struct($shown, names, visitor);
-                    $name
+                    data, $name; $($field: $type $(= $default)?),*
                 )
+            }
+
+            fn to_data(&self) -> $crate::scene::schema::Data {
+                let Self { $($field),* } = self;
+                $crate::scene::schema::write_fields!($($field: $type $(= $default)?),*)
             }
         }
 
-        impl serde::Serialize for $name {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let Self { $($field),* } = self;
-                $crate::scene::schema::write_fields!(
-                    $($field: $type $(= $default)?),*;
-                    serde::ser::SerializeStruct, count => serializer.serialize_struct($shown, count)
-                )
-            }
-        }
+        $crate::scene::schema::serde_by_scene_value! { $name }
     };
 }
 
@@ -191,67 +182,33 @@ macro_rules! scene_enum {
                 )
             }
 
-            $crate::scene::schema::serde_methods!();
-        }
-
-        impl<'de> serde::Deserialize<'de> for $name {
-            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct Variants;
-                impl<'de> serde::de::Visitor<'de> for Variants {
-                    type Value = $name;
-
-                    fn expecting(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                        formatter.write_str($shown)
-                    }
-
-                    fn visit_enum<A: serde::de::EnumAccess<'de>>(
-                        self,
-                        data: A,
-                    ) -> Result<$name, A::Error> {
-                        let names = $crate::scene::schema::NameOf(NAMES);
-                        let (name, variant) = data.variant_seed(names)?;
-                        match name {
-                            $(stringify!($variant) => $crate::scene::schema::read_variant!(
-                                variant, $name, $variant
-                                $({ $($field: $type $(= $default)?),* })?
-                                $(($inner))?
-                            ),)*
-                            _ => Err(serde::de::Error::unknown_variant(name, NAMES)),
-                        }
-                    }
+            fn from_data(data: &$crate::scene::schema::Data) -> Result<Self, String> {
+                match data.variant() {
+                    $((stringify!($variant), value) => $crate::scene::schema::read_variant!(
+                        value, $name, $variant
+                        $({ $($field: $type $(= $default)?),* })?
+                        $(($inner))?
+                    ),)*
+                    (name, _) => Err(format!("`{name}` is not one of the variants of {}", $shown)),
                 }
-                const NAMES: &[&str] = &[$(stringify!($variant)),*];
-                deserializer.deserialize_enum($shown, NAMES, Variants)
             }
-        }
 
-        impl serde::Serialize for $name {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            fn to_data(&self) -> $crate::scene::schema::Data {
                 match self {$(
                     Self::$variant
                     $({ $($field),* })?
                     $(($crate::scene::schema::variant_value!(value, $inner)))?
-                    => $crate::scene::schema::write_variant!(
-                        serializer, value, $name, $shown, $variant
-                        $({ $($field: $type $(= $default)?),* })?
-                        $(($inner))?
+                    => $crate::scene::schema::Data::of_variant(
+                        stringify!($variant),
+                        $crate::scene::schema::write_variant!(
+                            value $({ $($field: $type $(= $default)?),* })? $(($inner))?
+                        ),
                     )
                 ),*}
             }
         }
-    };
-}
 
-/// The methods of `SceneValue` for a type that implements serde's traits.
-macro_rules! serde_methods {
-    () => {
-        fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-            serde::Deserialize::deserialize(deserializer)
-        }
-
-        fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-            serde::Serialize::serialize(self, serializer)
-        }
+        $crate::scene::schema::serde_by_scene_value! { $name }
     };
 }
 
@@ -305,114 +262,59 @@ macro_rules! variant_value {
     };
 }
 
-/// Reads the fields of a struct or a variant, each by [`SceneValue`](crate::scene::schema::SceneValue).
-///
-/// Written by hand: serde's derive generates a type for the field names of each struct, and code for
-/// formats without field names, which adds another 0.2 MB to the program.
+/// Reads the fields of a struct or a variant.
 macro_rules! read_fields {
-    (
-        $($field:ident: $type:ty $(= $default:expr)?),*;
-        $names:ident, $visitor:ident => $open:expr;
-        $($constructor:tt)*
-    ) => {{
-        #[derive(Default)]
-        struct Partial {
-            $($field: $crate::scene::schema::SerdeField<$type>,)*
-        }
-        impl $crate::scene::schema::FieldSet for Partial {
-            fn read_field<'de, A: serde::de::MapAccess<'de>>(
-                &mut self,
-                name: &'static str,
-                map: &mut A,
-            ) -> Result<(), A::Error> {
-                match name {
-                    $(stringify!($field) => self.$field.read(name, map),)*
-                    _ => Ok(()),
-                }
-            }
-        }
-        let $names: &'static [&'static str] = &[$(stringify!($field)),*];
-        let $visitor = $crate::scene::schema::FieldSetVisitor::<Partial>::new($names);
-        let fields = $open?;
-        Ok($($constructor)* {
-            $($field: fields.$field.or_default(
+    ($data:ident, $($name:ident)::+; $($field:ident: $type:ty $(= $default:expr)?),*) => {
+        Ok($($name)::+ {
+            $($field: $data.field(
                 stringify!($field),
                 $crate::scene::schema::default_value!($type $(= $default)?),
             )?),*
         })
-    }};
+    };
 }
 
 /// Reads a variant: nothing behind its name, its fields, or its value.
 macro_rules! read_variant {
-    ($data:ident, $name:ident, $variant:ident) => {
-        serde::de::VariantAccess::unit_variant($data).map(|()| $name::$variant)
-    };
-    ($data:ident, $name:ident, $variant:ident
-        { $($field:ident: $type:ty $(= $default:expr)?),* }) => {
-        $crate::scene::schema::read_fields!(
-            $($field: $type $(= $default)?),*;
-            names, visitor => serde::de::VariantAccess::struct_variant($data, names, visitor);
-            $name::$variant
-        )
-    };
-    ($data:ident, $name:ident, $variant:ident ($inner:ty)) => {{
-        let value = serde::de::VariantAccess::newtype_variant($data);
-        value.map(|value: $crate::scene::schema::SerdeValue<$inner>| $name::$variant(value.0))
+    ($data:ident, $name:ident, $variant:ident) => {{
+        let _ = $data;
+        Ok($name::$variant)
     }};
+    ($data:ident, $name:ident, $variant:ident { $($fields:tt)* }) => {
+        $crate::scene::schema::read_fields!($data, $name::$variant; $($fields)*)
+    };
+    ($data:ident, $name:ident, $variant:ident ($inner:ty)) => {
+        <$inner as $crate::scene::schema::SceneValue>::from_data($data).map($name::$variant)
+    };
 }
 
 /// Writes the fields that are bound to variables, without those that have their defaults.
 macro_rules! write_fields {
-    (
-        $($field:ident: $type:ty $(= $default:expr)?),*;
-        $trait:path, $count:ident => $open:expr
-    ) => {{
-        use $trait as _;
-        let written = [$($crate::scene::schema::is_written(
+    ($($field:ident: $type:ty $(= $default:expr)?),*) => {
+        $crate::scene::schema::Data::of_fields([$($crate::scene::schema::written_field(
+            stringify!($field),
             $field,
             $crate::scene::schema::default_value!($type $(= $default)?),
-        )),*];
-        let $count = written.iter().filter(|is_written| **is_written).count();
-        let mut written = written.into_iter();
-        let mut fields = $open?;
-        $(
-            if written.next().unwrap_or(true) {
-                let value = $crate::scene::schema::SerdeRef($field);
-                fields.serialize_field(stringify!($field), &value)?;
-            } else {
-                fields.skip_field(stringify!($field))?;
-            }
-        )*
-        fields.end()
-    }};
+        )),*])
+    };
 }
 
-/// Writes a variant: its name, its fields, or its value.
+/// Writes what is behind the name of a variant.
 macro_rules! write_variant {
-    ($serializer:ident, $value:ident, $name:ident, $shown:literal, $variant:ident) => {{
-        let index = <$name as $crate::scene::schema::Declared>::ENTRY.variant_index(stringify!($variant));
-        $serializer.serialize_unit_variant($shown, index, stringify!($variant))
-    }};
-    ($serializer:ident, $value:ident, $name:ident, $shown:literal, $variant:ident
-        { $($field:ident: $type:ty $(= $default:expr)?),* }) => {{
-        let index = <$name as $crate::scene::schema::Declared>::ENTRY.variant_index(stringify!($variant));
-        $crate::scene::schema::write_fields!(
-            $($field: $type $(= $default)?),*;
-            serde::ser::SerializeStructVariant, count =>
-                $serializer.serialize_struct_variant($shown, index, stringify!($variant), count)
-        )
-    }};
-    ($serializer:ident, $value:ident, $name:ident, $shown:literal, $variant:ident ($inner:ty)) => {{
-        let index = <$name as $crate::scene::schema::Declared>::ENTRY.variant_index(stringify!($variant));
-        let value = $crate::scene::schema::SerdeRef($value);
-        $serializer.serialize_newtype_variant($shown, index, stringify!($variant), &value)
-    }};
+    ($value:ident) => {
+        $crate::scene::schema::Data::None
+    };
+    ($value:ident { $($fields:tt)* }) => {
+        $crate::scene::schema::write_fields!($($fields)*)
+    };
+    ($value:ident ($inner:ty)) => {
+        $crate::scene::schema::SceneValue::to_data($value)
+    };
 }
 
 pub(crate) use {default_value, documentation, field_entry, inner_type};
 pub(crate) use {read_fields, read_variant, scene_enum, scene_struct};
-pub(crate) use {serde_methods, variant_value, write_fields, write_variant};
+pub(crate) use {variant_value, write_fields, write_variant};
 
 /// Names the values of an enum without fields: implements `NamedOption`, and reads and writes it in
 /// scene files. Each summary is the entry of the value in the reference.
@@ -461,12 +363,12 @@ macro_rules! named_values {
                 )
             }
 
-            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                $crate::scene::schema::read_named(deserializer, &[$(stringify!($variant)),*])
+            fn from_data(data: &$crate::scene::schema::Data) -> Result<Self, String> {
+                $crate::scene::schema::read_named(data)
             }
 
-            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                $crate::scene::schema::write_named(*self, serializer)
+            fn to_data(&self) -> $crate::scene::schema::Data {
+                $crate::scene::schema::write_named(*self)
             }
         }
     };

@@ -1,10 +1,6 @@
 //! Values without declared parts: numbers with bounds, strings, lists, tuples, and optional values.
 
-use super::{Checker, Notation, SceneValue, SerdeRef, SerdeValue, ValueType};
-use core::fmt;
-use core::marker::PhantomData;
-use serde::de::{Deserialize, Deserializer, Error as _, IgnoredAny, SeqAccess, Visitor};
-use serde::ser::{SerializeTuple as _, Serializer};
+use super::{Checker, Data, Form, Notation, SceneValue, ValueType};
 
 /// Declares a number type that only admits some values. `"…"` names them in messages.
 ///
@@ -36,9 +32,11 @@ macro_rules! checked_number {
                 &$crate::scene::schema::TypeEntry {
                     name: stringify!($name),
                     doc: concat!($($doc, "\n"),*),
-                    shape: $crate::scene::schema::Shape::Plain($crate::scene::schema::Notation(
-                        |node, checker| checker.check_number(node, $expected, Self::new),
-                    )),
+                    shape: $crate::scene::schema::Shape::Plain($crate::scene::schema::Notation {
+                        check: |node, checker| checker.check_number(node, $expected, Self::new),
+                        form: $crate::scene::schema::Form::Number,
+                        read: $crate::scene::schema::read_plain::<Self>,
+                    }),
                 };
         }
 
@@ -49,13 +47,13 @@ macro_rules! checked_number {
                 )
             }
 
-            fn read<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let value: f64 = serde::Deserialize::deserialize(deserializer)?;
-                Self::try_from(value).map_err(serde::de::Error::custom)
+            fn from_data(data: &$crate::scene::schema::Data) -> Result<Self, String> {
+                let value = data.number().ok_or_else(|| format!("expected {}", $expected))?;
+                Self::try_from(value).map_err(|error| error.to_string())
             }
 
-            fn write<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                $crate::scene::schema::write_number(self.0, serializer)
+            fn to_data(&self) -> $crate::scene::schema::Data {
+                $crate::scene::schema::Data::Number(self.0)
             }
         }
 
@@ -76,61 +74,45 @@ macro_rules! checked_number {
 
 pub(crate) use checked_number;
 
-impl SceneValue for u32 {
-    fn value_type() -> ValueType {
-        ValueType::Plain("whole number", Notation(Checker::check_whole_number))
-    }
+/// Implements [`SceneValue`] for a type of Rust's: its name in words, its mistakes, its form.
+macro_rules! plain_value {
+    ($type:ty, $words:literal, $check:ident, $form:ident($value:ident) => $read:expr, $write:expr) => {
+        impl SceneValue for $type {
+            fn value_type() -> ValueType {
+                let check = Checker::$check;
+                let notation = Notation { check, form: Form::$form, read: read_plain::<Self> };
+                ValueType::Plain($words, notation)
+            }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Self::deserialize(deserializer)
-    }
+            fn from_data(data: &Data) -> Result<Self, String> {
+                match data {
+                    Data::$form($value) => $read,
+                    _ => Err(concat!("expected ", $words).to_owned()),
+                }
+            }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u32(*self)
-    }
+            fn to_data(&self) -> Data {
+                let $value = self;
+                Data::$form($write)
+            }
+        }
+    };
 }
 
-impl SceneValue for usize {
-    fn value_type() -> ValueType {
-        ValueType::Plain("whole number", Notation(Checker::check_whole_number))
-    }
-
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        u32::deserialize(deserializer).map(|value| value as Self)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u64(*self as u64)
-    }
+/// Whether a value without parts can be read.
+pub(crate) fn read_plain<T: SceneValue>(data: &Data) -> Result<(), String> {
+    T::from_data(data).map(drop)
 }
 
-impl SceneValue for bool {
-    fn value_type() -> ValueType {
-        ValueType::Plain("true or false", Notation(Checker::check_bool))
-    }
-
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Self::deserialize(deserializer)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_bool(*self)
-    }
+/// A whole number in fewer bits.
+fn small_number<T: TryFrom<u64>>(number: u64) -> Result<T, String> {
+    T::try_from(number).map_err(|_| format!("the number {number} is too large"))
 }
 
-impl SceneValue for String {
-    fn value_type() -> ValueType {
-        ValueType::Plain("string", Notation(Checker::check_string))
-    }
-
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Self::deserialize(deserializer)
-    }
-
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self)
-    }
-}
+plain_value!(u32, "whole number", check_whole_number, Whole(n) => small_number(*n), u64::from(*n));
+plain_value!(usize, "whole number", check_whole_number, Whole(n) => small_number(*n), *n as u64);
+plain_value!(bool, "true or false", check_bool, Bool(value) => Ok(*value), *value);
+plain_value!(String, "string", check_string, Text(text) => Ok(text.clone()), text.clone());
 
 impl<T: SceneValue> SceneValue for Option<T> {
     const IS_OPTIONAL: bool = true;
@@ -139,15 +121,15 @@ impl<T: SceneValue> SceneValue for Option<T> {
         T::value_type()
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Option::<SerdeValue<T>>::deserialize(deserializer).map(|value| value.map(|value| value.0))
+    fn from_data(data: &Data) -> Result<Self, String> {
+        match data {
+            Data::None => Ok(None),
+            value => T::from_data(value).map(Some),
+        }
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Some(value) => serializer.serialize_some(&SerdeRef(value)),
-            None => serializer.serialize_none(),
-        }
+    fn to_data(&self) -> Data {
+        self.as_ref().map_or(Data::None, T::to_data)
     }
 
     fn when_absent() -> Option<Self> {
@@ -160,13 +142,12 @@ impl<T: SceneValue> SceneValue for Vec<T> {
         ValueType::List(Box::new(T::value_type()))
     }
 
-    fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let values = Vec::<SerdeValue<T>>::deserialize(deserializer)?;
-        Ok(values.into_iter().map(|value| value.0).collect())
+    fn from_data(data: &Data) -> Result<Self, String> {
+        data.list().ok_or("expected a list")?.iter().map(T::from_data).collect()
     }
 
-    fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter().map(SerdeRef))
+    fn to_data(&self) -> Data {
+        Data::List(self.iter().map(T::to_data).collect())
     }
 }
 
@@ -178,39 +159,17 @@ macro_rules! tuple_value {
                 ValueType::Tuple(vec![$($type::value_type()),*])
             }
 
-            /// Brackets of either kind, where the format has two.
-            fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct Elements<$($type),*>(PhantomData<($($type,)*)>);
-                impl<'de, $($type: SceneValue),*> Visitor<'de> for Elements<$($type),*> {
-                    type Value = ($($type,)*);
-
-                    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                        write!(formatter, "{} values in brackets", $count)
+            fn from_data(data: &Data) -> Result<Self, String> {
+                match data.list() {
+                    Some(values) if values.len() == $count => {
+                        Ok(($($type::from_data(&values[$index])?,)*))
                     }
-
-                    fn visit_seq<S: SeqAccess<'de>>(
-                        self,
-                        mut elements: S,
-                    ) -> Result<Self::Value, S::Error> {
-                        let values = ($(
-                            elements
-                                .next_element::<SerdeValue<$type>>()?
-                                .ok_or_else(|| S::Error::invalid_length($index, &self))?
-                                .0,
-                        )*);
-                        match elements.next_element::<IgnoredAny>()? {
-                            Some(_) => Err(S::Error::invalid_length($count + 1, &self)),
-                            None => Ok(values),
-                        }
-                    }
+                    _ => Err(concat!("expected ", $count, " values in brackets").to_owned()),
                 }
-                deserializer.deserialize_any(Elements(PhantomData))
             }
 
-            fn write<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let mut tuple = serializer.serialize_tuple($count)?;
-                $(tuple.serialize_element(&SerdeRef(&self.$index))?;)*
-                tuple.end()
+            fn to_data(&self) -> Data {
+                Data::Tuple(vec![$(self.$index.to_data()),*])
             }
         }
     };
