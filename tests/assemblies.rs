@@ -3,19 +3,19 @@
 //! The models are those of `$ASSETS` or of `shared/assets` beside the repository that have several
 //! nodes with meshes. Arguments that are not flags select models by a part of their path.
 
-#[path = "../crates/drawing/tests/integration/sheets/balloons.rs"]
+#[path = "../crates/sheet/tests/integration/balloons.rs"]
 mod balloons;
-#[path = "../crates/drawing/tests/integration/sheets/lint.rs"]
+#[path = "../crates/sheet/tests/integration/lint.rs"]
 mod lint;
-#[path = "../crates/drawing/tests/integration/sheets/separation.rs"]
+#[path = "../crates/sheet/tests/integration/separation.rs"]
 mod separation;
 
 use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program, sample_cases};
 use alberti_tests::manifest::read_manifest;
-use drawing::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
 use homog::{Affine, Bounds};
 use model::import::{ImportOptions, load};
 use model::{ModelInstance, world_points};
+use sheet::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;

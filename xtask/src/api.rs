@@ -20,7 +20,7 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 12] = [
     "camera",
     "clip",
     "drawing",
@@ -31,6 +31,7 @@ const CRATES: [&str; 11] = [
     "projection",
     "raster",
     "shade",
+    "sheet",
     "viewport",
 ];
 

@@ -8,10 +8,10 @@
 //! that solves the problem, as in rustc.
 
 use super::color;
-use drawing::SheetError;
 use model::import::ImportError;
 use pipeline::demonstration::DemonstrationError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
+use sheet::SheetError;
 
 /// A failed run. `main` prints the message after `error: ` and exits with code 1.
 ///

@@ -17,10 +17,7 @@ use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use assembly::AssemblyArgs;
-use drawing::{
-    DecimalMark, DimensionUnit, DxfOptions, FaceFill, HiddenLines, Page, SheetFrame,
-    TitleBlockLanguage, Warning,
-};
+use drawing::{DxfOptions, FaceFill, HiddenLines, Page, Warning};
 use model::import::{ImageLoading, ImportOptions};
 use page_files::{PageNames, write_all};
 use pipeline::scene::file::{
@@ -29,6 +26,7 @@ use pipeline::scene::file::{
 use pipeline::scene::{ResolveOptions, SheetContent, Style};
 use pipeline::{Origin, Picture, Scene};
 use projection::SheetAngle;
+use sheet::{DecimalMark, DimensionUnit, SheetFrame, TitleBlockLanguage};
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
 
@@ -192,7 +190,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
 }
 
 /// The error of a sheet that cannot be drawn: at its place in the scene file, if it has one there.
-fn sheet_error(origin: &Origin, error: drawing::SheetError) -> CliError {
+fn sheet_error(origin: &Origin, error: sheet::SheetError) -> CliError {
     match pipeline::scene::sheet_view_error(origin, &error) {
         Some(mistake) => CliError::Scene(mistake),
         None => CliError::Sheet(error),

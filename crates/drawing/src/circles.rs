@@ -8,10 +8,22 @@
 use crate::dxf::arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use crate::edges::FeatureChain;
 use crate::page::Polyline;
-use crate::sheet::WorldCircle;
 use core::f64::consts::TAU;
 use glam::{DVec2, DVec3};
-use homog::{Point, Vector};
+use homog::{Point, Vector, World};
+
+/// A circle in the world.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct WorldCircle {
+    /// The center.
+    pub center: Point<World>,
+    /// The unit vector along the axis.
+    pub axis: Vector<World>,
+    /// The radius.
+    pub radius: f64,
+    /// The angle of the arc that is there in radians: 2π for a full circle.
+    pub sweep: f64,
+}
 
 /// Points may be so far beside a circle, as a part of the diagonal of the models.
 pub(crate) const CIRCLE_TOLERANCE: f64 = 5e-5;

@@ -80,7 +80,10 @@ pub fn draw(
 /// Draws a welded surface as one camera sees it, on an image of `size` pixels.
 ///
 /// A sheet draws the same surface from several sides; see [`draw`] for the rest.
-pub(crate) fn draw_surface(
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_surface(
     surface: &WeldedSurface,
     view_projection: &ViewProjection,
     size: [u32; 2],

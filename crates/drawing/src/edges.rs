@@ -27,5 +27,6 @@ mod welded_surface;
 mod world_mesh;
 
 pub(super) use feature_edges::{FeatureChain, FeatureEdge};
-pub(super) use welded_surface::{CandidateEdge, SectionCap, WeldedSurface};
+pub use welded_surface::WeldedSurface;
+pub(super) use welded_surface::{CandidateEdge, SectionCap};
 pub(super) use world_mesh::WorldMesh;

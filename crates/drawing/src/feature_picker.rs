@@ -128,7 +128,7 @@ impl<'a> FeaturePicker<'a> {
     }
 
     /// The search for planes about which all objects are symmetric.
-    pub(crate) fn mirror_symmetry(&self) -> MirrorSymmetry<'_> {
+    pub fn mirror_symmetry(&self) -> MirrorSymmetry<'_> {
         let Features { surface, edges, .. } = self.features();
         MirrorSymmetry::new(surface, edges)
     }

@@ -43,7 +43,8 @@ mod occlusion_intervals;
 mod projected_edge;
 mod screen_bvh;
 
-pub(super) use bvh::{Aabb, Bvh};
+pub use bvh::Aabb;
+pub(super) use bvh::Bvh;
 pub(super) use depth_cover::DepthCover;
 pub use occluders::{EdgeParts, Occluders, Tolerance};
 pub(super) use occluders::{MeshOccluders, OcclusionScratch, mesh_bvh};

@@ -48,7 +48,7 @@ impl Placement {
         Self { corner: DVec2::ZERO, scale: DVec2::splat(MILLIMETERS_PER_PIXEL) };
 
     /// A point of the drawing in millimeters of the page.
-    pub(super) fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
+    pub fn pixels_to_page(&self, pixels: DVec2) -> DVec2 {
         self.corner + pixels * self.scale
     }
 

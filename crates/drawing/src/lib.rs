@@ -1,5 +1,4 @@
-//! Hidden-line drawings of meshes: feature edges, exact visibility, sections, drawing sheets; SVG,
-//! PDF, DXF and PNG.
+//! Hidden-line drawings of meshes: feature edges, exact visibility, sections; SVG, PDF, DXF and PNG.
 //!
 //! ```text
 //!   models ─► edges ─► visible and hidden segments ─► polylines by pen ─► SVG, PDF, DXF, PNG
@@ -18,8 +17,6 @@
 //!  `feature_picker`, `circles` | vertices, edges, faces and circles by their place
 //!  `page`, `svg`, `pdf`, `dxf`, `canvas` | pages in micrometers, and their four formats |
 //!  `page_clip`, `line_clip` | lines clipped to the rectangles of views, drawings to parts of views |
-//!  `sheet` | orthographic views in first or third angle, title block, dimensions |
-//!  `assembly` | parts of models counted by content, masses by the divergence theorem, exploded views |
 //!  `overlay`, `chart`, `panels` | teaching material: axes, labels, vanishing points, curves |
 //!  `z_buffer_check` | a drawing checked against the z-buffer image of its scene |
 //!
@@ -27,7 +24,6 @@
 //! `viewport`), so a line drawing lies exactly over a picture of the same scene. Results do not
 //! depend on the number of threads.
 
-mod assembly;
 mod canvas;
 mod chart;
 mod circles;
@@ -68,7 +64,6 @@ mod projector;
 mod region;
 mod region_outline;
 mod retained_points;
-mod sheet;
 mod speckles;
 mod stroke_font;
 mod subject;
@@ -77,26 +72,26 @@ mod view_cover;
 mod warning;
 mod z_buffer_check;
 
-pub use assembly::{
-    AssemblyPages, AssemblyWarning, ExplosionAxis, ExplosionSettings, PartDensity, PartPlace,
-    PartsList, PartsListItem, explode_models,
-};
 pub use canvas::draw_layers_over;
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
-pub use draw::draw;
+pub use circles::WorldCircle;
+pub use draw::{draw, draw_surface};
 pub use dxf::DxfOptions;
+pub use edges::WeldedSurface;
 pub use error::DrawError;
 pub use feature_picker::{FeaturePicker, PickedFeature};
-pub use hidden_line::{EdgeParts, Occluders, Tolerance};
+pub use hidden_line::{Aabb, EdgeParts, Occluders, Tolerance};
 pub use label::{Label, TextAlign};
 pub use layout::Placement;
+pub use line_clip::{ClipArea, ClipSide, circle_points, point_at};
 pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
 pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 pub use line_type::{IsoLineGroup, LineType};
 pub use markup::escape_markup;
+pub use mirror_symmetry::MirrorSymmetry;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 pub use overlay::{
-    LabelFault, Overlay, PointLabel, SheetLabelFault, label_rectangles, label_warnings,
+    AXES, LabelFault, Overlay, PointLabel, SheetLabelFault, label_rectangles, label_warnings,
     missing_glyph_warning, overlay_layers, with_label_halos,
 };
 pub use page::{
@@ -106,16 +101,11 @@ pub use page::{
 pub use panels::{Panel, Panels};
 pub use pdf::to_pdf;
 pub use projector::Projector;
-pub use region::{Region, RegionEdge, RegionHatching};
-pub use retained_points::retained_points;
-pub use sheet::{
-    DecimalMark, Dimension, DimensionFault, DimensionSide, DimensionUnit, LengthDirection, Measure,
-    NumberFormat, ScaleLimit, Sheet, SheetError, SheetFill, SheetFrame, TemplateError,
-    TitleBlockLanguage, TitleBlockTemplate, TitleBlockText, ViewPlace, ViewRequest, ViewSide,
-    WorldCircle,
-};
+pub use region::{Region, RegionEdge, RegionHatching, region_edges};
+pub use retained_points::{idle_section_warning, retained_points};
+pub use stroke_font::missing_glyphs;
 pub use subject::Subject;
-pub use warning::Warning;
+pub use warning::{AssemblyWarning, DimensionFault, Warning, visible_text};
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};
 
 /// The example of the README, compiled as a documentation test.

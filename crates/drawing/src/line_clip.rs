@@ -19,23 +19,35 @@ const DISC_CORNERS: u32 = 180;
 
 /// An area of the picture in pixels, y down.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum ClipArea {
+pub enum ClipArea {
     /// A disc.
-    Disc { center: DVec2, radius: f64 },
+    Disc {
+        /// The center.
+        center: DVec2,
+        /// The radius.
+        radius: f64,
+    },
     /// A polygon whose border is seen whole from its center.
-    Star { center: DVec2, corners: Vec<DVec2> },
+    Star {
+        /// The point from which all of the border is seen.
+        center: DVec2,
+        /// The corners in order.
+        corners: Vec<DVec2>,
+    },
 }
 
 /// The part of a drawing that is kept.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ClipSide {
+pub enum ClipSide {
+    /// The part within the area.
     Inside,
+    /// The part beside it.
     Outside,
 }
 
 impl ClipArea {
     /// The half of the plane to the left of a line as seen with y up; large enough for any drawing.
-    pub(crate) fn half_plane(point: DVec2, along: DVec2) -> Self {
+    pub fn half_plane(point: DVec2, along: DVec2) -> Self {
         const FAR: f64 = 1e6;
         let (along, left) = (along * FAR, DVec2::new(along.y, -along.x) * FAR);
         let corners =
@@ -54,7 +66,7 @@ impl ClipArea {
     }
 
     /// Whether a point is inside (even-odd rule).
-    pub(crate) fn contains(&self, point: DVec2) -> bool {
+    pub fn contains(&self, point: DVec2) -> bool {
         match self {
             Self::Disc { center, radius } => point.distance_squared(*center) < radius * radius,
             Self::Star { corners, .. } => sides(corners).fold(false, |inside, [a, b]| {
@@ -99,7 +111,7 @@ impl ClipArea {
     }
 
     /// The parts of a line on one side of the border, as intervals of its fractions.
-    pub(crate) fn intervals(&self, ends: [DVec2; 2], side: ClipSide) -> Vec<[f64; 2]> {
+    pub fn intervals(&self, ends: [DVec2; 2], side: ClipSide) -> Vec<[f64; 2]> {
         let wanted = side == ClipSide::Inside;
         let mut kept: Vec<[f64; 2]> = Vec::new();
         for pair in self.crossings(ends).windows(2) {
@@ -121,7 +133,7 @@ fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> {
 }
 
 /// Points on a circle at equal distances.
-pub(crate) fn circle_points(center: DVec2, radius: f64, count: u32) -> Vec<DVec2> {
+pub fn circle_points(center: DVec2, radius: f64, count: u32) -> Vec<DVec2> {
     let at = |k: u32| {
         let (sine, cosine) = libm::sincos(std::f64::consts::TAU * f64::from(k) / f64::from(count));
         center + DVec2::new(cosine, sine) * radius
@@ -130,13 +142,13 @@ pub(crate) fn circle_points(center: DVec2, radius: f64, count: u32) -> Vec<DVec2
 }
 
 /// The point of a line at a fraction of its length; its ends are exact.
-pub(crate) fn point_at([a, b]: [DVec2; 2], t: f64) -> DVec2 {
+pub fn point_at([a, b]: [DVec2; 2], t: f64) -> DVec2 {
     if t == 1.0 { b } else { a.lerp(b, t) }
 }
 
 impl LineDrawing {
     /// The part of the drawing inside or outside of an area. Regions outside are left out.
-    pub(crate) fn clipped(mut self, area: &ClipArea, side: ClipSide) -> Self {
+    pub fn clipped(mut self, area: &ClipArea, side: ClipSide) -> Self {
         let segments = self.segments.iter().flat_map(|segment| {
             let parts = area.intervals(segment.ends, side).into_iter();
             parts.map(|part| EdgeSegment {
@@ -168,7 +180,7 @@ impl LineDrawing {
     }
 
     /// The drawing moved by a vector in pixels; its fill by whole pixels.
-    pub(crate) fn moved_by(mut self, by: DVec2) -> Self {
+    pub fn moved_by(mut self, by: DVec2) -> Self {
         self.segments.iter_mut().flat_map(|segment| &mut segment.ends).for_each(|end| *end += by);
         let edges = self.regions.iter_mut().flat_map(|region| &mut region.edges);
         edges.flat_map(|edge| &mut edge.ends).for_each(|end| *end += by);
@@ -188,7 +200,7 @@ impl LineDrawing {
 
     /// Adds the lines of another drawing of the same models and the same size, and its fill where
     /// there is none.
-    pub(crate) fn merge(&mut self, other: Self) {
+    pub fn merge(&mut self, other: Self) {
         let offset = self.segments.iter().map(|segment| segment.edge + 1).max().unwrap_or(0);
         let moved = |segment: EdgeSegment| EdgeSegment { edge: segment.edge + offset, ..segment };
         self.segments.extend(other.segments.into_iter().map(moved));

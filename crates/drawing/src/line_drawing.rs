@@ -71,7 +71,7 @@ pub struct LineDrawing {
 
 impl LineDrawing {
     /// Whether there is nothing to see.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         let is_clear = |fill: &Picture| fill.pixels.iter().all(|pixel| pixel[3] == 0);
         let has_fill = self.face_fill.as_ref().is_some_and(|fill| !is_clear(fill));
         self.segments.is_empty() && self.regions.is_empty() && !has_fill

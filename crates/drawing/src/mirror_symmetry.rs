@@ -16,7 +16,8 @@ use homog::{Point, Vector, World};
 const SAME_COSINE: f64 = 1e-12;
 
 /// The search for planes of symmetry.
-pub(crate) struct MirrorSymmetry<'a> {
+#[derive(Debug)]
+pub struct MirrorSymmetry<'a> {
     surface: &'a WeldedSurface,
     edges: &'a [FeatureEdge],
     edge_bvh: Bvh,
@@ -49,7 +50,7 @@ impl<'a> MirrorSymmetry<'a> {
 
     /// A point of the plane that is perpendicular to a unit vector and about which the models are
     /// symmetric; `None` if there is no such plane.
-    pub(crate) fn plane_across(&mut self, direction: Vector<World>) -> Option<Point<World>> {
+    pub fn plane_across(&mut self, direction: Vector<World>) -> Option<Point<World>> {
         let direction = direction.raw();
         let is_same = |known: DVec3| known.dot(direction).abs() > 1.0 - SAME_COSINE;
         if let Some((_, point)) = self.known.iter().find(|(known, _)| is_same(*known)) {

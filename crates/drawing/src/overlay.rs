@@ -56,7 +56,7 @@ pub enum Overlay {
 }
 
 /// The axes of the world, their names and their colors.
-pub(crate) const AXES: [(Vector<World>, &str, Ink); 3] =
+pub const AXES: [(Vector<World>, &str, Ink); 3] =
     [(Vector::X, "x", RED), (Vector::Y, "y", GREEN), (Vector::Z, "z", BLUE)];
 
 /// The width of lines, the height of letters, the length of arrowheads, in millimeters.

@@ -50,7 +50,7 @@ pub struct RegionHatching {
 /// The sides of the area that triangles cover on the screen, sorted.
 ///
 /// What is outside of the view volume is clipped, so the border of the picture may be a side.
-pub(super) fn region_edges(
+pub fn region_edges(
     triangles: impl Iterator<Item = [DVec3; 3]>,
     projector: &Projector,
 ) -> Vec<RegionEdge> {

@@ -82,7 +82,7 @@ pub(crate) fn idle_section_warnings(
 
 /// The warning of a section, by its number from 1, that lies beside all points: it removes nothing,
 /// or everything.
-pub(crate) fn idle_section_warning(
+pub fn idle_section_warning(
     points: &[Point<World>],
     plane: Plane<World>,
     number: usize,

@@ -67,7 +67,7 @@ pub(super) fn advance_width(character: char) -> f64 {
 }
 
 /// The characters of a text that the font lacks, each once in the order of the text.
-pub(super) fn missing_glyphs(text: &str) -> String {
+pub fn missing_glyphs(text: &str) -> String {
     let mut missing = String::new();
     for character in text.chars().filter(|character| !has_glyph(*character)) {
         if !missing.contains(character) {

@@ -1,9 +1,12 @@
 //! Warnings: what a drawing leaves out, returned along with it.
 
-use crate::DimensionFault;
-use crate::assembly::AssemblyWarning;
+mod assembly;
+mod dimension;
+
 use crate::overlay::{LabelFault, SheetLabelFault};
+pub use assembly::AssemblyWarning;
 use core::fmt;
+pub use dimension::DimensionFault;
 
 /// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
 ///
@@ -254,7 +257,7 @@ const MAX_QUOTED: usize = 60;
 
 /// A text in which characters without a sign of their own, such as controls and those that change
 /// the direction of writing, are written by their code: `\u{202e}`. A long one is cut off.
-pub(crate) fn visible_text(text: &str) -> String {
+pub fn visible_text(text: &str) -> String {
     let is_invisible = |c: char| {
         model::is_terminal_control(c)
             || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{206f}')

@@ -70,7 +70,7 @@ mod tests {
         assert_send_sync::<(shade::Picture, model::Timings, crate::CancelToken)>();
         assert_send_sync::<(crate::Renderer, crate::sequence::Sequence)>();
         assert_send_sync::<crate::explain::Explanation>();
-        assert_send_sync::<(drawing::Page, drawing::LineDrawing, drawing::Sheet)>();
+        assert_send_sync::<(drawing::Page, drawing::LineDrawing, sheet::Sheet)>();
         assert_send_sync::<(crate::SceneError, crate::ResolveError, crate::RenderError)>();
         assert_send_sync::<(shade::OutputError, model::import::ImportError)>();
         assert_send_sync::<model::import::ImportOptions>();

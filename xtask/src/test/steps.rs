@@ -197,8 +197,8 @@ fn later_steps() -> Vec<Step> {
         suite("drawing-all", "drawing", "line drawings: every random scene"),
         Step::new(
             "parts-all",
-            "the tests of drawings, with sheets of a thousand parts",
-            Action::Thorough("alberti-drawing"),
+            "the tests of sheets, with some of a thousand parts",
+            Action::Thorough("alberti-sheet"),
         )
         .shared(),
         suite("assemblies-all", "assemblies", "sheets of every model with several parts"),

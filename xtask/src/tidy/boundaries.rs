@@ -25,8 +25,8 @@ const NAMED_BY: &[(&str, &[&str])] = &[
 /// The crates from the bottom up, and which of those before it each may depend on: all where
 /// nothing is said. The arrows of the code map.
 ///
-/// No stage depends on another one, `model` knows no scene, and `shade` and `drawing` do not know
-/// the pipeline that uses both.
+/// No stage depends on another one, `model` knows no scene, and `shade`, `drawing` and `sheet` do not
+/// know the pipeline that uses them.
 const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("homog", None),
     ("camera", Some(&["homog"])),
@@ -37,6 +37,7 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("model", Some(&["homog", "raster"])),
     ("shade", Some(&["homog", "camera", "raster", "model"])),
     ("drawing", None),
+    ("sheet", None),
     ("pipeline", None),
     ("explorer", None),
     ("alberti", None),

@@ -3,9 +3,9 @@
 use super::parts_list_json::parts_list_document;
 use crate::options::option_parser;
 use crate::page_output::has_extension;
-use drawing::{ExplosionAxis, PartsList, Sheet};
 use model::ModelInstance;
 use pipeline::scene::file::SheetFile;
+use sheet::{ExplosionAxis, PartsList, Sheet};
 use std::path::PathBuf;
 
 /// Flags of the pages that show the models as an assembly of parts.

@@ -14,8 +14,8 @@
 //! ```
 //! (Shortened: each of the four bolts has its place.)
 
-use drawing::{PartPlace, PartsList, PartsListItem};
 use serde_json::{Value, json};
+use sheet::{PartPlace, PartsList, PartsListItem};
 
 /// The version of the JSON schema.
 const VERSION: u32 = 1;

@@ -58,7 +58,7 @@ impl SectionCap {
 
 /// The mesh of a scene after welding and section cuts, with its half-edges.
 #[derive(Clone, Debug)]
-pub(crate) struct WeldedSurface {
+pub struct WeldedSurface {
     mesh: WorldMesh,
     /// Of all faces of `mesh`.
     half_edges: HalfEdges,
@@ -90,7 +90,7 @@ impl WeldedSurface {
     ///
     /// While bodies are being cut, coincident faces of different objects are both retained, since
     /// each body must be closed by itself; the last welding removes them.
-    pub(crate) fn new(models: &[ModelInstance], sections: &[Plane<World>], uncut: &[u32]) -> Self {
+    pub fn new(models: &[ModelInstance], sections: &[Plane<World>], uncut: &[u32]) -> Self {
         Self::from_mesh(WorldMesh::from_models(models), sections, uncut)
     }
 
@@ -133,7 +133,7 @@ impl WeldedSurface {
 
     /// The surface of parts that have moved from these boxes, one for each of the first objects:
     /// their hatchings remain those of the assembly.
-    pub(crate) fn exploded_from(self, boxes: impl Iterator<Item = Aabb>) -> Self {
+    pub fn exploded_from(self, boxes: impl Iterator<Item = Aabb>) -> Self {
         Self { assembled_boxes: Some((0..).zip(boxes).collect()), ..self }
     }
 
@@ -215,12 +215,12 @@ impl WeldedSurface {
     }
 
     /// The names of the objects.
-    pub(crate) fn object_names(&self) -> &[String] {
+    pub fn object_names(&self) -> &[String] {
         &self.mesh.objects
     }
 
     /// All triangles that hide, slivers included, in world space.
-    pub(crate) fn occluder_triangles(&self) -> impl Iterator<Item = [Point<World>; 3]> {
+    pub fn occluder_triangles(&self) -> impl Iterator<Item = [Point<World>; 3]> {
         let position = |vertex: u32| Point::from_raw(self.mesh.points[vertex as usize]);
         let faces = self.mesh.faces.iter().chain(&self.fillings);
         faces.map(move |face| face.vertices.map(position))

@@ -21,7 +21,7 @@ use std::ops::Range;
 
 /// An axis-aligned bounding box.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Aabb {
+pub struct Aabb {
     /// The least coordinates.
     pub(crate) min: DVec3,
     /// The greatest coordinates; less than `min` for the empty box.
@@ -33,7 +33,7 @@ impl Aabb {
     pub(crate) const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The smallest box around some points.
-    pub(crate) fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
+    pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         let grow =
             |grown: Self, point| Self { min: grown.min.min(point), max: grown.max.max(point) };
         points.into_iter().fold(Self::EMPTY, grow)

@@ -1,4 +1,3 @@
 //! Tests of the public interface of `drawing`, linked once.
 
 mod hidden_lines;
-mod sheets;

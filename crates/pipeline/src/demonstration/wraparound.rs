@@ -16,8 +16,9 @@ use super::DemonstrationError;
 use super::number_format::format_short;
 use camera::Camera;
 use clip::{Volume, clip_convex, clip_segment};
-use drawing::{Cap, Join, Polyline};
-use drawing::{Group, Ink, Label, Layer, LineType, Page, Panel, Panels, Pen, TextAlign};
+use drawing::{
+    Cap, Group, Ink, Join, Label, Layer, LineType, Page, Panel, Panels, Pen, Polyline, TextAlign,
+};
 use glam::DVec2;
 use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
 use projection::{Convention, Fov, Perspective};

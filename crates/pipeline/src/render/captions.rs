@@ -2,10 +2,9 @@
 
 use crate::Picture;
 use crate::scene::{ImageSpec, Scene};
-use drawing::palette::ink_on_paper;
 use drawing::{
     Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, Warning, draw_layers_over, label_warnings,
-    missing_glyph_warning,
+    missing_glyph_warning, palette::ink_on_paper,
 };
 use glam::DVec2;
 use homog::PixelRect;

@@ -4,8 +4,8 @@ use super::file::SheetFile;
 use super::suggest::suggest_name;
 use super::syntax::PathStep::{Field, Index};
 use super::{Origin, SceneError};
-use drawing::{AssemblyPages, ExplosionSettings, PartDensity, PartsList};
 use model::ModelInstance;
+use sheet::{AssemblyPages, ExplosionSettings, PartDensity, PartsList};
 
 /// The pages of a sheet that show models as an assembly.
 ///

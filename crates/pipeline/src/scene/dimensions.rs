@@ -16,10 +16,11 @@ use super::{Origin, SceneError};
 use angle::angle_points;
 use camera::NamedView;
 use core::f64::consts::TAU;
-use drawing::{Dimension, DimensionSide, LengthDirection, Measure, WorldCircle};
+use drawing::WorldCircle;
 use homog::{Point, World};
 use model::ModelInstance;
 use picking::{Picked, Picking};
+use sheet::{Dimension, DimensionSide, LengthDirection, Measure};
 
 /// The most decimal places that a number may have.
 const MAX_DECIMALS: u32 = 6;

@@ -7,13 +7,11 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::{CameraAxes, NamedView};
-use drawing::{
-    Cap, DecimalMark, DimensionUnit, EdgeSelection, ExplosionAxis, FaceFill, HiddenLines, Join,
-    SheetFrame, SilhouetteMethod, TitleBlockLanguage,
-};
+use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
 use model::{LengthUnit, UpAxis};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
+use sheet::{DecimalMark, DimensionUnit, ExplosionAxis, SheetFrame, TitleBlockLanguage};
 
 /// A type whose values have names.
 ///

@@ -9,12 +9,10 @@ use super::surrounding_light::read_image_bytes;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
 use camera::NamedView;
-use drawing::{
-    DimensionUnit, LineStyle, LineWidths, NumberFormat, Overlay, Sheet, TitleBlockTemplate,
-    TitleBlockText,
-};
+use drawing::{LineStyle, LineWidths, Overlay};
 use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
+use sheet::{DimensionUnit, NumberFormat, Sheet, TitleBlockTemplate, TitleBlockText};
 use std::path::PathBuf;
 use viewport::{DrawingScale, Paper};
 

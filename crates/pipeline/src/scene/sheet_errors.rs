@@ -9,8 +9,8 @@ use super::style::resolve_style;
 use super::syntax::PathStep::{self, Field};
 use super::uncut::resolve_uncut;
 use super::{Origin, SceneError, SceneFile, Style};
-use drawing::SheetError;
 use model::ModelInstance;
+use sheet::SheetError;
 use std::path::PathBuf;
 
 /// The error of a sheet that can be found without the models.

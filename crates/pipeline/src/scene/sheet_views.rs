@@ -5,9 +5,9 @@ use super::number::{Finite, Triple};
 use super::sheet::resolve_scale;
 use super::syntax::PathStep::{self, Field, Index};
 use super::{Origin, SceneError};
-use drawing::{SheetError, ViewPlace, ViewRequest, ViewSide};
 use glam::DVec2;
 use homog::{Point, Vector, World};
+use sheet::{SheetError, ViewPlace, ViewRequest, ViewSide};
 
 /// The views that a sheet asks for.
 ///

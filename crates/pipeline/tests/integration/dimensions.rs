@@ -2,11 +2,11 @@
 
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may fail by a panic")]
 
-use drawing::{Dimension, Measure, Sheet};
 use homog::{Point, World};
 use model::import::MemoryFolder;
 use pipeline::scene::{ResolveOptions, SceneError, SheetContent, parse_scene, resolve_sheet};
 use pipeline::{Origin, Scene};
+use sheet::{Dimension, Measure, Sheet};
 
 /// A box of 4 × 2 × 1 and a roof over it, with an angle of 90° at the ridge.
 const HOUSE: &str = "\

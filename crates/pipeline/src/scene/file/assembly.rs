@@ -2,7 +2,7 @@
 
 use crate::scene::number::{NonNegative, Positive};
 use crate::scene::schema::scene_struct;
-use drawing::ExplosionAxis;
+use sheet::ExplosionAxis;
 
 scene_struct! {
     /// An exploded view: parts moved apart, with their paths.

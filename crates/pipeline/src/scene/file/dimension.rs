@@ -5,7 +5,7 @@ use crate::scene::schema::{
     Data, Declared as _, SceneValue, ValueType, named_enum, named_values, scene_enum, scene_struct,
     serde_by_scene_value,
 };
-use drawing::{DimensionSide, LengthDirection};
+use sheet::{DimensionSide, LengthDirection};
 
 serde_by_scene_value! { DimensionsFile }
 

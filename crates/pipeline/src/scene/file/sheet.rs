@@ -5,9 +5,10 @@ use super::assembly::{DensityFile, ExplodedFile};
 use super::sheet_view::SheetViewFile;
 use crate::scene::number::Positive;
 use crate::scene::schema::{named_enum, scene_struct};
-use drawing::{DecimalMark, DimensionUnit, FaceFill, HiddenLines, SheetFrame, TitleBlockLanguage};
+use drawing::{FaceFill, HiddenLines};
 use model::LengthUnit;
 use projection::SheetAngle;
+use sheet::{DecimalMark, DimensionUnit, SheetFrame, TitleBlockLanguage};
 
 scene_struct! {
     /// A drawing sheet with views of the models.

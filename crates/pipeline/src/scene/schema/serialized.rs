@@ -275,13 +275,13 @@ impl Serialize for Writer<'_> {
             Data::Number(number) => write_number(*number, serializer),
             Data::Text(text) => serializer.serialize_str(text),
             Data::List(elements) => {
-                let writer = |(index, data)| Element(self.0, index, data);
+                let writer = |(index, data)| ListElement(self.0, index, data);
                 serializer.collect_seq(elements.iter().enumerate().map(writer))
             }
             Data::Tuple(elements) => {
                 let mut tuple = serializer.serialize_tuple(elements.len())?;
                 for (index, data) in elements.iter().enumerate() {
-                    tuple.serialize_element(&Element(self.0, index, data))?;
+                    tuple.serialize_element(&ListElement(self.0, index, data))?;
                 }
                 tuple.end()
             }
@@ -346,9 +346,9 @@ impl Writer<'_> {
 }
 
 /// Writes an element of a list or a tuple of this type.
-struct Element<'a>(&'a ValueType, usize, &'a Data);
+struct ListElement<'a>(&'a ValueType, usize, &'a Data);
 
-impl Serialize for Element<'_> {
+impl Serialize for ListElement<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self(list, index, data) = *self;
         match list {

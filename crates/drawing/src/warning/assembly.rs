@@ -1,0 +1,95 @@
+//! Warnings of assemblies: what their pages leave out.
+
+use super::visible_text;
+use core::fmt;
+
+/// Something that the pages of an assembly leave out, with the reason in its `Display` text.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[non_exhaustive]
+pub enum AssemblyWarning {
+    /// The models have no lines and triangles.
+    NoParts,
+    /// The mass of a part does not follow from its density.
+    MassUnknown {
+        /// The name of the part.
+        part: String,
+    },
+    /// Names of parts have characters that the stroke font lacks.
+    NamesUnreadable {
+        /// The first of the names.
+        name: String,
+        /// How many there are.
+        count: usize,
+    },
+    /// Parts are hidden in the view of the assembly, and have no balloons.
+    NotVisible {
+        /// The number of the first in the list.
+        number: usize,
+        /// Its name.
+        part: String,
+        /// How many items there are of which no part is seen.
+        count: usize,
+    },
+    /// Balloons find no place around the view of the assembly.
+    BalloonsLeftOut {
+        /// The number of the first.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// There are too many parts for an exploded view.
+    TooManyPartsToExplode {
+        /// How many there may be.
+        most: usize,
+    },
+    /// There are too many parts for a sheet of each.
+    PartSheetsLeftOut {
+        /// How many have none.
+        count: usize,
+    },
+}
+
+impl fmt::Display for AssemblyWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoParts => f.write_str(
+                "there are no parts to list or to number: the models have no lines or triangles",
+            ),
+            Self::MassUnknown { part } => write!(
+                f,
+                "the mass of `{}` is not known: its mesh is not closed, so it has no volume",
+                visible_text(part)
+            ),
+            Self::NamesUnreadable { name, count } => write!(
+                f,
+                "the letters of drawings lack characters of {count} {} in the parts list, \
+                 such as \"{}\": boxes are in their place",
+                if *count == 1 { "name" } else { "names" },
+                visible_text(name)
+            ),
+            Self::NotVisible { number, part, count } => write!(
+                f,
+                "{count} {} no balloon, such as item {number}, `{}`: nothing is seen of it in the \
+                 view of the assembly, because other parts hide it or it has no size; \
+                 an exploded view, or another axonometric view, may show what is hidden",
+                if *count == 1 { "item has" } else { "items have" },
+                visible_text(part)
+            ),
+            Self::BalloonsLeftOut { number, count } => write!(
+                f,
+                "{count} {} no place around the view, the first of them {number}: use larger paper",
+                if *count == 1 { "balloon finds" } else { "balloons find" }
+            ),
+            Self::TooManyPartsToExplode { most } => write!(
+                f,
+                "the assembly has more than {most} parts, and is not exploded: \
+                 draw a part of the model"
+            ),
+            Self::PartSheetsLeftOut { count } => write!(
+                f,
+                "there are too many parts for a sheet of each: the last {count} {} none",
+                if *count == 1 { "item has" } else { "items have" }
+            ),
+        }
+    }
+}

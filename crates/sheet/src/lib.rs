@@ -1,0 +1,29 @@
+//! Drawing sheets of models: orthographic views to scale with dimensions and title block; assemblies
+//! with their parts lists.
+//!
+//! ```text
+//!   models ─► views ─► layout on the paper ─► dimensions, marks ─► pages of `drawing`
+//! ```
+//!
+//!  module | technique |
+//!  --- | --- |
+//!  `sheet` | orthographic views in first or third angle, title block, dimensions |
+//!  `assembly` | parts of models counted by content, masses by the divergence theorem, exploded views |
+
+mod assembly;
+mod sheet;
+
+pub use assembly::{
+    AssemblyPages, ExplosionAxis, ExplosionSettings, PartDensity, PartPlace, PartsList,
+    PartsListItem, explode_models,
+};
+pub use sheet::{
+    DecimalMark, Dimension, DimensionSide, DimensionUnit, LengthDirection, Measure, NumberFormat,
+    ScaleLimit, Sheet, SheetError, SheetFill, SheetFrame, TemplateError, TitleBlockLanguage,
+    TitleBlockTemplate, TitleBlockText, ViewPlace, ViewRequest, ViewSide,
+};
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,491 @@
+//! Drawing sheets: orthographic views of an object on paper, to scale, with title block and overall
+//! dimensions.
+//!
+//! ```text
+//!   first angle                              third angle
+//!   ┌──────────────────────────────┐         ┌──────────────────────────────┐
+//!   │  ├─────────┤     ├───┤       │         │   ┌───────┐      ╱╲          │
+//!   │ ┬┌───────┐       ┌───┐       │         │   │  top  │     ╱  ╲  iso    │
+//!   │ ││ front │       │left       │         │   └───────┘     ╲  ╱         │
+//!   │ ┴└───────┘       └───┘       │         │ ┬┌───────┐      ┌─────┐      │
+//!   │  ┌───────┐        ╱╲         │         │ ││ front │      │right│      │
+//!   │  │  top  │       ╱  ╲ iso    │         │ ┴└───────┘      └─────┘      │
+//!   │  └───────┘       ╲  ╱        │         │  ├───────┤      ├─────┤      │
+//!   │ 0──1──2 m       ┌────────────┤         │ 0──1──2 m       ┌────────────┤
+//!   └─────────────────┴────────────┘         └─────────────────┴────────────┘
+//! ```
+//!
+//! Views are aligned: those of one row have the same heights, those of one column the same widths
+//! (ISO 5456-2). The scale is one of the standard series (ISO 5455). Frame and title block follow
+//! ISO 5457 and ISO 7200, dimensions ISO 129-1.
+
+mod angle_dimension;
+mod annotation;
+mod assembly_view;
+mod balloon_ring;
+mod center_line;
+mod circle_dimension;
+mod collision;
+mod composition;
+mod dimension;
+mod dimension_board;
+mod frame;
+mod frame_zones;
+mod free_area;
+mod freehand;
+mod length_dimension;
+mod length_format;
+mod measure;
+mod overlay_marks;
+mod pages;
+mod paper_choice;
+mod parts_table;
+mod projection_symbol;
+mod requested_layout;
+mod requested_views;
+mod scale_bar;
+mod section_line;
+mod sheet_fill;
+mod sheet_view;
+mod stepped_line;
+mod surface_cache;
+mod symmetry_lines;
+mod title_block;
+mod title_block_fields;
+mod title_block_language;
+mod title_block_template;
+mod view_grid;
+mod view_layout;
+mod view_mark;
+mod view_measures;
+mod view_plan;
+mod view_request;
+mod visible_spots;
+
+use crate::assembly::AssemblyPages;
+use annotation::{AnnotationLayer, Extent};
+use camera::NamedView;
+use composition::ComposedDrawing;
+use drawing::palette::{BLACK, WHITE};
+use drawing::{
+    DimensionFault, DrawError, FaceFill, Group, HiddenLines, Ink, IsoLineGroup, Layer, LineStyle,
+    LineWidths, Overlay, Page, Pen, Placement, Polyline, Warning, missing_glyph_warning,
+};
+pub use frame_zones::SheetFrame;
+use glam::DVec2;
+use homog::{Plane, World};
+use length_format::LengthFormat;
+pub use length_format::{DecimalMark, DimensionUnit, NumberFormat};
+pub use measure::{Dimension, DimensionSide, LengthDirection, Measure};
+use model::{ModelInstance, model_names};
+use projection::SheetAngle;
+pub use sheet_fill::{ScaleLimit, SheetFill};
+use surface_cache::SurfaceCache;
+pub use title_block_fields::TitleBlockText;
+pub use title_block_language::TitleBlockLanguage;
+pub use title_block_template::{TemplateError, TitleBlockTemplate};
+use view_layout::{PlacedView, ViewLayout};
+use view_plan::ViewPlan;
+pub use view_request::{ViewPlace, ViewRequest, ViewSide};
+use viewport::{DrawingScale, Paper, Rectangle};
+
+/// A drawing sheet: the views on it and their appearance.
+///
+/// ```
+/// use sheet::{Sheet, TitleBlockText};
+/// use viewport::Paper;
+///
+/// let sheet = Sheet {
+///     title_block: TitleBlockText { author: "L. B. Alberti".to_owned(), ..Default::default() },
+///     ..Sheet::for_paper(Paper::A4, "A4")
+/// };
+/// assert!(sheet.dimensions && sheet.scale.is_none());
+/// // Without models there is nothing to draw.
+/// let error = sheet.draw(&[], &[], 1).expect_err("no models");
+/// assert!(error.to_string().contains("nothing to draw"));
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Sheet {
+    /// The paper in its orientation.
+    pub paper: Paper,
+    /// The name of the paper, such as A3.
+    pub paper_name: String,
+    /// First-angle or third-angle projection: the layout of the views.
+    pub projection_angle: SheetAngle,
+    /// The scale; `None` for the largest of the standard series that fits.
+    pub scale: Option<DrawingScale>,
+    /// Millimeters in a unit of the scene.
+    pub millimeters_per_unit: f64,
+    /// The unit of dimensions and scale bar.
+    pub dimension_unit: DimensionUnit,
+    /// The view beside the front view; `None` for that from the left in first angle and from the
+    /// right in third, or the opposite one if only that looks onto a section plane.
+    pub side_view: Option<NamedView>,
+    /// The axonometric view, which stands where the sheet is free; `None` for no such view.
+    pub axonometric_view: Option<NamedView>,
+    /// The line style of the views.
+    pub style: LineStyle,
+    /// Whether overall dimensions are drawn.
+    pub dimensions: bool,
+    /// Further dimensions, which are numbered in this order.
+    pub measures: Vec<Dimension>,
+    /// Whether circles and the axes of round parts have center lines.
+    pub center_lines: bool,
+    /// Whether views along a plane about which the models are symmetric have a line there, if it is
+    /// upright or level in the view.
+    ///
+    /// Mirror images of vertices lie on faces, and those of edges on edges, within 1/20,000 of the
+    /// diagonal of the models.
+    pub symmetry_lines: bool,
+    /// The objects that section planes do not cut: nodes with a mesh, counted over all models.
+    pub uncut: Vec<u32>,
+    /// The texts of the title block.
+    pub title_block: TitleBlockText,
+    /// The pages that show the models as an assembly of parts: see
+    /// [`draw_pages`](Self::draw_pages).
+    pub assembly: AssemblyPages,
+    /// Views beyond the principal and the axonometric one, or in their place, and views that are
+    /// cut or broken in part.
+    pub views: Vec<ViewRequest>,
+    /// The border around the drawing area.
+    pub frame: SheetFrame,
+    /// The decimals of dimensions and scale bar.
+    pub numbers: NumberFormat,
+    /// A title block of one's own; `None` for that of the program.
+    pub title_block_template: Option<TitleBlockTemplate>,
+    /// Labels of points, and axes of the world, in every view of the first page that shows the
+    /// whole; other overlays are warned of.
+    pub overlays: Vec<Overlay>,
+}
+
+/// A sheet that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SheetError {
+    /// A view cannot be drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The models have no points, lines or triangles.
+    #[error("there is nothing to draw: the models have no points, lines or triangles")]
+    Empty,
+    /// A view has no camera or no projection.
+    #[error("the {view} view cannot be drawn: {reason}")]
+    View {
+        /// The name of the view.
+        view: String,
+        /// The reason.
+        reason: String,
+    },
+    /// A requested view cannot be made as it was asked for.
+    #[error("view {number} of the sheet, the {view}: {reason}")]
+    Request {
+        /// The number of the request, from 1.
+        number: usize,
+        /// The name of the view.
+        view: String,
+        /// The reason.
+        reason: String,
+    },
+    /// A view reaches beyond the frame from the place that it was given.
+    #[error(
+        "view {number} of the sheet, the {view}, reaches beyond the frame at its place: its center must be from {:.0} to {:.0} mm \
+         from the left and from {:.0} to {:.0} mm from the top",
+        x[0], x[1], y[0], y[1]
+    )]
+    Outside {
+        /// The number of the request, from 1.
+        number: usize,
+        /// The name of the view.
+        view: String,
+        /// The least and the greatest distance from the left, in millimeters.
+        x: [f64; 2],
+        /// The least and the greatest distance from the top, in millimeters.
+        y: [f64; 2],
+    },
+    #[error(
+        "the views do not fit on {paper} at {scale}: they need {} x {} mm, and {:.0} x {:.0} mm are available{remedy}",
+        in_few_digits(need[0]), in_few_digits(need[1]), available[0], available[1]
+    )]
+    /// The views are too large for the paper.
+    TooLarge {
+        /// The name of the paper.
+        paper: String,
+        /// The scale.
+        scale: DrawingScale,
+        /// Width and height of the views at this scale, in millimeters.
+        need: [f64; 2],
+        /// Width and height that are available to them, in millimeters.
+        available: [f64; 2],
+        /// A change that would make them fit.
+        remedy: String,
+    },
+}
+
+/// Views of which none is as large, in millimeters of paper, cannot be read.
+const LEAST_DRAWING: f64 = 1.0;
+
+/// A length in whole units, or with an exponent where it has more than six digits.
+fn in_few_digits(length: f64) -> String {
+    if length < 1e6 { format!("{length:.0}") } else { format!("{length:.2e}") }
+}
+
+impl Sheet {
+    /// A technical drawing on this paper: first angle, the view from the left, an isometric view,
+    /// overall dimensions.
+    ///
+    /// Line groups grow with the paper: 0.35 mm up to A5, 0.5 mm up to A2, 0.7 mm beyond.
+    #[must_use]
+    pub fn for_paper(paper: Paper, paper_name: impl Into<String>) -> Self {
+        let group = match paper.width().max(paper.height()) {
+            side if side > 650.0 => IsoLineGroup::MM_0_7,
+            side if side < 250.0 => IsoLineGroup::MM_0_35,
+            _ => IsoLineGroup::MM_0_5,
+        };
+        Self {
+            paper,
+            paper_name: paper_name.into(),
+            projection_angle: SheetAngle::First,
+            scale: None,
+            millimeters_per_unit: 1000.0,
+            dimension_unit: DimensionUnit::Millimeter,
+            side_view: None,
+            axonometric_view: Some(NamedView::Isometric),
+            style: LineStyle { line_widths: LineWidths::Iso(group), ..LineStyle::TECHNICAL },
+            dimensions: true,
+            measures: Vec::new(),
+            center_lines: false,
+            symmetry_lines: false,
+            uncut: Vec::new(),
+            title_block: TitleBlockText::default(),
+            assembly: AssemblyPages::default(),
+            views: Vec::new(),
+            frame: SheetFrame::Plain,
+            numbers: NumberFormat::default(),
+            title_block_template: None,
+            overlays: Vec::new(),
+        }
+    }
+
+    /// Draws models, cut open by section planes, with up to `threads` threads; their number does
+    /// not change the page.
+    ///
+    /// # Errors
+    /// If there is nothing to draw, a view cannot be drawn, or the views are larger than the paper.
+    pub fn draw(
+        &self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+        threads: usize,
+    ) -> Result<Page, SheetError> {
+        self.draw_views(models, sections, (&mut SurfaceCache::new(models, &self.uncut), threads))
+    }
+
+    /// As [`draw`](Self::draw), with surfaces that other pages use as well.
+    fn draw_views(
+        &self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+        (surfaces, threads): (&mut SurfaceCache<'_>, usize),
+    ) -> Result<Page, SheetError> {
+        let plan = ViewPlan::new(self, models, sections)?;
+        let layout = ViewLayout::arrange_views(self, &plan)?;
+        let size = DVec2::new(self.paper.width(), self.paper.height());
+        let paper = Some(self.style.paper.unwrap_or(WHITE));
+        let mut page = Page::new(size, self.title_of(models), paper);
+        let ink = self.style.ink.unwrap_or(BLACK);
+        page.warnings = self.warnings_of_layout(&plan, &layout, &page.title);
+        let mut is_empty = true;
+        for placed in &layout.views {
+            let style = self.style_of_view(placed);
+            let composed = placed.planned.draw(surfaces, &style, placed.scale, threads)?;
+            is_empty &= composed.drawing.is_empty();
+            self.add_view(&mut page, placed, composed, &style);
+        }
+        let largest = layout.views.iter().map(|placed| placed.object_size().max_element());
+        if is_empty {
+            page.warnings.push(Warning::NothingDrawn);
+        } else if largest.fold(0.0, f64::max) < LEAST_DRAWING {
+            page.warnings.push(Warning::ViewsTiny);
+        }
+        page.warnings.sort_unstable();
+        page.warnings.dedup();
+        self.draw_annotations(&mut page, &layout, ink);
+        Ok(page)
+    }
+
+    /// Whether the views of models, cut by section planes, fit on the paper, without drawing them;
+    /// the warnings of [`draw`](Self::draw) about views, sections and texts.
+    ///
+    /// # Errors
+    /// As for [`draw`](Self::draw).
+    pub fn check_layout(
+        &self,
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
+    ) -> Result<Vec<Warning>, SheetError> {
+        let plan = ViewPlan::new(self, models, sections)?;
+        let layout = ViewLayout::arrange_views(self, &plan)?;
+        Ok(self.warnings_of_layout(&plan, &layout, &self.title_of(models)))
+    }
+
+    /// The title of the drawing: its own, or the names of the models.
+    fn title_of(&self, models: &[ModelInstance]) -> String {
+        let own = &self.title_block.title;
+        if own.is_empty() { model_names(models) } else { own.clone() }
+    }
+
+    /// Warnings: views not shown as they were asked for, and letters that its texts lack.
+    fn warnings_of_layout(
+        &self,
+        plan: &ViewPlan,
+        layout: &ViewLayout<'_>,
+        title: &str,
+    ) -> Vec<Warning> {
+        let mut warnings = plan.warnings.clone();
+        let left_out = layout.left_out.iter();
+        warnings.extend(left_out.map(|view| Warning::ViewLeftOut { view: view.title() }));
+        let without_room = layout.views.iter().flat_map(|placed| &placed.annotations.left_out);
+        warnings.extend(without_room.map(|dimension| Warning::DimensionLeftOut {
+            dimension: dimension.clone(),
+            fault: DimensionFault::NoRoom,
+        }));
+        for placed in &layout.views {
+            let view = || placed.planned.title();
+            let labels = placed.annotations.labels_left_out.iter().cloned();
+            warnings.extend(labels.map(|(text, fault)| Warning::LabelNotInView {
+                text,
+                view: view(),
+                fault,
+            }));
+        }
+        warnings.extend(layout.overlaps.iter().cloned());
+        match &self.title_block_template {
+            Some(template) => {
+                let scale = layout.scale.to_string();
+                let contents = template.contents(&self.field_values(title, &scale));
+                warnings.extend(contents.iter().filter_map(|text| missing_glyph_warning(text)));
+            }
+            None => {
+                let own = self.title_block.texts().into_iter().filter(|text| *text != title);
+                let texts = core::iter::once(title).chain(own);
+                warnings.extend(texts.filter_map(missing_glyph_warning));
+            }
+        }
+        warnings
+    }
+
+    /// The style of a view's lines.
+    ///
+    /// Hidden lines are removed from axonometric views and from sectional views, where they would
+    /// only confuse (ISO 128-3). Hatchings of parts are removed where something is cut: there they
+    /// are the sign of the cut.
+    fn style_of_view(&self, placed: &PlacedView<'_>) -> LineStyle {
+        let is_outside = placed.planned.is_outside_view();
+        let hidden_lines = if is_outside { self.style.hidden_lines } else { HiddenLines::Removed };
+        let face_fill = match self.style.face_fill {
+            FaceFill::PartHatching if placed.planned.is_cut() => FaceFill::None,
+            fill => fill,
+        };
+        LineStyle { hidden_lines, face_fill, ..self.style }
+    }
+
+    /// Puts the drawing of a view onto the page, with the name of the view before its layers' ids.
+    fn add_view(
+        &self,
+        page: &mut Page,
+        placed: &PlacedView<'_>,
+        ComposedDrawing { drawing, break_lines }: ComposedDrawing,
+        style: &LineStyle,
+    ) {
+        let view = &placed.planned.drawn_view();
+        let placement: Placement = view.placement(&drawing, placed.scale, placed.center);
+        let (prefix, ink) = (format!("{}-", view.name), self.style.ink.unwrap_or(BLACK));
+        let inks = [ink, self.style.paper.unwrap_or(WHITE)];
+        page.images.extend(drawing.face_fill_image(style, placement, &prefix));
+        page.layers.extend(drawing.face_fill_layers(style, placement, &prefix, inks));
+        page.layers.extend(drawing.to_layers(style, placement, &prefix, ink));
+        let pen = Pen::solid(self.line_width_group().narrow_width(), ink);
+        let mut layer = Layer::new(format!("{prefix}break-lines"), "break lines", pen);
+        let on_page = |line: &Vec<DVec2>| {
+            let points: Vec<DVec2> = line.iter().map(|p| placement.pixels_to_page(*p)).collect();
+            Polyline::through_points(&points, false)
+        };
+        let strokes: Vec<Polyline> = break_lines.iter().filter_map(on_page).collect();
+        if !strokes.is_empty() {
+            layer.groups.push(Group { strokes, ..Group::default() });
+            page.layers.push(layer);
+        }
+        page.warnings.extend(drawing.warnings);
+    }
+
+    /// Draws dimensions and the other annotations of views, scale bar, frame and title block.
+    fn draw_annotations(&self, page: &mut Page, layout: &ViewLayout<'_>, ink: Ink) {
+        for kind in AnnotationLayer::ALL {
+            let mut layer = kind.to_layer(self.line_width_group(), self.lettering_height(), ink);
+            for placed in &layout.views {
+                layer.groups.extend(placed.annotations.groups(kind, placed.center));
+            }
+            page.layers.extend((!layer.groups.is_empty()).then_some(layer));
+        }
+        page.layers.extend(scale_bar::scale_bar_layers(self, layout.scale_bar, layout.scale, ink));
+        let block = self.title_block_area();
+        page.layers.extend(self.frame_layers(&layout.contents(block), ink));
+        let title = page.title.clone();
+        let scale = Some(layout.scale);
+        page.layers.extend(title_block::title_block_layers(self, &title, scale, block, ink));
+    }
+
+    /// The frame, with its zones if it has them; centering marks stop where contents are near.
+    fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
+        let frame = frame::frame_layer((self.paper, self.frame), contents, ink);
+        let zones = match self.frame {
+            SheetFrame::Plain => Vec::new(),
+            SheetFrame::Zones => frame_zones::zone_layers(self.paper, ink),
+        };
+        core::iter::once(frame).chain(zones).collect()
+    }
+
+    /// The line group, 0.5 mm if the style has other widths.
+    fn line_width_group(&self) -> IsoLineGroup {
+        match self.style.line_widths {
+            LineWidths::Iso(group) => group,
+            _ => IsoLineGroup::MM_0_5,
+        }
+    }
+
+    /// The form of lengths.
+    fn length_format(&self) -> LengthFormat {
+        LengthFormat { unit: self.dimension_unit, numbers: self.numbers }
+    }
+
+    /// The height of letters in millimeters: a standard size (ISO 3098) for the line group.
+    fn lettering_height(&self) -> f64 {
+        match self.line_width_group().wide_width() {
+            wide if wide < 0.4 => 2.5,
+            wide if wide < 0.6 => 3.5,
+            _ => 5.0,
+        }
+    }
+
+    /// The area within the frame.
+    fn drawing_area(&self) -> Rectangle {
+        frame::area_within_frame(self.paper)
+    }
+
+    /// The usual area of the scale bar.
+    fn scale_bar_area(&self) -> Rectangle {
+        scale_bar::scale_bar_areas(self)[0]
+    }
+
+    /// The area of the title block: the lower right corner of the frame.
+    fn title_block_area(&self) -> Rectangle {
+        title_block::title_block_area(self, self.drawing_area())
+    }
+}
+
+/// A rectangle from values that are finite by construction; its sides are made positive.
+fn rectangle_from_size(x: f64, y: f64, width: f64, height: f64) -> Rectangle {
+    let fallback = || Rectangle::from_size(1.0, 1.0);
+    let rectangle = Rectangle::new(x, y, width.max(1e-6), height.max(1e-6)).or_else(|_| fallback());
+    rectangle.unwrap_or_else(|_| Paper::A4.to_rectangle())
+}

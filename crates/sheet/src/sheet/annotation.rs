@@ -1,0 +1,401 @@
+//! Annotations of a view: its dimensions, cut lines and captions, and the space they take.
+//!
+//! ```text
+//!   ┌ ─ ─ ─ ─ ─ ─ ─ ┐
+//!      ◄── 150 ──►         all coordinates are millimeters of paper from the center of the view;
+//!   │  ┌─────────┐  │      the extent of object and annotations is what a layout has to keep free
+//!      │    +    │
+//!   │  └─────────┘  │
+//!   └ ─ ─ ─ ─ ─ ─ ─ ┘
+//! ```
+//!
+//! They are made before the view has a place, since the place depends on their extent.
+
+use drawing::{
+    Group, Ink, Label, Layer, Pen, Polyline, SheetLabelFault, TextAlign, to_millimeters,
+};
+use glam::DVec2;
+
+/// The least distance of lines from texts, in millimeters.
+const LINE_CLEARANCE: f64 = 0.7;
+
+/// An axis-aligned rectangle: its least and its greatest corner.
+pub(super) type Extent = [DVec2; 2];
+
+/// The layers that annotations are drawn on, in drawing order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum AnnotationLayer {
+    /// The axes of circles and cylinders.
+    CenterLines,
+    /// Dimension lines, extension lines and arrowheads.
+    Dimensions,
+    /// The lengths above dimension lines.
+    DimensionTexts,
+    /// The chain lines of sections.
+    CutLines,
+    /// Their wide ends.
+    CutEnds,
+    /// Their arrows.
+    CutArrows,
+    /// Letters of sections and the names of sectional views.
+    CutNames,
+    /// The scales of views that have another than the sheet.
+    ScaleNotes,
+    /// Lines of symmetry, also between the halves of half sections.
+    SymmetryLines,
+    /// Circles around details, and the lines from them to their letters.
+    ViewMarks,
+    /// Letters of details and of viewing directions, and the names of views.
+    ViewNames,
+    /// Axes of the world, and leader lines of the labels of points.
+    OverlayLines,
+    /// The names of axes, and the labels.
+    OverlayTexts,
+}
+
+/// A line of text beside a view.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct AnnotationText {
+    pub(super) text: String,
+    /// The anchor on the baseline.
+    pub(super) anchor: DVec2,
+    pub(super) height: f64,
+    /// The direction of the baseline: to the right or upward.
+    pub(super) direction: DVec2,
+    pub(super) align: TextAlign,
+}
+
+/// The geometry of an annotation.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum AnnotationShape {
+    /// A straight line.
+    Line([DVec2; 2]),
+    /// Straight lines from point to point, such as the parts of an arc.
+    Path(Vec<DVec2>),
+    /// A polyline that ends at its first point.
+    Loop(Vec<DVec2>),
+    /// A filled triangle: an arrowhead.
+    Head([DVec2; 3]),
+    /// A text.
+    Text(AnnotationText),
+}
+
+/// The annotations of one view.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub(super) struct ViewAnnotations {
+    items: Vec<(AnnotationLayer, AnnotationShape)>,
+    /// The dimensions that were asked for, each a group of its own.
+    dimensions: Vec<PlacedDimension>,
+    /// The names of dimensions without a place.
+    pub(super) left_out: Vec<String>,
+    /// The texts of overlays that are not there, and why.
+    pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
+}
+
+/// A dimension with its place.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct PlacedDimension {
+    /// Its number on the sheet, from 1.
+    pub(super) number: usize,
+    pub(super) shapes: Vec<(AnnotationLayer, AnnotationShape)>,
+}
+
+impl AnnotationText {
+    /// A text whose middle is at a point.
+    pub(super) fn centered(text: impl Into<String>, middle: DVec2, height: f64) -> Self {
+        let anchor = middle + DVec2::Y * (0.5 * height);
+        let align = TextAlign::Middle;
+        Self { text: text.into(), anchor, height, direction: DVec2::X, align }
+    }
+
+    /// The text as a label, with the center of the view at `origin`.
+    fn label(&self, origin: DVec2) -> Label<'_> {
+        let label = Label::new(&self.text, origin + self.anchor, self.height);
+        label.with_direction(self.direction).with_align(self.align)
+    }
+}
+
+impl AnnotationShape {
+    /// The area that the shape covers, without the width of its lines.
+    fn extent(&self) -> Option<Extent> {
+        match self {
+            Self::Line(ends) => extent_of_points(ends.iter().copied()),
+            Self::Path(points) | Self::Loop(points) => extent_of_points(points.iter().copied()),
+            Self::Head(corners) => extent_of_points(corners.iter().copied()),
+            Self::Text(text) => {
+                let strokes = text.label(DVec2::ZERO).strokes();
+                extent_of_points(
+                    strokes.iter().flat_map(|line| &line.points).copied().map(to_millimeters),
+                )
+            }
+        }
+    }
+
+    /// Whether the shape comes into a rectangle.
+    fn touches(&self, area: Extent) -> bool {
+        match self {
+            Self::Line(ends) => segment_crosses(*ends, area),
+            Self::Path(points) => {
+                points.windows(2).any(|pair| segment_crosses([pair[0], pair[1]], area))
+            }
+            Self::Loop(points) => {
+                let next = points.iter().cycle().skip(1);
+                points.iter().zip(next).any(|(a, b)| segment_crosses([*a, *b], area))
+            }
+            _ => self.extent().is_some_and(|extent| overlap(extent, area)),
+        }
+    }
+}
+
+impl AnnotationShape {
+    /// The shape as a group, with the center of the view at `origin`.
+    fn group(&self, origin: DVec2) -> Group {
+        let line = |points: &[DVec2], closed: bool| {
+            let moved: Vec<DVec2> = points.iter().map(|point| origin + *point).collect();
+            Polyline::through_points(&moved, closed).into_iter().collect()
+        };
+        match self {
+            Self::Line(ends) => Group { strokes: line(ends, false), ..Group::default() },
+            Self::Path(points) => Group { strokes: line(points, false), ..Group::default() },
+            Self::Loop(points) => Group { strokes: line(points, true), ..Group::default() },
+            Self::Head(corners) => Group { fills: line(corners, true), ..Group::default() },
+            Self::Text(text) => text.label(origin).group(),
+        }
+    }
+}
+
+impl ViewAnnotations {
+    /// Adds a shape.
+    pub(super) fn push(&mut self, layer: AnnotationLayer, shape: AnnotationShape) {
+        self.items.push((layer, shape));
+    }
+
+    /// Adds a straight line.
+    pub(super) fn push_line(&mut self, layer: AnnotationLayer, ends: [DVec2; 2]) {
+        self.push(layer, AnnotationShape::Line(ends));
+    }
+
+    /// Adds the first of these texts that touches neither another annotation nor the object; the
+    /// first of all if there is none.
+    pub(super) fn push_first_free_text(
+        &mut self,
+        layer: AnnotationLayer,
+        candidates: impl IntoIterator<Item = AnnotationText>,
+        object: Extent,
+    ) {
+        let mut first = None;
+        for text in candidates {
+            if self.is_free(&text, object) {
+                return self.push(layer, AnnotationShape::Text(text));
+            }
+            first.get_or_insert(text);
+        }
+        first.into_iter().for_each(|text| self.push(layer, AnnotationShape::Text(text)));
+    }
+
+    /// Whether a text touches neither another annotation nor the object.
+    pub(super) fn is_free(&self, text: &AnnotationText, object: Extent) -> bool {
+        let clearance = 0.25 * text.height;
+        AnnotationShape::Text(text.clone()).extent().is_some_and(|[low, high]| {
+            self.is_empty_area([low - clearance, high + clearance], object)
+        })
+    }
+
+    /// Whether neither the object nor an annotation comes into a rectangle.
+    pub(super) fn is_empty_area(&self, area: Extent, object: Extent) -> bool {
+        !overlap(object, area) && !self.shapes().any(|other| other.touches(area))
+    }
+
+    /// Whether a line touches no text and no arrowhead.
+    pub(super) fn is_clear(&self, line: [DVec2; 2]) -> bool {
+        let lies_across = |shape: &AnnotationShape| match shape {
+            AnnotationShape::Text(_) | AnnotationShape::Head(_) => {
+                shape.extent().is_some_and(|[low, high]| {
+                    segment_crosses(line, [low - LINE_CLEARANCE, high + LINE_CLEARANCE])
+                })
+            }
+            _ => false,
+        };
+        !self.shapes().any(lies_across)
+    }
+
+    /// The rectangle around the object and all annotations.
+    pub(super) fn extent_with(&self, object: Extent) -> Extent {
+        let extents = self.shapes().filter_map(AnnotationShape::extent);
+        extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
+    }
+
+    /// The rectangle around the object and the dimensions that were asked for.
+    pub(super) fn extent_of_dimensions(&self, object: Extent) -> Extent {
+        let shapes = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
+        let extents = shapes.filter_map(|(_, shape)| shape.extent());
+        extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
+    }
+
+    /// Adds a dimension that was asked for.
+    pub(super) fn push_dimension(&mut self, dimension: PlacedDimension) {
+        self.dimensions.push(dimension);
+    }
+
+    /// All shapes, those of dimensions last.
+    pub(super) fn shapes(&self) -> impl Iterator<Item = &AnnotationShape> {
+        let own = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
+        self.items.iter().chain(own).map(|(_, shape)| shape)
+    }
+
+    /// The annotations of one layer as groups, with the center of the view at `origin`.
+    pub(super) fn groups(
+        &self,
+        layer: AnnotationLayer,
+        origin: DVec2,
+    ) -> impl Iterator<Item = Group> {
+        let of_layer = self.items.iter().filter(move |(other, _)| *other == layer);
+        let own = self.dimensions.iter().flat_map(move |one| one.groups(layer, origin));
+        of_layer.map(move |(_, shape)| shape.group(origin)).chain(own)
+    }
+}
+
+impl PlacedDimension {
+    /// The shapes of one layer: the lines as one group, each text as one.
+    ///
+    /// Their ids are the number of the dimension, with the number of the text if there are several.
+    fn groups(&self, layer: AnnotationLayer, origin: DVec2) -> Vec<Group> {
+        let of_layer = self.shapes.iter().filter(|(other, _)| *other == layer);
+        let (mut lines, mut groups) = (Group::default(), Vec::new());
+        for (_, shape) in of_layer {
+            let group = shape.group(origin);
+            if let AnnotationShape::Text(_) = shape {
+                groups.push(group);
+            } else {
+                lines.strokes.extend(group.strokes);
+                lines.fills.extend(group.fills);
+            }
+        }
+        let texts = groups.len();
+        for (group, index) in groups.iter_mut().zip(1..) {
+            let own = self.number;
+            group.id = if texts > 1 { format!("{own}-{index}") } else { own.to_string() };
+        }
+        if !(lines.strokes.is_empty() && lines.fills.is_empty()) {
+            lines.id = self.number.to_string();
+            groups.push(lines);
+        }
+        groups
+    }
+}
+
+impl AnnotationLayer {
+    /// All layers in drawing order.
+    pub(super) const ALL: [Self; 13] = [
+        Self::SymmetryLines,
+        Self::ViewMarks,
+        Self::ViewNames,
+        Self::CenterLines,
+        Self::CutLines,
+        Self::CutEnds,
+        Self::CutArrows,
+        Self::CutNames,
+        Self::Dimensions,
+        Self::DimensionTexts,
+        Self::ScaleNotes,
+        Self::OverlayLines,
+        Self::OverlayTexts,
+    ];
+
+    /// The empty layer, with the pens of a line group and letters of a height.
+    pub(super) fn to_layer(self, group: drawing::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
+        let butt = |width| Pen { cap: drawing::Cap::Butt, ..Pen::solid(width, ink) };
+        let chain = || {
+            drawing::LineType::LongDashedDotted.to_pen(
+                group.narrow_width(),
+                ink,
+                drawing::Cap::Butt,
+                drawing::Join::Miter,
+            )
+        };
+        let lettering = || Pen::solid(letters * 0.1, ink);
+        let (id, title, pen) = match self {
+            Self::CenterLines => ("center-lines", "center lines", chain()),
+            Self::CutLines => ("cut-lines", "lines of cuts", chain()),
+            Self::CutEnds => ("cut-ends", "ends of cuts", butt(group.wide_width())),
+            Self::CutArrows => ("cut-arrows", "arrows of cuts", butt(group.lettering_width())),
+            Self::CutNames => {
+                ("cut-names", "names of cuts", Pen::solid(group.lettering_width(), ink))
+            }
+            Self::Dimensions => ("dimensions", "dimensions", butt(group.narrow_width())),
+            Self::DimensionTexts => ("dimensions-text", "dimensions: text", lettering()),
+            Self::ScaleNotes => ("other-scale", "scales of single views", lettering()),
+            Self::SymmetryLines => ("symmetry-lines", "lines of symmetry", chain()),
+            Self::ViewMarks => ("view-marks", "marks of other views", butt(group.narrow_width())),
+            Self::OverlayLines => ("overlay-lines", "overlays", butt(group.narrow_width())),
+            Self::OverlayTexts => ("overlay-text", "overlays: text", lettering()),
+            Self::ViewNames => {
+                ("view-names", "names of views", Pen::solid(group.lettering_width(), ink))
+            }
+        };
+        Layer::new(id, title, pen)
+    }
+}
+
+/// The rectangle around points; `None` without any.
+fn extent_of_points(points: impl Iterator<Item = DVec2>) -> Option<Extent> {
+    points.fold(None, |extent: Option<Extent>, point| {
+        Some(extent.map_or([point; 2], |[low, high]| [low.min(point), high.max(point)]))
+    })
+}
+
+/// Whether two rectangles have more than a side in common.
+pub(super) fn overlap(a: Extent, b: Extent) -> bool {
+    a[0].x < b[1].x && b[0].x < a[1].x && a[0].y < b[1].y && b[0].y < a[1].y
+}
+
+/// Whether a straight line comes into a rectangle (Liang and Barsky's slab test).
+fn segment_crosses([a, b]: [DVec2; 2], [low, high]: Extent) -> bool {
+    let mut span = [0.0_f64, 1.0_f64];
+    for axis in 0..2 {
+        let (from, step) = (a[axis], b[axis] - a[axis]);
+        if step == 0.0 {
+            if from <= low[axis] || from >= high[axis] {
+                return false;
+            }
+            continue;
+        }
+        let (s, t) = ((low[axis] - from) / step, (high[axis] - from) / step);
+        span = [span[0].max(s.min(t)), span[1].min(s.max(t))];
+    }
+    span[0] < span[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_gives_way_to_lines_and_to_the_object() {
+        let object = [DVec2::splat(-10.0), DVec2::splat(10.0)];
+        let mut annotations = ViewAnnotations::default();
+        let below = DVec2::new(0.0, 14.0);
+        annotations.push_line(
+            AnnotationLayer::Dimensions,
+            [below - DVec2::X * 9.0, below + DVec2::X * 9.0],
+        );
+        let text = |y: f64| AnnotationText::centered("A-A", DVec2::new(0.0, y), 3.5);
+        annotations.push_first_free_text(
+            AnnotationLayer::CutNames,
+            [text(0.0), text(11.0), text(14.0), text(20.0), text(30.0)],
+            object,
+        );
+        let [low, high] = annotations.extent_with(object);
+        assert!(low == object[0] && (21.0..23.0).contains(&high.y), "{low} {high}");
+    }
+
+    #[test]
+    fn lines_cross_rectangles_that_their_boxes_only_overlap() {
+        let area = [DVec2::ZERO, DVec2::ONE];
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        assert!(segment_crosses([at(-1.0, 0.5), at(2.0, 0.5)], area));
+        assert!(segment_crosses([at(0.2, 0.2), at(0.3, 0.3)], area));
+        assert!(!segment_crosses([at(-1.0, 0.5), at(0.5, 2.5)], area));
+        assert!(!segment_crosses([at(1.0, -1.0), at(1.0, 2.0)], area));
+    }
+}

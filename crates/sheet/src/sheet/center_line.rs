@@ -1,0 +1,167 @@
+//! Center lines: a cross in each circle, and the axis of circles that are seen from the side
+//! (ISO 128-2, chain lines 04.1).
+//!
+//! ```text
+//!        │
+//!      ╭─┼─╮          ┌───────┐
+//!    ──┼─┼─┼──      ──┼─ ─ ─ ─┼──      the lines reach a little beyond the circle or the part
+//!      ╰─┼─╯          └───────┘
+//!        │
+//! ```
+//!
+//! Circles of one axis have one line along it, and in a view along the axis one cross, as large as
+//! the largest of them needs. A circle has a cross if it is at least half there; an axis has a line
+//! if two circles are on it, which is what a cylinder or a cone has.
+
+use super::annotation::{AnnotationLayer, ViewAnnotations};
+use super::sheet_view::SheetView;
+use core::f64::consts::PI;
+use drawing::WorldCircle;
+use glam::DVec2;
+use viewport::DrawingScale;
+
+/// How far center lines reach beyond circle or part, in millimeters of paper.
+pub(super) const CENTER_LINE_OVERHANG: f64 = 2.5;
+
+/// Smaller circles, by their radius in millimeters of paper, have no cross: it would hide them.
+const LEAST_RADIUS: f64 = 0.75;
+
+/// Circles of which less is there are roundings, not holes or shafts.
+const LEAST_SWEEP: f64 = PI - 1e-6;
+
+/// Axes and centers nearer than this part of the size of the view are one.
+const SAME: f64 = 1e-4;
+
+/// The most crosses, and the most axes, of a view: more would be a pattern and not a help.
+const MAX_LINES: usize = 300;
+
+/// The center lines of a view, in millimeters of the object from its center, y down.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CenterLines {
+    /// Circles that are seen as such: centers and radii.
+    crosses: Vec<(DVec2, f64)>,
+    /// Axes that are seen from the side, from end to end.
+    axes: Vec<[DVec2; 2]>,
+    /// Lines of symmetry, which take the place of those on them: a point, and the number of the axis
+    /// of the paper along which they run.
+    symmetry: Vec<(DVec2, usize)>,
+    /// Lines no farther apart are one.
+    same: f64,
+}
+
+impl CenterLines {
+    /// The center lines of circles in a view.
+    pub(super) fn in_view(view: &SheetView, circles: &[WorldCircle]) -> Self {
+        let same = SAME * view.size.max_element();
+        let large = circles.iter().filter(|circle| circle.sweep >= LEAST_SWEEP);
+        let (mut crosses, mut sides) = (Vec::new(), Vec::new());
+        for circle in large {
+            let center = view.image_of(circle.center);
+            let radius = circle.radius * view.millimeters_per_unit;
+            if view.looks_along(circle.axis.raw()) {
+                crosses.push((center, radius));
+            } else if view.shows_true(circle.axis.raw()) {
+                let end = view.image_of(circle.center + circle.axis);
+                let along = (end - center).normalize_or(DVec2::X);
+                let along = if along.x < -1e-9 || (along.x <= 1e-9 && along.y < 0.0) {
+                    -along
+                } else {
+                    along
+                };
+                sides.push((center, along));
+            }
+        }
+        let (crosses, axes) = (merge_crosses(crosses, same), merge_axes(sides, same));
+        Self { crosses, axes, symmetry: Vec::new(), same }
+    }
+
+    /// Without those that lie on lines of symmetry.
+    pub(super) fn beside(self, symmetry: Vec<(DVec2, usize)>) -> Self {
+        Self { symmetry, ..self }
+    }
+
+    /// Whether a line lies on a line of symmetry.
+    fn is_covered(&self, line: [DVec2; 2]) -> bool {
+        self.symmetry.iter().any(|(through, axis)| {
+            line.iter().all(|end| (end[1 - axis] - through[1 - axis]).abs() <= self.same)
+        })
+    }
+
+    /// Whether there are none.
+    pub(super) const fn is_empty(&self) -> bool {
+        self.crosses.is_empty() && self.axes.is_empty()
+    }
+
+    /// Adds the lines at a scale.
+    pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, scale: DrawingScale) {
+        let ratio = scale.ratio();
+        let layer = AnnotationLayer::CenterLines;
+        let large = self.crosses.iter().filter(|(_, radius)| radius * ratio >= LEAST_RADIUS);
+        let arms = large.flat_map(|(center, radius)| {
+            [DVec2::X, DVec2::Y].map(|along| [*center - along * *radius, *center + along * *radius])
+        });
+        for line in arms.chain(self.axes.iter().copied()).filter(|line| !self.is_covered(*line)) {
+            let [a, b] = line.map(|end| end * ratio);
+            let beyond = (b - a).normalize_or_zero() * CENTER_LINE_OVERHANG;
+            annotations.push_line(layer, [a - beyond, b + beyond]);
+        }
+    }
+}
+
+/// The largest circle at each center, the largest of all first.
+fn merge_crosses(mut crosses: Vec<(DVec2, f64)>, same: f64) -> Vec<(DVec2, f64)> {
+    crosses.sort_by(|(a, r), (b, s)| {
+        s.total_cmp(r).then(a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y))
+    });
+    let mut merged: Vec<(DVec2, f64)> = Vec::new();
+    for (center, radius) in crosses {
+        if merged.len() < MAX_LINES
+            && !merged.iter().any(|(known, _)| known.distance(center) <= same)
+        {
+            merged.push((center, radius));
+        }
+    }
+    merged
+}
+
+/// The axes by points on them and their directions: from the first to the last point of each line.
+fn merge_axes(sides: Vec<(DVec2, DVec2)>, same: f64) -> Vec<[DVec2; 2]> {
+    let mut lines: Vec<(DVec2, DVec2, [f64; 2])> = Vec::new();
+    for (center, along) in sides {
+        let own = lines.iter().position(|(point, direction, _)| {
+            direction.perp_dot(along).abs() < 1e-3
+                && (center - *point).perp_dot(*direction).abs() <= same
+        });
+        match own {
+            Some(index) => {
+                let (point, direction, [low, high]) = &mut lines[index];
+                let at = (center - *point).dot(*direction);
+                (*low, *high) = (low.min(at), high.max(at));
+            }
+            None if lines.len() < MAX_LINES => lines.push((center, along, [0.0; 2])),
+            None => {}
+        }
+    }
+    let long = lines.into_iter().filter(|(_, _, [low, high])| high - low > same);
+    long.map(|(point, along, ends)| ends.map(|end| point + along * end)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn circles_about_one_center_have_one_cross() {
+        let at = DVec2::new(3.0, 4.0);
+        let crosses = vec![(at, 2.0), (at, 5.0), (at + 1e-6, 1.0), (DVec2::ZERO, 1.0)];
+        assert_eq!(merge_crosses(crosses, 1e-3), [(at, 5.0), (DVec2::ZERO, 1.0)]);
+    }
+
+    #[test]
+    fn an_axis_reaches_from_its_first_circle_to_its_last() {
+        let on = |x: f64| (DVec2::new(x, 7.0), DVec2::X);
+        let single = (DVec2::new(0.0, 9.0), DVec2::X);
+        let axes = merge_axes(vec![on(2.0), on(-5.0), single, on(1.0)], 1e-3);
+        assert_eq!(axes, [[DVec2::new(-5.0, 7.0), DVec2::new(2.0, 7.0)]]);
+    }
+}

@@ -1,0 +1,93 @@
+//! Diameters and radii: an arrow onto the circle, along a line through its center, and the number
+//! on a shelf outside of the part (ISO 129-1).
+//!
+//! ```text
+//!            __Ø20__
+//!           ╱
+//!      ╭──◄╯
+//!     │  + │
+//!      ╰──╯
+//! ```
+
+use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
+use super::dimension::{ARROW_LENGTH, TEXT_GAP, arrowhead};
+use super::dimension_board::{Candidate, DimensionBoard};
+use super::measure::{ViewDimension, ViewMeasure};
+use drawing::{Label, TextAlign};
+use glam::DVec2;
+
+/// The directions that are tried, in degrees from the right, upward: none of them along an axis,
+/// where center lines are.
+const DIRECTIONS: [f64; 20] = [
+    45.0, 135.0, -45.0, -135.0, 60.0, 120.0, -60.0, -120.0, 30.0, 150.0, -30.0, -150.0, 75.0,
+    105.0, -75.0, -105.0, 15.0, 165.0, -15.0, -165.0,
+];
+
+/// The number of lengths that are tried for each direction.
+const LENGTHS: u32 = 40;
+
+impl DimensionBoard {
+    /// The free place of a diameter or radius with the shortest leader.
+    pub(super) fn leader_candidate(&self, dimension: &ViewDimension) -> Option<Candidate> {
+        let ViewMeasure::Round { center, radius, prefix, radii } = &dimension.measure else {
+            return None;
+        };
+        let ratio = self.settings.scale.ratio();
+        let text = format!("{prefix}{}", self.length_text(dimension, radius * radii));
+        let (center, radius) = (*center * ratio, *radius * ratio);
+        let letters = self.settings.letters;
+        let mut best: Option<(f64, Candidate)> = None;
+        for degrees in DIRECTIONS {
+            let (sine, cosine) = libm::sincos(degrees.to_radians());
+            let away = DVec2::new(cosine, -sine);
+            let tip = center + away * radius;
+            let nearest = self.exit_distance(tip, away) + 2.0 * ARROW_LENGTH * letters;
+            for step in 0..LENGTHS {
+                let length = nearest + 0.6 * letters * f64::from(step);
+                if best.as_ref().is_some_and(|(least, _)| *least <= length) {
+                    break;
+                }
+                let candidate = leader(&text, (tip, away, length), letters);
+                if self.is_free(&candidate) {
+                    best = Some((length, candidate));
+                    break;
+                }
+            }
+        }
+        best.map(|(_, candidate)| candidate)
+    }
+
+    /// How far a ray from a point is within the hull of the part.
+    fn exit_distance(&self, from: DVec2, along: DVec2) -> f64 {
+        let hull = &self.hull;
+        let crossings = hull.iter().enumerate().filter_map(|(at, &a)| {
+            let b = hull[(at + 1) % hull.len()];
+            let [s, t] = [a, b].map(|end| (end - from).perp_dot(along));
+            let crosses = s.min(t) <= 0.0 && s.max(t) >= 0.0 && s != t;
+            crosses.then(|| (a + (b - a) * (s / (s - t)) - from).dot(along))
+        });
+        crossings.fold(0.0, f64::max)
+    }
+}
+
+/// An arrow onto a point of a circle from a direction, with a shelf at the other end of its shaft.
+fn leader(text: &str, (tip, away, length): (DVec2, DVec2, f64), letters: f64) -> Candidate {
+    let mut candidate = Candidate::default();
+    let corner = tip + away * length;
+    let sense = if away.x < 0.0 { -1.0 } else { 1.0 };
+    let width = Label::new(text, DVec2::ZERO, letters).width();
+    let shelf = corner + DVec2::X * (sense * (width + 0.6 * letters));
+    candidate.push_line([tip, corner]);
+    candidate.push_line([corner, shelf]);
+    let head = AnnotationShape::Head(arrowhead(tip, away, ARROW_LENGTH * letters));
+    candidate.push(AnnotationLayer::Dimensions, head);
+    let text = AnnotationText {
+        text: text.to_owned(),
+        anchor: corner + DVec2::new(sense * 0.3 * letters, -TEXT_GAP * letters),
+        height: letters,
+        direction: DVec2::X,
+        align: if sense < 0.0 { TextAlign::End } else { TextAlign::Start },
+    };
+    candidate.push(AnnotationLayer::DimensionTexts, AnnotationShape::Text(text));
+    candidate
+}

@@ -1,0 +1,55 @@
+//! Freehand lines: borders of local sections and of broken views (ISO 128-2, line 01.1.18).
+//!
+//! A freehand line wavers about its course. The waves are sums of sines with a fixed seed, so every
+//! drawing of a part has the same ones.
+
+use drawing::circle_points;
+use glam::DVec2;
+use std::f64::consts::TAU;
+
+/// The number of points of a freehand line.
+const POINTS: u32 = 96;
+
+/// Waves as their number along the line, their part of the amplitude, and their phase in turns.
+const WAVES: [(f64, f64, f64); 4] =
+    [(3.0, 0.5, 0.11), (5.0, 0.3, 0.63), (8.0, 0.14, 0.37), (13.0, 0.06, 0.81)];
+
+/// The deviation of a freehand line at a fraction of its length, from −1 to 1; periodic.
+fn waver(t: f64) -> f64 {
+    WAVES.iter().map(|(count, part, phase)| part * libm::sin(TAU * (count * t + phase))).sum()
+}
+
+/// A closed freehand line around a center: a circle that wavers by a part of its radius.
+pub(super) fn freehand_circle(center: DVec2, radius: f64, part: f64) -> Vec<DVec2> {
+    let circle = circle_points(DVec2::ZERO, radius, POINTS).into_iter().zip(0..POINTS);
+    let at = |(point, k): (DVec2, u32)| {
+        center + point * (1.0 + part * waver(f64::from(k) / f64::from(POINTS)))
+    };
+    circle.map(at).collect()
+}
+
+/// A freehand line from one point to another, with deviations up to `amplitude`.
+pub(super) fn freehand_line([from, to]: [DVec2; 2], amplitude: f64) -> Vec<DVec2> {
+    let aside = (to - from).normalize_or_zero().perp() * amplitude;
+    let at = |k: u32| {
+        let t = f64::from(k) / f64::from(POINTS);
+        from.lerp(to, t) + aside * waver(t)
+    };
+    (0..=POINTS).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn freehand_lines_stay_near_their_course() {
+        let line = freehand_line([DVec2::ZERO, DVec2::new(100.0, 0.0)], 2.0);
+        assert!(line.iter().all(|point| point.y.abs() <= 2.0));
+        assert!(line.iter().any(|point| point.y > 0.8) && line.iter().any(|point| point.y < -0.8));
+        assert!(line.windows(2).all(|pair| pair[0].x < pair[1].x));
+        let circle = freehand_circle(DVec2::ONE, 10.0, 0.1);
+        let distances = circle.iter().map(|point| point.distance(DVec2::ONE));
+        assert!(distances.into_iter().all(|distance| (9.0..=11.0).contains(&distance)));
+    }
+}

@@ -1,0 +1,288 @@
+//! Parts lists on paper (ISO 7573): a table above the title block, or on pages of its own.
+//!
+//! ```text
+//!   │ 2 │ 8 │ bolt M8  │ steel │ 12.3 │      above the title block the list is read upward,
+//!   │ 1 │ 1 │ housing  │ iron  │  812 │      so that it can grow
+//!   ├───┼───┼──────────┼───────┼──────┤
+//!   │ Item Quantity Name … Mass in g  │
+//!   ├───┴───┴──────────┴───────┴──────┤
+//!   │ title block                     │
+//! ```
+//!
+//! On a page of its own it is read downward, column by column.
+
+use super::frame::rectangle_outline;
+use super::{Sheet, rectangle_from_size};
+use crate::assembly::{PartsList, PartsListItem};
+use core::ops::Range;
+use drawing::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
+use glam::DVec2;
+use viewport::Rectangle;
+
+/// The height of rows as a multiple of that of letters.
+const ROW_HEIGHT: f64 = 2.3;
+
+/// From the border of a cell to its text, in millimeters.
+const INSET: f64 = 1.2;
+
+/// A text that is wider than its cell is reduced to no less than this part of its height; then it
+/// is cut off.
+const LEAST_REDUCTION: f64 = 0.7;
+
+/// From a table on a page of its own to the frame and to the title block, in millimeters: beyond
+/// the centering marks.
+const GAP: f64 = 6.0;
+
+/// The layout of a parts list on the paper of a sheet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PartsTable<'a> {
+    sheet: &'a Sheet,
+    list: &'a PartsList,
+    letters: f64,
+}
+
+/// Rows of a list below or above a heading.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct TableColumn {
+    /// The items.
+    pub(super) rows: Range<usize>,
+    /// The upper left corner.
+    corner: DVec2,
+    width: f64,
+    /// Whether the heading is below, and the list is read upward.
+    is_upward: bool,
+}
+
+impl<'a> PartsTable<'a> {
+    /// The table of a list on a sheet.
+    pub(super) fn new(sheet: &'a Sheet, list: &'a PartsList) -> Self {
+        let letters = (sheet.lettering_height() * 0.7).max(2.5);
+        Self { sheet, list, letters }
+    }
+
+    fn row_height(&self) -> f64 {
+        self.letters * ROW_HEIGHT
+    }
+
+    /// The height of so many rows and the heading, in millimeters.
+    fn height(&self, rows: usize) -> f64 {
+        self.row_height() * (rows + 1) as f64
+    }
+
+    /// The whole list above the title block, if it takes no more than `most` millimeters.
+    pub(super) fn above_title_block(&self, most: f64) -> Option<TableColumn> {
+        let (block, rows) = (self.sheet.title_block_area(), self.list.items.len());
+        let corner = DVec2::new(block.x(), block.y() - self.height(rows));
+        // The centering mark at the middle of the side stays clear.
+        let is_below_mark = corner.y > 0.5 * self.sheet.paper.height() + 1.0;
+        let width = block.width();
+        (self.height(rows) <= most && is_below_mark).then_some(TableColumn {
+            rows: 0..rows,
+            corner,
+            width,
+            is_upward: true,
+        })
+    }
+
+    /// The columns of each page that the list takes by itself; at least one page.
+    ///
+    /// On wide paper there are columns beside the one above the title block.
+    pub(super) fn pages(&self) -> Vec<Vec<TableColumn>> {
+        let (frame, block) = (self.sheet.drawing_area(), self.sheet.title_block_area());
+        let beside = ((block.x() - frame.x()) / block.width() + 1e-9).floor() as usize;
+        let rows_in = |height: f64| ((height / self.row_height()).floor() as usize).max(2) - 1;
+        let width = (block.width() - 2.0 * GAP).max(0.5 * block.width());
+        let inset = 0.5 * (block.width() - width);
+        let below = rows_in(frame.height() - 2.0 * GAP);
+        let mut column_places: Vec<(f64, usize)> =
+            (0..beside).map(|column| (frame.x() + block.width() * column as f64, below)).collect();
+        column_places.push((block.x(), rows_in(block.y() - frame.y() - 2.0 * GAP)));
+        let count = self.list.items.len();
+        let (mut pages, mut next) = (Vec::new(), 0);
+        while next < count || pages.is_empty() {
+            let mut columns = Vec::new();
+            for &(x, most) in &column_places {
+                let rows = next..count.min(next + most);
+                if !rows.is_empty() || columns.is_empty() {
+                    next = rows.end;
+                    let corner = DVec2::new(x + inset, frame.y() + GAP);
+                    columns.push(TableColumn { rows, corner, width, is_upward: false });
+                }
+            }
+            pages.push(columns);
+        }
+        pages
+    }
+
+    /// The area of a column, with its heading.
+    pub(super) fn area(&self, column: &TableColumn) -> Rectangle {
+        let [x, y] = column.corner.to_array();
+        rectangle_from_size(x, y, column.width, self.height(column.rows.len()))
+    }
+
+    /// The borders of the cells, and the texts in them.
+    pub(super) fn layers(&self, columns: &[TableColumn], ink: Ink) -> [Layer; 2] {
+        let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(0.18, ink) };
+        let mut borders = Layer::new("parts-list", "parts list", pen);
+        let pen = Pen::solid(self.letters * 0.1, ink);
+        let mut texts = Layer::new("parts-list-text", "parts list: text", pen);
+        for column in columns {
+            borders.groups.push(self.border_group(column));
+            let heading = if column.is_upward { column.rows.len() } else { 0 };
+            self.add_row(&mut texts, (column, heading), &self.headings());
+            for (row, item) in self.list.items[column.rows.clone()].iter().enumerate() {
+                let row = if column.is_upward { heading - 1 - row } else { row + 1 };
+                self.add_row(&mut texts, (column, row), &self.texts_of_item(item));
+            }
+        }
+        [borders, texts]
+    }
+
+    /// The lines around the rows and between the cells.
+    fn border_group(&self, column: &TableColumn) -> Group {
+        let area = self.area(column);
+        let (left, top) = (area.x(), area.y());
+        let (right, bottom) = (left + area.width(), top + area.height());
+        let mut strokes = vec![rectangle_outline(area)];
+        let mut push = |ends: [DVec2; 2]| strokes.extend(Polyline::through_points(&ends, false));
+        for row in 1..=column.rows.len() {
+            let y = top + self.row_height() * row as f64;
+            push([DVec2::new(left, y), DVec2::new(right, y)]);
+        }
+        for (start, _) in &self.cells(column.width)[1..] {
+            let x = left + start;
+            push([DVec2::new(x, top), DVec2::new(x, bottom)]);
+        }
+        Group { strokes, ..Group::default() }
+    }
+
+    /// The start and the width of each cell of a row of this width, in millimeters.
+    fn cells(&self, width: f64) -> Vec<(f64, f64)> {
+        let parts: &[f64] = if self.list.has_masses {
+            &[0.08, 0.09, 0.42, 0.27, 0.14]
+        } else {
+            &[0.08, 0.09, 0.53, 0.3]
+        };
+        let mut start = 0.0;
+        let cell = |part: &f64| {
+            let cell = (start, width * part);
+            start += cell.1;
+            cell
+        };
+        parts.iter().map(cell).collect()
+    }
+
+    /// The names of the cells.
+    fn headings(&self) -> Vec<String> {
+        let mut names = ["Item", "Qty", "Name", "Material"].map(str::to_owned).to_vec();
+        if self.list.has_masses {
+            names.push(format!("Mass in {}", self.mass_unit().0));
+        }
+        names
+    }
+
+    /// The unit of masses, and its grams: kilograms if a part has one or more.
+    fn mass_unit(&self) -> (&'static str, f64) {
+        let masses = self.list.items.iter().filter_map(|item| item.mass);
+        if masses.fold(0.0, f64::max) >= 1000.0 { ("kg", 1000.0) } else { ("g", 1.0) }
+    }
+
+    /// The texts of an item; a mass that is not known is left out.
+    fn texts_of_item(&self, item: &PartsListItem) -> Vec<String> {
+        let mut texts = vec![
+            item.number.to_string(),
+            item.quantity.to_string(),
+            item.name.clone(),
+            item.material.clone(),
+        ];
+        if self.list.has_masses {
+            let (_, grams) = self.mass_unit();
+            texts.push(item.mass.map(|mass| format_mass(mass / grams)).unwrap_or_default());
+        }
+        texts
+    }
+
+    /// Adds the texts of a row: counts in the middle of their cells, masses to the right.
+    fn add_row(&self, layer: &mut Layer, (column, row): (&TableColumn, usize), texts: &[String]) {
+        let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
+        let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
+        for (index, ((start, width), text)) in
+            self.cells(column.width).iter().zip(texts).enumerate()
+        {
+            let room = width - 2.0 * INSET;
+            let text = cut_to_width(text, self.letters * LEAST_REDUCTION, room);
+            let (align, x) = match index {
+                0 | 1 => (TextAlign::Middle, 0.5 * width),
+                4 => (TextAlign::End, width - INSET),
+                _ => (TextAlign::Start, INSET),
+            };
+            let x = column.corner.x + start + x;
+            let label = Label::new(&text, DVec2::new(x, y), self.letters).with_align(align);
+            if !text.is_empty() {
+                layer.groups.push(label.fit_to_width(room).group());
+            }
+        }
+    }
+}
+
+/// A text that is no wider than `room` in letters of a height; what is cut off leaves three points.
+fn cut_to_width(text: &str, height: f64, room: f64) -> String {
+    let fits = |text: &str| Label::new(text, DVec2::ZERO, height).width() <= room;
+    // A letter is more than a tenth of its height wide with the distance to the next.
+    let most = (room / (0.1 * height)).max(0.0) as usize;
+    let characters: Vec<char> = text.chars().take(most.saturating_add(1)).collect();
+    if characters.len() <= most && fits(text) {
+        return text.to_owned();
+    }
+    let cut = |count: usize| {
+        let start: String = characters[..count].iter().collect();
+        format!("{}...", start.trim_end())
+    };
+    // The longest start that fits, by bisection: a longer text is wider.
+    let (mut low, mut high) = (0, characters.len());
+    while low + 1 < high {
+        let middle = usize::midpoint(low, high);
+        if fits(&cut(middle)) { low = middle } else { high = middle }
+    }
+    cut(low)
+}
+
+/// A mass with four significant digits, or whole, without zeros at its end.
+fn format_mass(mass: f64) -> String {
+    let decimals = match mass {
+        mass if mass >= 999.95 => 0,
+        mass if mass >= 99.995 => 1,
+        mass if mass >= 9.9995 => 2,
+        _ => 3,
+    };
+    let text = format!("{mass:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masses_have_four_digits() {
+        for (mass, text) in
+            [(812.0, "812"), (12.345, "12.35"), (0.5, "0.5"), (123_456.7, "123457"), (0.0, "0")]
+        {
+            assert_eq!(format_mass(mass), text);
+        }
+    }
+
+    #[test]
+    fn long_names_are_cut_off() {
+        let long = "a very long name of a part ".repeat(4000);
+        let cut = cut_to_width(&long, 2.0, 60.0);
+        assert!(cut.starts_with("a very long") && cut.ends_with("..."), "{cut}");
+        let width = Label::new(&cut, DVec2::ZERO, 2.0).width();
+        assert!((50.0..=60.0).contains(&width), "{width}");
+        assert_eq!(cut_to_width("bolt", 2.0, 60.0), "bolt");
+    }
+}

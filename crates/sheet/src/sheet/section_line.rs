@@ -1,0 +1,176 @@
+//! Section lines: cutting planes marked in the views that see them edge-on, and the names of
+//! sections (ISO 128-40).
+//!
+//! ```text
+//!    A                 A
+//!    │                 │
+//!    ▼━ ── · ── · ── ━ ▼
+//! ```
+//!
+//! The line is chain narrow with wide ends; arrows show the viewing direction, and a letter names
+//! the section. The view that faces the plane is drawn cut, with A–A below it. Letters and names
+//! stand where nothing else is: beyond their arrows, beyond the line, or farther out.
+
+use super::annotation::{
+    AnnotationLayer, AnnotationShape, AnnotationText, Extent, ViewAnnotations,
+};
+use super::composition::Break;
+use super::sheet_view::SheetView;
+use super::view_mark::{MarkSettings, add_end_letter};
+use drawing::TextAlign;
+use glam::DVec2;
+use homog::{Plane, Vector, World};
+use viewport::DrawingScale;
+
+/// Directions whose sine or cosine differs by no more than this are parallel or perpendicular.
+pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
+
+/// The length by which the line extends beyond the view, in millimeters; its wide ends are as long.
+pub(super) const OVERHANG: f64 = 4.0;
+
+/// The length of arrows with their shafts, in millimeters.
+pub(super) const ARROW_LENGTH: f64 = 6.0;
+
+/// The number of places farther out that are tried for a letter or a name.
+const TEXT_STEPS: u32 = 40;
+
+/// The room that a section line and a letter beyond its end take beside a view, in millimeters.
+pub(super) fn section_line_reserve(letters: f64) -> f64 {
+    OVERHANG + 1.8 * letters
+}
+
+/// The line of a section in a view that sees the plane edge-on, about the center of the view.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SectionLine {
+    ends: [DVec2; 2],
+    /// The unit vector on the sheet to the side that is retained: the viewing direction of the
+    /// section.
+    retained_direction: DVec2,
+    letter: char,
+}
+
+impl SheetView {
+    /// Whether the view looks straight onto the plane, from the side that is removed.
+    pub(super) fn faces_section(&self, plane: Plane<World>) -> bool {
+        plane.normal().dot(self.camera.gaze()) > 1.0 - PARALLEL_TOLERANCE
+    }
+
+    /// Whether the view sees the plane edge-on.
+    pub(super) fn sees_edge_of(&self, plane: Plane<World>) -> bool {
+        plane.normal().dot(self.camera.gaze()).abs() <= PARALLEL_TOLERANCE
+    }
+
+    /// The trace of a plane that is seen edge-on: a point in millimeters from the center of the
+    /// view, and the unit vector to the side that is retained.
+    fn section_trace(&self, plane: Plane<World>, scale: DrawingScale) -> Option<(DVec2, DVec2)> {
+        let normal = Vector::from_raw(plane.normal().raw());
+        let direction = self.camera.rotation().transform_vector(normal).raw();
+        if !self.sees_edge_of(plane) {
+            return None;
+        }
+        let away = plane.evaluate(self.camera.eye());
+        let millimeters = scale.to_paper_length(self.millimeters_per_unit * away);
+        let retained = DVec2::new(direction.x, -direction.y).normalize_or_zero();
+        Some((-retained * millimeters, retained))
+    }
+}
+
+impl SectionLine {
+    /// The line of a plane in a view; `None` if the plane is not edge-on, or misses the object.
+    ///
+    /// A slab test over the area of the object gives the interval of the line, which is extended by
+    /// [`OVERHANG`] at both ends.
+    pub(super) fn in_view(
+        view: &SheetView,
+        scale: DrawingScale,
+        (plane, letter): (Plane<World>, char),
+    ) -> Option<Self> {
+        let (point, retained) = view.section_trace(plane, scale)?;
+        let half = view.size * scale.ratio() * 0.5;
+        let along = DVec2::new(-retained.y, retained.x);
+        // Slab test: the interval of the line within the area of the view.
+        let mut span = [f64::NEG_INFINITY, f64::INFINITY];
+        for axis in 0..2 {
+            let from = point[axis];
+            if along[axis].abs() < PARALLEL_TOLERANCE {
+                if from.abs() > half[axis] {
+                    return None;
+                }
+                continue;
+            }
+            let [s, t] = [-half[axis] - from, half[axis] - from].map(|to| to / along[axis]);
+            span = [span[0].max(s.min(t)), span[1].min(s.max(t))];
+        }
+        let is_there = span[0] < span[1] && span[0].is_finite() && span[1].is_finite();
+        let ends = [span[0] - OVERHANG, span[1] + OVERHANG].map(|t| point + along * t);
+        is_there.then_some(Self { ends, retained_direction: retained, letter })
+    }
+
+    /// Adds the line with its wide ends, and an arrow at each of them, its tip on the line.
+    pub(super) fn annotate(&self, annotations: &mut ViewAnnotations) {
+        let [a, b] = self.ends;
+        annotations.push_line(AnnotationLayer::CutLines, self.ends);
+        let along = (b - a).normalize_or_zero() * OVERHANG;
+        annotations.push_line(AnnotationLayer::CutEnds, [a, a + along]);
+        annotations.push_line(AnnotationLayer::CutEnds, [b, b - along]);
+        for tip in self.ends {
+            add_section_arrow(annotations, tip, self.retained_direction);
+        }
+    }
+
+    /// The line in a view from which a part is left out; `None` if the line is in that part.
+    pub(super) fn shortened(mut self, part: &Break, scale: DrawingScale) -> Option<Self> {
+        let middle = (self.ends[0] + self.ends[1]) * 0.5;
+        if self.retained_direction[part.axis].abs() < 1.0 - PARALLEL_TOLERANCE {
+            // Along the part or oblique to it: its ends stay beside the object.
+            let half = part.length() * (0.5 * scale.ratio());
+            for end in &mut self.ends {
+                *end -= half * (*end - middle)[part.axis].signum();
+            }
+            return Some(self);
+        }
+        let by = part.shortened(middle / scale.ratio())? * scale.ratio() - middle;
+        self.ends.iter_mut().for_each(|end| *end += by);
+        Some(self)
+    }
+
+    /// Adds the letter at both ends, each at the first free place.
+    pub(super) fn add_letters(
+        &self,
+        annotations: &mut ViewAnnotations,
+        object: Extent,
+        letters: f64,
+    ) {
+        let [a, b] = self.ends;
+        for (end, other) in [(a, b), (b, a)] {
+            let (away, tail) = ((end - other).normalize_or_zero(), -self.retained_direction);
+            let settings = MarkSettings { ratio: 1.0, object, letters };
+            add_end_letter(annotations, (end, away, tail), self.letter, &settings);
+        }
+    }
+}
+
+/// Adds an arrow with its tip at a point, in the direction in which a section looks.
+pub(super) fn add_section_arrow(annotations: &mut ViewAnnotations, tip: DVec2, gaze: DVec2) {
+    annotations.push_line(AnnotationLayer::CutArrows, [tip - gaze * ARROW_LENGTH, tip - gaze]);
+    let (back, side) = (tip - gaze * 3.0, gaze.perp() * 0.5);
+    let head = AnnotationShape::Head([tip, back + side, back - side]);
+    annotations.push(AnnotationLayer::CutArrows, head);
+}
+
+/// Adds a text below a view, as near to it as other annotations allow.
+pub(super) fn add_caption(
+    annotations: &mut ViewAnnotations,
+    layer: AnnotationLayer,
+    text: &str,
+    (object, letters): (Extent, f64),
+) {
+    let places = (0..=TEXT_STEPS).map(|step| AnnotationText {
+        text: text.to_owned(),
+        anchor: DVec2::new(0.0, object[1].y + (1.8 + 0.5 * f64::from(step)) * letters),
+        height: letters,
+        direction: DVec2::X,
+        align: TextAlign::Middle,
+    });
+    annotations.push_first_free_text(layer, places, object);
+}

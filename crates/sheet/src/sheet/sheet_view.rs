@@ -1,0 +1,252 @@
+//! Sheet view: one orthographic view of a sheet, with its size in millimeters of the object.
+//!
+//! ```text
+//!   points of the models ─frame─► camera, depths, size      (SheetView::frame_points)
+//!   camera, window ─draw─► LineDrawing of 8192 pixels       (draw)
+//!   drawing, scale ─placement─► millimeters on the sheet    (placement)
+//! ```
+//!
+//! The drawing is made at a fixed resolution and scaled when it is laid out: pixels are only a
+//! unit, as coordinates are f64.
+
+use super::{Placement, SheetError};
+use camera::{Basis, Camera, CameraError, FramingError, NamedView, ViewProjection, frame_parallel};
+use core::fmt;
+use drawing::{DrawOptions, FaceFill, LineDrawing, LineStyle, WeldedSurface, draw_surface};
+use glam::DVec2;
+use homog::{Plane, Point, Vector, World};
+use projection::{Convention, Orthographic};
+use viewport::DrawingScale;
+
+/// The longer side of the drawing in pixels; only its ratio to the window counts.
+const LONG_SIDE_PIXELS: f64 = 8192.0;
+
+/// The resolution of flat fills: 300 dots to the inch.
+const FILL_DOTS_PER_MILLIMETER: f64 = 300.0 / viewport::MILLIMETERS_PER_INCH;
+
+/// The resolution at which the areas of gray fills are traced: their borders lie well under the
+/// narrowest wide line.
+const GRAY_DOTS_PER_MILLIMETER: f64 = 2.0 * FILL_DOTS_PER_MILLIMETER;
+
+/// The factor by which the window is larger than the object, so that nothing touches its border.
+const WINDOW_MARGIN: f64 = 1.02;
+
+/// The content of a view of a sheet: the object from a named direction, or a section by its letter.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum ViewName {
+    Named(NamedView),
+    Section(char),
+    Detail(char),
+    Auxiliary(char),
+}
+
+impl fmt::Display for ViewName {
+    /// The name as it begins the ids of layers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named(view) => view.fmt(f),
+            Self::Section(letter) => write!(f, "section-{}", letter.to_ascii_lowercase()),
+            Self::Detail(letter) => write!(f, "detail-{}", letter.to_ascii_lowercase()),
+            Self::Auxiliary(letter) => write!(f, "auxiliary-{}", letter.to_ascii_lowercase()),
+        }
+    }
+}
+
+/// A parallel view of the object, in a named direction or onto a section plane.
+#[derive(Clone, Debug)]
+pub(super) struct SheetView {
+    pub(super) name: ViewName,
+    pub(super) camera: Camera,
+    /// The section planes that cut the object in this view.
+    pub(super) sections: Vec<Plane<World>>,
+    /// The nearest and the farthest depth of the object along the view direction, in units of the
+    /// scene.
+    depths: [f64; 2],
+    /// Width and height of the object in this view, in millimeters of the object.
+    pub(super) size: DVec2,
+    /// Millimeters in a unit of the scene.
+    pub(super) millimeters_per_unit: f64,
+}
+
+impl SheetView {
+    /// The view of these points in a named direction, not cut.
+    ///
+    /// # Errors
+    /// [`SheetError::Empty`] without points, [`SheetError::View`] if the points cannot be framed.
+    pub(super) fn frame_points(
+        points: &[Point<World>],
+        name: NamedView,
+        unit: f64,
+    ) -> Result<Self, SheetError> {
+        Self::frame_from(points, (ViewName::Named(name), name.basis()), unit)
+    }
+
+    /// The view onto a section plane, of the points that the plane retains.
+    ///
+    /// # Errors
+    /// As for [`frame_points`](Self::frame_points).
+    pub(super) fn frame_section(
+        points: &[Point<World>],
+        (plane, letter): (Plane<World>, char),
+        unit: f64,
+    ) -> Result<Self, SheetError> {
+        let gaze = Vector::from_raw(plane.normal().raw());
+        let view = Self::frame_along(points, (ViewName::Section(letter), gaze), unit)?;
+        Ok(view.cut_by(vec![plane]))
+    }
+
+    /// The view of these points in any direction, upright.
+    ///
+    /// # Errors
+    /// As for [`frame_points`](Self::frame_points).
+    pub(super) fn frame_along(
+        points: &[Point<World>],
+        (name, gaze): (ViewName, Vector<World>),
+        unit: f64,
+    ) -> Result<Self, SheetError> {
+        let view_error = |error: CameraError| SheetError::View {
+            view: name.to_string(),
+            reason: error.to_string(),
+        };
+        let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).map_err(view_error)?;
+        Self::frame_from(points, (name, basis), unit)
+    }
+
+    /// A part of the view: what is within a radius of a point, in units of the scene.
+    ///
+    /// # Errors
+    /// [`SheetError::View`] if the camera cannot be moved there.
+    pub(super) fn detail_around(
+        &self,
+        (center, radius): (Point<World>, f64),
+        letter: char,
+    ) -> Result<Self, SheetError> {
+        let name = ViewName::Detail(letter);
+        let offset = self.image_of(center) / self.millimeters_per_unit;
+        let by = self.camera.right() * offset.x - self.camera.v() * offset.y;
+        let camera = self.camera.moved(by).map_err(|error| SheetError::View {
+            view: name.to_string(),
+            reason: error.to_string(),
+        })?;
+        let size = DVec2::splat(2.0 * radius * self.millimeters_per_unit);
+        Ok(Self { name, camera, size, ..self.clone() })
+    }
+
+    /// A direction of the world as the view shows it: right and down, shortened.
+    pub(super) fn direction_of(&self, direction: Vector<World>) -> DVec2 {
+        let seen = self.camera.rotation().transform_vector(direction).raw();
+        DVec2::new(seen.x, -seen.y)
+    }
+
+    /// The size of the drawing in pixels.
+    fn pixel_size(&self) -> DVec2 {
+        let window = self.window_size();
+        (window * (LONG_SIDE_PIXELS / window.max_element())).ceil().max(DVec2::ONE)
+    }
+
+    /// Pixels of the drawing for a unit of the scene, along its longer side.
+    pub(super) fn pixels_per_unit(&self) -> f64 {
+        LONG_SIDE_PIXELS / self.window_size().max_element()
+    }
+
+    /// Where a point of the world is in the drawing, in pixels.
+    pub(super) fn pixel_of(&self, point: Point<World>) -> DVec2 {
+        let (window, pixels) = (self.window_size(), self.pixel_size());
+        (self.image_of(point) / self.millimeters_per_unit / window + 0.5) * pixels
+    }
+
+    /// The view with the object cut by these planes.
+    pub(super) fn cut_by(self, sections: Vec<Plane<World>>) -> Self {
+        Self { sections, ..self }
+    }
+
+    /// The view with another size, in millimeters of the object.
+    pub(super) fn with_size(&self, size: DVec2) -> Self {
+        Self { size, ..self.clone() }
+    }
+
+    /// The view of these points with a camera of this orientation.
+    fn frame_from(
+        points: &[Point<World>],
+        (name, basis): (ViewName, Basis),
+        unit: f64,
+    ) -> Result<Self, SheetError> {
+        let framing_error = |error: FramingError| match error {
+            FramingError::NoPoints => SheetError::Empty,
+            error => SheetError::View { view: name.to_string(), reason: error.to_string() },
+        };
+        let framed =
+            frame_parallel(points.iter().copied(), basis, 1.0, 0.0).map_err(framing_error)?;
+        let world_to_view = framed.camera.world_to_view();
+        let extents =
+            points.iter().map(|&point| world_to_view.transform_point(point).raw().truncate());
+        let half = extents.fold(DVec2::ZERO, |most, point| most.max(point.abs()));
+        let (camera, depths, sections) = (framed.camera, [framed.near, framed.far], Vec::new());
+        let size = half * 2.0 * unit;
+        Ok(Self { name, camera, sections, depths, size, millimeters_per_unit: unit })
+    }
+
+    /// Width and height of the window in units of the scene; never zero, however flat the object.
+    fn window_size(&self) -> DVec2 {
+        let size = self.size / self.millimeters_per_unit;
+        let least = size.max_element().max(self.depths[1] - self.depths[0]).max(1e-9) * 0.02;
+        (size * WINDOW_MARGIN).max(DVec2::splat(least))
+    }
+
+    /// The line drawing of the view.
+    pub(super) fn draw(
+        &self,
+        surface: &WeldedSurface,
+        style: &LineStyle,
+        scale: DrawingScale,
+        threads: usize,
+    ) -> Result<LineDrawing, SheetError> {
+        let (view_projection, size) = self.view_projection()?;
+        let window = self.window_size();
+        // Millimeters of paper for a pixel.
+        let pixel = scale.to_paper_length(window.max_element() * self.millimeters_per_unit)
+            / LONG_SIDE_PIXELS;
+        let dots = match style.face_fill {
+            FaceFill::Gray => GRAY_DOTS_PER_MILLIMETER,
+            _ => FILL_DOTS_PER_MILLIMETER,
+        };
+        let options = DrawOptions {
+            hatch_spacing: style.hatch_spacing / pixel,
+            fill_scale: dots * pixel,
+            ..style.to_draw_options()
+        };
+        Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
+    }
+
+    /// The camera with its view volume, and the size of the drawing in pixels. Depths get a margin
+    /// of 2 % of the extent.
+    ///
+    /// # Errors
+    /// [`SheetError::View`] if there is no such volume.
+    pub(super) fn view_projection(&self) -> Result<(ViewProjection, [u32; 2]), SheetError> {
+        let window = self.window_size();
+        let half = window * 0.5;
+        let margin = (self.depths[1] - self.depths[0]).max(window.max_element()) * 0.02;
+        let (near, far) = (self.depths[0] - margin, self.depths[1] + margin);
+        let volume = Orthographic::new(-half.x, half.x, -half.y, half.y, near, far);
+        let volume = volume.map_err(|error| SheetError::View {
+            view: self.name.to_string(),
+            reason: error.to_string(),
+        })?;
+        let view_to_clip = volume.view_to_clip(Convention::CHAPTER);
+        let size = self.pixel_size().to_array().map(|side| side as u32);
+        Ok((ViewProjection { camera: self.camera, view_to_clip }, size))
+    }
+
+    /// The placement of the view's drawing on the sheet: at this scale, centered at `center`.
+    pub(super) fn placement(
+        &self,
+        drawing: &LineDrawing,
+        scale: DrawingScale,
+        center: DVec2,
+    ) -> Placement {
+        let window = self.window_size() * self.millimeters_per_unit;
+        let window = DVec2::new(scale.to_paper_length(window.x), scale.to_paper_length(window.y));
+        Placement { corner: center - window * 0.5, scale: window / drawing.size }
+    }
+}

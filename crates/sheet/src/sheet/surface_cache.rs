@@ -1,0 +1,52 @@
+//! Surface cache: the welded surfaces of a sheet, one for each set of sections that its views show.
+//!
+//! Welding and the search for intersections depend on models and sections, not on the viewer. The
+//! three principal views of an uncut object share one surface; a sectional view needs its own.
+
+use drawing::WeldedSurface;
+use homog::{Plane, World};
+use model::ModelInstance;
+
+/// Welded surfaces of the same models by the section planes that cut them.
+pub(super) struct SurfaceCache<'a> {
+    models: &'a [ModelInstance],
+    /// The objects that no section cuts.
+    uncut: &'a [u32],
+    /// In the order of their first use; a sheet has four views, so a search is cheap.
+    surfaces: Vec<(Vec<Plane<World>>, WeldedSurface)>,
+}
+
+impl<'a> SurfaceCache<'a> {
+    /// An empty cache for these models.
+    pub(super) fn new(models: &'a [ModelInstance], uncut: &'a [u32]) -> Self {
+        Self { models, uncut, surfaces: Vec::new() }
+    }
+
+    /// The surface cut by these planes, welded at the first request.
+    pub(super) fn cut_by(&mut self, sections: &[Plane<World>]) -> &WeldedSurface {
+        let cached = self.surfaces.iter().position(|(planes, _)| planes == sections);
+        let index = cached.unwrap_or_else(|| {
+            self.surfaces
+                .push((sections.to_vec(), WeldedSurface::new(self.models, sections, self.uncut)));
+            self.surfaces.len() - 1
+        });
+        &self.surfaces[index].1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::{Normal, Point};
+
+    #[test]
+    fn views_with_equal_sections_share_a_surface() {
+        let plane = Plane::through(Point::ORIGIN, Normal::new(0.0, 0.0, 1.0));
+        let mut cache = SurfaceCache::new(&[], &[]);
+        for sections in [&[][..], &[plane], &[], &[plane]] {
+            assert!(cache.cut_by(sections).object_names().is_empty());
+        }
+        assert_eq!(cache.surfaces.len(), 2);
+        assert_eq!(cache.surfaces[1].0, [plane]);
+    }
+}

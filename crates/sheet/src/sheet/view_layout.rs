@@ -1,0 +1,357 @@
+//! View layout: the positions of views on a sheet, and the scale at which they fit.
+//!
+//! ```text
+//!         column 0     column 1
+//!       ┌───────────┬───────────┐
+//!  row 0│   front   │   side    │      each cell holds a view with its dimensions, cut lines and
+//!       ├───────────┼───────────┤      captions, so that nothing of one view meets another
+//!  row 1│    top    │  (free)   │
+//!       └───────────┴───────────┘
+//! ```
+//!
+//! The front view and the side view share a row, the front view and the top view a column. The
+//! axonometric view and the views of sections have no fixed place: each goes to the best free
+//! rectangle, at a smaller scale if it must.
+//!
+//! Several arrangements of the grid are tried at each scale: with equal gaps on the whole drawing
+//! area or above the title block, or moved together to leave more room beside it. The largest scale
+//! at which all views find a place wins.
+
+use super::annotation::{Extent, ViewAnnotations, overlap};
+use super::free_area::{best_rectangle, free_rectangles};
+use super::paper_choice::scales_of;
+use super::requested_layout::{arrange_requested, requested_fault};
+use super::view_grid::{GridSpacing, ViewGrid};
+use super::view_plan::{PlannedView, ViewPlan};
+use super::{Sheet, SheetError, scale_bar};
+use drawing::Warning;
+use glam::DVec2;
+use viewport::{DrawingScale, Rectangle};
+
+/// The distance from a cell to the frame, and half of that between objects, in millimeters.
+pub(super) const HALF_GAP: f64 = 5.0;
+
+/// The distance from a cell to the frame where more would cost a scale, in millimeters.
+const TIGHT_GAP: f64 = 0.5;
+
+/// The least distance from the annotations of a view to its cell's border, in millimeters.
+const ANNOTATION_GAP: f64 = 1.5;
+
+/// A view without a fixed place is to have at least this part of the scale of the sheet; at a
+/// smaller scale of the sheet there may be more room.
+const LEAST_FREE_SCALE: f64 = 0.2;
+
+/// How many smaller scales are tried for the sake of views that do not fit.
+const SMALLER_SCALES: usize = 2;
+
+/// A view whose longer side is shorter, in millimeters, is left out, unless it is at the scale of
+/// the sheet.
+pub(super) const LEAST_VIEW_SIZE: f64 = 8.0;
+
+/// A view with its position and scale.
+#[derive(Clone, Debug)]
+pub(super) struct PlacedView<'a> {
+    pub(super) planned: &'a PlannedView,
+    /// The center of the view on the sheet, in millimeters: a point of the grid of micrometers.
+    pub(super) center: DVec2,
+    pub(super) scale: DrawingScale,
+    pub(super) annotations: ViewAnnotations,
+}
+
+impl PlacedView<'_> {
+    /// Width and height of the object in the view, in millimeters.
+    pub(super) fn object_size(&self) -> DVec2 {
+        self.planned.view.size * self.scale.ratio()
+    }
+
+    /// The rectangle around the view and its annotations on the sheet.
+    pub(super) fn extent(&self) -> Extent {
+        let half = self.object_size() * 0.5;
+        self.annotations.extent_with([-half, half]).map(|corner| self.center + corner)
+    }
+}
+
+/// All views with their positions.
+#[derive(Clone, Debug)]
+pub(super) struct ViewLayout<'a> {
+    /// The scale of the sheet.
+    pub(super) scale: DrawingScale,
+    /// Front, top and side view, then those without a fixed place.
+    pub(super) views: Vec<PlacedView<'a>>,
+    /// The views that found no place.
+    pub(super) left_out: Vec<&'a PlannedView>,
+    /// The place of the scale bar.
+    pub(super) scale_bar: Rectangle,
+    /// Warnings of views that lie over others at the places that they were given.
+    pub(super) overlaps: Vec<Warning>,
+}
+
+/// A view with its annotations at a scale, and the space that it needs about its center.
+#[derive(Clone, Debug)]
+pub(super) struct ViewCell<'a> {
+    pub(super) planned: &'a PlannedView,
+    pub(super) scale: DrawingScale,
+    pub(super) annotations: ViewAnnotations,
+    pub(super) extent: Extent,
+}
+
+impl<'a> ViewCell<'a> {
+    /// The cell of a view; a scale that is not that of the sheet is written below it.
+    pub(super) fn new(planned: &'a PlannedView, sheet: &Sheet, scale: DrawingScale) -> Self {
+        Self::with_annotations(planned, scale, planned.annotate(sheet, scale))
+    }
+
+    /// The cell of a view with these annotations.
+    pub(super) fn with_annotations(
+        planned: &'a PlannedView,
+        scale: DrawingScale,
+        annotations: ViewAnnotations,
+    ) -> Self {
+        let half = planned.view.size * scale.ratio() * 0.5;
+        let [low, high] = annotations.extent_with([-half, half]);
+        let extent = [
+            (low - ANNOTATION_GAP).min(-half - HALF_GAP),
+            (high + ANNOTATION_GAP).max(half + HALF_GAP),
+        ];
+        Self { planned, scale, annotations, extent }
+    }
+
+    /// The space that the view takes about a center.
+    pub(super) fn extent_at(&self, center: DVec2) -> Extent {
+        self.extent.map(|corner| center + corner)
+    }
+
+    /// The view at a center.
+    pub(super) fn place(self, center: DVec2) -> PlacedView<'a> {
+        let Self { planned, scale, annotations, .. } = self;
+        PlacedView { planned, center, scale, annotations }
+    }
+}
+
+impl<'a> ViewLayout<'a> {
+    /// Arranges the views at the sheet's scale, or at the largest standard scale that fits.
+    ///
+    /// Views stay clear of title block and scale bar. Without a scale of the sheet, smaller ones
+    /// are tried where a view without a fixed place finds none.
+    ///
+    /// # Errors
+    /// [`SheetError::TooLarge`] if they do not fit; it names a scale that would, if there is one.
+    pub(super) fn arrange_views(sheet: &Sheet, plan: &'a ViewPlan) -> Result<Self, SheetError> {
+        let best = Self::arrange_on_best(&[sheet], plan);
+        best.map(|(_, layout)| layout).ok_or_else(|| match plan.requested.is_empty() {
+            true => Self::too_large(sheet, plan),
+            false => requested_fault(sheet, plan),
+        })
+    }
+
+    /// As [`arrange_views`](Self::arrange_views) on the best of these sheets, which differ in
+    /// their paper alone, with its index; the first of those that are equal.
+    pub(super) fn arrange_on_best(sheets: &[&Sheet], plan: &'a ViewPlan) -> Option<(usize, Self)> {
+        let at_scale = |scale: DrawingScale| {
+            let layouts = sheets.iter().map(|sheet| Self::arrange_at_scale(sheet, plan, scale));
+            let numbered = layouts.enumerate().filter_map(|(at, layout)| Some((at, layout?)));
+            numbered.reduce(|best, one| if one.1.is_better_than(&best.1) { one } else { best })
+        };
+        let mut fitting = scales_of(sheets.first()?).into_iter().filter_map(at_scale);
+        let mut best = fitting.next()?;
+        for smaller in fitting.take(SMALLER_SCALES) {
+            if best.1.is_satisfied() {
+                break;
+            }
+            let has_more = smaller.1.left_out.len() < best.1.left_out.len();
+            if smaller.1.is_satisfied() || has_more {
+                best = smaller;
+            }
+        }
+        Some(best)
+    }
+
+    /// The best arrangement at one scale; `None` if front, top and side view do not fit.
+    pub(super) fn arrange_at_scale(
+        sheet: &Sheet,
+        plan: &'a ViewPlan,
+        scale: DrawingScale,
+    ) -> Option<Self> {
+        if !plan.requested.is_empty() {
+            return arrange_requested(sheet, plan, scale).ok();
+        }
+        let grid = ViewGrid::new(sheet, &plan.principal, scale);
+        let mut best: Option<Self> = None;
+        for Arrangement { area, spacing, scale_bar } in arrangements(sheet) {
+            let taken = [sheet.title_block_area(), scale_bar].map(extent_of_rectangle);
+            let Some(centers) = grid.place_views(area, spacing) else { continue };
+            let cells = grid.cells.iter().zip(centers);
+            let mut obstacles: Vec<Extent> =
+                cells.clone().map(|(cell, center)| cell.extent_at(center)).collect();
+            if obstacles.iter().any(|cell| taken.iter().any(|other| overlap(*cell, *other))) {
+                continue;
+            }
+            obstacles.extend(taken);
+            let views = cells.map(|(cell, center)| cell.clone().place(center)).collect();
+            let (left_out, overlaps) = (Vec::new(), Vec::new());
+            let mut layout = Self { scale, views, left_out, scale_bar, overlaps };
+            let corner = DVec2::new(centers[2].x, centers[1].y);
+            layout.place_free_views(sheet, &plan.free, (obstacles, corner));
+            if best.as_ref().is_none_or(|best| layout.is_better_than(best)) {
+                best = Some(layout);
+            }
+        }
+        best
+    }
+
+    /// Places the views without a fixed place, one after the other, each at the largest scale.
+    fn place_free_views(
+        &mut self,
+        sheet: &Sheet,
+        free: &'a [PlannedView],
+        (mut obstacles, corner): (Vec<Extent>, DVec2),
+    ) {
+        let [low, high] = extent_of_rectangle(sheet.drawing_area());
+        let area = [low + HALF_GAP, high - HALF_GAP];
+        for planned in free {
+            let rectangles = free_rectangles(area, &obstacles);
+            match fit_into(sheet, planned, self.scale, (&rectangles, corner)) {
+                Some((cell, center)) => {
+                    obstacles.push(cell.extent_at(center));
+                    self.views.push(cell.place(center));
+                }
+                None => self.left_out.push(planned),
+            }
+        }
+    }
+
+    /// Whether every view has a place and a scale that is not much smaller than that of the sheet.
+    pub(super) fn is_satisfied(&self) -> bool {
+        self.cramped_views().next().is_none() && self.overlaps.is_empty()
+    }
+
+    /// The views that have no place, or only one at a scale much smaller than that of the sheet.
+    pub(super) fn cramped_views(&self) -> impl Iterator<Item = &'a PlannedView> {
+        let least = LEAST_FREE_SCALE * self.scale.ratio() * (1.0 - 1e-9);
+        let small = self.views.iter().filter(move |view| view.scale.ratio() < least);
+        self.left_out.iter().copied().chain(small.map(|view| view.planned))
+    }
+
+    /// Width and height that front, top and side view need at a scale, in millimeters.
+    pub(super) fn least_size(sheet: &Sheet, plan: &ViewPlan, scale: DrawingScale) -> DVec2 {
+        ViewGrid::new(sheet, &plan.principal, scale).total_size()
+    }
+
+    /// Width and height that are available to views in any case, in millimeters.
+    pub(super) fn room_above_blocks(sheet: &Sheet) -> DVec2 {
+        let [low, high] = area_above_blocks(sheet, TIGHT_GAP);
+        (high - low).max(DVec2::ZERO)
+    }
+
+    /// Whether more views have a place, or the same views at larger scales.
+    pub(super) fn is_better_than(&self, other: &Self) -> bool {
+        let score = |layout: &Self| {
+            let scales = layout.views.iter().map(|placed| placed.scale.ratio());
+            [layout.scale.ratio(), -(layout.left_out.len() as f64), scales.product::<f64>()]
+        };
+        let (own, others) = (score(self), score(other));
+        // A product of scales depends on the order of its factors in the last digits.
+        let differs = |(a, b): &(f64, f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
+        own.into_iter().zip(others).find(differs).is_some_and(|(a, b)| a > b)
+    }
+
+    /// The contents of the frame: views with their annotations, title block and scale bar.
+    pub(super) fn contents(&self, title_block: Rectangle) -> Vec<Extent> {
+        let blocks = [title_block, self.scale_bar].map(extent_of_rectangle);
+        self.views.iter().map(PlacedView::extent).chain(blocks).collect()
+    }
+
+    /// The error with needed and available size, and a remedy.
+    fn too_large(sheet: &Sheet, plan: &ViewPlan) -> SheetError {
+        let fits =
+            |scale: &&DrawingScale| ViewLayout::arrange_at_scale(sheet, plan, **scale).is_some();
+        let fitting = sheet.scale.and_then(|_| DrawingScale::STANDARD.iter().find(fits));
+        let smallest = DrawingScale::STANDARD[DrawingScale::STANDARD.len() - 1];
+        let scale = sheet.scale.unwrap_or(smallest);
+        let remedy = match fitting {
+            Some(fitting) => format!("; {fitting} fits"),
+            None => "; use larger paper, or set the unit of the model".to_owned(),
+        };
+        let need = Self::least_size(sheet, plan, scale).to_array();
+        let available = Self::room_above_blocks(sheet).to_array();
+        SheetError::TooLarge { paper: sheet.paper_name.clone(), scale, need, available, remedy }
+    }
+}
+
+/// The cell of a view at the largest scale at which a free rectangle holds it, up to that of the
+/// sheet, and its center.
+fn fit_into<'a>(
+    sheet: &Sheet,
+    planned: &'a PlannedView,
+    sheet_scale: DrawingScale,
+    (rectangles, corner): (&[Extent], DVec2),
+) -> Option<(ViewCell<'a>, DVec2)> {
+    let smaller = DrawingScale::STANDARD.into_iter().filter(|s| s.ratio() < sheet_scale.ratio());
+    for scale in core::iter::once(sheet_scale).chain(smaller) {
+        let longest = scale.to_paper_length(planned.view.size.max_element());
+        if scale != sheet_scale && longest < LEAST_VIEW_SIZE {
+            return None;
+        }
+        let cell = if scale == sheet_scale {
+            ViewCell::new(planned, sheet, scale)
+        } else {
+            let annotations = planned.annotate_with_scale(sheet, scale);
+            ViewCell::with_annotations(planned, scale, annotations)
+        };
+        let [low, high] = cell.extent;
+        if let Some(rectangle) = best_rectangle(rectangles, high - low, corner) {
+            let middle = (rectangle[0] + rectangle[1]) * 0.5;
+            let center = snap_to_grid(middle - (low + high) * 0.5);
+            return Some((cell, center));
+        }
+    }
+    None
+}
+
+/// A way to set the grid of views on a sheet.
+pub(super) struct Arrangement {
+    pub(super) area: Extent,
+    pub(super) spacing: [GridSpacing; 2],
+    pub(super) scale_bar: Rectangle,
+}
+
+/// The arrangements that are tried, the most even first.
+///
+/// The last of them leave less room between views and frame, or move the scale bar out of the way.
+pub(super) fn arrangements(sheet: &Sheet) -> Vec<Arrangement> {
+    let [low, high] = extent_of_rectangle(sheet.drawing_area());
+    let whole = |gap: f64| [low + gap, high - gap];
+    let [above, tight] = [HALF_GAP, TIGHT_GAP].map(|gap| area_above_blocks(sheet, gap));
+    let (equal, close) = (GridSpacing::Equal, GridSpacing::Close);
+    let [usual, other] = scale_bar::scale_bar_areas(sheet);
+    let ways = [
+        (whole(HALF_GAP), [equal, equal], usual),
+        (above, [equal, equal], usual),
+        (whole(HALF_GAP), [equal, close], usual),
+        (whole(HALF_GAP), [close, equal], usual),
+        (whole(HALF_GAP), [close, close], usual),
+        (tight, [equal, equal], usual),
+        (whole(TIGHT_GAP), [close, close], usual),
+        (whole(TIGHT_GAP), [equal, close], other),
+        (whole(TIGHT_GAP), [close, close], other),
+    ];
+    ways.map(|(area, spacing, scale_bar)| Arrangement { area, spacing, scale_bar }).into()
+}
+
+/// The area above title block and scale bar, at a distance from the frame.
+fn area_above_blocks(sheet: &Sheet, gap: f64) -> Extent {
+    let [low, high] = extent_of_rectangle(sheet.drawing_area());
+    let blocks = sheet.title_block_area().y().min(sheet.scale_bar_area().y());
+    [low + gap, DVec2::new(high.x - gap, blocks)]
+}
+
+/// A rectangle by its corners.
+pub(super) fn extent_of_rectangle(area: Rectangle) -> Extent {
+    let low = DVec2::new(area.x(), area.y());
+    [low, low + DVec2::new(area.width(), area.height())]
+}
+
+/// The nearest point of the grid of micrometers, in millimeters.
+pub(super) fn snap_to_grid(point: DVec2) -> DVec2 {
+    drawing::to_millimeters(drawing::to_micrometers(point))
+}
