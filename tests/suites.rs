@@ -14,6 +14,7 @@ mod cluster;
 mod corpus;
 mod drawing;
 mod goldens;
+mod growth;
 mod hostile;
 mod looks;
 mod meshes;
@@ -35,6 +36,7 @@ const SUITES: &[(&str, Suite)] = &[
     ("corpus", corpus::run),
     ("drawing", drawing::run),
     ("goldens", goldens::run),
+    ("growth", growth::run),
     ("hostile", hostile::run),
     ("looks", looks::run),
     ("meshes", meshes::run),

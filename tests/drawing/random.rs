@@ -224,7 +224,7 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
         model: Arc::clone(model),
         model_to_world: homog::Affine::scale(1.0, 1.0, 1.0),
     };
-    let scene = match Scene::from_models(&origin, &file, vec![instance]) {
+    let scene = match Scene::from_models(&origin, &file, &[instance]) {
         Ok(scene) => scene,
         Err(error) => return Ok(Verdict::Refused(reason_of(&error.to_string()))),
     };

@@ -72,7 +72,7 @@ pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
         let style = style.with_fitting_lines(size);
         let mut file = SceneFile { style, ..file.clone() };
         file.image.size = size;
-        let fault = Scene::from_models(&origin, &file, loaded.models.clone())
+        let fault = Scene::from_models(&origin, &file, &loaded.models)
             .map_err(|error| error.to_string())
             .and_then(|scene| judge_picture(&scene, &textures));
         // Refused with a flag that draws it: millions of triangles by copies.

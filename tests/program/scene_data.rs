@@ -30,8 +30,10 @@ fn scene_files(folder: PathBuf, found: &mut Vec<PathBuf>) {
 #[test]
 fn plain_ron_reads_every_scene_of_the_repository() {
     let mut paths = Vec::new();
-    scene_files(alberti_tests::project_root().join("scenes"), &mut paths);
-    assert!(paths.len() > 40, "{}", paths.len());
+    for folder in ["scenes", "book/scenes", "docs/exercises"] {
+        scene_files(alberti_tests::project_root().join(folder), &mut paths);
+    }
+    assert!(paths.len() > 110, "{}", paths.len());
     for path in paths {
         let text = fs::read_to_string(&path).expect("the scene is there");
         let scene: SceneFile = scene_ron_options()
@@ -85,10 +87,37 @@ fn other_formats_refuse_what_ron_refuses() {
         (r#"{"modles": []}"#, "unknown field `modles`"),
         (r#"{"models": [{}]}"#, "missing field `path`"),
         (r#"{"camera": {"zoom": 0}}"#, "expected a number greater than 0, found 0"),
-        (r#"{"style": "Falt"}"#, "unknown field `Falt`"),
+        (r#"{"style": "Falt"}"#, "unknown variant `Falt`"),
         (r#"{"camera": {"view": {"LookAt": {"eye": [1, 2], "target": [0, 0, 0]}}}}"#, "three"),
     ] {
         let error = serde_json::from_str::<SceneFile>(json).expect_err(json).to_string();
         assert!(error.contains(reason), "{json}: {error}");
     }
+}
+
+#[test]
+fn every_type_of_a_public_field_can_be_named() {
+    let listing = alberti_tests::project_root().join("docs/api/pipeline.txt");
+    let listing = fs::read_to_string(listing).expect("the listing is there");
+    let mut known: Vec<&str> = vec!["Option", "Vec", "String", "Box", "Self"];
+    let items = listing.lines().filter(|line| line.starts_with("pipeline::"));
+    known.extend(items.filter_map(|line| line.split_whitespace().next()?.rsplit("::").next()));
+    let mut count = 0;
+    let items = listing.split("\npipeline::");
+    for item in items.filter(|item| item.starts_with("scene::file::")) {
+        // Fields, and values of variants: `name: Type,` and `Variant(Type),`.
+        let body = item.split("\n    impl").next().unwrap_or_default();
+        let fields = body.lines().filter_map(|line| {
+            let line = line.trim().trim_end_matches(',');
+            line.split_once(": ").or_else(|| line.split_once('(')).map(|(_, value)| value)
+        });
+        for value in fields.filter(|value| !value.starts_with("/*")) {
+            let names = value.split(|c: char| !c.is_alphanumeric() && c != '_');
+            for name in names.filter(|name| name.starts_with(char::is_uppercase)) {
+                assert!(known.contains(&name), "`{name}` cannot be named: {value}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 200, "{count} types");
 }

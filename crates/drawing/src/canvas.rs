@@ -21,7 +21,7 @@ use crate::{
 use homog::PixelRect;
 use shade::{Channel, Picture};
 use tiny_skia::{
-    Color, ColorU8, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap,
+    Color, ColorU8, FillRule, IntSize, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap,
     PremultipliedColorU8, Stroke, StrokeDash, Transform,
 };
 
@@ -35,6 +35,45 @@ const MAX_PATH_POINTS: usize = 256;
 /// they are in. Tiles are counted from the corner of the whole picture and so do not depend on the
 /// region.
 const TILE_SIZE: [u32; 2] = [4096, 2048];
+
+/// A picture as a pixmap of tiny-skia, so that anything can be drawn over it. Opaque pictures are not
+/// copied; pixels that let something through are multiplied by their alpha, as pixmaps have it.
+///
+/// `None` if the picture has no pixels.
+///
+/// ```
+/// use drawing::{picture_to_pixmap, pixmap_to_picture, tiny_skia};
+/// use shade::Picture;
+///
+/// let mut picture: Picture = Picture::default();
+/// picture.resize(4, 3);
+/// let mut pixmap = picture_to_pixmap(picture).expect("it has pixels");
+/// pixmap.fill(tiny_skia::Color::from_rgba8(255, 0, 0, 255));
+/// assert_eq!(pixmap_to_picture(&pixmap).pixel(3, 2), Some([255, 0, 0, 255]));
+/// ```
+#[must_use]
+pub fn picture_to_pixmap(picture: Picture) -> Option<Pixmap> {
+    let size = IntSize::from_wh(picture.width, picture.height)?;
+    let mut pixels = picture.pixels;
+    for pixel in pixels.iter_mut().filter(|pixel| pixel[3] != 255) {
+        let [r, g, b, alpha] = *pixel;
+        let color = ColorU8::from_rgba(r, g, b, alpha).premultiply();
+        *pixel = [color.red(), color.green(), color.blue(), alpha];
+    }
+    Pixmap::from_vec(pixels.into_flattened(), size)
+}
+
+/// A pixmap of tiny-skia as a picture. Colors of pixels that let something through are divided by
+/// their alpha, and so rounded.
+#[must_use]
+pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
+    let (width, height) = (pixmap.width(), pixmap.height());
+    let straight = |color: &PremultipliedColorU8| {
+        let color = color.demultiply();
+        [color.red(), color.green(), color.blue(), color.alpha()]
+    };
+    Picture { width, height, pixels: pixmap.pixels().iter().map(straight).collect() }
+}
 
 impl Page {
     /// The page as a picture of this size in pixels, stretched to fill it; transparent where there

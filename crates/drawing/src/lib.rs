@@ -72,7 +72,7 @@ mod view_cover;
 mod warning;
 mod z_buffer_check;
 
-pub use canvas::draw_layers_over;
+pub use canvas::{draw_layers_over, picture_to_pixmap, pixmap_to_picture};
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
 pub use circles::WorldCircle;
 pub use draw::{draw, draw_surface};
@@ -107,6 +107,9 @@ pub use stroke_font::missing_glyphs;
 pub use subject::Subject;
 pub use warning::{AssemblyWarning, DimensionFault, Warning, visible_text};
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};
+
+/// The library that [`picture_to_pixmap`] hands pictures to.
+pub use tiny_skia;
 
 /// The example of the README, compiled as a documentation test.
 #[cfg(doctest)]

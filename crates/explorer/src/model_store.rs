@@ -144,7 +144,7 @@ impl ModelStore {
         let origin = Origin::from_text_in_memory(name, text, self.folder.clone());
         if let Some(models) = self.models.iter().find(|models| models.entries == entries) {
             let models = Arc::clone(models);
-            let scene = Scene::from_models(&origin, file, models.instances.clone())?;
+            let scene = Scene::from_models(&origin, file, &models.instances)?;
             return Ok(LoadedScene { scene: Arc::new(scene), models, first_view: 0 });
         }
         let scene = Scene::resolve(&origin, file, &Default::default())?;

@@ -89,7 +89,7 @@ impl PaneGeometry {
         file.image.size = (width, height);
         file.image.samples = observer.samples;
         let instance = self.into_model(&framed);
-        let mut scene = Scene::from_models(&origin, &file, vec![instance])?;
+        let mut scene = Scene::from_models(&origin, &file, &[instance])?;
         scene.view_projection = observer_view(observer, framed)?;
         Ok(scene)
     }

@@ -3,8 +3,8 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Names of stages and the time each took.
-type StageTimes = Vec<(&'static str, Duration)>;
+/// Names of stages, the time each took, and how often it ran.
+type StageTimes = Vec<(&'static str, Duration, usize)>;
 
 /// A stopwatch for the stages of a run. Clones add to one measurement; the default measures
 /// nothing.
@@ -14,7 +14,7 @@ type StageTimes = Vec<(&'static str, Duration)>;
 /// let timings = Timings::enabled();
 /// let sum: u32 = timings.measure("add", || (1..=10).sum());
 /// assert_eq!(sum, 55);
-/// assert_eq!(timings.stages()[0].0, "add");
+/// assert_eq!((timings.stages()[0].0, timings.count("add")), ("add", 1));
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Timings {
@@ -35,9 +35,9 @@ impl Timings {
         let result = work();
         let took = begin.elapsed();
         let mut spans = spans.lock().unwrap_or_else(PoisonError::into_inner);
-        match spans.iter_mut().find(|(name, _)| *name == stage) {
-            Some((_, sum)) => *sum += took,
-            None => spans.push((stage, took)),
+        match spans.iter_mut().find(|(name, ..)| *name == stage) {
+            Some((_, sum, count)) => (*sum, *count) = (*sum + took, *count + 1),
+            None => spans.push((stage, took, 1)),
         }
         result
     }
@@ -45,10 +45,21 @@ impl Timings {
     /// Stages and the time each took, in the order in which they first ended.
     #[must_use]
     pub fn stages(&self) -> Vec<(&'static str, Duration)> {
-        let spans = |spans: &Arc<Mutex<StageTimes>>| {
-            spans.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.stage_times().into_iter().map(|(stage, time, _)| (stage, time)).collect()
+    }
+
+    /// How often a stage ran; 0 if nothing is measured.
+    #[must_use]
+    pub fn count(&self, stage: &str) -> usize {
+        let times = self.stage_times();
+        times.iter().find(|(name, ..)| *name == stage).map_or(0, |(.., count)| *count)
+    }
+
+    fn stage_times(&self) -> StageTimes {
+        let times = |times: &Arc<Mutex<StageTimes>>| {
+            times.lock().unwrap_or_else(PoisonError::into_inner).clone()
         };
-        self.stage_times.as_ref().map(spans).unwrap_or_default()
+        self.stage_times.as_ref().map(times).unwrap_or_default()
     }
 }
 

@@ -13,6 +13,7 @@
 #[cfg(feature = "sheets")]
 mod assembly;
 mod backdrop;
+mod builder;
 mod calibrated_lens;
 mod camera_path;
 mod camera_placement;
@@ -20,6 +21,7 @@ mod caption;
 mod classical;
 mod color;
 pub(crate) mod depth_span;
+mod diagnostics;
 #[cfg(feature = "sheets")]
 mod dimensions;
 mod error;
@@ -39,6 +41,7 @@ mod material_overrides;
 mod mistake;
 #[cfg(test)]
 mod mistakes;
+mod model_files;
 mod named_nodes;
 mod number;
 pub mod options;
@@ -60,15 +63,16 @@ mod sheet;
 mod sheet_errors;
 #[cfg(feature = "sheets")]
 mod sheet_views;
+mod source_text;
 mod style;
 mod suggest;
 mod surrounding_light;
 mod syntax;
 mod uncut;
-mod validate;
 mod view_projection;
 mod vocabulary;
 
+pub use builder::SceneBuilder;
 pub use camera_path::CameraPath;
 pub(crate) use depth_span::DepthSpan;
 pub use error::{SceneError, SceneErrors};
@@ -78,18 +82,19 @@ pub use format::format_source;
 pub use ground::{Ground, OcclusionArea};
 pub use insets::Inset;
 pub use lints::{Lint, lint_description, lint_scene};
+pub use model_files::select_animation;
 pub use origin::Origin;
 pub use outputs::Outputs;
 pub use parse::parse_scene;
-pub use resolve::select_animation;
+pub use resolve::validate_scene;
 pub use resolve_options::ResolveOptions;
 pub use ron_text::scene_ron_options;
 #[cfg(feature = "sheets")]
 pub use sheet::{SheetContent, resolve_sheet};
 #[cfg(feature = "sheets")]
 pub use sheet_views::sheet_view_error;
+pub use source_text::SourceText;
 pub use suggest::closest_name;
-pub use validate::validate_scene;
 
 use camera::ViewProjection;
 use drawing::{LineStyle, Overlay};
@@ -340,15 +345,5 @@ fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
 impl From<SceneError> for ResolveError {
     fn from(error: SceneError) -> Self {
         Self::Scene(error.into())
-    }
-}
-
-impl ResolveError {
-    /// For a mistake of the scene, all mistakes that `find` finds instead of the first one alone.
-    fn or_all(self, find: impl FnOnce() -> Vec<SceneError>) -> Self {
-        match self {
-            Self::Scene(first) => Self::Scene(SceneErrors::from_list(find()).unwrap_or(first)),
-            other => other,
-        }
     }
 }

@@ -126,7 +126,8 @@ impl Sequence {
         let sampled_models = (0..FRAMING_SAMPLES)
             .flat_map(|at| sequence.models_at_fraction(at as f64 / FRAMING_SAMPLES as f64));
         let access = FileAccess::Loaded(&sequence.scene);
-        let framed = Scene::resolve_posed(origin, file, sampled_models.collect(), access)?;
+        let framed =
+            Scene::resolve_posed(origin, file, &sampled_models.collect::<Vec<_>>(), access)?;
         sequence.scene.view_projection = framed.view_projection;
         for (inset, framed) in sequence.scene.insets.iter_mut().zip(framed.insets) {
             inset.scene.view_projection = framed.scene.view_projection;
@@ -375,7 +376,7 @@ impl<'a> FrameWorker<'a> {
         self.scene.insets.iter_mut().for_each(|inset| inset.scene.models.clear());
         motion.pose_models(&mut self.scene.models, &scene.models, *pivot, fraction);
         let models = std::mem::take(&mut self.scene.models);
-        let posed = Scene::resolve_posed(origin, file, models, FileAccess::Loaded(scene))?;
+        let posed = Scene::resolve_posed(origin, file, &models, FileAccess::Loaded(scene))?;
         let kept =
             |index, start: &Scene| self.sequence.keeps_view(index).then_some(start.view_projection);
         for (index, (inset, posed)) in (1..).zip(self.scene.insets.iter_mut().zip(posed.insets)) {

@@ -62,7 +62,7 @@ impl Subject {
     pub(crate) fn resolve(&self, file: &SceneFile) -> Fallible<Scene> {
         let allowed = &self.options.import.allow_outside;
         let models = self.models.clone();
-        Ok(Scene::from_models_allowing(&self.origin, file, models, allowed)?)
+        Ok(Scene::from_models_allowing(&self.origin, file, &models, allowed)?)
     }
 
     /// The mip chains of the models' textures.

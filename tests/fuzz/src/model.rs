@@ -129,7 +129,7 @@ fn draw(model: &Model, style: StyleFile, view: ViewFile) {
     let origin = Origin::from_text("model.glb", "", PathBuf::new());
     let placed = ModelInstance { model: Arc::new(model.clone()), model_to_world: Affine::IDENTITY };
     // A model with nothing to see has no picture, and the error says so.
-    match Scene::from_models(&origin, &file, vec![placed]) {
+    match Scene::from_models(&origin, &file, &[placed]) {
         Ok(scene) => {
             if let Ok(picture) = render(&scene, 1) {
                 assert!(!picture.to_png().is_empty(), "the PNG is empty");

@@ -163,6 +163,7 @@ fn release_steps() -> Vec<Step> {
 fn later_steps() -> Vec<Step> {
     let suite = |step, suite, about: &str| Step::new(step, about, Action::Suite(suite)).shared();
     vec![
+        suite("growth", "growth", "twice the input takes about twice the instructions and memory"),
         suite("looks-all", "looks", "every model in every style, still and as a thumbnail"),
         Step::built_in(
             "browser",

@@ -18,7 +18,14 @@ const NAMED_BY: &[(&str, &[&str])] = &[
             "crates/alberti/src/batch",
         ],
     ),
-    ("tiny_skia", &["crates/drawing/src/canvas", "crates/raster/examples/pixmap.rs"]),
+    (
+        "tiny_skia",
+        &[
+            "crates/drawing/src/canvas",
+            "crates/drawing/src/lib.rs",
+            "crates/raster/examples/pixmap.rs",
+        ],
+    ),
     ("clap", &["crates/alberti/src"]),
 ];
 

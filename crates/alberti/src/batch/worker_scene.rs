@@ -77,7 +77,7 @@ impl SceneLoader {
         let is_loaded = self.loaded.as_ref().is_some_and(|(known, _)| *known == key);
         let mut scene = match self.loaded.take().filter(|_| is_loaded) {
             Some((_, models)) => {
-                Scene::from_models_allowing(&origin, &file, models, &import.allow_outside)?
+                Scene::from_models_allowing(&origin, &file, &models, &import.allow_outside)?
             }
             // The old models are gone by now, and do not take memory beside the new ones.
             None => Scene::resolve(&origin, &file, &flags.overrides.resolve_options(import))?,

@@ -30,7 +30,7 @@ pub(super) fn share_scale(
             other.environment = Some(EnvironmentFile::STUDIO);
         }
         SceneOverrideArgs::aim_from(&mut other.camera, view);
-        let other = Scene::from_models(origin, &other, scene.models.clone())?;
+        let other = Scene::from_models(origin, &other, &scene.models)?;
         let scale = other.pixels_per_unit().ok_or_else(|| {
             CliError::Usage(
                 "a perspective has no scale that --same-scale could share\n  = help: add --projection orthographic, or another parallel projection"

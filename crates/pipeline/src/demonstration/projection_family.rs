@@ -64,7 +64,7 @@ pub fn projection_panels(
     for NamedProjection { name, projection } in members {
         let camera = CameraFile { projection: Some(projection.clone()), ..CameraFile::default() };
         let file = SceneFile { camera, ..file.clone() };
-        let mut scene = Scene::from_models(origin, &file, models.to_vec())?;
+        let mut scene = Scene::from_models(origin, &file, models)?;
         scene.image.background = [1.0; 4];
         let panel = crate::render::render_panel(&scene, name, name.replace('-', " "), threads)?;
         let size = DVec2::new(scene.image.width.into(), scene.image.height.into());

@@ -1,10 +1,15 @@
 //! Errors of scene files: each points at the place in the text and says what to do.
 
+use super::source_text::SourceText;
 #[cfg(feature = "terminal")]
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use core::fmt;
 use core::ops::Range;
 use model::visible_text;
+
+/// Lines of more bytes are not quoted.
+#[cfg(feature = "terminal")]
+const LONGEST_LINE: usize = 10_000;
 
 /// A mistake in a scene file.
 ///
@@ -22,7 +27,7 @@ pub struct SceneError {
     /// The scene file's path, or the name of the model if there is no scene file.
     pub file: String,
     /// The whole text; empty for a model without a scene file.
-    pub source: String,
+    pub source: SourceText,
     /// The bytes of the text that are wrong.
     pub span: Range<usize>,
     /// A description of the mistake.
@@ -35,9 +40,7 @@ impl SceneError {
     /// The line and column of the mistake, both from 1; columns count characters.
     #[must_use]
     pub fn line_and_column(&self) -> (usize, usize) {
-        let before = &self.source[..self.span.start];
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+        self.source.line_and_column(self.span.start)
     }
 
     /// The message with the line and the caret; with the colors of a terminal (ECMA-48) if
@@ -48,8 +51,8 @@ impl SceneError {
     #[cfg_attr(not(feature = "terminal"), expect(unused_variables, reason = "for the snippet"))]
     pub fn to_message(&self, colors: bool) -> String {
         #[cfg(feature = "terminal")]
-        if !self.source.is_empty() {
-            return self.to_snippet(colors);
+        if let Some(snippet) = self.to_snippet(colors) {
+            return snippet;
         }
         let mut place = visible_text(&self.file).into_owned();
         if !self.source.is_empty() {
@@ -63,27 +66,27 @@ impl SceneError {
         format!("{place}: {}{help}", visible_text(&self.message))
     }
 
-    /// The message with the line and the caret.
+    /// The message with the line and the caret; `None` without a text, and for a line that is too
+    /// long to be shown.
     #[cfg(feature = "terminal")]
-    fn to_snippet(&self, colors: bool) -> String {
+    fn to_snippet(&self, colors: bool) -> Option<String> {
+        let (number, line) = self.source.line_at(self.span.start);
+        if self.source.is_empty() || line.len() > LONGEST_LINE {
+            return None;
+        }
+        // Carets under many lines hide more than they show.
+        let marked = self.span.start - line.start..self.span.end.min(line.end) - line.start;
         let [file, message] = [&self.file, &self.message].map(|text| visible_text(text));
-        let snippet = Snippet::source(self.source.as_str())
+        let snippet = Snippet::source(&self.source[line])
+            .line_start(number)
             .path(&*file)
-            .annotation(AnnotationKind::Primary.span(self.first_line_of_span()));
+            .annotation(AnnotationKind::Primary.span(marked));
         let mut group: Group<'_> = Level::ERROR.no_name().primary_title(&*message).element(snippet);
         if let Some(help) = &self.help {
             group = group.element(Level::HELP.message(visible_text(help)));
         }
         let renderer = if colors { Renderer::styled() } else { Renderer::plain() };
-        renderer.render(&[group])
-    }
-
-    /// The part of the span on its first line: carets under many lines hide more than they show.
-    #[cfg(feature = "terminal")]
-    fn first_line_of_span(&self) -> Range<usize> {
-        let marked = &self.source[self.span.clone()];
-        let length = marked.find('\n').unwrap_or(marked.len());
-        self.span.start..self.span.start + length
+        Some(renderer.render(&[group]))
     }
 }
 

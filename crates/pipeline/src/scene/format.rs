@@ -45,7 +45,7 @@ pub fn format_source(file: &str, text: &str) -> Result<String, SceneErrors> {
     // No text is known that comes here; a person's file is not the place to find one.
     let message = "this file cannot be formatted without changing what it means".to_owned();
     let error =
-        SceneError { file: file.into(), source: text.to_owned(), span: 0..0, message, help: None };
+        SceneError { file: file.into(), source: text.into(), span: 0..0, message, help: None };
     Err(error.into())
 }
 

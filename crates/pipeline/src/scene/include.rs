@@ -12,9 +12,9 @@
 use super::file::{BackgroundFile, EnvironmentFile, ModelFile};
 use super::mistake::Mistake;
 use super::origin::{normalize_path, read_scene_text};
-use super::parse::{ParsedScene, read_recovering, strip_byte_order_mark};
+use super::parse::{ParsedScene, read_recovering};
+use super::source_text::SourceText;
 use super::syntax::PathStep::{self, Field, Index};
-use super::syntax::{parse_tree, span_of};
 use super::{Origin, SceneError, SceneFile};
 use core::ops::Range;
 use std::collections::BTreeMap;
@@ -52,7 +52,7 @@ type ElementSources = BTreeMap<&'static str, Vec<(Option<usize>, usize)>>;
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct IncludeMap {
     /// Name and text of each included file, in the order of reading.
-    files: Vec<(String, String)>,
+    files: Vec<(String, SourceText)>,
     /// For each field that is replaced whole the index of the file it is from.
     fields: BTreeMap<&'static str, Option<usize>>,
     lists: ElementSources,
@@ -67,7 +67,7 @@ impl IncludeMap {
     pub(super) fn resolve_source<'a>(
         &self,
         path: &[PathStep<'a>],
-    ) -> (Option<(&str, &str)>, Vec<PathStep<'a>>) {
+    ) -> (Option<(&str, &SourceText)>, Vec<PathStep<'a>>) {
         let (file, path) = match *path {
             [Field(list), Index(at), ref rest @ ..] if self.lists.contains_key(list) => {
                 let place = self.lists.get(list).and_then(|list| list.get(at));
@@ -78,7 +78,7 @@ impl IncludeMap {
             _ => (None, path.to_vec()),
         };
         let source = file.and_then(|file| self.files.get(file));
-        (source.map(|(name, text)| (name.as_str(), text.as_str())), path)
+        (source.map(|(name, text)| (name.as_str(), text)), path)
     }
 
     /// The names of the included files, in the order in which they were read.
@@ -136,7 +136,7 @@ struct SourceFile<'a> {
     /// Its index, if it is included.
     file: Option<usize>,
     name: &'a str,
-    text: &'a str,
+    text: &'a SourceText,
     /// Its folder, relative to that of the scene.
     folder: &'a Path,
 }
@@ -144,7 +144,7 @@ struct SourceFile<'a> {
 impl SourceFile<'_> {
     /// A mistake at the path of the include with this index.
     fn include_mistake(&self, index: usize, message: String, help: Option<&str>) -> FileMistake {
-        let span = span_of(self.text, &[Field("include"), Index(index)]);
+        let span = self.text.span_of(&[Field("include"), Index(index)]);
         let mistake = Mistake::new(span, message, help.map(str::to_owned));
         FileMistake { error: mistake.to_error(self.name, self.text), scope: mistake.scope }
     }
@@ -179,10 +179,9 @@ impl IncludeResolver<'_> {
         source: &SourceFile<'_>,
         open: &mut Vec<(PathBuf, String)>,
     ) -> MergedScene {
-        let text = strip_byte_order_mark(source.text);
-        let ParsedScene { scene: mut file, mistakes, retained } = read_recovering(text);
+        let ParsedScene { scene: mut file, mistakes, retained } = read_recovering(source.text);
         self.mistakes.extend(mistakes.into_iter().map(|mistake| FileMistake {
-            error: mistake.to_error(source.name, text),
+            error: mistake.to_error(source.name, source.text),
             scope: mistake.scope,
         }));
         let mut below = MergedScene::default();
@@ -195,7 +194,7 @@ impl IncludeResolver<'_> {
             }
         }
         rebase_paths(&mut file, source.folder);
-        let fields = top_level_fields(source.text);
+        let fields = source.text.top_level_fields();
         let fields = REPLACED_FIELDS.into_iter().filter(|field| fields.contains(field));
         let fields = fields.map(|field| (field, source.file)).collect();
         let of_source =
@@ -242,6 +241,7 @@ impl IncludeResolver<'_> {
         }
         let help = Some("check the path: it begins at the folder of this file");
         let text = read_scene_text(&whole).map_err(|error| (error.to_string(), help))?;
+        let text = SourceText::from(text);
         let read: usize = self.includes.files.iter().map(|(_, text)| text.len()).sum();
         if read + text.len() > MAX_INCLUDED_BYTES {
             self.is_full = true;
@@ -260,16 +260,6 @@ impl IncludeResolver<'_> {
         open.pop();
         Ok(merged)
     }
-}
-
-/// The names of the fields that the text of a scene sets. The parsed scene cannot tell a default
-/// from a value that was written.
-fn top_level_fields(text: &str) -> Vec<&str> {
-    let root = parse_tree(text).root;
-    let group = root.as_ref().and_then(|root| root.group());
-    let keys =
-        group.into_iter().flat_map(|group| &group.items).filter_map(|item| item.key.as_ref());
-    keys.map(|key| key.name).collect()
 }
 
 /// Makes the paths of a file in `folder` relative to the scene's own folder, with slashes on all

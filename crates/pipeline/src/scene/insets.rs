@@ -7,9 +7,11 @@
 //!   └───────────────┘
 //! ```
 
+use super::diagnostics::Diagnostics;
 use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile, ViewportsScale};
 use super::file_access::FileAccess;
 use super::number::Positive;
+use super::resolve::{resolve_image_size, resolve_without_insets};
 use super::shared_scale::share_scale_of_viewports;
 use super::syntax::PathStep::{Field, Index};
 use super::{Origin, ResolveError, Scene, SceneError};
@@ -44,40 +46,40 @@ pub struct Inset {
 
 /// The insets of a scene file: its viewports in order, or the two views of a stereo pair.
 ///
-/// Models are shared with the main view, not loaded again.
-///
-/// # Errors
-/// If a rectangle is outside of the picture, the scene of an inset cannot be resolved, or the views
-/// cannot share a scale; the error points into the viewport.
+/// Models are shared with the main view, not loaded again. Without models, or where a rectangle is
+/// outside of the picture, only the mistakes of viewports are told that need none. `None` if
+/// something is wrong; the errors point into the viewports.
 pub(super) fn resolve_insets(
     origin: &Origin,
     file: &SceneFile,
-    models: &[ModelInstance],
+    models: Option<&[ModelInstance]>,
     access: FileAccess<'_>,
-) -> Result<Vec<Inset>, ResolveError> {
+    faults: &mut Diagnostics,
+) -> Option<Vec<Inset>> {
     if let Some(stereo) = file.stereo {
-        return resolve_stereo(origin, file, stereo, models, access);
+        return faults.take(resolve_stereo(origin, file, stereo, models?, access));
     }
     if file.viewports.len() > MAX_VIEWPORTS {
         let message = format!("{} viewports are more than {MAX_VIEWPORTS}", file.viewports.len());
-        return Err(origin.error_at(&[Field("viewports")], message, None).into());
+        faults.report(origin.error_at(&[Field("viewports")], message, None));
+        return None;
     }
-    let numbered = file.viewports.iter().enumerate();
-    let views = numbered.map(|(at, viewport)| {
-        let area = resolve_viewport_rect(origin, at, viewport, file.view_size())?;
-        let border = resolve_border(origin, at, viewport)?;
-        let inner = scene_in_viewport(file, viewport, (area.width, area.height));
-        let scene = Scene::resolve_without_insets(
-            &origin.for_viewport(at),
-            &inner,
-            models.to_vec(),
-            access.for_inset(at),
-        )?;
-        Ok(Inset { rect: area, border, cyan_only: false, scene })
-    });
-    let mut insets = views.collect::<Result<Vec<Inset>, ResolveError>>()?;
-    share_scale_of_viewports(origin, file, &mut insets)?;
-    Ok(insets)
+    let is_sized = resolve_image_size(origin, file).is_ok();
+    let view = |(at, viewport): (usize, &ViewportFile)| {
+        let area = || faults.take(resolve_viewport_rect(origin, at, viewport, file.view_size()));
+        let area = is_sized.then(area).flatten();
+        let border = faults.take(resolve_border(origin, at, viewport));
+        let size = area.map_or(file.image.size, |area| (area.width, area.height));
+        let inner = scene_in_viewport(file, viewport, size);
+        let models = models.filter(|_| area.is_some());
+        let (origin, access) = (origin.for_viewport(at), access.for_inset(at));
+        let scene = resolve_without_insets(&origin, &inner, models, access, faults);
+        Some(Inset { rect: area?, border: border?, cyan_only: false, scene: scene? })
+    };
+    let insets: Vec<Option<Inset>> = file.viewports.iter().enumerate().map(view).collect();
+    let mut insets = insets.into_iter().collect::<Option<Vec<Inset>>>()?;
+    faults.take(share_scale_of_viewports(origin, file, &mut insets))?;
+    Some(insets)
 }
 
 /// The scene file as it holds within a viewport of this size: fields of the viewport replace those
@@ -105,7 +107,7 @@ fn scene_in_viewport(file: &SceneFile, viewport: &ViewportFile, size: (u32, u32)
 ///
 /// # Errors
 /// If both forms or neither are given, or the rectangle is empty or exceeds the picture.
-pub(super) fn resolve_viewport_rect(
+fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
@@ -154,7 +156,7 @@ pub(super) fn resolve_viewport_rect(
 }
 
 /// The color of a viewport's border, and its width of 1 to 1000 pixels.
-pub(super) fn resolve_border(
+fn resolve_border(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
@@ -210,7 +212,9 @@ fn resolve_stereo(
     let areas = [half, PixelRect { x: if beside { width - half.width } else { 0 }, ..half }];
     let inner = scene_in_viewport(file, &ViewportFile::default(), (half.width, height));
     let inner = SceneFile { stereo: None, ..inner };
-    let middle = Scene::resolve_without_insets(origin, &inner, models.to_vec(), access)?;
+    let mut faults = Diagnostics::default();
+    let middle = resolve_without_insets(origin, &inner, Some(models), access, &mut faults);
+    let middle = faults.finish(origin, middle)?;
     if middle.view_projection.viewer().raw().w == 0.0 {
         let help = "choose one, such as Perspective(), or leave `stereo` out";
         return Err(fault("eyes see the same in a parallel projection", help).into());

@@ -1,6 +1,7 @@
 //! Resolution of lights: units, directions and shadows of the lights of a scene file, and the
 //! default key light.
 
+use super::diagnostics::Diagnostics;
 use super::file::{EnvironmentFile, Finite, LightColor, LightFile, SceneFile, ShadowsFile};
 use super::number::{NonNegative, Positive, Triple};
 use super::shadows::resolve_shadow;
@@ -29,45 +30,62 @@ const MAX_SHADOW_TEXELS: u64 = 1 << 26;
 /// The least texels of a shadow map's side.
 const LEAST_SHADOW_SIDE: u32 = 64;
 
-/// The lights of a scene: those of the file, or of the models, or a default key light where nothing
-/// else would light the models, or nothing would model them.
+/// The shadows that the scene asks for. Ground that only shows shadows is there for their sake.
+pub(super) fn resolve_scene_shadow(
+    origin: &Origin,
+    file: &SceneFile,
+) -> Result<Option<Shadow>, SceneError> {
+    let of_ground = file.ground.map(|_| ShadowsFile::DEFAULT);
+    resolve_shadow(origin, file.shadows.or(of_ground).as_ref(), &[Field("shadows")])
+}
+
+/// The lights that the file describes; `None` in place of `FromModels`.
+pub(super) fn resolve_described_lights(
+    origin: &Origin,
+    file: &SceneFile,
+    shadow: Option<Shadow>,
+    faults: &mut Diagnostics,
+) -> Option<Vec<Option<Light>>> {
+    let numbered = file.lights.iter().flatten().enumerate();
+    let lights: Vec<_> = numbered
+        .map(|(number, light)| resolve_light(origin, number, light, shadow, faults))
+        .collect();
+    lights.into_iter().collect()
+}
+
+/// The lights of a scene: those that the file describes, or of the models, or a default key light
+/// where nothing else would light the models, or nothing would model them.
 ///
 /// Only light that the style shows counts: clay receives the environment, a line drawing does not.
 pub(super) fn resolve_lights(
     origin: &Origin,
     file: &SceneFile,
+    described: &[Option<Light>],
     models: &[ModelInstance],
-    view_projection: &ViewProjection,
+    (view_projection, shadow): (&ViewProjection, Option<Shadow>),
 ) -> Result<Vec<Light>, SceneError> {
-    // Ground that only shows shadows is there for the sake of shadows.
-    let of_ground = file.ground.map(|_| ShadowsFile::DEFAULT);
-    let asked = file.shadows.or(of_ground);
-    let shadow = resolve_shadow(origin, asked.as_ref(), &[Field("shadows")])?;
-    let Some(lights) = &file.lights else {
-        let theirs = collect_model_lights(models, shadow);
-        if !theirs.is_empty() {
-            return limit_shadow_maps(origin, file, theirs);
-        }
-        let key_light = |lux| default_key_light(view_projection, lux, shadow);
-        return Ok(match file.effective_environment(origin, models) {
-            None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
-            // A bare model has the same light with shadows and without.
-            Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
-                vec![key_light(KEY_LUX_IN_ENVIRONMENT)]
-            }
-            // Shadows were asked for, and something must cast them.
-            Some(_) if shadow.is_some() => vec![key_light(KEY_LUX_IN_ENVIRONMENT)],
-            Some(_) => Vec::new(),
+    if file.lights.is_some() {
+        let lights = described.iter().flat_map(|light| match light {
+            Some(light) => vec![*light],
+            None => collect_model_lights(models, shadow),
         });
-    };
-    let mut resolved = Vec::new();
-    for (number, light) in lights.iter().enumerate() {
-        match resolve_light(origin, number, light, shadow)? {
-            Some(light) => resolved.push(light),
-            None => resolved.extend(collect_model_lights(models, shadow)),
-        }
+        return limit_shadow_maps(origin, file, lights.collect());
     }
-    limit_shadow_maps(origin, file, resolved)
+    let theirs = collect_model_lights(models, shadow);
+    if !theirs.is_empty() {
+        return limit_shadow_maps(origin, file, theirs);
+    }
+    let key_light = |lux| default_key_light(view_projection, lux, shadow);
+    Ok(match file.effective_environment(origin, models) {
+        None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
+        // A bare model has the same light with shadows and without.
+        Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
+            vec![key_light(KEY_LUX_IN_ENVIRONMENT)]
+        }
+        // Shadows were asked for, and something must cast them.
+        Some(_) if shadow.is_some() => vec![key_light(KEY_LUX_IN_ENVIRONMENT)],
+        Some(_) => Vec::new(),
+    })
 }
 
 /// Keeps the shadow maps of all directional and spot lights together within
@@ -179,68 +197,56 @@ fn default_key_light(view_projection: &ViewProjection, lux: f32, shadow: Option<
     Light::Sun { to_light: to_light.raw().as_vec3().to_array(), lux: [lux; 3], shadow }
 }
 
-/// A light of the file, with the scene's shadows unless it has its own; `None` for `FromModels`.
+/// A light of the file, with the scene's shadows unless it has its own; `Some(None)` for
+/// `FromModels`.
 ///
 /// Directional and ambient lights are in lux, point and spot lights in candela; the color scales
-/// them. Numbers become f32 here, the precision of shading.
-///
-/// # Errors
-/// If the direction is 0, the cone is impossible, or the shadow settings are.
+/// them. Numbers become f32 here, the precision of shading. What is wrong is a direction of 0, a
+/// cone that is impossible, or shadow settings that are.
 fn resolve_light(
     origin: &Origin,
     index: usize,
     light: &LightFile,
     shadow: Option<Shadow>,
-) -> Result<Option<Light>, SceneError> {
+    faults: &mut Diagnostics,
+) -> Option<Option<Light>> {
     let range = |range: Option<Positive>| range.map_or(f32::INFINITY, |range| range.value() as f32);
     let single = |point: [f64; 3]| point.map(|c| c as f32);
-    let own_shadow = |file| resolve_light_shadow(origin, index, file, shadow);
-    Ok(Some(match *light {
-        LightFile::FromModels => return Ok(None),
+    let own_shadow = |own| resolve_light_shadow(origin, index, own, shadow);
+    Some(Some(match *light {
+        LightFile::FromModels => return Some(None),
         LightFile::Directional { direction, intensity, color, shadows } => {
-            let to_light = -resolve_direction(origin, index, direction)?;
+            let direction = faults.take(resolve_direction(origin, index, direction));
+            let shadow = faults.take(own_shadow(shadows));
             Light::Sun {
-                to_light: to_light.raw().as_vec3().to_array(),
+                to_light: (-direction?).raw().as_vec3().to_array(),
                 lux: scale_color(color, intensity),
-                shadow: own_shadow(shadows)?,
+                shadow: shadow?,
             }
         }
         LightFile::Spot { position, direction, intensity, color, shadows, .. } => {
-            let axis = resolve_direction(origin, index, direction)?.raw().as_vec3().to_array();
+            let axis = faults.take(resolve_direction(origin, index, direction));
+            let cosines = faults.take(resolve_cone(origin, index, light));
+            let shadow = faults.take(own_shadow(shadows));
             Light::Spot {
                 position: single(position.0),
-                axis,
+                axis: axis?.raw().as_vec3().to_array(),
                 candela: scale_color(color, intensity),
                 range: range(light.range()),
-                cosines: resolve_cone(origin, index, light)?,
-                shadow: own_shadow(shadows)?,
+                cosines: cosines?,
+                shadow: shadow?,
             }
         }
         LightFile::Point { position, intensity, color, shadows, .. } => Light::Point {
             position: single(position.0),
             candela: scale_color(color, intensity),
             range: range(light.range()),
-            shadow: own_shadow(shadows)?,
+            shadow: faults.take(own_shadow(shadows))?,
         },
         LightFile::Ambient { intensity, color } => {
             Light::Ambient { lux: scale_color(color, intensity) }
         }
     }))
-}
-
-/// Every mistake of a light of the file.
-pub(super) fn check_light(origin: &Origin, index: usize, light: &LightFile) -> Vec<SceneError> {
-    let (direction, shadows) = match *light {
-        LightFile::Directional { direction, shadows, .. }
-        | LightFile::Spot { direction, shadows, .. } => (Some(direction), shadows),
-        LightFile::Point { shadows, .. } => (None, shadows),
-        LightFile::FromModels | LightFile::Ambient { .. } => return Vec::new(),
-    };
-    let direction =
-        direction.and_then(|direction| resolve_direction(origin, index, direction).err());
-    let cone = resolve_cone(origin, index, light).err();
-    let shadow = resolve_light_shadow(origin, index, shadows, None).err();
-    direction.into_iter().chain(cone).chain(shadow).collect()
 }
 
 impl LightFile {

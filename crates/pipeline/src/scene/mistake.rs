@@ -1,6 +1,7 @@
 //! A mistake in the text of a scene file: its bytes, and what is wrong with them.
 
 use super::SceneError;
+use super::source_text::SourceText;
 use core::ops::Range;
 
 /// A mistake at a place in a text that both the parser and the checker of declarations know.
@@ -25,10 +26,10 @@ impl Mistake {
     }
 
     /// The mistake as an error of a file with this name and text.
-    pub(super) fn to_error(&self, file: &str, source: &str) -> SceneError {
+    pub(super) fn to_error(&self, file: &str, source: &SourceText) -> SceneError {
         SceneError {
             file: file.to_owned(),
-            source: source.to_owned(),
+            source: source.clone(),
             span: self.span.clone(),
             message: self.message.clone(),
             help: self.help.clone(),

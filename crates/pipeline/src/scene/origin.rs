@@ -1,10 +1,12 @@
 //! Where a scene comes from: a file with text and a folder, or a bare model and the program's
 //! flags.
 
+use super::diagnostics::with_errors_of_description;
 use super::include::{GatheredScene, IncludeMap, gather_includes};
 use super::insets::is_viewport_field;
-use super::syntax::{PathStep, has_value, span_of};
-use super::validate::with_errors_of_description;
+use super::parse::strip_byte_order_mark;
+use super::source_text::SourceText;
+use super::syntax::PathStep;
 use super::{ResolveError, SceneError, SceneErrors, SceneFile};
 use model::import::MemoryFolder;
 use std::path::{Component, Path, PathBuf};
@@ -19,7 +21,7 @@ pub struct Origin {
     /// The name in messages.
     pub file: String,
     /// The text; empty for a bare model.
-    pub text: String,
+    pub text: SourceText,
     /// The folder that paths of the scene begin at.
     pub folder: PathBuf,
     /// Which parts are written in files that it includes.
@@ -47,7 +49,7 @@ impl Origin {
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         Self {
             file: file.into(),
-            text: text.into(),
+            text: strip_byte_order_mark(&text.into()).into(),
             folder,
             includes: IncludeMap::default(),
             viewport: None,
@@ -196,8 +198,8 @@ impl Origin {
         };
         let own = [PathStep::Field("viewports"), PathStep::Index(number), PathStep::Field(field)];
         let (source, there) = self.includes.resolve_source(&own);
-        let text = source.map_or(self.text.as_str(), |(_, text)| text);
-        has_value(text, &there).then(|| [&own, rest].concat())
+        let text = source.map_or(&self.text, |(_, text)| text);
+        text.has_value(&there).then(|| [&own, rest].concat())
     }
 
     /// An error that points at the value at the end of `path`.
@@ -212,8 +214,8 @@ impl Origin {
         let (file, text) = source.unwrap_or((&self.file, &self.text));
         SceneError {
             file: file.to_owned(),
-            span: span_of(text, &path),
-            source: text.to_owned(),
+            span: text.span_of(&path),
+            source: text.clone(),
             message: message.into(),
             help,
         }

@@ -11,6 +11,7 @@ use super::file::SceneFile;
 use super::mistake::Mistake;
 use super::ron_text::scene_ron_options;
 use super::schema::{Checker, SceneValue as _};
+use super::source_text::SourceText;
 use super::syntax::{Group, Node, NodeKind, SAMPLE_SCENE, SyntaxItem, SyntaxTree, parse_tree};
 use core::ops::Range;
 use ron::error::Position;
@@ -31,7 +32,9 @@ use std::collections::BTreeMap;
 pub fn parse_scene(file: &str, source: &str) -> Result<SceneFile, SceneErrors> {
     let source = strip_byte_order_mark(source);
     let parsed = read_recovering(source);
-    let error = |mistake: &Mistake| mistake.to_error(file, source);
+    let text = SourceText::default();
+    let text = if parsed.mistakes.is_empty() { text } else { source.into() };
+    let error = |mistake: &Mistake| mistake.to_error(file, &text);
     match SceneErrors::from_list(parsed.mistakes.iter().map(error).collect()) {
         Some(errors) => Err(errors),
         None => Ok(parsed.scene),
@@ -56,6 +59,10 @@ pub(super) struct ParsedScene {
 
 /// The lists of a scene, by the names of their fields.
 const LISTS: [&str; 5] = ["models", "viewports", "lights", "overlays", "sections"];
+
+/// The most mistakes that are reported of a text: more tell nobody anything, and each costs a search for
+/// what was meant.
+pub(super) const MAX_MISTAKES: usize = 1000;
 
 /// How often a text is read again without what `ron` refused.
 const MAX_READINGS: usize = 8;
@@ -108,6 +115,13 @@ fn check_text(source: &str) -> (Option<Node<'_>>, Vec<Mistake>) {
         mistakes.extend(checker.finish());
     }
     mistakes.sort_by_key(|mistake| mistake.span.start);
+    if let Some(next) = mistakes.get(MAX_MISTAKES) {
+        let message = format!("there are more than {MAX_MISTAKES} mistakes");
+        let help = "correct those before this one first; no others are reported".to_owned();
+        let last = Mistake::new(next.span.clone(), message, Some(help));
+        mistakes.truncate(MAX_MISTAKES);
+        mistakes.push(last);
+    }
     (root, mistakes)
 }
 
@@ -295,12 +309,13 @@ mod tests {
         read.is_ok()
     }
 
-    fn scenes() -> Vec<String> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    /// The texts in a folder of the repository, of files whose names end so.
+    fn texts_in(folder: &str, ending: &str) -> Vec<String> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
         let mut paths: Vec<_> = fs::read_dir(folder)
-            .expect("the scenes are there")
+            .expect("the folder is there")
             .map(|entry| entry.expect("the folder can be read").path())
-            .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
+            .filter(|path| path.to_string_lossy().ends_with(ending))
             .collect();
         paths.sort();
         paths.iter().map(|path| fs::read_to_string(path).expect("the scene is there")).collect()
@@ -308,8 +323,19 @@ mod tests {
 
     #[test]
     fn the_checker_finds_nothing_wrong_with_what_ron_reads_and_something_with_the_rest() {
-        let scenes = scenes();
+        let scenes = texts_in("scenes", ".ron");
         assert!(scenes.len() > 30);
+        for folder in ["book/scenes", "docs/exercises"] {
+            assert!(texts_in(folder, ".ron").iter().all(|text| assert_same(text)), "{folder}");
+        }
+        // What fuzzing has found need not be a scene.
+        for folder in ["tests/fuzz/corpus/scene", "tests/fuzz/corpus/include"] {
+            let texts = texts_in(folder, "");
+            assert!(!texts.is_empty(), "{folder}");
+            for text in &texts {
+                assert_same(text);
+            }
+        }
         assert!(scenes.iter().all(|text| assert_same(text)));
         let mut state = 1_u64;
         let mut below = |count: usize| {

@@ -1,39 +1,130 @@
 //! Resolution: from a parsed scene file to the scene that is rendered, or to errors that point into
 //! the file. Models are loaded, angles are radians, and every default is decided.
+//!
+//! One pass: each part is resolved by itself, and its mistakes are kept ([`Diagnostics`]), so that
+//! one in the camera does not hide one in the lights.
 
 use super::backdrop::{is_blank_paper, resolve_background_color};
 use super::caption::resolve_caption;
+use super::diagnostics::Diagnostics;
 use super::exposure::resolve_exposure;
-use super::file::{BackgroundFile, Choice, Finite, MaterialFile, ModelFile, ViewFile};
+use super::file::{BackgroundFile, ViewFile};
 use super::file_access::FileAccess;
 use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
-use super::instances;
-use super::lights::{resolve_lights, scale_lights};
-use super::material_overrides::override_materials;
+use super::lights::{resolve_described_lights, resolve_lights, resolve_scene_shadow, scale_lights};
+use super::model_files::load_models;
 use super::number::Positive;
-use super::origin::ModelSource;
 use super::overlays::resolve_overlays;
 use super::resolve_options::ResolveOptions;
 use super::section::resolve_sections;
 use super::style::resolve_style;
-use super::suggest::{closest_name, suggest_name};
 use super::surrounding_light::has_lights;
-use super::syntax::PathStep::{Field, Index};
+use super::syntax::PathStep::Field;
 use super::uncut::resolve_uncut;
-use super::validate::{errors_around_models, errors_of_resolution};
-use super::view_projection::{resolve_view_of_points, resolve_view_projection};
-use super::{ImageSpec, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile, Style};
+use super::view_projection::{check_camera, resolve_view_of_points, resolve_view_projection};
+use super::{
+    CameraPath, ImageSpec, Origin, Outputs, ResolveError, Scene, SceneError, SceneFile, Style,
+};
 use camera::ViewProjection;
+use drawing::Overlay;
 use homog::{Bounds, Plane, Point, World};
-use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes, load_from_memory};
+use model::ModelInstance;
 use model::world_points;
-use model::{LengthUnit, Model, ModelInstance, UpAxis};
 use raster::Samples;
-use shade::{ToneMapper, ToneMapping};
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use shade::{Backdrop, Environment, Light, ToneMapper, ToneMapping};
+use std::path::PathBuf;
 use std::sync::Arc;
+
+/// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
+/// models' own files are not among them: [`check_file`](model::import::check_file) reports those.
+/// If a model cannot be loaded, what depends on the models is not validated.
+#[must_use]
+pub fn validate_scene(
+    origin: &Origin,
+    file: &SceneFile,
+    options: &ResolveOptions,
+) -> Vec<SceneError> {
+    let mut faults = Diagnostics::default();
+    let _ = resolve_file(origin, file, options, Extent::Everything, &mut faults);
+    faults.into_errors(origin)
+}
+
+/// What of a scene is resolved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    /// What a picture needs. Where something is wrong with that, mistakes of the rest are told too.
+    Picture,
+    /// Whatever the file says: sheets, passes and the path of the camera too.
+    Everything,
+}
+
+/// The scene of a file with its models.
+fn resolve_file(
+    origin: &Origin,
+    file: &SceneFile,
+    options: &ResolveOptions,
+    extent: Extent,
+    faults: &mut Diagnostics,
+) -> Option<Scene> {
+    let _ = faults.take(options.check_pixels(origin, file));
+    let models = load_models(origin, file, options, extent == Extent::Picture, faults);
+    let allowed = &options.import.allow_outside;
+    let frame =
+        || resolve_parts(origin, file, models.as_deref(), FileAccess::Read(allowed), faults);
+    let scene = options.import.timings.measure("frame", frame);
+    if extent == Extent::Everything || !faults.is_empty() {
+        check_outputs(origin, file, models.as_deref(), allowed, faults);
+    }
+    scene
+}
+
+/// The mistakes that can be found without the models.
+pub(super) fn check_description(
+    origin: &Origin,
+    file: &SceneFile,
+    allowed: &[PathBuf],
+    faults: &mut Diagnostics,
+) {
+    let _ = resolve_parts(origin, file, None, FileAccess::Read(allowed), faults);
+    check_outputs(origin, file, None, allowed, faults);
+}
+
+/// The mistakes in what a picture of the scene does not need.
+#[cfg_attr(not(feature = "sheets"), expect(unused_variables, reason = "for sheets"))]
+fn check_outputs(
+    origin: &Origin,
+    file: &SceneFile,
+    models: Option<&[ModelInstance]>,
+    allowed: &[PathBuf],
+    faults: &mut Diagnostics,
+) {
+    let _ = faults.take(Outputs::from_scene_file(origin, file));
+    let _ = faults.take(CameraPath::from_scene_file(origin, file));
+    #[cfg(feature = "sheets")]
+    super::sheet_errors::check_sheet(origin, file, models, allowed, faults);
+}
+
+/// The scene with its insets; `None` if something is wrong with it, or if there are no models.
+fn resolve_parts(
+    origin: &Origin,
+    file: &SceneFile,
+    models: Option<&[ModelInstance]>,
+    access: FileAccess<'_>,
+    faults: &mut Diagnostics,
+) -> Option<Scene> {
+    let scene = resolve_without_insets(origin, file, models, access, faults);
+    if models.is_none() {
+        // How bright the default is depends on the models, but not whether its file can be read.
+        let _ = faults.take(access.environment(origin, file, &[], 0.0));
+        if resolve_image_size(origin, file).is_ok() {
+            let _ = faults.take(access.backdrop(origin, file));
+        }
+    }
+    let models = scene.as_ref().map(|scene| &*scene.models);
+    let insets = resolve_insets(origin, file, models, access, faults);
+    Some(Scene { insets: insets?, ..scene? })
+}
 
 impl Scene {
     /// Loads the models of a scene and decides everything that the file leaves open.
@@ -46,17 +137,9 @@ impl Scene {
         file: &SceneFile,
         options: &ResolveOptions,
     ) -> Result<Self, ResolveError> {
-        let image = resolve_image(origin, file).and_then(|_| options.check_pixels(origin, file));
-        let loaded =
-            image.map_err(ResolveError::from).and_then(|()| load_models(origin, file, options));
-        let models =
-            loaded.map_err(|error| error.or_all(|| errors_of_resolution(origin, file, options)))?;
-        let allowed = &options.import.allow_outside;
-        let frame = || Self::resolve_with_models(origin, file, models.clone(), allowed);
-        let scene = options.import.timings.measure("frame", frame);
-        let mut scene = scene.map_err(|error| {
-            error.or_all(|| errors_around_models(origin, file, models, allowed))
-        })?;
+        let mut faults = Diagnostics::default();
+        let scene = resolve_file(origin, file, options, Extent::Picture, &mut faults);
+        let mut scene = faults.finish(origin, scene)?;
         scene.unlimited_lines = options.unlimited_lines;
         for inset in &mut scene.insets {
             inset.scene.unlimited_lines = options.unlimited_lines;
@@ -68,11 +151,11 @@ impl Scene {
     /// placed; those of the file are not looked at.
     ///
     /// # Errors
-    /// If something makes no sense; the error points at its place in the file.
+    /// If something makes no sense; the errors point at their places in the file.
     pub fn from_models(
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<ModelInstance>,
+        models: &[ModelInstance],
     ) -> Result<Self, ResolveError> {
         Self::from_models_allowing(origin, file, models, &[])
     }
@@ -85,10 +168,10 @@ impl Scene {
     pub fn from_models_allowing(
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<ModelInstance>,
+        models: &[ModelInstance],
         allowed: &[PathBuf],
     ) -> Result<Self, ResolveError> {
-        Self::resolve_with_models(origin, file, models, allowed)
+        Self::resolve_posed(origin, file, models, FileAccess::Read(allowed))
     }
 
     /// Decides everything that the file leaves open about the camera alone: where it stands around
@@ -101,90 +184,145 @@ impl Scene {
         file: &SceneFile,
         models: &[ModelInstance],
     ) -> Result<ViewProjection, ResolveError> {
-        let image = resolve_image(origin, file)?;
-        Ok(resolve_view_projection(origin, &file.camera, models, image)?)
+        let mut faults = Diagnostics::default();
+        let image = resolve_image(origin, file, &mut faults);
+        let view = image.and_then(|image| {
+            faults.take(resolve_view_projection(origin, &file.camera, models, image))
+        });
+        faults.finish(origin, view)
     }
 
-    /// The scene around its models; the environment's file may lie in one of the `allowed` folders
-    /// too.
-    pub(crate) fn resolve_with_models(
-        origin: &Origin,
-        file: &SceneFile,
-        models: Vec<ModelInstance>,
-        allowed: &[PathBuf],
-    ) -> Result<Self, ResolveError> {
-        Self::resolve_posed(origin, file, models, FileAccess::Read(allowed))
-    }
-
-    /// The scene around its models in another pose; files come from where `access` says.
+    /// The scene around its models in their pose; files come from where `access` says.
     pub(crate) fn resolve_posed(
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<ModelInstance>,
+        models: &[ModelInstance],
         access: FileAccess<'_>,
     ) -> Result<Self, ResolveError> {
-        let mut scene = Self::resolve_without_insets(origin, file, models, access)?;
-        scene.insets = resolve_insets(origin, file, &scene.models, access)?;
-        Ok(scene)
+        let mut faults = Diagnostics::default();
+        let scene = resolve_parts(origin, file, Some(models), access, &mut faults);
+        faults.finish(origin, scene)
     }
+}
 
-    /// Resolves the scene without its viewports and stereo pair.
-    pub(super) fn resolve_without_insets(
+/// The parts of a scene without its insets, each of which may be wrong.
+struct SceneParts {
+    image: Option<ImageSpec>,
+    caption: Option<Option<String>>,
+    style: Option<Style>,
+    sections: Option<Vec<Plane<World>>>,
+    uncut: Option<Vec<u32>>,
+    view_projection: Option<ViewProjection>,
+    lights: Option<Vec<Light>>,
+    exposure_ev: f64,
+    environment: Option<Option<Arc<Environment>>>,
+    overlays: Option<Vec<Overlay>>,
+    backdrop: Option<Option<Arc<Backdrop>>>,
+}
+
+/// The scene without its viewports and stereo pair; `None` if something is wrong with it, or if
+/// there are no models. Without models no other files are read.
+pub(super) fn resolve_without_insets(
+    origin: &Origin,
+    file: &SceneFile,
+    models: Option<&[ModelInstance]>,
+    access: FileAccess<'_>,
+    faults: &mut Diagnostics,
+) -> Option<Scene> {
+    let image = resolve_image(origin, file, faults);
+    let caption = faults.take(resolve_caption(origin, file.caption.as_ref()));
+    let style = faults.take(resolve_style(origin, &file.style));
+    let sections = resolve_sections(origin, &file.sections, faults);
+    let shadow = faults.take(resolve_scene_shadow(origin, file));
+    let described = resolve_described_lights(origin, file, shadow.flatten(), faults);
+    let camera_errors = check_camera(origin, &file.camera);
+    let is_placed = camera_errors.is_empty();
+    camera_errors.into_iter().for_each(|error| faults.report(error));
+
+    let models = models?;
+    let uncut = faults.take(resolve_uncut(origin, &file.sections, models));
+    let cuts = (sections.as_deref().unwrap_or_default(), uncut.as_deref().unwrap_or_default());
+    let points = || framed_points(models, style.unwrap_or(Style::Shaded), cuts);
+    let view_projection = image.filter(|_| is_placed).and_then(|image| {
+        let framed = (models, points());
+        faults.take(resolve_view_of_points(origin, &file.camera, framed, image, Vec::new()))
+    });
+    let lights = described.zip(view_projection).and_then(|(described, view)| {
+        let lights = resolve_lights(origin, file, &described, models, (&view, shadow.flatten()));
+        faults.take(lights)
+    });
+    let lit = lights.as_deref();
+    let exposure_ev = lit.map_or(0.0, |lights| resolve_exposure(origin, file, models, lights));
+    let environment = faults.take(access.environment(origin, file, models, exposure_ev));
+    let overlays = image
+        .and_then(|image| faults.take(resolve_overlays(origin, &file.overlays, models, image)));
+    let backdrop = image.and_then(|_| faults.take(access.backdrop(origin, file)));
+    let parts = SceneParts {
+        image,
+        caption,
+        style,
+        sections,
+        uncut,
+        view_projection,
+        lights,
+        exposure_ev,
+        environment,
+        overlays,
+        backdrop,
+    };
+    parts.assemble(origin, file, models, faults)
+}
+
+impl SceneParts {
+    /// The scene, if all parts are there: the ground below it, and the view once more if that shows
+    /// shadows on the ground.
+    fn assemble(
+        self,
         origin: &Origin,
         file: &SceneFile,
-        models: Vec<ModelInstance>,
-        access: FileAccess<'_>,
-    ) -> Result<Self, ResolveError> {
-        let image = resolve_image(origin, file)?;
-        let caption = resolve_caption(origin, file.caption.as_ref())?;
-        let style = resolve_style(origin, &file.style)?;
-        let sections = resolve_sections(origin, &file.sections)?;
-        let uncut = resolve_uncut(origin, &file.sections, &models)?;
-        let framed = (&*models, framed_points(&models, style, (&sections, &uncut)));
-        let mut view_projection =
-            resolve_view_of_points(origin, &file.camera, framed, image, Vec::new())?;
-        let mut lights = resolve_lights(origin, file, &models, &view_projection)?;
-        let has_environment = file.effective_environment(origin, &models).is_some();
-        let ground = resolve_ground(file, &models, &lights, has_environment);
+        models: &[ModelInstance],
+        faults: &mut Diagnostics,
+    ) -> Option<Scene> {
+        let (image, style) = (self.image?, self.style?);
+        let (mut view_projection, mut lights) = (self.view_projection?, self.lights?);
+        let has_environment = file.effective_environment(origin, models).is_some();
+        let ground = resolve_ground(file, models, &lights, has_environment);
         let is_framed = matches!(file.camera.view, ViewFile::Frame { .. });
         if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
             // The key light stands by the direction of view, which framing keeps.
-            let shadows = shadow_points(ground, &models, &lights);
-            let framed = (&*models, world_points(&models));
-            view_projection = resolve_view_of_points(origin, &file.camera, framed, image, shadows)?;
+            let shadows = shadow_points(ground, models, &lights);
+            let framed = (models, world_points(models));
+            let view = resolve_view_of_points(origin, &file.camera, framed, image, shadows);
+            view_projection = faults.take(view)?;
         }
         let occlusion_radius = file.ambient_occlusion.map(|file| {
             let usual = || {
-                Bounds::from_points(world_points(&models)).map_or(1.0, |all| all.diagonal() / 12.0)
+                Bounds::from_points(world_points(models)).map_or(1.0, |all| all.diagonal() / 12.0)
             };
             file.radius.map_or_else(usual, Positive::value)
         });
-        let exposure_ev = resolve_exposure(origin, file, &models, &lights);
         // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
-        let has_model_lights = file.has_default_light(origin) && has_lights(&models);
+        let has_model_lights = file.has_default_light(origin) && has_lights(models);
         let curve = if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None };
-        let tone_mapper = ToneMapper::new(exposure_ev, file.image.tone_mapping.unwrap_or(curve));
+        let curve = file.image.tone_mapping.unwrap_or(curve);
         // After the exposure, which would compensate for it.
         scale_lights(&mut lights, file.light_intensity);
-        let environment = access.environment(origin, file, &models, exposure_ev)?;
-        let overlays = resolve_overlays(origin, &file.overlays, &models, image)?;
-        let backdrop = access.backdrop(origin, file)?;
-        Ok(Self {
-            models,
+        Some(Scene {
+            models: models.to_vec(),
             view_projection,
             lights,
             ground,
-            environment,
+            environment: self.environment?,
             occlusion_radius,
-            tone_mapper,
+            tone_mapper: ToneMapper::new(self.exposure_ev, curve),
             style,
             image,
             insets: Vec::new(),
-            backdrop,
-            overlays,
-            caption,
-            sections,
-            uncut,
+            backdrop: self.backdrop?,
+            overlays: self.overlays?,
+            caption: self.caption?,
+            sections: self.sections?,
+            uncut: self.uncut?,
             unlimited_lines: false,
         })
     }
@@ -203,27 +341,27 @@ fn framed_points(
 }
 
 /// The image that a scene renders.
-pub(super) fn resolve_image(origin: &Origin, file: &SceneFile) -> Result<ImageSpec, SceneError> {
-    let (width, height) = resolve_image_size(origin, file)?;
-    let samples = resolve_samples(origin, file)?;
-    let background = resolve_background_color(origin, file)?;
+fn resolve_image(origin: &Origin, file: &SceneFile, faults: &mut Diagnostics) -> Option<ImageSpec> {
+    let size = faults.take(resolve_image_size(origin, file));
+    let samples = faults.take(resolve_samples(origin, file));
+    let max_anisotropy = faults.take(resolve_max_anisotropy(origin, file));
+    let background = size.and_then(|_| faults.take(resolve_background_color(origin, file)));
     let environment_blur = match &file.image.background {
         Some(BackgroundFile::Environment { blur }) => {
             Some(blur.map_or(0.0, |blur| blur.value().min(1.0) as f32))
         }
         _ => None,
     };
-    let max_anisotropy = resolve_max_anisotropy(origin, file)?;
-    let caption_height = file.caption_height();
-    Ok(ImageSpec {
+    let (width, height) = size?;
+    Some(ImageSpec {
         width,
         height,
-        caption_height,
-        background,
+        caption_height: file.caption_height(),
+        background: background?,
         is_blank_paper: is_blank_paper(file),
         environment_blur,
-        samples,
-        max_anisotropy,
+        samples: samples?,
+        max_anisotropy: max_anisotropy?,
         point_size: file.image.point_size.value(),
     })
 }
@@ -244,7 +382,7 @@ pub(super) fn resolve_image_size(
 }
 
 /// The count of coverage samples.
-pub(super) fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
+fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Samples, SceneError> {
     Samples::from_count(file.image.samples).ok_or_else(|| {
         let message = format!("a pixel cannot have {} samples", file.image.samples);
         let help = Some("possible are 1, 4, 8 and 16".to_owned());
@@ -253,7 +391,7 @@ pub(super) fn resolve_samples(origin: &Origin, file: &SceneFile) -> Result<Sampl
 }
 
 /// The most samples of anisotropic texture filtering.
-pub(super) fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Result<u32, SceneError> {
+fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Result<u32, SceneError> {
     let max_anisotropy = file.image.max_anisotropy;
     if (1..=8).contains(&max_anisotropy) {
         return Ok(max_anisotropy);
@@ -261,238 +399,4 @@ pub(super) fn resolve_max_anisotropy(origin: &Origin, file: &SceneFile) -> Resul
     let message = format!("anisotropic filtering cannot take {max_anisotropy} samples");
     let help = Some("from 1 to 8 are possible".to_owned());
     Err(origin.error_at(&[Field("image"), Field("max_anisotropy")], message, help))
-}
-
-/// A model whose path leads out of the scene's folder.
-pub(super) fn outside_folder_error(origin: &Origin, index: usize, entry: &ModelFile) -> SceneError {
-    let help = "keep models below the scene's folder, or allow another with --allow-outside DIR";
-    let message = format!("the path \"{}\" leads out of the scene's folder", entry.path);
-    let path = [Field("models"), Index(index), Field("path")];
-    origin.error_at(&path, message, Some(help.to_owned()))
-}
-
-/// A scene without models.
-pub(super) fn missing_model_error(origin: &Origin) -> SceneError {
-    let help = Some("add one: models: [(path: \"…\")]".to_owned());
-    origin.error_at(&[Field("models")], "a scene needs a model", help)
-}
-
-/// Loads the models of a scene, and instantiates them.
-fn load_models(
-    origin: &Origin,
-    file: &SceneFile,
-    options: &ResolveOptions,
-) -> Result<Vec<ModelInstance>, ResolveError> {
-    if file.models.is_empty() {
-        return Err(missing_model_error(origin).into());
-    }
-    instances::check_instance_counts(origin, file)?;
-    // Models in one pose are shared; a model in two poses, or with other materials, is two models.
-    /// The file of a model, its axis and unit, its scene, variant and animation, and the bits of
-    /// crease angle and time.
-    type Pose =
-        (PathBuf, (Option<UpAxis>, Option<LengthUnit>), [Option<Choice>; 3], [Option<u64>; 2]);
-    /// The models of one pose, one for each set of material overrides.
-    type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
-    let mut loaded: BTreeMap<Pose, Alike<'_>> = BTreeMap::new();
-    let mut models = Vec::new();
-    for (number, entry) in file.models.iter().enumerate() {
-        let path = origin.folder.join(&entry.path);
-        let numbers = [entry.crease_degrees, entry.time];
-        let bits = numbers.map(|number| number.map(|number| number.value().to_bits()));
-        let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
-        let pose = (path, (entry.up, entry.unit), choices, bits);
-        let alike = loaded.entry(pose).or_default();
-        let known = alike.iter().find(|(materials, _)| **materials == *entry.materials);
-        let model = if let Some((_, model)) = known {
-            Arc::clone(model)
-        } else {
-            let model = load_model(origin, number, entry, options);
-            let model = model.map_err(|fault| fault.into_resolve_error(origin, number, entry))?;
-            let model = Arc::new(model);
-            alike.push((&entry.materials, Arc::clone(&model)));
-            model
-        };
-        models.extend(instances::instantiate_model(origin, number, entry, &model)?);
-    }
-    Ok(models)
-}
-
-/// Why there is no model: the scene asks for something that makes no sense, or the model's file is
-/// at fault.
-pub(super) enum ModelError {
-    Scene(SceneErrors),
-    File(ImportError),
-}
-
-impl From<SceneError> for ModelError {
-    fn from(error: SceneError) -> Self {
-        Self::Scene(error.into())
-    }
-}
-
-impl From<SceneErrors> for ModelError {
-    fn from(errors: SceneErrors) -> Self {
-        Self::Scene(errors)
-    }
-}
-
-impl ModelError {
-    /// The error as one of the scene file, pointing at the path of the model, if there is a scene
-    /// file.
-    pub(super) fn into_resolve_error(
-        self,
-        origin: &Origin,
-        number: usize,
-        entry: &ModelFile,
-    ) -> ResolveError {
-        match self {
-            Self::File(error) if origin.text.is_empty() => error.into(),
-            Self::File(error) => {
-                let at = [Field("models"), Index(number), Field("path")];
-                let on_disk = origin.models == ModelSource::Disk;
-                let suggest = || suggest_model_file(&origin.folder, &entry.path);
-                let help = on_disk.then(suggest).flatten();
-                origin
-                    .error_at(&at, format!("{}: {}", entry.path, error.diagnostic.sentence()), help)
-                    .into()
-            }
-            Self::Scene(errors) => ResolveError::Scene(errors),
-        }
-    }
-}
-
-/// For a model that is not there, the path of one in the same folder with a similar name, or of one
-/// in a folder beside the scene with the same name.
-fn suggest_model_file(folder: &Path, path: &str) -> Option<String> {
-    let path = Path::new(path);
-    if folder.join(path).exists() {
-        return None;
-    }
-    let wanted = path.file_name()?.to_str()?;
-    let beside = path.parent().unwrap_or(Path::new(""));
-    let is_model = |name: &String| FileFormat::from_extension(Path::new(name)).is_some();
-    let models: Vec<String> =
-        names_in_folder(&folder.join(beside)).into_iter().filter(is_model).collect();
-    let names: Vec<&str> = models.iter().map(String::as_str).collect();
-    let similar = closest_name(wanted, &names).map(|name| beside.join(name));
-    let elsewhere = || {
-        let folders = names_in_folder(folder).into_iter().map(PathBuf::from);
-        folders.map(|inner| inner.join(wanted)).find(|path| folder.join(path).is_file())
-    };
-    let found = similar.or_else(elsewhere)?;
-    Some(format!("did you mean \"{}\"?", found.to_str()?.replace('\\', "/")))
-}
-
-/// The names of the files and folders in a folder, in the order of the alphabet; none if it cannot
-/// be read.
-fn names_in_folder(folder: &Path) -> Vec<String> {
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let entries = std::fs::read_dir(here).into_iter().flatten();
-    let mut names: Vec<String> =
-        entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
-    names.sort();
-    names
-}
-
-/// Loads a model and poses it.
-pub(super) fn load_model(
-    origin: &Origin,
-    number: usize,
-    entry: &ModelFile,
-    options: &ResolveOptions,
-) -> Result<Model, ModelError> {
-    let at = |field| [Field("models"), Index(number), Field(field)];
-    if !origin.allows_path(Path::new(&entry.path), &options.import.allow_outside) {
-        return Err(outside_folder_error(origin, number, entry).into());
-    }
-    let import = ImportOptions {
-        scene: entry.scene.clone().map(Into::into).or(options.import.scene.clone()),
-        variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
-        // Flags replace what the scene file says.
-        up: options.import.up.or(entry.up),
-        length_unit: options.import.length_unit.or(entry.unit),
-        crease_angle: options.import.crease_angle.or(resolve_crease(origin, number, entry)?),
-        ..options.import.clone()
-    };
-    let loaded = match &origin.models {
-        ModelSource::Bytes(bytes) => load_bytes(&entry.path, bytes, &import),
-        ModelSource::Memory(folder) => load_from_memory(folder, &entry.path, &import),
-        ModelSource::Disk => load(&origin.folder.join(&entry.path), &import),
-    };
-    let mut model = loaded.map_err(|error| choice_error(origin, number, entry, error))?;
-    if entry.animation.is_some() || entry.time.is_some() {
-        let field = if entry.animation.is_some() { "animation" } else { "time" };
-        let fault = |(message, help)| origin.error_at(&at(field), message, help);
-        let animation = select_animation(&model, entry.animation.as_ref()).map_err(fault)?;
-        model.apply_animation(animation, entry.time.map_or(0.0, Finite::value));
-    }
-    override_materials(origin, number, &entry.materials, &mut model)?;
-    Ok(model)
-}
-
-/// The crease angle of a model in degrees.
-///
-/// # Errors
-/// If it is not between 0 and 180.
-fn resolve_crease(
-    origin: &Origin,
-    number: usize,
-    entry: &ModelFile,
-) -> Result<Option<f64>, SceneError> {
-    let Some(angle) = entry.crease_degrees.map(Finite::value) else { return Ok(None) };
-    if (0.0..=180.0).contains(&angle) {
-        return Ok(Some(angle));
-    }
-    let at = [Field("models"), Index(number), Field("crease_degrees")];
-    let help = "give an angle from 0 to 180".to_owned();
-    Err(origin.error_at(&at, format!("there is no crease angle of {angle} degrees"), Some(help)))
-}
-
-/// A scene or a variant that the model does not have is a mistake of the scene file, if there is
-/// one.
-fn choice_error(
-    origin: &Origin,
-    number: usize,
-    entry: &ModelFile,
-    error: ImportError,
-) -> ModelError {
-    if origin.text.is_empty() || error.diagnostic.code != model::codes::NO_SUCH_ITEM {
-        return ModelError::File(error);
-    }
-    let scene = entry.scene.is_some() && error.diagnostic.location == "/scenes";
-    let field = if scene { "scene" } else { "variant" };
-    let message = format!("{}: {}", entry.path, error.diagnostic.message);
-    let at = [Field("models"), Index(number), Field(field)];
-    origin.error_at(&at, message, error.diagnostic.help).into()
-}
-
-/// The number of the animation that is wanted, or the first.
-///
-/// # Errors
-/// If there is none: what is wrong, and what to do about it.
-pub fn select_animation(
-    model: &Model,
-    choice: Option<&Choice>,
-) -> Result<usize, (String, Option<String>)> {
-    let count = model.animations.len();
-    if count == 0 {
-        let help = "remove the animation and the time; to turn a model that has none, run \
-                    `alberti animate model.glb --turntable -o turn.gif`";
-        return Err((format!("`{}` has no animations", model.name), Some(help.to_owned())));
-    }
-    let named = |wanted: &str| {
-        model.animations.iter().position(|animation| animation.name.as_deref() == Some(wanted))
-    };
-    let (found, wanted) = match choice {
-        None => return Ok(0),
-        Some(Choice::Index(index)) => ((*index < count).then_some(*index), index.to_string()),
-        Some(Choice::Name(name)) => (named(name), name.clone()),
-    };
-    found.ok_or_else(|| {
-        let names = model.animations.iter().filter_map(|animation| animation.name.clone());
-        let names: Vec<String> = names.chain((0..count).map(|at| at.to_string())).collect();
-        let message = format!("`{}` has no animation `{wanted}`", model.name);
-        (message, suggest_name(&wanted, &names))
-    })
 }

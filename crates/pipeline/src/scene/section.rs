@@ -1,5 +1,6 @@
 //! Resolution of section planes.
 
+use super::diagnostics::Diagnostics;
 use super::file::SectionFile;
 use super::syntax::PathStep::{Field, Index};
 use super::{Origin, SceneError};
@@ -12,26 +13,20 @@ const MAX_SECTIONS: usize = 16;
 pub(super) fn resolve_sections(
     origin: &Origin,
     sections: &[SectionFile],
-) -> Result<Vec<Plane<World>>, SceneError> {
-    check_section_count(origin, sections)?;
-    let numbered = sections.iter().enumerate();
-    numbered.map(|(at, section)| resolve_section(origin, at, section)).collect()
-}
-
-/// Whether there are not too many sections.
-pub(super) fn check_section_count(
-    origin: &Origin,
-    sections: &[SectionFile],
-) -> Result<(), SceneError> {
-    if sections.len() <= MAX_SECTIONS {
-        return Ok(());
+    faults: &mut Diagnostics,
+) -> Option<Vec<Plane<World>>> {
+    if sections.len() > MAX_SECTIONS {
+        let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
+        faults.report(origin.error_at(&[Field("sections")], message, None));
     }
-    let message = format!("{} sections are more than {MAX_SECTIONS}", sections.len());
-    Err(origin.error_at(&[Field("sections")], message, None))
+    let numbered = sections.iter().enumerate();
+    let planes: Vec<_> =
+        numbered.map(|(at, section)| faults.take(resolve_section(origin, at, section))).collect();
+    planes.into_iter().collect()
 }
 
 /// The plane of a section. Its normal has length 1 and points to the half that is retained.
-pub(super) fn resolve_section(
+fn resolve_section(
     origin: &Origin,
     at: usize,
     section: &SectionFile,

@@ -1,6 +1,7 @@
 //! Errors of a scene's sheet, before it is drawn: values out of range, views larger than the paper.
 
 use super::assembly::resolve_assembly;
+use super::diagnostics::Diagnostics;
 use super::file::SheetFile;
 use super::section::resolve_sections;
 use super::sheet::{SCALE_PATH, SheetContent, resolve_sheet};
@@ -13,35 +14,22 @@ use model::ModelInstance;
 use sheet::SheetError;
 use std::path::PathBuf;
 
-/// The error of a sheet that can be found without the models.
-pub(super) fn sheet_description_error(
+/// The mistakes of a scene's sheet; without models those that can be found without them. Mistakes in
+/// sections and style are found elsewhere.
+pub(super) fn check_sheet(
     origin: &Origin,
     file: &SceneFile,
+    models: Option<&[ModelInstance]>,
     allowed: &[PathBuf],
-) -> Option<SceneError> {
-    let nothing = SheetContent {
-        models: &[],
-        sections: &[],
-        uncut: &[],
-        style: None,
-        overlays: &[],
-        allowed_folders: allowed,
-    };
-    resolve_sheet(origin, file.sheet.as_ref()?, nothing).err()
-}
-
-/// The error of a sheet that does not hold its views; mistakes in sections and style are found
-/// elsewhere.
-pub(super) fn sheet_error(
-    origin: &Origin,
-    file: &SceneFile,
-    models: &[ModelInstance],
-    allowed: &[PathBuf],
-) -> Option<SceneError> {
-    let sections = resolve_sections(origin, &file.sections).unwrap_or_default();
+    faults: &mut Diagnostics,
+) {
+    let Some(sheet) = &file.sheet else { return };
+    let sections = resolve_sections(origin, &file.sections, &mut Diagnostics::default());
+    let sections = sections.filter(|_| models.is_some()).unwrap_or_default();
+    let models = models.unwrap_or_default();
     let uncut = resolve_uncut(origin, &file.sections, models).unwrap_or_default();
     let style = match resolve_style(origin, &file.style) {
-        Ok(Style::Lines(style)) => Some(style),
+        Ok(Style::Lines(style)) if !models.is_empty() => Some(style),
         _ => None,
     };
     let content = SheetContent {
@@ -52,7 +40,10 @@ pub(super) fn sheet_error(
         overlays: &[],
         allowed_folders: allowed,
     };
-    layout_error(origin, file.sheet.as_ref()?, content)
+    let nothing = SheetContent { models: &[], sections: &[], uncut: &[], style: None, ..content };
+    if faults.take(resolve_sheet(origin, sheet, nothing)).is_some() && !models.is_empty() {
+        layout_error(origin, sheet, content).into_iter().for_each(|error| faults.report(error));
+    }
 }
 
 /// The error of a sheet whose views are larger than its paper, or that names parts which the models

@@ -27,7 +27,7 @@ pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
 
 impl SceneFile {
     /// Whether nobody has said what light there is: a bare model, without a scene file.
-    pub(super) const fn has_default_light(&self, origin: &Origin) -> bool {
+    pub(super) fn has_default_light(&self, origin: &Origin) -> bool {
         origin.text.is_empty() && self.lights.is_none()
     }
 

@@ -17,4 +17,4 @@ pub(super) use literal::{parse_integer, parse_number, unescape_string};
 pub(super) use parser::{SAMPLE_SCENE, SyntaxTree, parse_tree};
 pub(super) use tokens::{Token, TokenKind, tokenize};
 pub(crate) use tree::PathStep;
-pub(super) use tree::{Group, Key, Node, NodeKind, SyntaxItem, has_value, span_of};
+pub(super) use tree::{Group, Key, Node, NodeKind, SyntaxItem};

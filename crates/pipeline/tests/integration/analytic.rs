@@ -116,7 +116,7 @@ fn test_scene(parts: &[TestPart], size: f64, rest: &str) -> Scene {
     let model_to_world = homog::Affine::scale(size, size, size);
     let placed = ModelInstance { model: Arc::new(loaded), model_to_world };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
 }
 
 /// The scene of a bare model: what the program makes of a file without a scene around it.

@@ -56,7 +56,7 @@ fn furnace_picture(strength: f32, roughness: f32) -> Picture<u16> {
     let file = parse_scene("made.ron", &text).expect("a scene");
     let origin = Origin::from_text("made.ron", text, ".".into());
     let placed = ModelInstance { model: Arc::new(model), model_to_world: Affine::IDENTITY };
-    let scene = Scene::from_models(&origin, &file, vec![placed]).expect("a scene");
+    let scene = Scene::from_models(&origin, &file, &[placed]).expect("a scene");
     let textures = Textures::for_scene(&scene);
     let mut picture = Picture::default();
     let context = RenderContext::new(&scene, &textures, 2);

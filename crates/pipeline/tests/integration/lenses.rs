@@ -25,7 +25,7 @@ fn scene(camera: &str) -> Scene {
     let origin = Origin::from_text("lens.ron", text, Path::new("").to_owned());
     let model_to_world = homog::Affine::scale(1.0, 1.0, 1.0);
     let instance = ModelInstance { model: crate_model(), model_to_world };
-    Scene::from_models(&origin, &file, vec![instance]).expect("a scene")
+    Scene::from_models(&origin, &file, &[instance]).expect("a scene")
 }
 
 /// View space to clip space of a projection, seen from (0, 0, 9).
@@ -68,7 +68,7 @@ fn a_shift_moves_the_window_by_fractions_of_the_longer_side() {
         let origin = Origin::from_text("lens.ron", text, Path::new("").to_owned());
         let model_to_world = homog::Affine::scale(1.0, 1.0, 1.0);
         let instance = ModelInstance { model: crate_model(), model_to_world };
-        let scene = Scene::from_models(&origin, &file, vec![instance]).expect("a scene");
+        let scene = Scene::from_models(&origin, &file, &[instance]).expect("a scene");
         let shifted = scene.view_projection.view_to_clip.raw();
         // Straight ahead, (0, 0, −1): NDC 2 is the side of the picture along an axis.
         let [x, y] = longer;

@@ -7,6 +7,7 @@ mod floor;
 mod furnace;
 mod ground;
 mod lenses;
+mod loading;
 mod occlusion;
 mod picture;
 mod pixels;

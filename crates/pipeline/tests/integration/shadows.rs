@@ -88,7 +88,7 @@ fn shadow_scene(parts: Vec<(Primitive, Material)>, rest: &str) -> Scene {
     let placed =
         ModelInstance { model: Arc::new(build_model(parts)), model_to_world: Affine::IDENTITY };
     let origin = Origin::from_text("made.ron", text, ".".into());
-    Scene::from_models(&origin, &file, vec![placed]).expect("a scene that makes sense")
+    Scene::from_models(&origin, &file, &[placed]).expect("a scene that makes sense")
 }
 
 fn render_parts(parts: Vec<(Primitive, Material)>, rest: &str) -> Picture {

@@ -26,7 +26,7 @@ fn resolve(fields: &str) -> Result<Scene, ResolveError> {
     let origin = Origin::from_text("views.ron", text, Path::new("").to_owned());
     let model_to_world = homog::Affine::scale(BOX[0], BOX[1], BOX[2]);
     let instance = ModelInstance { model: crate_model(), model_to_world };
-    Scene::from_models(&origin, &file, vec![instance])
+    Scene::from_models(&origin, &file, &[instance])
 }
 
 fn scene(fields: &str) -> Scene {
@@ -144,7 +144,7 @@ fn a_view_above_a_caption_is_that_of_a_lower_picture() {
             );
             let file = parse_scene("views.ron", &text).expect("a scene");
             let origin = Origin::from_text("views.ron", text, Path::new("").to_owned());
-            Scene::from_models(&origin, &file, without.models).expect("a scene")
+            Scene::from_models(&origin, &file, &without.models).expect("a scene")
         };
         for point in with.world_points() {
             let a = project(&with, point, DVec2::new(800.0, 600.0));

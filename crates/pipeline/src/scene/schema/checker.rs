@@ -20,6 +20,7 @@ mod variant;
 
 use super::{FieldEntry, Notation, Shape, TypeEntry, ValueType, VariantEntry};
 use crate::scene::mistake::Mistake;
+use crate::scene::parse::MAX_MISTAKES;
 use crate::scene::syntax::{Group, Key, Node, NodeKind, SyntaxItem};
 use crate::scene::vocabulary::{Suggestion, suggest_field, suggest_variant};
 use core::fmt::Write as _;
@@ -65,7 +66,12 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports every mistake in a value of this type.
+    ///
+    /// It stops at one more than are reported.
     pub(in crate::scene) fn check(&mut self, node: &Node<'_>, value_type: &ValueType) {
+        if self.is_full() {
+            return;
+        }
         match value_type {
             ValueType::Plain(_, Notation { check, .. }) => check(node, self),
             ValueType::List(element) => self.check_list(node, element),
@@ -80,6 +86,11 @@ impl<'a> Checker<'a> {
                 }
             },
         }
+    }
+
+    /// Whether there are more mistakes than are reported.
+    fn is_full(&self) -> bool {
+        self.mistakes.len() > MAX_MISTAKES
     }
 
     /// Reports a mistake at `span`.
@@ -247,11 +258,12 @@ impl<'a> Checker<'a> {
         owner: &Owner,
         declared: &'static [FieldEntry],
     ) -> Option<FoundFields<'n>> {
-        let mut found: FoundFields<'n> = Vec::new();
-        let mut meant: Vec<&'static str> = Vec::new();
-        let mut misspelt: FoundFields<'n> = Vec::new();
-        let mut unknown = 0;
+        let (mut found, mut misspelt) = (FoundFields::<'n>::new(), FoundFields::<'n>::new());
+        let (mut meant, mut unknown) = (Vec::<&'static str>::new(), 0);
         for item in &group.items {
+            if self.is_full() {
+                return None;
+            }
             self.scopes.push(item.span());
             match &item.key {
                 None => {

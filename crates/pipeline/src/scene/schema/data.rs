@@ -104,7 +104,7 @@ impl Data {
 
 /// The message on a required field that was left out.
 pub(super) fn missing_field(name: &str) -> String {
-    format!("the field `{name}` is missing")
+    format!("missing field `{name}`")
 }
 
 /// A field as it is written; `None` if it has the value that it has when it is left out.

@@ -183,7 +183,9 @@ impl<'de> Visitor<'de> for FieldsVisitor {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Data, A::Error> {
         let mut values: Vec<(&'static str, Data)> = Vec::new();
-        while let Some(index) = map.next_key_seed(NameOf(&|index| Some(self.0.get(index)?.name)))? {
+        while let Some(index) =
+            map.next_key_seed(NameOf("field", &|index| Some(self.0.get(index)?.name)))?
+        {
             let field = &self.0[index];
             if values.iter().any(|(name, _)| *name == field.name) {
                 return Err(A::Error::duplicate_field(field.name));
@@ -217,7 +219,8 @@ impl<'de> Visitor<'de> for VariantVisitor {
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Data, A::Error> {
-        let (index, data) = data.variant_seed(NameOf(&|index| Some(self.0.get(index)?.name)))?;
+        let (index, data) =
+            data.variant_seed(NameOf("variant", &|index| Some(self.0.get(index)?.name)))?;
         let variant = &self.0[index];
         let value = match variant.value_type {
             Some(value_type) => data.newtype_variant_seed(Reader(&value_type()))?,
@@ -232,7 +235,7 @@ impl<'de> Visitor<'de> for VariantVisitor {
 
 /// Reads the index of one of the names that a function lists, by its name, or by itself in formats
 /// without names. An unknown one is refused.
-struct NameOf<'a>(&'a dyn Fn(usize) -> Option<&'static str>);
+struct NameOf<'a>(&'static str, &'a dyn Fn(usize) -> Option<&'static str>);
 
 impl<'de> DeserializeSeed<'de> for NameOf<'_> {
     type Value = usize;
@@ -250,15 +253,16 @@ impl Visitor<'_> for NameOf<'_> {
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<usize, E> {
-        let names = || (0..).map_while(self.0);
+        let names = || (0..).map_while(self.1);
         names().position(|known| known == name).ok_or_else(|| {
-            let names: Vec<_> = names().collect();
-            E::custom(format_args!("there is no `{name}`, only {}", names.join(", ")))
+            let names: Vec<_> = names().map(|name| format!("`{name}`")).collect();
+            let (kind, names) = (self.0, names.join(", "));
+            E::custom(format_args!("unknown {kind} `{name}`, expected one of {names}"))
         })
     }
 
     fn visit_u64<E: Error>(self, index: u64) -> Result<usize, E> {
-        let known = usize::try_from(index).ok().filter(|index| (self.0)(*index).is_some());
+        let known = usize::try_from(index).ok().filter(|index| (self.1)(*index).is_some());
         known.ok_or_else(|| E::custom("there is no field or variant of this index"))
     }
 }

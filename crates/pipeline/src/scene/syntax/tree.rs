@@ -1,6 +1,5 @@
-//! Syntax tree of a scene file, and the values at the ends of paths through it.
+//! Syntax tree of a scene file, and paths through it.
 
-use super::parse_tree;
 use core::ops::Range;
 
 /// A value in the text.
@@ -65,23 +64,6 @@ impl<'a> Node<'a> {
             _ => None,
         }
     }
-
-    /// The child that `step` leads to. Brackets around a single value, as in `Lines((width:
-    /// Px(2)))`, are no level of their own.
-    fn child(&self, step: PathStep<'_>) -> Option<&Self> {
-        let items = &self.group()?.items;
-        let found = match step {
-            PathStep::Index(index) => items.get(index),
-            PathStep::Field(name) => {
-                items.iter().find(|item| item.key.as_ref().is_some_and(|key| key.name == name))
-            }
-        };
-        match (found, items.as_slice(), step) {
-            (Some(item), ..) => Some(&item.value),
-            (None, [SyntaxItem { key: None, value }], PathStep::Field(_)) => value.child(step),
-            _ => None,
-        }
-    }
 }
 
 /// A step from a value to one inside of it. Names of variants are no steps.
@@ -91,26 +73,4 @@ pub(crate) enum PathStep<'a> {
     Field(&'a str),
     /// The element of a list or tuple, from 0.
     Index(usize),
-}
-
-/// The bytes of the value at the end of `path`, or of the last value on the path that exists.
-pub(in crate::scene) fn span_of(source: &str, path: &[PathStep<'_>]) -> Range<usize> {
-    let tree = parse_tree(source);
-    let Some(mut node) = tree.root.as_ref() else { return 0..0 };
-    for step in path {
-        match node.child(*step) {
-            Some(child) => node = child,
-            None => break,
-        }
-    }
-    node.span.clone()
-}
-
-/// Whether the text has a value at the end of `path`.
-pub(in crate::scene) fn has_value(source: &str, path: &[PathStep<'_>]) -> bool {
-    let tree = parse_tree(source);
-    path.iter()
-        .try_fold(tree.root.as_ref(), |node, step| node?.child(*step).map(Some))
-        .flatten()
-        .is_some()
 }
