@@ -1,9 +1,10 @@
 //! Frames of films against pictures: with a camera that is given, a frame of an animation has the
-//! bytes of the picture at its time.
+//! bytes of the picture at its time, in every style.
 //!
 //! Lights, cameras and grounds of a model move with it, so a film that is resolved only once shows
 //! them where they began.
 
+use super::styles::{all_styles, keep_few};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use homog::Bounds;
@@ -99,6 +100,17 @@ pub fn compare_frames(model: &Path) -> Vec<String> {
             let fault = outcome.err().map(|fault| format!("{name}, ground {has_ground}: {fault}"));
             faults.extend(fault);
         }
+    }
+    let mut styles = all_styles();
+    keep_few(&mut styles, &super::model_name(model), 1);
+    for (name, style) in styles {
+        let style = style.with_fitting_lines(super::SIZE);
+        let mut file = SceneFile { style, ..file.clone() };
+        if let Some((_, camera)) = cameras(&scene).into_iter().next() {
+            file.camera = camera;
+        }
+        let fault = compare_film(&origin, &file, end, false).err();
+        faults.extend(fault.map(|fault| format!("{name}: {fault}")));
     }
     faults
 }

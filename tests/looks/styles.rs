@@ -13,7 +13,7 @@ const LEAST_PAPER: f64 = 0.25;
 /// The least share of the pixels that differ from the most frequent color.
 const LEAST_DRAWN: f64 = 0.0005;
 
-/// How many pictures of each model there are without the environment variable `THOROUGH`.
+/// How many pictures of each model there are in the first tier.
 const FEW_CASES: usize = 2;
 
 /// Models that cover all of a picture, or of which next to nothing is seen, and why.
@@ -46,6 +46,17 @@ pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
     ]
 }
 
+/// Keeps a few cases, chosen by the name of the model, so that each style meets some of the models;
+/// all of them if the environment variable `THOROUGH` is set.
+pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
+    if std::env::var_os("THOROUGH").is_none() {
+        let turn =
+            name.bytes().fold(0, |sum, byte| (31 * sum + usize::from(byte)) % 10_007) % cases.len();
+        cases.rotate_left(turn);
+        cases.truncate(count);
+    }
+}
+
 /// What is wrong with the pictures of a model in some of the styles, or in all.
 pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
     if ODD_MODELS.iter().any(|(odd, _)| *odd == name) {
@@ -60,13 +71,7 @@ pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
         .into_iter()
         .flat_map(|style| [super::SIZE, THUMBNAIL].map(|size| (style.clone(), size)))
         .collect();
-    // A few for each model, chosen by its name, so that each style meets some of the models.
-    if std::env::var_os("THOROUGH").is_none() {
-        let turn =
-            name.bytes().fold(0, |sum, byte| (31 * sum + usize::from(byte)) % 10_007) % cases.len();
-        cases.rotate_left(turn);
-        cases.truncate(FEW_CASES);
-    }
+    keep_few(&mut cases, name, FEW_CASES);
     let mut faults = Vec::new();
     for ((style_name, style), size) in cases {
         let style = style.with_fitting_lines(size);

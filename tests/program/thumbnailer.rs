@@ -127,6 +127,25 @@ fn every_format_has_a_square_thumbnail() {
 }
 
 #[test]
+fn lines_of_thumbnails_are_thin_enough_to_be_told_apart() {
+    let sandbox = Sandbox::new("thumbnailer_lines");
+    sandbox.write_file("box.stl", stl_box([1.0; 3]));
+    // A hundred boxes beside each other: at full width nothing but black.
+    let scene = "Scene(
+        models: [(path: \"box.stl\", instances: Grid(count: (10, 1, 10), step: (1.5, 1, 1.5)))],
+        style: Lines(width: Mm(0.7)), image: (size: (1600, 1600)),
+    )";
+    sandbox.write_file("boxes.ron", scene);
+    let run = sandbox.run(&["thumbnailer", "boxes.ron", "boxes.png", "--size", "128"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let (.., pixels) = sandbox.read_picture("boxes.png");
+    let bright = pixels.iter().filter(|pixel| pixel[0] > 128).count();
+    let dark = pixels.iter().filter(|pixel| pixel[0] < 200).count();
+    assert!(bright > pixels.len() / 2, "{bright} of {} pixels are bright", pixels.len());
+    assert!(dark > pixels.len() / 50, "{dark} of {} pixels are dark", pixels.len());
+}
+
+#[test]
 fn an_empty_file_is_filled_in_its_place() {
     let sandbox = Sandbox::new("thumbnailer_in_place");
     sandbox.copy_model("crate.glb");

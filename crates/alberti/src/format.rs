@@ -71,10 +71,15 @@ impl OutputFormat {
         };
         let animate = || {
             let gif = output.with_extension("gif");
-            CliError::Usage(format!(
-                "{name}: this command writes still pictures\n  = help: for an animation run `alberti animate model.glb --turntable -o {}`; for a video, the same with `-o {name}` shows how to pipe its frames to ffmpeg",
-                gif.display()
-            ))
+            let gif = visible_path(&gif);
+            let turn = "alberti animate MODEL --turntable";
+            let help = match ending {
+                "gif" => format!("`{turn} -o {gif}` writes an animation"),
+                _ => format!(
+                    "`{turn} -o {gif}` writes an animation; for a video pipe the frames to ffmpeg: `{turn} --size 960x720 --background white -o - | ffmpeg -f rawvideo -pixel_format rgba -video_size 960x720 -framerate 30 -i - -pix_fmt yuv420p {name}`"
+                ),
+            };
+            CliError::Usage(format!("{name}: this command writes still pictures\n  = help: {help}"))
         };
         match ending {
             "avif" => convert("AVIF"),

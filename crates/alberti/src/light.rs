@@ -72,8 +72,10 @@ enum SwitchArg {
 /// The value of `--ground`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum GroundArg {
-    /// Shadow catcher: invisible except for the shadows on it
+    /// Shadow catcher: invisible except for the shadows on it, which the picture shows whole
     Shadow,
+    /// The same, and the picture frames the models alone: shadows may leave it
+    CroppedShadow,
     /// No ground
     None,
 }
@@ -109,6 +111,9 @@ impl LightArgs {
         }
         match self.ground {
             Some(GroundArg::Shadow) => file.ground = Some(GroundFile::DEFAULT),
+            Some(GroundArg::CroppedShadow) => {
+                file.ground = Some(GroundFile::Shadow { height: None, framed: false });
+            }
             Some(GroundArg::None) => file.ground = None,
             None => {}
         }

@@ -209,6 +209,12 @@ pub(super) fn open_input(
         return open_stdin(options);
     }
     check_is_file(input)?;
+    if input.to_str().is_none() {
+        let name = visible_path(input);
+        return Err(CliError::Usage(format!(
+            "{name}: the name of the file is not UTF-8\n  = help: rename the file, or its folder"
+        )));
+    }
     if is_scene_file(input) {
         Ok(Origin::read_scene_allowing(input, &options.allow_outside)?)
     } else {

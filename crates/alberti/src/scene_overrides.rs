@@ -320,8 +320,13 @@ fn parse_background(text: &str) -> Result<BackgroundFile, String> {
         return Ok(BackgroundFile::Environment { blur: None });
     }
     let color = Color::parse(text).map(BackgroundFile::Color);
-    color.ok_or_else(|| {
-        "expected transparent, environment, or a color such as #f4f1ea or white".to_owned()
+    // A shell takes what begins with # for a comment.
+    let with_hash = format!("#{text}");
+    color.ok_or_else(|| match Color::parse(&with_hash) {
+        Some(_) => format!("write '{with_hash}', with quotation marks around it"),
+        None => {
+            "expected transparent, environment, or a color such as '#f4f1ea' or white".to_owned()
+        }
     })
 }
 

@@ -17,7 +17,7 @@ use clap::ValueEnum;
 use deadline::Deadline;
 use model::import::{ImportError, ImportOptions};
 use model::{Limits, codes, visible_path, visible_text};
-use pipeline::scene::ResolveOptions;
+use pipeline::scene::{ResolveOptions, Style};
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
 };
@@ -110,8 +110,18 @@ fn render_thumbnail(args: &ThumbnailerArgs, input: &Path, output: &Path) -> Resu
         ..ImportOptions::default()
     };
     let (origin, mut file) = open_input(input, &import)?;
-    file.image.size = (args.size, args.size);
-    let scene = Scene::resolve(&origin, &file, &ResolveOptions::with_import(import))?;
+    let (width, height) = std::mem::replace(&mut file.image.size, (args.size, args.size));
+    let mut scene = Scene::resolve(&origin, &file, &ResolveOptions::with_import(import))?;
+    // Lines of the whole drawing's width would be blots.
+    let factor = f64::from(args.size) / f64::from(width.max(height));
+    let insets = scene.insets.iter_mut().map(|inset| &mut inset.scene.style);
+    for style in insets.chain([&mut scene.style]) {
+        if let Style::Lines(lines) = style
+            && factor < 1.0
+        {
+            lines.line_widths = lines.line_widths.scaled(factor);
+        }
+    }
     let textures = Textures::for_scene(&scene);
     let threads = thread_count(None).min(MAX_THREADS);
     let context =

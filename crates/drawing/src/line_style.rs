@@ -119,6 +119,27 @@ pub enum LineWidths {
     Iso(IsoLineGroup),
 }
 
+impl LineWidths {
+    /// The widths in a picture that is smaller by a factor, so that it looks as the larger one seen
+    /// from farther away; no line is thinner than half a pixel.
+    ///
+    /// ```
+    /// use drawing::LineWidths;
+    ///
+    /// assert_eq!(LineWidths::Pixels(4.0).scaled(0.25), LineWidths::Pixels(1.0));
+    /// assert_eq!(LineWidths::Millimeters(0.3).scaled(0.01), LineWidths::Pixels(0.5));
+    /// ```
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let pixels = match self {
+            Self::Pixels(width) => width,
+            Self::Millimeters(width) => width / MILLIMETERS_PER_PIXEL,
+            Self::Iso(group) => group.wide_width() / MILLIMETERS_PER_PIXEL,
+        };
+        Self::Pixels((pixels * factor).max(0.5))
+    }
+}
+
 impl LineStyle {
     /// Features with hidden lines removed, 1.25 pixels wide.
     pub const HIDDEN_REMOVED: Self = Self {

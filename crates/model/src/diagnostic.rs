@@ -118,7 +118,8 @@ impl Diagnostic {
     #[must_use]
     pub fn sentence(&self) -> String {
         let mut text = String::new();
-        if !self.location.is_empty() {
+        // What was asked for and is not there has no place in the file.
+        if !self.location.is_empty() && self.code != codes::NO_SUCH_ITEM {
             text.push_str(&self.location);
             text.push_str(": ");
         }

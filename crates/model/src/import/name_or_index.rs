@@ -41,7 +41,7 @@ impl NameOrIndex {
                 _ => format!("there is no {what} `{wanted}`"),
             };
             let help = match available.as_slice() {
-                [] => format!("remove the {what}"),
+                [] => format!("do not choose a {what}"),
                 available => format!("choose one of {}", available.join(", ")),
             };
             Diagnostic::error(codes::NO_SUCH_ITEM, pointer, message, &help)
@@ -65,6 +65,6 @@ mod tests {
         assert_eq!(diagnostic.message, "there is no scene `night`");
         assert_eq!(diagnostic.help.unwrap(), "choose one of 0 `day`, 1, 2 `7`");
         let diagnostic = NameOrIndex::Index(0).find_among(&[], "variant", "/v").unwrap_err();
-        assert_eq!(diagnostic.help.unwrap(), "remove the variant");
+        assert_eq!(diagnostic.help.unwrap(), "do not choose a variant");
     }
 }

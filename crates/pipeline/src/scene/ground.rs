@@ -62,7 +62,7 @@ pub(super) fn resolve_ground(
     lights: &[Light],
     has_environment: bool,
 ) -> Option<Ground> {
-    let Some(GroundFile::Shadow { height }) = file.ground else { return None };
+    let Some(GroundFile::Shadow { height, .. }) = file.ground else { return None };
     let bounds = Bounds::from_points(world_points(models))?;
     let (least, greatest) = (bounds.corners()[0].raw(), bounds.corners()[7].raw());
     let height = height.map_or(least.y, super::number::Finite::value);

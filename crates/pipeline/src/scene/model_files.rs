@@ -271,7 +271,7 @@ pub fn select_animation(
 ) -> Result<usize, (String, Option<String>)> {
     let count = model.animations.len();
     if count == 0 {
-        let help = "remove the animation and the time; to turn a model that has none, run \
+        let help = "leave out the animation and the time; to turn a model that has none, run \
                     `alberti animate model.glb --turntable -o turn.gif`";
         return Err((format!("`{}` has no animations", model.name), Some(help.to_owned())));
     }

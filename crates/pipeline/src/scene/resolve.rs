@@ -8,7 +8,7 @@ use super::backdrop::{is_blank_paper, resolve_background_color};
 use super::caption::resolve_caption;
 use super::diagnostics::Diagnostics;
 use super::exposure::resolve_exposure;
-use super::file::{BackgroundFile, ViewFile};
+use super::file::{BackgroundFile, GroundFile, ViewFile};
 use super::file_access::FileAccess;
 use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
@@ -287,7 +287,8 @@ impl SceneParts {
         let (mut view_projection, mut lights) = (self.view_projection?, self.lights?);
         let has_environment = file.effective_environment(origin, models).is_some();
         let ground = resolve_ground(file, models, &lights, has_environment);
-        let is_framed = matches!(file.camera.view, ViewFile::Frame { .. });
+        let frames_shadows = matches!(file.ground, Some(GroundFile::Shadow { framed: true, .. }));
+        let is_framed = frames_shadows && matches!(file.camera.view, ViewFile::Frame { .. });
         if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
             // The key light stands by the direction of view, which framing keeps.
             let shadows = shadow_points(ground, models, &lights);

@@ -55,6 +55,12 @@ fn without_ground_only_the_model_is_framed() {
         assert_eq!(scene.view_projection.camera, framing.camera, "{name}");
         let on_ground = bare_model(name, size, Some(GroundFile::DEFAULT));
         assert_ne!(on_ground.view_projection.camera, framing.camera, "{name}");
+        // Nor where its shadows may leave the picture; they are seen where they do not.
+        let cropped = GroundFile::Shadow { height: None, framed: false };
+        let cropped = bare_model(name, size, Some(cropped));
+        assert_eq!(cropped.view_projection.camera, framing.camera, "{name}");
+        let with = render(&cropped, 1).expect("a picture");
+        assert_ne!(with.pixels, render(&scene, 1).expect("a picture").pixels, "{name}");
     }
 }
 

@@ -15,11 +15,14 @@ scene_enum! {
         Shadow {
             /// Its height, y in the world. Default: that of the lowest vertex of the models.
             height: Option<Finite>,
+            /// Whether a view that frames the models frames their shadows too. Default: true;
+            /// otherwise shadows may leave the picture.
+            framed: bool = true,
         },
     }
 }
 
 impl GroundFile {
     /// The ground with every default.
-    pub const DEFAULT: Self = Self::Shadow { height: None };
+    pub const DEFAULT: Self = Self::Shadow { height: None, framed: true };
 }

@@ -10,7 +10,7 @@ const SUNK: f64 = 0.01;
 
 /// A ground above the lowest point of the models.
 pub(super) fn lint_high_ground(adviser: &Linter<'_>) -> Option<Lint> {
-    let Some(GroundFile::Shadow { height: Some(height) }) = adviser.file.ground else {
+    let Some(GroundFile::Shadow { height: Some(height), .. }) = adviser.file.ground else {
         return None;
     };
     let bounds = Bounds::from_points(adviser.scene.world_points())?;

@@ -345,7 +345,13 @@ impl<'a> Checker<'a> {
             self.told_lists.push(item.value.span.start);
         }
         let message = format!("unexpected field `{}` in `{}`", key.name, owner.shown);
-        self.report(key.span.clone(), message, Some(help));
+        // `top` and `bottom` of a gradient are two mistakes with one remedy.
+        let around = self.scopes.iter().rev().nth(1).map_or(0, |outer| outer.start);
+        let is_told = self
+            .mistakes
+            .last()
+            .is_some_and(|last| last.help.as_ref() == Some(&help) && last.span.start >= around);
+        self.report(key.span.clone(), message, Some(help).filter(|_| !is_told));
         sibling
     }
 
