@@ -111,7 +111,7 @@ impl Place {
     }
 
     /// The child that a step leads to. Brackets around a single value, as in `Lines((width:
-    /// Px(2)))`, are no level of their own.
+    /// Px(2)))`, do not count as a level.
     fn child(&self, text: &str, step: PathStep<'_>) -> Option<&Self> {
         let child = match step {
             PathStep::Index(index) => self.items.get(index),
