@@ -25,7 +25,6 @@ mod gpu_instancing;
 mod images;
 mod json_repair;
 mod lights;
-mod located_json;
 mod material;
 pub(crate) mod meshopt;
 mod model_builder;

@@ -253,9 +253,8 @@ fn syntax_error(error: &serde_json::Error) -> Diagnostic {
 /// The error for a member of the wrong type, with the JSON pointer to it.
 ///
 /// The phrase of the `gltf` crate for an index is replaced by a plainer one.
-pub(super) fn type_error(pointer: &str, error: &serde_json::Error) -> Diagnostic {
-    let message = error.to_string().replace("index into child of root", "an index");
-    Diagnostic::invalid(pointer, message)
+pub(super) fn type_error(pointer: &str, message: &str) -> Diagnostic {
+    Diagnostic::invalid(pointer, message.replace("index into child of root", "an index"))
 }
 
 #[cfg(test)]

@@ -6,11 +6,11 @@
 //! again.
 
 use super::document::type_error;
-use super::located_json::deserialize_located;
 use crate::diagnostic::Diagnostic;
 use crate::import::warnings::ImportWarnings;
 use gltf::json::Root;
 use serde_json::{Value, json};
+use std::fmt::Write as _;
 
 /// Bytes of JSON that are deserialized again in all: ten repairs of a file of six megabytes,
 /// hundreds of a small one.
@@ -34,15 +34,93 @@ pub(super) fn deserialize_document(
 ) -> Result<Root, Diagnostic> {
     let mut repairs_left = (REPAIR_BYTE_BUDGET / length.max(1)).min(MAX_REPAIRS);
     loop {
-        let diagnostic = match deserialize_located(value) {
+        let diagnostic = match deserialize_root(value) {
             Ok(root) => return Ok(root),
-            Err((pointer, error)) => type_error(&pointer, &error),
+            Err(diagnostic) => diagnostic,
         };
         let repaired = if repairs_left > 0 { repair_at(value, &diagnostic.location) } else { None };
         let Some(consequence) = repaired else { return Err(diagnostic) };
         warnings.downgrade_if_lenient(diagnostic, consequence)?;
         repairs_left -= 1;
     }
+}
+
+/// Deserializes the value's text: the `gltf` crate has compiled that for its types already, and the
+/// column of an error leads back to the value.
+///
+/// # Errors
+/// The first fault.
+fn deserialize_root(value: &Value) -> Result<Root, Diagnostic> {
+    let text = value.to_string();
+    Root::from_str(&text).map_err(|error| {
+        // The text is well-formed: only an array with too many items ends the parser early. It
+        // stops one byte into the first of them.
+        let place = if error.is_syntax() {
+            Place::Within(error.column() - 1)
+        } else {
+            Place::At(error.column())
+        };
+        let mut pointer = String::new();
+        end_unless_found(value, 0, &place, &mut pointer);
+        let message = match (&place, value.pointer(&pointer).and_then(Value::as_array)) {
+            (Place::Within(_), Some(items)) => {
+                format!("invalid length {}, expected fewer elements in array", items.len())
+            }
+            _ => {
+                let message = error.to_string();
+                message.rsplit_once(" at line ").map_or("", |(message, _)| message).to_owned()
+            }
+        };
+        type_error(&pointer, &message)
+    })
+}
+
+/// A value in a text, by bytes from its start.
+enum Place {
+    /// The value that ends here, or the array or object that begins here.
+    At(usize),
+    /// The innermost value with something before and after this place.
+    Within(usize),
+}
+
+/// Searches a value whose text begins at `start` for a place.
+///
+/// Returns where the value ends, or `None` if it is the one, or contains it: `pointer` then leads to it.
+fn end_unless_found(
+    value: &Value,
+    start: usize,
+    place: &Place,
+    pointer: &mut String,
+) -> Option<usize> {
+    let is_container = value.is_array() || value.is_object();
+    if is_container && matches!(place, Place::At(offset) if *offset == start) {
+        return None;
+    }
+    let parent = pointer.len();
+    let mut end = start + usize::from(is_container);
+    match value {
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                let _ = write!(pointer, "/{index}");
+                // The comma, or the bracket, comes after each.
+                end = end_unless_found(item, end, place, pointer)? + 1;
+                pointer.truncate(parent);
+            }
+            end = end.max(start + 2);
+        }
+        Value::Object(members) => {
+            for (key, member) in members {
+                let _ = write!(pointer, "/{}", key.replace('~', "~0").replace('/', "~1"));
+                let colon = json!(key).to_string().len();
+                end = end_unless_found(member, end + colon + 1, place, pointer)? + 1;
+                pointer.truncate(parent);
+            }
+            end = end.max(start + 2);
+        }
+        leaf => end += leaf.to_string().len(),
+    }
+    let (Place::At(offset) | Place::Within(offset)) = *place;
+    (offset <= start || offset > end).then_some(end)
 }
 
 /// Removes the member at a pointer, or empties the item that contains it; returns what was done,
@@ -154,6 +232,63 @@ mod tests {
             messages.iter().any(|line| line.starts_with("/meshes/0 missing field `primitives`"))
         );
         assert!(messages.iter().any(|line| line.starts_with("/nodes/1 ")), "{messages:#?}");
+    }
+
+    #[test]
+    fn faults_have_the_pointer_and_the_words_of_serde_json() {
+        for (document, pointer, message) in [
+            (json!({"nodes": 3}), "/nodes", "invalid type: integer `3`, expected a sequence"),
+            (json!({"nodes": {"x": [1]}}), "/nodes", "invalid type: map, expected a sequence"),
+            (
+                json!({"nodes": [{}, {"children": [0, true]}]}),
+                "/nodes/1/children/1",
+                "invalid type: boolean `true`, expected an index",
+            ),
+            (
+                json!({"nodes": [{}, {"children": [0, [7]]}]}),
+                "/nodes/1/children/1",
+                "invalid type: sequence, expected an index",
+            ),
+            (
+                json!({"nodes": [{}, {"children": [0, 0.5]}]}),
+                "/nodes/1/children/1",
+                "invalid type: floating point `0.5`, expected an index",
+            ),
+            (json!({"nodes": [null]}), "/nodes/0", "invalid type: null, expected struct Node"),
+            (
+                json!({"extensionsUsed": ["/~\"\n", {}]}),
+                "/extensionsUsed/1",
+                "invalid type: map, expected a string",
+            ),
+            (
+                json!({"materials": [{"emissiveFactor": [1, 2]}]}),
+                "/materials/0/emissiveFactor",
+                "invalid length 2, expected an array of length 3",
+            ),
+            (
+                json!({"materials": [{"emissiveFactor": [1, 2, 3, 4, 5]}]}),
+                "/materials/0/emissiveFactor",
+                "invalid length 5, expected fewer elements in array",
+            ),
+            (
+                json!({"materials": [{"emissiveFactor": [1, 2, 3, [4]]}]}),
+                "/materials/0/emissiveFactor",
+                "invalid length 4, expected fewer elements in array",
+            ),
+            (
+                json!({"meshes": [{"primitives": []}, {"name": "a/b"}]}),
+                "/meshes/1",
+                "missing field `primitives`",
+            ),
+            (json!(7), "", "invalid type: integer `7`, expected struct Root"),
+        ] {
+            let mut document = document;
+            if let Some(members) = document.as_object_mut() {
+                members.insert("asset".to_owned(), json!({"version": "2.0", "a/~": "é\u{7}"}));
+            }
+            let diagnostic = deserialize_root(&document).unwrap_err();
+            assert_eq!((&*diagnostic.location, &*diagnostic.message), (pointer, message));
+        }
     }
 
     #[test]
