@@ -31,8 +31,8 @@ mod screen_space;
 
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use denoise::DenoiseEight;
-use horizon_search::{Pattern, SearchEight};
-use raster::{LANES, SimdLevel, SurfaceDepth, for_each_parallel};
+use horizon_search::{HorizonSearch, Pattern};
+use raster::{Kernel, LANES, SimdLevel, SurfaceDepth, for_each_parallel};
 use screen_space::PixelGrid;
 pub use screen_space::ScreenSpace;
 
@@ -77,7 +77,10 @@ impl AmbientOcclusion {
         for_each_parallel(threads, noisy.rows_mut(), |(y, row)| {
             for (block, target) in row.as_chunks_mut().0.iter_mut().enumerate() {
                 let (space, pattern, depths, x) = (&space, &pattern, &depths, block * LANES);
-                *target = simd_level.run_kernel(SearchEight { space, pattern, depths, x, y });
+                let search = HorizonSearch { space, pattern, depths, x, y };
+                *target = simd_level
+                    .run_wide_kernel(search)
+                    .unwrap_or_else(|| search_one_by_one(space, pattern, depths, [x, y]));
             }
         });
         for_each_parallel(threads, visibilities.rows_mut(), |(y, row)| {
@@ -120,6 +123,22 @@ impl AmbientOcclusion {
         }
         sum / weights
     }
+}
+
+/// The visibilities of eight pixels, for processors without wide kernels.
+#[inline(never)]
+fn search_one_by_one(
+    space: &ScreenSpace,
+    pattern: &Pattern,
+    depths: &PixelGrid,
+    [x, y]: [usize; 2],
+) -> [f32; LANES] {
+    let mut visibilities = [0.0; LANES];
+    for (lane, visibility) in visibilities.iter_mut().enumerate() {
+        let search = HorizonSearch { space, pattern, depths, x: x + lane, y };
+        [*visibility] = search.run();
+    }
+    visibilities
 }
 
 /// The ambient visibility of a surface with this albedo, with the light that its surroundings
@@ -179,6 +198,33 @@ mod tests {
         for (y, x) in (0..120).flat_map(|y| (0..160).map(move |x| (y, x))) {
             assert_eq!(occlusion.visibilities.at([x, y], [0, 0]), 1.0, "at {x}, {y}");
         }
+    }
+
+    #[test]
+    fn one_pixel_at_a_time_has_the_bits_of_eight() {
+        let size = [24, 8];
+        let across = DVec3::new(1.0, 0.0, -1.0).normalize() * 130.0;
+        let eye = [1012.6047, 434.8936, 1018.6047, 1.0];
+        let space = ScreenSpace::new(size, [0.5; 2], distant_view(), DVec3::ZERO, eye, across);
+        let mut depths = PixelGrid::default();
+        depths.reset(size);
+        // Rough ground, with a hole.
+        let depth = |at: u32| 0.5 + 0.01 * ((at * 7 + at / 24 * 5) % 11) as f32;
+        depths.fill_from((0..24 * 8).map(|at| if at % 17 == 3 { 0.0 } else { depth(at) }));
+        let (space, pattern, depths) = (&space, &Pattern::new(), &depths);
+        let mut darkest = 1.0_f32;
+        for (x, y) in [0, 8, 16].into_iter().flat_map(|x| (0..8).map(move |y| (x, y))) {
+            let eight: [f32; LANES] = HorizonSearch { space, pattern, depths, x, y }.run();
+            let single = search_one_by_one(space, pattern, depths, [x, y]);
+            for lane in 0..LANES {
+                // Where nothing is, both are ignored.
+                if depths.at([(x + lane) as i32, y as i32], [0, 0]) > 0.0 {
+                    assert_eq!(eight[lane].to_bits(), single[lane].to_bits(), "{x} + {lane}, {y}");
+                    darkest = darkest.min(eight[lane]);
+                }
+            }
+        }
+        assert!(darkest < 0.9, "nothing occludes: {darkest}");
     }
 
     #[test]

@@ -15,6 +15,7 @@ use super::attributes::{VertexIndices, interpolate};
 use super::fragment_lanes::FragmentLanes;
 use super::lanes::{Lanes, Rgb, Vec3Lanes};
 use super::texture::TexelLanes;
+use crate::kernel_part::kernel_part;
 use model::{MaterialExtensions, TextureSlot};
 
 /// The core parameters of a material. All numbers are linear.
@@ -79,6 +80,16 @@ impl<const N: usize> MaterialInputs<N> {
     /// color is evaluated.
     #[inline(always)]
     pub(super) fn evaluate(
+        draw: &Draw<'_>,
+        vertices: &VertexIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> Self {
+        kernel_part!(N, Self::sample(draw, vertices, fragments))
+    }
+
+    /// As [`evaluate`](Self::evaluate), inlined.
+    #[inline(always)]
+    pub(super) fn sample(
         draw: &Draw<'_>,
         vertices: &VertexIndices<N>,
         fragments: &impl FragmentLanes<N>,

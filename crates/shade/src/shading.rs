@@ -270,7 +270,7 @@ impl Shading<'_> {
     ) -> ShadedLanes<N> {
         // Material: factors times textures.
         let vertices = draw.vertex_indices(primitives);
-        let mut inputs = kernel_part!(N, MaterialInputs::evaluate(draw, &vertices, fragments));
+        let mut inputs = MaterialInputs::evaluate(draw, &vertices, fragments);
         // Rendering equation: emitted, reflected and transmitted radiance.
         let SurfaceLight { radiance, transmission, behind } = if draw.is_lit() {
             self.light_surface(draw, primitives, fragments, &mut inputs)
@@ -281,7 +281,7 @@ impl Shading<'_> {
         // Display: exposure and tone curve, then premultiplied alpha. Unlit colors are those of the
         // picture already (KHR_materials_unlit): they are only exposed.
         let mut color = if draw.is_lit() {
-            kernel_part!(N, self.tone_mapper.map_colors(radiance))
+            self.tone_mapper.map_colors(radiance)
         } else {
             radiance * self.tone_mapper.exposure
         };
@@ -348,7 +348,7 @@ impl Shading<'_> {
         fragments: &impl FragmentLanes<N>,
         inputs: &mut MaterialInputs<N>,
     ) -> SurfaceLight<N> {
-        let geometry = kernel_part!(N, self.surface_geometry(draw, primitives, fragments));
+        let geometry = self.surface_geometry(draw, primitives, fragments);
         if let Some(occlusion) = self.occlusion {
             let visibility =
                 kernel_part!(N, occlusion.visibility(geometry.positions, geometry.normals));
@@ -377,9 +377,19 @@ impl Shading<'_> {
     }
 
     /// Positions, views and smooth normals at fragments; normal maps are not applied yet.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+    #[inline(always)]
     pub(super) fn surface_geometry<const N: usize>(
+        &self,
+        draw: &Draw<'_>,
+        primitives: &PrimitiveIndices<N>,
+        fragments: &impl FragmentLanes<N>,
+    ) -> SurfaceGeometry<N> {
+        kernel_part!(N, self.find_geometry(draw, primitives, fragments))
+    }
+
+    /// As [`surface_geometry`](Self::surface_geometry), inlined.
+    #[inline(always)]
+    pub(super) fn find_geometry<const N: usize>(
         &self,
         draw: &Draw<'_>,
         primitives: &PrimitiveIndices<N>,

@@ -15,6 +15,7 @@ use super::surface_geometry::SurfaceGeometry;
 use super::transmission::luminance;
 use super::vector::dot;
 use super::{Draw, DrawKind, Shading};
+use crate::kernel_part::kernel_part;
 use false_colors::{checker_color, decode_codes, matcap_ball_color, part_color};
 use model::AlphaMode;
 use raster::{F32x8, Fragment, Fragments, Kernel, LANES, Surface, shade_each};
@@ -216,10 +217,10 @@ impl StyledShading<'_> {
         let geometry = self.shading.surface_geometry(draw, primitives, fragments);
         opaque_color(match self.style {
             ShadingStyle::Clay => {
-                let light = self.diffuse_light(&geometry);
+                let light = kernel_part!(N, self.diffuse_light(&geometry));
                 self.shading.tone_mapper.map_colors(Rgb::splat(CLAY_ALBEDO) * light)
             }
-            ShadingStyle::Matcap => self.matcap_color(&geometry),
+            ShadingStyle::Matcap => kernel_part!(N, self.matcap_color(&geometry)),
             ShadingStyle::Normals => {
                 let Vec3Lanes { x, y, z } = geometry.normals;
                 decode_codes(Rgb { r: x, g: y, b: z }.map(|c| 0.5 * c + 0.5))
@@ -234,7 +235,10 @@ impl StyledShading<'_> {
                 decode_codes(Rgb { r: gray, g: gray, b: gray })
             }
             ShadingStyle::Ids => decode_codes(Rgb::splat(part_color(draw.part_id))),
-            _ => checker_color(draw, &draw.vertex_indices(primitives), fragments, geometry.n_dot_v),
+            _ => {
+                let vertices = draw.vertex_indices(primitives);
+                kernel_part!(N, checker_color(draw, &vertices, fragments, geometry.n_dot_v))
+            }
         })
     }
 
@@ -258,18 +262,18 @@ impl StyledShading<'_> {
 
     /// The color of a material in some diffuse light, exposed and tone mapped, premultiplied by the
     /// alpha of materials that blend. Unlit colors are those of the picture already: they are only
-    /// exposed.
+    /// exposed, and the light is ignored.
     fn material_color(
         &self,
         draw: &Draw<'_>,
         fragment: &Fragment<'_>,
-        diffuse_light: impl FnOnce() -> [f32; 3],
+        diffuse_light: [f32; 3],
     ) -> [f32; 4] {
         let vertices = draw.vertex_indices(&draw.primitive_indices(&[fragment.id], true));
-        let inputs = MaterialInputs::<1>::evaluate(draw, &vertices, fragment);
+        let inputs = MaterialInputs::<1>::sample(draw, &vertices, fragment);
         let tone_mapper = &self.shading.tone_mapper;
         let color = if draw.is_lit() {
-            let diffuse = inputs.base_color * Rgb::splat(diffuse_light());
+            let diffuse = inputs.base_color * Rgb::splat(diffuse_light);
             tone_mapper.map_colors(diffuse + inputs.emitted)
         } else {
             inputs.base_color * tone_mapper.exposure
@@ -282,19 +286,18 @@ impl StyledShading<'_> {
 
     /// Light per vertex, interpolated; the base color per fragment.
     fn shade_gouraud(&self, draw: &Draw<'_>, fragment: &Fragment<'_>) -> [f32; 4] {
-        self.material_color(draw, fragment, || {
-            let primitive = draw.primitive_indices(&[fragment.id], true);
-            let mut light = [0.0; 3];
-            for vertex in 0..3 {
-                let at_vertex = VertexFragment::at_vertex(vertex);
-                let geometry = self.shading.surface_geometry(draw, &primitive, &at_vertex);
-                let vertex_light = self.diffuse_light(&geometry).lane(0);
-                for (sum, light) in light.iter_mut().zip(vertex_light) {
-                    *sum += light * fragment.weights[vertex];
-                }
+        let primitive = draw.primitive_indices(&[fragment.id], true);
+        let mut light = [0.0; 3];
+        let lit_vertices = if draw.is_lit() { 0..3 } else { 0..0 };
+        for vertex in lit_vertices {
+            let at_vertex = VertexFragment::at_vertex(vertex);
+            let geometry = self.shading.find_geometry(draw, &primitive, &at_vertex);
+            let vertex_light = self.diffuse_light(&geometry).lane(0);
+            for (sum, light) in light.iter_mut().zip(vertex_light) {
+                *sum += light * fragment.weights[vertex];
             }
-            light
-        })
+        }
+        self.material_color(draw, fragment, light)
     }
 
     /// The base color in steps of light by its luminance.
@@ -307,12 +310,11 @@ impl StyledShading<'_> {
         fragment: &Fragment<'_>,
         geometry: &SurfaceGeometry<1>,
     ) -> [f32; 4] {
-        self.material_color(draw, fragment, || {
-            // The darkest tone whose limit is above the luminance.
-            let light = luminance(self.diffuse_light(geometry))[0];
-            let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
-            [tone.map_or(1.0, |(_, brightness)| *brightness); 3]
-        })
+        // The darkest tone whose limit is above the luminance.
+        let light = luminance(self.diffuse_light(geometry))[0];
+        let tone = TOON_TONES.iter().find(|(up_to, _)| light < *up_to);
+        let brightness = tone.map_or(1.0, |(_, brightness)| *brightness);
+        self.material_color(draw, fragment, [brightness; 3])
     }
 
     /// The matcap at the normal in a frame whose z points to the viewer of this pixel: in

@@ -19,6 +19,7 @@
 use super::approximations::{exp2_approx, log2_approx};
 use super::color::multiply_matrix;
 use super::lanes::{Lanes, Rgb};
+use crate::kernel_part::kernel_part;
 
 /// The curve that brings light beyond 1 into the range of a display.
 ///
@@ -64,9 +65,13 @@ impl ToneMapper {
     ///
     /// Exposure is applied first. Light below 0, which filtering may leave, counts as 0 under a
     /// curve.
-    #[cfg_attr(not(any(target_family = "wasm", debug_assertions)), inline(always))]
-    #[cfg_attr(any(target_family = "wasm", debug_assertions), inline(never))]
+    #[inline(always)]
     pub(super) fn map_colors<const N: usize>(&self, light: Rgb<N>) -> Rgb<N> {
+        kernel_part!(N, self.apply_curve(light))
+    }
+
+    #[inline(always)]
+    fn apply_curve<const N: usize>(&self, light: Rgb<N>) -> Rgb<N> {
         let mut light = light;
         if self.exposure != 1.0 {
             light = light * self.exposure;

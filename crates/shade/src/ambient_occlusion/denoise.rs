@@ -28,7 +28,7 @@ impl Kernel for DenoiseEight<'_> {
     #[inline(always)]
     fn run(self) -> [f32; LANES] {
         let at = [self.x, self.y];
-        let depths = self.depths.eight_at(at, [0, 0]);
+        let depths = self.depths.lanes_at(at, [0, 0]);
         if depths.0 == [0.0; LANES] {
             return [1.0; LANES];
         }
@@ -37,12 +37,12 @@ impl Kernel for DenoiseEight<'_> {
         let (mut sum, mut weights) = (Lanes::ZERO, Lanes::ZERO);
         for (dy, weight_y) in (-2..=2).zip(BOX) {
             for (dx, weight_x) in (-2..=2).zip(BOX) {
-                let neighbors = self.depths.eight_at(at, [dx, dy]);
+                let neighbors = self.depths.lanes_at(at, [dx, dy]);
                 let plane = depths + slopes[0] * dx as f32 + slopes[1] * dy as f32;
                 let likeness = (1.0 - (neighbors - plane).abs() * inv_distance).max(0.0);
                 let likeness = likeness.select(&neighbors.is_above(0.0), Lanes::ZERO);
                 let weight = likeness * (weight_x * weight_y);
-                sum += weight * self.noisy.eight_at(at, [dx, dy]);
+                sum += weight * self.noisy.lanes_at(at, [dx, dy]);
                 weights += weight;
             }
         }

@@ -1,7 +1,8 @@
-//! The horizon search: the visible arcs around the surfaces of eight pixels.
+//! The horizon search: the visible arcs around the surfaces of eight pixels, or of one.
 
 use super::screen_space::{PixelGrid, ScreenSpace};
 use crate::approximations::floor_to_int;
+use crate::kernel_part::kernel_part;
 use crate::lanes::{Lanes, Vec3Lanes};
 use raster::{Kernel, LANES};
 
@@ -19,22 +20,20 @@ const PATTERN_SIDE: usize = 4;
 const TURNS: [[u8; PATTERN_SIDE]; PATTERN_SIDE] =
     [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
-type Eight = Lanes<LANES>;
-
 /// The pattern by which slices are turned and steps are moved from pixel to pixel.
 ///
 /// Rows repeat after four, and so do columns: two of its periods are eight pixels.
 pub(super) struct Pattern {
     /// The directions of the slices on the screen, x and y, for each row of the pattern.
-    directions: [[[Eight; 2]; SLICE_COUNT]; PATTERN_SIDE],
+    directions: [[[[f32; LANES]; 2]; SLICE_COUNT]; PATTERN_SIDE],
     /// The fraction of a step by which the steps of a pixel are ahead.
-    step_offsets: [Eight; PATTERN_SIDE],
+    step_offsets: [[f32; LANES]; PATTERN_SIDE],
 }
 
 impl Pattern {
     pub(super) fn new() -> Self {
-        let mut directions = [[[Eight::ZERO; 2]; SLICE_COUNT]; PATTERN_SIDE];
-        let mut step_offsets = [Eight::ZERO; PATTERN_SIDE];
+        let mut directions = [[[[0.0; LANES]; 2]; SLICE_COUNT]; PATTERN_SIDE];
+        let mut step_offsets = [[0.0; LANES]; PATTERN_SIDE];
         for (row, lane) in (0..PATTERN_SIDE).flat_map(|row| (0..LANES).map(move |lane| (row, lane)))
         {
             let turn = TURNS[row][lane % PATTERN_SIDE];
@@ -51,8 +50,9 @@ impl Pattern {
     }
 }
 
-/// The kernel that computes the visibilities of eight pixels from (x, y) to the right.
-pub(super) struct SearchEight<'a> {
+/// The kernel that computes the visibilities of pixels from (x, y) to the right: of eight, where x is
+/// a multiple of eight, or of one.
+pub(super) struct HorizonSearch<'a, const N: usize> {
     pub(super) space: &'a ScreenSpace,
     pub(super) pattern: &'a Pattern,
     pub(super) depths: &'a PixelGrid,
@@ -60,85 +60,97 @@ pub(super) struct SearchEight<'a> {
     pub(super) y: usize,
 }
 
-/// The surfaces of eight pixels.
-struct Surfaces {
+/// The surfaces of some pixels.
+struct Surfaces<const N: usize> {
     /// Columns and rows.
-    pixels: [Eight; 2],
+    pixels: [Lanes<N>; 2],
     /// Positions relative to the origin.
-    positions: Vec3Lanes<LANES>,
+    positions: Vec3Lanes<N>,
     /// The depths there.
-    depths: Eight,
+    depths: Lanes<N>,
     /// Unit normals, toward the viewer.
-    normals: Vec3Lanes<LANES>,
+    normals: Vec3Lanes<N>,
     /// Unit vectors to the viewer.
-    views: Vec3Lanes<LANES>,
+    views: Vec3Lanes<N>,
     /// The radius in pixels.
-    radii: Eight,
+    radii: Lanes<N>,
 }
 
-/// The plane of a slice at each of eight pixels.
-struct Slice {
+/// The plane of a slice at each of some pixels.
+struct Slice<const N: usize> {
     /// The direction on the screen: x and y.
-    direction: [Eight; 2],
+    direction: [Lanes<N>; 2],
     /// The length of the normal's projection into the slice: the slice's weight.
-    weight: Eight,
+    weight: Lanes<N>,
     /// The cosine of the angle from the view to the projected normal.
-    cosine: Eight,
+    cosine: Lanes<N>,
     /// Its sine, positive where the normal leans along the direction.
-    sine: Eight,
+    sine: Lanes<N>,
     /// The unit normal of the slice.
-    slice_normal: Vec3Lanes<LANES>,
+    slice_normal: Vec3Lanes<N>,
     /// A vector on the surface that leads out of the slice by one unit.
-    out_of_slice: Vec3Lanes<LANES>,
+    out_of_slice: Vec3Lanes<N>,
 }
 
-impl Slice {
+impl<const N: usize> Slice<N> {
     /// The cosines from the view down to the surface itself, ahead and behind.
     #[inline(always)]
-    fn surface_horizons(&self) -> [Eight; 2] {
+    fn surface_horizons(&self) -> [Lanes<N>; 2] {
         [-self.sine, self.sine]
     }
 
     /// The light between two horizons, given by their cosines ahead and behind.
     #[inline(always)]
-    fn visible_arc(&self, [ahead, behind]: [Eight; 2]) -> Eight {
+    fn visible_arc(&self, [ahead, behind]: [Lanes<N>; 2]) -> Lanes<N> {
         // Behind, the normal leans the other way.
-        integrate_arc(ahead, self.cosine, self.sine)
-            + integrate_arc(behind, self.cosine, -self.sine)
+        kernel_part!(
+            N,
+            integrate_arc(ahead, self.cosine, self.sine)
+                + integrate_arc(behind, self.cosine, -self.sine)
+        )
     }
 }
 
-impl Kernel for SearchEight<'_> {
-    type Output = [f32; LANES];
+impl<const N: usize> Kernel for HorizonSearch<'_, N> {
+    type Output = [f32; N];
 
     #[inline(always)]
-    fn run(self) -> [f32; LANES] {
-        let depths = self.depths.eight_at([self.x, self.y], [0, 0]);
-        if depths.0 == [0.0; LANES] {
-            return [1.0; LANES];
+    fn run(self) -> [f32; N] {
+        let depths = self.depths.lanes_at([self.x, self.y], [0, 0]);
+        if depths.0 == [0.0; N] {
+            return [1.0; N];
         }
         let surfaces = self.find_surfaces(depths);
-        let (mut visible, mut open) = (Eight::ZERO, Eight::ZERO);
+        let (mut visible, mut open) = (Lanes::ZERO, Lanes::ZERO);
         for index in 0..SLICE_COUNT {
             let slice = self.project_normals(&surfaces, index);
-            let [ahead, behind] = self.find_horizons(&surfaces, &slice);
+            let [ahead, behind] = kernel_part!(N, self.find_horizons(&surfaces, &slice));
             visible += slice.weight * slice.visible_arc([ahead, behind]);
             // By the same expression, so that what nothing occludes is exactly open.
             open += slice.weight * slice.visible_arc(slice.surface_horizons());
         }
         let visibility = (visible / open).max(0.0).min(1.0);
         // Also where a surface is seen from its edge, and nothing is known.
-        visibility.select(&open.is_above(0.0), Eight::ONE).0
+        visibility.select(&open.is_above(0.0), Lanes::ONE).0
     }
 }
 
-impl SearchEight<'_> {
+impl<const N: usize> HorizonSearch<'_, N> {
+    /// The part of the pattern that lies over the pixels.
+    #[inline(always)]
+    fn lanes_of(&self, pattern: &[f32; LANES]) -> Lanes<N> {
+        let start = self.x % LANES;
+        let mut lanes = Lanes::ZERO;
+        lanes.0.copy_from_slice(&pattern[start..start + N]);
+        lanes
+    }
+
     /// The surfaces at the pixels, from the depth buffer.
     #[inline(always)]
-    fn find_surfaces(&self, depths: Eight) -> Surfaces {
+    fn find_surfaces(&self, depths: Lanes<N>) -> Surfaces<N> {
         let space = self.space;
-        let columns = Eight::from_fn(|lane| (self.x + lane) as f32);
-        let pixels = [columns, Eight::splat(self.y as f32)];
+        let columns = Lanes::from_fn(|lane| (self.x + lane) as f32);
+        let pixels = [columns, Lanes::splat(self.y as f32)];
         let positions = space.unproject_pixels(pixels, depths);
         // The surface's plane, from the pixel beside that continues it best.
         let [dx, dy] = depth_slopes(self.depths, [self.x, self.y], depths);
@@ -156,9 +168,10 @@ impl SearchEight<'_> {
 
     /// Projects the normals into a slice: its weight, and the tilt of the surface in it.
     #[inline(always)]
-    fn project_normals(&self, surfaces: &Surfaces, index: usize) -> Slice {
+    fn project_normals(&self, surfaces: &Surfaces<N>, index: usize) -> Slice<N> {
         let Surfaces { pixels, positions, depths, normals, views, radii } = surfaces;
-        let direction = self.pattern.directions[self.y % PATTERN_SIDE][index];
+        let directions = &self.pattern.directions[self.y % PATTERN_SIDE][index];
+        let direction = [0, 1].map(|axis| self.lanes_of(&directions[axis]));
         let reach = radii.max(1.0);
         let ahead = [pixels[0] + direction[0] * reach, pixels[1] + direction[1] * reach];
         let along = self.space.unproject_pixels(ahead, *depths) - *positions;
@@ -183,15 +196,15 @@ impl SearchEight<'_> {
     /// farther away it is: occlusion falls off with the square of the distance. Where a surface
     /// faces the viewer, the light below a height is proportional to the height's square.
     #[inline(always)]
-    fn find_horizons(&self, surfaces: &Surfaces, slice: &Slice) -> [Eight; 2] {
+    fn find_horizons(&self, surfaces: &Surfaces<N>, slice: &Slice<N>) -> [Lanes<N>; 2] {
         let inv_radius = 1.0 / self.space.radius();
+        let step_offsets = self.lanes_of(&self.pattern.step_offsets[self.y % PATTERN_SIDE]);
         let surface_horizons = slice.surface_horizons();
-        let mut occluded = [Eight::ZERO; 2];
-        let mut highest = [Eight::splat(SURFACE_TOLERANCE * SURFACE_TOLERANCE); 2];
+        let mut occluded = [Lanes::ZERO; 2];
+        let mut highest = [Lanes::splat(SURFACE_TOLERANCE * SURFACE_TOLERANCE); 2];
         for step in 0..STEP_COUNT {
             // Steps are short nearby, where they have most weight.
-            let t = (step as f32 + self.pattern.step_offsets[self.y % PATTERN_SIDE])
-                * (1.0 / STEP_COUNT as f32);
+            let t = (step as f32 + step_offsets) * (1.0 / STEP_COUNT as f32);
             let distance = 1.0 + t * t * (surfaces.radii - 1.0);
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
                 let (found, depths) = self.surface_at(surfaces, slice, distance * sign);
@@ -201,8 +214,8 @@ impl SearchEight<'_> {
                 let radii = squared * (inv_radius * inv_radius);
                 // Of what is too far away, or not there, no light is taken: less than the highest.
                 let is_near = radii.is_below(1.0);
-                let light = light.select(&depths.is_above(0.0), Eight::ZERO);
-                let light = light.select(&is_near, Eight::ZERO);
+                let light = light.select(&depths.is_above(0.0), Lanes::ZERO);
+                let light = light.select(&is_near, Lanes::ZERO);
                 let taken = (light - highest[side]).max(0.0) * (1.0 - radii.min(1.0));
                 occluded[side] += taken;
                 highest[side] = highest[side].max_lanes(light);
@@ -216,17 +229,17 @@ impl SearchEight<'_> {
     #[inline(always)]
     fn surface_at(
         &self,
-        surfaces: &Surfaces,
-        slice: &Slice,
-        distance: Eight,
-    ) -> (Vec3Lanes<LANES>, Eight) {
+        surfaces: &Surfaces<N>,
+        slice: &Slice<N>,
+        distance: Lanes<N>,
+    ) -> (Vec3Lanes<N>, Lanes<N>) {
         let [width, height] = self.space.size();
         let [column, row] = surfaces.pixels;
         let x = containing_pixels(column + slice.direction[0] * distance + 0.5, width);
         let y = containing_pixels(row + slice.direction[1] * distance + 0.5, height);
-        let depths = Eight::from_fn(|lane| self.depths.at([x[lane], y[lane]], [0, 0]));
-        let columns = Eight::from_fn(|lane| x[lane] as f32);
-        let rows = Eight::from_fn(|lane| y[lane] as f32);
+        let depths = Lanes::from_fn(|lane| self.depths.at([x[lane], y[lane]], [0, 0]));
+        let columns = Lanes::from_fn(|lane| x[lane] as f32);
+        let rows = Lanes::from_fn(|lane| y[lane] as f32);
         let found = self.space.unproject_pixels([columns, rows], depths) - surfaces.positions;
         // The pixel's center lies beside the slice. Moved into it along the surface, what is on the
         // surface stays on it.
@@ -236,8 +249,8 @@ impl SearchEight<'_> {
 
 /// The pixels that contain coordinates; those beyond the picture move to the margin.
 #[inline(always)]
-fn containing_pixels(coordinates: Eight, side: u32) -> [i32; LANES] {
-    let mut pixels = [0; LANES];
+fn containing_pixels<const N: usize>(coordinates: Lanes<N>, side: u32) -> [i32; N] {
+    let mut pixels = [0; N];
     for (pixel, value) in pixels.iter_mut().zip(coordinates.0) {
         let is_inside = (value >= 0.0) & (value < side as f32);
         *pixel = floor_to_int(if is_inside { value } else { -1.0 });
@@ -251,17 +264,21 @@ fn containing_pixels(coordinates: Eight, side: u32) -> [i32; LANES] {
 /// next beyond it. Beside a silhouette that is the neighbor on the surface, and at a crease one of
 /// the two faces.
 #[inline(always)]
-pub(super) fn depth_slopes(grid: &PixelGrid, at: [usize; 2], depths: Eight) -> [Eight; 2] {
+pub(super) fn depth_slopes<const N: usize>(
+    grid: &PixelGrid,
+    at: [usize; 2],
+    depths: Lanes<N>,
+) -> [Lanes<N>; 2] {
     [[1, 0], [0, 1]].map(|[dx, dy]: [isize; 2]| {
-        let next = grid.eight_at(at, [dx, dy]);
-        let after_next = grid.eight_at(at, [2 * dx, 2 * dy]);
-        let last = grid.eight_at(at, [-dx, -dy]);
-        let before_last = grid.eight_at(at, [-2 * dx, -2 * dy]);
+        let next = grid.lanes_at(at, [dx, dy]);
+        let after_next = grid.lanes_at(at, [2 * dx, 2 * dy]);
+        let last = grid.lanes_at(at, [-dx, -dy]);
+        let before_last = grid.lanes_at(at, [-2 * dx, -2 * dy]);
         let (forward, backward) = (next - depths, depths - last);
         let forward_bend = (after_next - next - forward).abs();
         let backward_bend = (backward - (last - before_last)).abs();
-        let mut slopes = Eight::ZERO;
-        for lane in 0..LANES {
+        let mut slopes = Lanes::ZERO;
+        for lane in 0..N {
             let (has_next, has_last) = (next[lane] > 0.0, last[lane] > 0.0);
             let takes_next = has_next & (!has_last | (forward_bend[lane] < backward_bend[lane]));
             let slope = if has_last { backward[lane] } else { 0.0 };
@@ -274,7 +291,7 @@ pub(super) fn depth_slopes(grid: &PixelGrid, at: [usize; 2], depths: Eight) -> [
 /// The light between the view and a horizon: the integral of the cosine to the normal times the
 /// sine to the view, (cos n − cos(2h − n) + 2h · sin n) / 4 (Jimenez et al. 2016, eq. 7).
 #[inline(always)]
-fn integrate_arc(horizon: Eight, cosine: Eight, sine: Eight) -> Eight {
+fn integrate_arc<const N: usize>(horizon: Lanes<N>, cosine: Lanes<N>, sine: Lanes<N>) -> Lanes<N> {
     let horizon = horizon.max(-1.0).min(1.0);
     let angle = arc_cosines(horizon);
     let horizon_sine = (1.0 - horizon * horizon).sqrt();
@@ -288,7 +305,7 @@ fn integrate_arc(horizon: Eight, cosine: Eight, sine: Eight) -> Eight {
 /// Arc cosines of numbers from −1 to 1, off by at most 7 · 10⁻⁵ (Abramowitz and Stegun 1964,
 /// 4.4.45).
 #[inline(always)]
-fn arc_cosines(cosines: Eight) -> Eight {
+fn arc_cosines<const N: usize>(cosines: Lanes<N>) -> Lanes<N> {
     let x = cosines.abs();
     let polynomial = ((-0.018_729_3 * x + 0.074_261) * x - 0.212_114_4) * x + 1.570_728_8;
     let angle = (1.0 - x).sqrt() * polynomial;

@@ -218,13 +218,17 @@ impl PixelGrid {
             [((row + MARGIN as isize) * self.stride as isize + column + MARGIN as isize) as usize]
     }
 
-    /// The numbers of eight pixels to the right of one, moved by an offset of at most eight.
+    /// The numbers of pixels to the right of one, moved by an offset of at most eight.
     #[inline(always)]
-    pub(super) fn eight_at(&self, [x, y]: [usize; 2], [dx, dy]: [isize; 2]) -> Lanes<LANES> {
+    pub(super) fn lanes_at<const N: usize>(
+        &self,
+        [x, y]: [usize; 2],
+        [dx, dy]: [isize; 2],
+    ) -> Lanes<N> {
         let row = (y + MARGIN).wrapping_add_signed(dy);
         let start = row * self.stride + (x + MARGIN).wrapping_add_signed(dx);
         let mut lanes = Lanes::ZERO;
-        lanes.0.copy_from_slice(&self.values[start..start + LANES]);
+        lanes.0.copy_from_slice(&self.values[start..start + N]);
         lanes
     }
 }

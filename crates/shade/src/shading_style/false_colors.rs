@@ -4,6 +4,7 @@ use crate::Draw;
 use crate::approximations::{exp2_approx, floor_to_int, log2_approx};
 use crate::attributes::VertexIndices;
 use crate::fragment_lanes::FragmentLanes;
+use crate::kernel_part::kernel_part;
 use crate::lanes::{Lanes, Rgb, Vec3Lanes};
 use crate::vector::normalize_or_zero;
 use model::TextureInfo;
@@ -79,6 +80,12 @@ pub(super) fn part_color(part: u32) -> [f32; 3] {
 /// The linear colors with these sRGB codes, from 0 to 1.
 #[inline(always)]
 pub(super) fn decode_codes<const N: usize>(codes: Rgb<N>) -> Rgb<N> {
+    kernel_part!(N, decode_curve(codes))
+}
+
+/// The sRGB curve, decoded.
+#[inline(always)]
+fn decode_curve<const N: usize>(codes: Rgb<N>) -> Rgb<N> {
     codes.map(|code| {
         let base = (code + 0.055) / 1.055;
         let curve = base.max(f32::MIN_POSITIVE).map(|base| exp2_approx(2.4 * log2_approx(base)));

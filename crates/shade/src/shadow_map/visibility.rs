@@ -23,7 +23,16 @@ impl ShadowMap {
         if !wanted.contains(&true) {
             return Lanes::ZERO;
         }
-        SimdLevel::best().run_kernel(FindVisibility { map: self, receiver, wanted })
+        let kernel = FindVisibility { map: self, receiver, wanted };
+        // Eight receivers are a part of a wide kernel. One may have no such kernel around it.
+        if const { N == 1 } {
+            SimdLevel::best().run_kernel(kernel)
+        } else {
+            SimdLevel::run_part(
+                #[inline(always)]
+                || kernel.run(),
+            )
+        }
     }
 }
 
