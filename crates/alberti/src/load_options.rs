@@ -74,6 +74,9 @@ struct LimitArgs {
     /// Number of points, lines and triangles of a model, counting every instance [default: 200M]
     #[arg(long, value_name = "N", value_parser = parse_byte_size)]
     max_scene_items: Option<u64>,
+    /// Memory of the arrays and images of all models of a scene in bytes [default: 4GiB]
+    #[arg(long, value_name = "SIZE", value_parser = parse_byte_size)]
+    max_scene_bytes: Option<u64>,
 }
 
 impl LoadArgs {
@@ -130,6 +133,7 @@ impl LimitArgs {
             nodes: size(self.max_nodes, defaults.nodes),
             node_depth: size(self.max_node_depth, defaults.node_depth),
             scene_items: self.max_scene_items.unwrap_or(defaults.scene_items),
+            scene_bytes: self.max_scene_bytes.unwrap_or(defaults.scene_bytes),
         }
     }
 }

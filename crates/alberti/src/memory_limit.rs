@@ -25,6 +25,7 @@ pub(crate) fn import_limits(usual: &Limits, memory: u64) -> Limits {
         json_values: count(usual.json_values, 256),
         nodes: count(usual.nodes, 2_048),
         scene_items: usual.scene_items.min(memory / 64),
+        scene_bytes: usual.scene_bytes.min(memory / 2),
         ..usual.clone()
     }
 }

@@ -104,6 +104,32 @@ pub struct MorphTarget {
 }
 
 impl Primitive {
+    /// The bytes of all arrays.
+    pub(crate) fn array_bytes(&self) -> usize {
+        fn bytes<T>(array: &Option<Vec<T>>) -> usize {
+            array.as_deref().map_or(0, size_of_val)
+        }
+        fn all_bytes<T>(arrays: &[Vec<T>]) -> usize {
+            arrays.iter().map(|array| size_of_val(&**array)).sum()
+        }
+        let of_target = |target: &MorphTarget| {
+            bytes(&target.positions)
+                + bytes(&target.normals)
+                + bytes(&target.tangents)
+                + target.uvs.iter().map(bytes).sum::<usize>()
+                + bytes(&target.colors)
+        };
+        size_of_val(&*self.indices)
+            + size_of_val(&*self.positions)
+            + bytes(&self.normals)
+            + bytes(&self.tangents)
+            + all_bytes(&self.uvs)
+            + bytes(&self.colors)
+            + all_bytes(&self.joint_indices)
+            + all_bytes(&self.joint_weights)
+            + self.morph_targets.iter().map(of_target).sum::<usize>()
+    }
+
     /// Number of points, lines or triangles.
     #[must_use]
     pub fn item_count(&self) -> usize {

@@ -6,7 +6,7 @@
 
 use crate::{
     Animation, Diagnostic, Image, ImageInfo, LengthUnit, Material, Mesh, ModelCamera, Node,
-    PunctualLight, SceneRoots, Skin, Texture, UpAxis, UvTransform,
+    Primitive, PunctualLight, SceneRoots, Skin, Texture, UpAxis, UvTransform,
 };
 
 /// One file's meshes, materials, textures, scene graph and animations.
@@ -67,4 +67,15 @@ pub struct Model {
     pub image_infos: Vec<ImageInfo>,
     /// Warnings of the importer: everything that was left out, replaced or corrected, and where.
     pub warnings: Vec<Diagnostic>,
+}
+
+impl Model {
+    /// The bytes of the arrays of all meshes and of the decoded images.
+    #[must_use]
+    pub fn array_bytes(&self) -> u64 {
+        let meshes =
+            self.meshes.iter().flat_map(|mesh| &mesh.primitives).map(Primitive::array_bytes);
+        let images = self.images.iter().flatten().map(|image| size_of_val(&*image.rgba));
+        meshes.chain(images).map(|bytes| bytes as u64).sum()
+    }
 }

@@ -36,6 +36,8 @@ pub struct Limits {
     /// Points, lines and triangles of the active scene, counted for every instance; vertices and
     /// joints of skinned meshes count as well. Default: 200 million.
     pub scene_items: u64,
+    /// Bytes of the arrays and images of all models of a scene, each loaded once. Default: 4 GiB.
+    pub scene_bytes: u64,
 }
 
 impl Default for Limits {
@@ -53,6 +55,7 @@ impl Default for Limits {
             nodes: 1_000_000,
             node_depth: 1_024,
             scene_items: 200_000_000,
+            scene_bytes: 4 << 30,
         }
     }
 }

@@ -9,6 +9,7 @@ use super::resolve_options::ResolveOptions;
 use super::suggest::{closest_name, suggest_name};
 use super::syntax::PathStep::{Field, Index};
 use super::{Origin, ResolveError, SceneError, SceneErrors, SceneFile};
+use model::codes::LIMIT_EXCEEDED;
 use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes, load_from_memory};
 use model::{LengthUnit, Model, ModelInstance, UpAxis};
 use std::collections::BTreeMap;
@@ -27,7 +28,12 @@ type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
 #[derive(Default)]
 struct LoadedModels<'a> {
     by_pose: BTreeMap<Pose, Alike<'a>>,
+    /// The bytes of their arrays and images.
+    bytes: u64,
 }
+
+/// Arrays that an importer may make and drop, however little is left.
+const SCRATCH_BYTES: u64 = 1 << 20;
 
 impl<'a> LoadedModels<'a> {
     /// The model of an entry: one that is loaded already, or a new one.
@@ -48,7 +54,26 @@ impl<'a> LoadedModels<'a> {
         {
             return Ok(Arc::clone(model));
         }
-        let model = Arc::new(load_model(origin, number, entry, options)?);
+        // What the models before this one have left; importers count some arrays that they drop.
+        let (mut rest, limits) = (options.clone(), &options.import.limits);
+        let left = limits.scene_bytes.saturating_sub(self.bytes);
+        let with_scratch = left.saturating_mul(2).saturating_add(SCRATCH_BYTES);
+        rest.import.limits.array_bytes = limits.array_bytes.min(with_scratch);
+        rest.import.limits.image_texels = limits.image_texels.min(left / 4);
+        let exceeded = || scene_bytes_error(origin, number, limits.scene_bytes);
+        let loaded = load_model(origin, number, entry, &rest);
+        let model = Arc::new(loaded.map_err(|error| match error {
+            ModelError::File(error)
+                if error.diagnostic.code == LIMIT_EXCEEDED && rest.import.limits != *limits =>
+            {
+                exceeded().into()
+            }
+            other => other,
+        })?);
+        self.bytes = self.bytes.saturating_add(model.array_bytes());
+        if self.bytes > limits.scene_bytes {
+            return Err(exceeded().into());
+        }
         alike.push((&entry.materials, Arc::clone(&model)));
         Ok(model)
     }
@@ -107,6 +132,14 @@ pub(super) fn check_model_paths(
             error.into_iter().for_each(|error| faults.report(error));
         }
     }
+}
+
+/// The models up to one take more memory than those of a scene may.
+fn scene_bytes_error(origin: &Origin, number: usize, most: u64) -> SceneError {
+    let message = format!("with this model, those of the scene take more than {} MiB", most >> 20);
+    let help = "leave out models, simplify them or use smaller textures; \
+                `--max-scene-bytes` allows more";
+    origin.error_at(&[Field("models"), Index(number)], message, Some(help.to_owned()))
 }
 
 /// A model whose path leads out of the scene's folder.
