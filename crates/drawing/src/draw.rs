@@ -155,10 +155,9 @@ fn draw_candidates(
     }
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     warnings.extend(crowd.map(|_| Warning::CrowdApproximated));
-    if let Some(ViewCover { cover, .. }) = &cover
-        && options.hidden_edges != HiddenEdges::Retained
-    {
-        edges.retain(|edge| !cover.hides_segment(edge.ends));
+    if let Some(view) = &cover {
+        // Behind a crowd hidden lines would only be black.
+        edges.retain(|edge| !view.cover.hides_segment(edge.ends));
     }
     edges.sort_by_key(|candidate| candidate.object);
     let face_fill = match options.face_fill {
