@@ -7,6 +7,7 @@
 //! the stream are ignored, because a display that cannot be drawn is no reason to fail. The display
 //! must be dropped before a message is printed, which would otherwise be appended to the line.
 
+use pipeline::Timings;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -27,8 +28,28 @@ const REFRESH_INTERVAL: Duration = Duration::from_millis(100);
 #[derive(Debug)]
 pub(crate) struct Progress {
     /// The channel to the thread that draws the line, and its handle; `None` without a terminal.
-    stages: Option<(Sender<&'static str>, JoinHandle<()>)>,
+    stages: Option<(Sender<Stage>, JoinHandle<()>)>,
 }
+
+/// What the line shows.
+struct Stage {
+    name: &'static str,
+    /// The stopwatch that counts finished bands of rows, and their number.
+    bands: Option<(Timings, usize)>,
+}
+
+impl Stage {
+    /// The percentage that is done of a picture in several bands: `, 34 %`.
+    fn percentage(&self) -> String {
+        let Some((timings, total)) = self.bands.as_ref().filter(|(_, total)| *total > 1) else {
+            return String::new();
+        };
+        format!(", {} %", (100 * timings.count(BAND_STAGE) / total).min(100))
+    }
+}
+
+/// The stage of the stopwatch that ends each band.
+const BAND_STAGE: &str = "encode";
 
 impl Progress {
     /// Starts the display, if the standard error stream is a terminal.
@@ -39,6 +60,7 @@ impl Progress {
     ///
     /// ```text
     /// rendering … 2.4 s
+    /// rendering … 51.0 s, 34 %
     /// ```
     pub(crate) fn start(stage: &'static str) -> Self {
         if !std::io::stderr().is_terminal() {
@@ -46,13 +68,14 @@ impl Progress {
         }
         let (sender, receiver) = channel();
         let watcher = std::thread::spawn(move || {
-            let (mut stage, begin) = (stage, Instant::now());
+            let (mut stage, begin) = (Stage { name: stage, bands: None }, Instant::now());
             loop {
                 match receiver.recv_timeout(REFRESH_INTERVAL) {
                     Ok(next) => stage = next,
                     Err(RecvTimeoutError::Timeout) if begin.elapsed() > DISPLAY_DELAY => {
-                        let seconds = begin.elapsed().as_secs_f32();
-                        let _ = write!(std::io::stderr(), "\r\x1b[K{stage} … {seconds:.1} s");
+                        let (seconds, name) = (begin.elapsed().as_secs_f32(), stage.name);
+                        let done = stage.percentage();
+                        let _ = write!(std::io::stderr(), "\r\x1b[K{name} … {seconds:.1} s{done}");
                     }
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => break,
@@ -70,6 +93,20 @@ impl Progress {
     /// The elapsed time goes on: it is that of the command, not that of the stage. `--timings` has
     /// the stages.
     pub(crate) fn enter_stage(&self, stage: &'static str) {
+        self.send(Stage { name: stage, bands: None });
+    }
+
+    /// Shows from now on how many bands of a picture the stopwatch has counted.
+    pub(crate) fn enter_bands(&self, stage: &'static str, timings: &Timings, total: usize) {
+        self.send(Stage { name: stage, bands: Some((timings.clone(), total)) });
+    }
+
+    /// Whether the line is shown, if work takes long enough.
+    pub(crate) const fn is_shown(&self) -> bool {
+        self.stages.is_some()
+    }
+
+    fn send(&self, stage: Stage) {
         if let Some((sender, _)) = &self.stages {
             let _ = sender.send(stage);
         }

@@ -132,7 +132,7 @@ impl RenderJob<'_> {
         self.check_combination()?;
         let reference = self.args.compare.load_reference(region)?;
         let EncodedPicture { sink, picture, warnings } = match self.task.format {
-            format if format.is_raster() => self.encode_picture(region)?,
+            format if format.is_raster() => self.encode_picture(region, progress)?,
             _ => self.encode_drawing()?,
         };
         let (mut drafts, mut comparison) = (Vec::new(), None);
@@ -220,7 +220,11 @@ impl RenderJob<'_> {
     ///
     /// Errors of rendering and of writing arrive as one type and are separated here, so that a full
     /// disk is reported with the name of the file.
-    fn encode_picture(&self, region: PixelRect) -> Result<EncodedPicture, CliError> {
+    fn encode_picture(
+        &self,
+        region: PixelRect,
+        progress: &Progress,
+    ) -> Result<EncodedPicture, CliError> {
         let textures = self.timings.measure("mip chains", || Textures::for_scene(self.scene));
         let context = RenderContext::new(self.scene, &textures, self.threads);
         let mut renderer = Renderer::default();
@@ -240,6 +244,7 @@ impl RenderJob<'_> {
         let mut sink = self.open_sink()?;
         let mut picture = self.needs_picture().then(Picture::default);
         let rows = rows_per_band(region.width);
+        progress.enter_bands("rendering", self.timings, region.bands(rows).count());
         let depth = if self.outputs.sixteen_bit { BitDepth::Sixteen } else { BitDepth::Eight };
         let written = prepared.write_png(&mut sink, region, rows, depth, picture.as_mut());
         written.map_err(|error| match error {
