@@ -20,6 +20,7 @@ mod book_formulas;
 mod calibrated_cameras;
 mod captions;
 mod check;
+mod colormaps;
 mod compare_projections;
 mod curve;
 mod drawings;

@@ -102,6 +102,9 @@ fn describe_model(model: &Model) -> String {
     if !model.variants.is_empty() {
         line("variants", list_or_none(&model.variants));
     }
+    if !model.scalar_attributes.is_empty() {
+        line("scalars", list_or_none(&model.scalar_attributes));
+    }
     line("extensions", extensions_line(model));
     // Warnings about extensions are in the line of the extensions already.
     let is_about_file = |warning: &&Diagnostic| !warning.location.starts_with("/extensions");

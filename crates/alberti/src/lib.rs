@@ -27,6 +27,7 @@ mod batch;
 mod calibrated_camera;
 mod check;
 mod color;
+mod colormap_flags;
 mod compare;
 mod compare_projections;
 mod content_digest;

@@ -12,6 +12,7 @@
 use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::calibrated_camera::CalibratedCameraArgs;
+use super::colormap_flags::ColormapArgs;
 use super::light::LightArgs;
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
@@ -42,6 +43,8 @@ pub(crate) struct SceneOverrideArgs {
     /// Render style
     #[arg(help_heading = "Picture", long)]
     pub(crate) style: Option<StyleArg>,
+    #[command(flatten)]
+    pub(crate) colormap: ColormapArgs,
     /// Camera of the model, by name or index
     #[arg(help_heading = "Camera", long, value_name = "NAME|INDEX", conflicts_with = "view")]
     pub(crate) camera: Option<String>,
@@ -125,6 +128,7 @@ impl SceneOverrideArgs {
         }
         file.overlays.extend(self.overlay.iter().copied().map(OverlayFile::from));
         self.model_state.apply_to_scene(file);
+        self.colormap.apply_to(file);
         self.light.apply_to(origin, file)?;
         self.apply_to_camera(&mut file.camera)
     }

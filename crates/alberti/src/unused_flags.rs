@@ -71,7 +71,7 @@ pub(super) fn find_unused_overrides(
     if !has_shadows(scene.style) || draws_lines {
         unused.extend(light.shadow_flags(scene.ground.is_some() && !draws_lines));
     }
-    let mut warnings = Vec::new();
+    let mut warnings = flags.colormap.find_unused(scene, draws_lines, style_name(scene.style));
     if !unused.is_empty() {
         let verb = if unused.len() == 1 { "does" } else { "do" };
         warnings.push(format!("{} {verb} nothing here: {reason}", list_flags(&unused)));
@@ -118,7 +118,7 @@ const fn style_name(style: Style) -> &'static str {
         Style::Clay => "clay",
         Style::Matcap => "matcap",
         Style::Normals => "normals",
-        Style::Depth => "depth",
+        Style::Depth(_) => "depth",
         Style::UvChecker => "uv",
         Style::Ids => "ids",
         Style::Toon => "toon",

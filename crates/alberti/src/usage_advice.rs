@@ -94,6 +94,13 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("s size-px", "size", "--size 1920x1080"),
     ("units", "unit", "--unit mm"),
     ("pointsize point-sprites point-radius", "point-size", "--point-size 5"),
+    (
+        "scalar scalar-coloring coloring coloring-array color-by colorby attribute vertex-attribute",
+        "scalars",
+        "--scalars temperature",
+    ),
+    ("cmap color-map colour-map colormap-file lut palette", "colormap", "--colormap turbo"),
+    ("clim crange coloring-range range color-range", "scalar-range", "--scalar-range 0,100"),
     ("animation-time", "time", "--time 1.5"),
     ("animation-index animation-name", "animation", "--animation 0"),
     ("frame-rate framerate", "fps", "--fps 30"),

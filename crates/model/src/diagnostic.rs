@@ -40,7 +40,7 @@ pub mod codes {
     pub const MISSING_DATA: &str = "MISSING_DATA";
     /// The file declares more of something than the [limits](crate::Limits) allow.
     pub const LIMIT_EXCEEDED: &str = "LIMIT_EXCEEDED";
-    /// The options ask for a scene or a variant that the file does not have.
+    /// The options ask for a scene, a variant or a scalar attribute that the file does not have.
     pub const NO_SUCH_ITEM: &str = "NO_SUCH_ITEM";
     /// Something of the file is left out, replaced or corrected.
     pub const LEFT_OUT: &str = "LEFT_OUT";

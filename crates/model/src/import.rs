@@ -37,6 +37,7 @@ mod percent_encoding;
 mod plain_material;
 mod ply;
 mod polygons;
+mod scalars;
 mod srgb;
 mod stl;
 mod surfaces;
@@ -57,6 +58,7 @@ pub use memory_folder::MemoryFolder;
 pub use name_or_index::NameOrIndex;
 pub use obj::PhongMaterial;
 pub use percent_encoding::{percent_decode, percent_encode};
+pub use scalars::ScalarColors;
 
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::{LengthUnit, Model, Timings, Topology, UpAxis};
@@ -81,6 +83,8 @@ pub struct ImportOptions {
     pub scene: Option<NameOrIndex>,
     /// The active material variant (KHR_materials_variants). Default: none.
     pub variant: Option<NameOrIndex>,
+    /// The colors of vertices by a scalar attribute. Default: the colors and materials of the file.
+    pub scalars: Option<ScalarColors>,
     /// Whether images are decoded. Default: those that are visible.
     pub images: ImageLoading,
     /// The axis that points up in the file. Default: what the format says: z for STL and 3MF, y for
@@ -136,8 +140,8 @@ impl ImportOptions {
 ///
 /// # Errors
 /// The file, or one it refers to, cannot be read or is forbidden; is of no known format or breaks
-/// its rules; requires an unsupported extension; exceeds a limit; has no such scene or variant as
-/// the options ask for.
+/// its rules; requires an unsupported extension; exceeds a limit; has no such scene, variant or
+/// scalar attribute as the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     let read = || uri_resolver::read_file(path, &options.limits, "");
     let load_bytes = || {
@@ -236,6 +240,13 @@ fn complete_model(
 ) -> Result<Model, Diagnostic> {
     model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     model.length_unit = options.length_unit.unwrap_or(model.length_unit);
+    if let Some(colors) = &options.scalars {
+        if !matches!(format, FileFormat::Gltf | FileFormat::Ply) {
+            return Err(colors.unsupported_in(format));
+        }
+        let active = colors.find_among(&model.scalar_attributes, "")?;
+        model.active_scalar_attribute = Some(active);
+    }
     model.rotate_roots(options.up.unwrap_or(model.up_axis));
     if format != FileFormat::Gltf {
         check_scene_limits(&model, &options.limits)?;

@@ -7,6 +7,7 @@
 mod animation;
 mod camera;
 mod check;
+mod colormap;
 mod diagnostic;
 pub mod import;
 mod length_unit;
@@ -28,8 +29,9 @@ pub use animation::{
 };
 pub use camera::{CameraProjection, ModelCamera};
 pub use check::{CheckReport, check_bytes, check_file};
+pub use colormap::Colormap;
 pub use diagnostic::{Diagnostic, Severity, codes};
-pub use import::{FileFormat, ImportError, ImportOptions, Limits, load, load_bytes};
+pub use import::{FileFormat, ImportError, ImportOptions, Limits, ScalarColors, load, load_bytes};
 pub use length_unit::LengthUnit;
 pub use light::{LightKind, PunctualLight};
 pub use material::{

@@ -59,6 +59,12 @@ pub struct Model {
     pub variants: Vec<String>,
     /// The active material variant; `None` for the materials that primitives have without variants.
     pub active_variant: Option<usize>,
+    /// Names of the scalar attributes of vertices that colors can show
+    /// ([`ImportOptions::scalars`](crate::ImportOptions::scalars)): `_TEMPERATURE` in glTF, `quality`
+    /// in PLY.
+    pub scalar_attributes: Vec<String>,
+    /// The scalar attribute that the colors of the vertices show; `None` for the colors of the file.
+    pub active_scalar_attribute: Option<usize>,
     /// Names of the extensions the file uses, sorted.
     pub extensions_used: Vec<String>,
     /// Names of the extensions the file requires, sorted.

@@ -99,8 +99,8 @@ pub use suggest::closest_name;
 use camera::ViewProjection;
 use drawing::{LineStyle, Overlay};
 use homog::{PixelRect, Plane, Point, World};
-use model::ModelInstance;
 use model::import::ImportError;
+use model::{Colormap, ModelInstance};
 use raster::Samples;
 use shade::{Backdrop, Environment, Light, ToneMapper};
 use std::path::{Path, PathBuf};
@@ -228,8 +228,8 @@ pub enum Style {
     Matcap,
     /// Normals as colours.
     Normals,
-    /// The nearer, the brighter.
-    Depth,
+    /// The nearer, the brighter; in a colormap, the closer to its last color.
+    Depth(Option<Colormap>),
     /// A checkerboard by texture coordinates.
     UvChecker,
     /// A colour for each part.
@@ -254,7 +254,7 @@ impl Style {
     /// Whether colors stand for numbers: normals, depths, texture coordinates, parts.
     #[must_use]
     pub const fn is_false_color(self) -> bool {
-        matches!(self, Self::Normals | Self::Depth | Self::UvChecker | Self::Ids)
+        matches!(self, Self::Normals | Self::Depth(_) | Self::UvChecker | Self::Ids)
     }
 
     /// Whether surfaces look otherwise than their materials have it.

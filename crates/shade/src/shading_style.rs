@@ -16,8 +16,8 @@ use super::transmission::luminance;
 use super::vector::dot;
 use super::{Draw, DrawKind, Shading};
 use crate::kernel_part::kernel_part;
-use false_colors::{checker_color, decode_codes, matcap_ball_color, part_color};
-use model::AlphaMode;
+use false_colors::{checker_color, decode_codes, map_colors, matcap_ball_color, part_color};
+use model::{AlphaMode, Colormap};
 use raster::{F32x8, Fragment, Fragments, Kernel, LANES, Surface, shade_each};
 use std::f32::consts::FRAC_1_PI;
 
@@ -33,12 +33,15 @@ pub enum ShadingStyle {
     Matcap,
     /// The normal in the world: red, green and blue are (n + 1) / 2.
     Normals,
-    /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`.
+    /// Depth along the view axis: 1 at `near`, falling linearly to 0.1 at `far`; or colors, from the
+    /// last of a colormap at `near` to its first at `far`.
     Depth {
-        /// The depth of white.
+        /// The depth of white, or of the last color.
         near: f32,
-        /// The depth of the darkest gray.
+        /// The depth of the darkest gray, or of the first color.
         far: f32,
+        /// The colors; `None` for grays.
+        colormap: Option<Colormap>,
     },
     /// A checkerboard of 8 × 8 squares for each unit of texture coordinates; red grows with u,
     /// green with v.
@@ -225,14 +228,15 @@ impl StyledShading<'_> {
                 let Vec3Lanes { x, y, z } = geometry.normals;
                 decode_codes(Rgb { r: x, g: y, b: z }.map(|c| 0.5 * c + 0.5))
             }
-            ShadingStyle::Depth { near, far } => {
+            ShadingStyle::Depth { near, far, colormap } => {
                 let depth = self.view_depth(&geometry);
                 let mut nearness = Lanes::ONE;
                 if far > near {
                     nearness = ((far - depth) / (far - near)).clamp(0.0, 1.0);
                 }
                 let gray = 0.1 + 0.9 * nearness;
-                decode_codes(Rgb { r: gray, g: gray, b: gray })
+                let gray = Rgb { r: gray, g: gray, b: gray };
+                decode_codes(colormap.map_or(gray, |colormap| map_colors(colormap, nearness)))
             }
             ShadingStyle::Ids => decode_codes(Rgb::splat(part_color(draw.part_id))),
             _ => {

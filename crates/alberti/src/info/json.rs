@@ -67,6 +67,7 @@ pub(super) fn info_document(args: &InfoArgs, model: &Model) -> String {
         "skins": model.skins.iter().map(skin_json).collect::<Vec<_>>(),
         "animations": model.animations.iter().map(|of| animation_json(model, of)).collect::<Vec<_>>(),
         "variants": model.variants,
+        "scalar_attributes": model.scalar_attributes,
         "extensions": extensions_json(model),
         "warnings": warnings_json(model),
     });

@@ -223,6 +223,7 @@ impl MeshArrays {
             normals: self.normals,
             uvs: self.uvs,
             colors: self.vertex_colors,
+            scalars: None,
         };
         let faces = ply::Faces {
             lengths: self.lengths,

@@ -31,6 +31,7 @@ mod model_builder;
 mod morph_target;
 mod node_transform;
 mod primitive;
+mod scalars;
 mod scene_graph;
 mod selection;
 mod skin;

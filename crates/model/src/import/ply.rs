@@ -9,7 +9,8 @@
 //! ```
 //!
 //! A file without faces and edges is a point cloud. Colors are sRGB, whatever their type, and
-//! become linear; texture coordinates begin at the lower left, and are turned over. Faces and
+//! become linear; texture coordinates begin at the lower left, and are turned over. A property
+//! without a meaning here, such as `quality`, can be shown by colors instead. Faces and
 //! corners that carry attributes split the vertices between them.
 
 mod body;
@@ -20,11 +21,11 @@ mod primitives;
 mod tests;
 mod vertices;
 
-use super::ImportOptions;
 use super::memory_budget::MemoryBudget;
 use super::texture_images::{TextureImage, store_images};
 use super::uri_resolver::UriResolver;
 use super::warnings::ImportWarnings;
+use super::{ImportOptions, ScalarColors};
 use crate::diagnostic::Diagnostic;
 use crate::{AlphaMode, Material, Mesh, Model, Node, Sampler, Texture, TextureInfo};
 use body::Body;
@@ -52,7 +53,16 @@ impl Contents {
         };
         let is_translucent = colors.iter().any(|color| color[3] < 1.0);
         let alpha_mode = if is_translucent { AlphaMode::Blend } else { AlphaMode::Opaque };
-        Material { base_color: [1.0; 4], alpha_mode, ..plain }
+        Material { alpha_mode, ..Material::white() }
+    }
+
+    /// Colors the vertices by the scalars that have been read with them; textures and the colors of
+    /// the file do not count then.
+    fn color_by_scalars(&mut self, colors: &ScalarColors, warnings: &mut ImportWarnings) {
+        let values = self.vertices.scalars.take().unwrap_or_default();
+        let colored = colors.color_arrays(&[&values[..]], "element vertex", warnings);
+        self.vertices.colors = Some(colored.concat());
+        (self.vertices.uvs, self.faces.uvs) = (None, None);
     }
 }
 
@@ -69,8 +79,16 @@ pub(super) fn import_ply(
         let message = format!("`{text}` is not a line of a PLY header; it is taken for a comment");
         warnings.push_warning(&format!("line {line}"), message);
     }
-    let contents = options.timings.measure("parse", || read_body(bytes, &header, &mut warnings))?;
-    let mut model = Model::default();
+    let scalar_attributes = vertices::scalar_attributes(&header);
+    let chosen = options.scalars.as_ref();
+    let chosen = chosen.map(|colors| colors.find_among(&scalar_attributes, "element vertex"));
+    let scalar = chosen.transpose()?.map(|index| scalar_attributes[index].as_str());
+    let read = || read_body(bytes, &header, scalar, &mut warnings);
+    let mut contents = options.timings.measure("parse", read)?;
+    if let Some(colors) = &options.scalars {
+        contents.color_by_scalars(colors, &mut warnings);
+    }
+    let mut model = Model { scalar_attributes, ..Model::default() };
     let textures = read_textures(&header, &contents, resolver);
     build_materials(&mut model, textures, &contents, options, &mut warnings);
     let budget = MemoryBudget::new(resolver.limits);
@@ -87,10 +105,12 @@ pub(super) fn import_ply(
     Ok(model)
 }
 
-/// Reads all elements in their order; those without meaning here are skipped.
+/// Reads all elements in their order; those without meaning here are skipped. `scalar` is the
+/// property that is read as the scalar of each vertex.
 fn read_body(
     bytes: &[u8],
     header: &Header,
+    scalar: Option<&str>,
     warnings: &mut ImportWarnings,
 ) -> Result<Contents, Diagnostic> {
     let records = header.elements.iter().fold(0, |sum: u64, it| sum.saturating_add(it.count));
@@ -102,7 +122,7 @@ fn read_body(
     for element in &header.elements {
         let read = match element.name.as_str() {
             "vertex" if contents.vertices.positions.is_empty() => {
-                vertices::read_vertices(&mut body, element, warnings)
+                vertices::read_vertices(&mut body, element, scalar, warnings)
                     .map(|vertices| contents.vertices = vertices)
             }
             "face" => faces::read_faces(&mut body, element, count, warnings)

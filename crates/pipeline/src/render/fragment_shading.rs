@@ -8,6 +8,7 @@
 use super::renderer::FrameMemory;
 use super::shadow_maps::ShadowMapRenderer;
 use crate::scene::{Scene, Style};
+use model::Colormap;
 use shade::{AmbientOcclusion, Shading, ShadingStyle, StyledShading, TransmissionFramebuffer};
 
 /// Physically based shading of the fragments of an assembled frame.
@@ -46,7 +47,7 @@ pub(super) fn style_shading<'a>(
         Style::Clay => ShadingStyle::Clay,
         Style::Matcap => ShadingStyle::Matcap,
         Style::Normals => ShadingStyle::Normals,
-        Style::Depth => depth_style(scene),
+        Style::Depth(colormap) => depth_style(scene, colormap),
         Style::UvChecker => ShadingStyle::UvChecker,
         Style::Ids => ShadingStyle::Ids,
         Style::Toon => ShadingStyle::Toon,
@@ -59,8 +60,8 @@ pub(super) fn style_shading<'a>(
     Some(StyledShading { shading, style, world_to_view, eye_position })
 }
 
-/// The depth style, with its gray ramp from the nearest to the farthest vertex of the scene.
-fn depth_style(scene: &Scene) -> ShadingStyle {
+/// The depth style, with its colors from the nearest to the farthest vertex of the scene.
+fn depth_style(scene: &Scene, colormap: Option<Colormap>) -> ShadingStyle {
     let world_to_view = scene.view_projection.camera.world_to_view();
     let (mut near, mut far) = (f64::INFINITY, f64::NEG_INFINITY);
     for point in scene.world_points() {
@@ -68,5 +69,5 @@ fn depth_style(scene: &Scene) -> ShadingStyle {
         (near, far) = (near.min(depth), far.max(depth));
     }
     // Nothing behind the eye is visible: the ramp starts at the eye at the earliest.
-    ShadingStyle::Depth { near: near.max(0.0) as f32, far: far as f32 }
+    ShadingStyle::Depth { near: near.max(0.0) as f32, far: far as f32, colormap }
 }

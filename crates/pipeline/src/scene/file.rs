@@ -22,6 +22,7 @@ mod occlusion;
 mod overlay;
 mod passes;
 mod projection;
+mod scalars;
 mod section;
 mod shadow;
 mod sheet;
@@ -48,6 +49,7 @@ pub use self::occlusion::AmbientOcclusionFile;
 pub use self::overlay::OverlayFile;
 pub use self::passes::PassesFile;
 pub use self::projection::ProjectionFile;
+pub use self::scalars::ScalarsFile;
 pub use self::section::SectionFile;
 pub use self::shadow::ShadowsFile;
 pub use self::sheet::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
@@ -60,7 +62,7 @@ pub use super::number::{
 };
 use super::schema::{scene_enum, scene_struct};
 use crate::import;
-use model::{LengthUnit, UpAxis};
+use model::{Colormap, LengthUnit, UpAxis};
 
 scene_struct! {
     /// A scene file. It begins with the name and brackets of this struct, around its fields:
@@ -103,6 +105,9 @@ scene_struct! {
         pub ambient_occlusion: Option<AmbientOcclusionFile> = None,
         /// The style: how surfaces are drawn. Default: `Shaded`.
         pub style: StyleFile = StyleFile::Shaded,
+        /// The colors of the style `Depth`: the nearest vertex of the models has the last color of
+        /// the colormap, the farthest the first. Default: grays, bright where it is near.
+        pub depth_colormap: Option<Colormap> = None,
         /// The image: its size, background and sampling. Default: 960 × 720 pixels, transparent.
         pub image: ImageFile = ImageFile::default(),
         /// Explanations drawn over the picture. Default: none.
@@ -153,6 +158,8 @@ scene_struct! {
         pub time: Option<Finite>,
         /// Instances of the model. Default: one.
         pub instances: Option<InstancesFile>,
+        /// Colors by a scalar attribute of its vertices. Default: its colors and materials.
+        pub scalars: Option<ScalarsFile>,
         /// Overrides of its materials. Default: none.
         pub materials: Vec<MaterialFile> = Vec::new(),
     }

@@ -305,6 +305,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
         environment,
         ambient_occlusion,
         style,
+        depth_colormap,
         image,
         overlays,
         caption,
@@ -336,6 +337,7 @@ fn merge_scenes(below: MergedScene, above: MergedScene) -> MergedScene {
             old.ambient_occlusion
         },
         style: if has("style") { style } else { old.style },
+        depth_colormap: if has("depth_colormap") { depth_colormap } else { old.depth_colormap },
         image: if has("image") { image } else { old.image },
         overlays: concat_lists(old.overlays, overlays),
         caption: if has("caption") { caption } else { old.caption },

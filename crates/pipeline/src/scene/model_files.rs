@@ -1,7 +1,7 @@
 //! The models of a scene: loaded, posed and copied to their places.
 
 use super::diagnostics::Diagnostics;
-use super::file::{Choice, Finite, MaterialFile, ModelFile};
+use super::file::{Choice, Finite, MaterialFile, ModelFile, ScalarsFile};
 use super::instances;
 use super::material_overrides::override_materials;
 use super::origin::ModelSource;
@@ -20,14 +20,18 @@ use std::sync::Arc;
 /// angle and time.
 type Pose = (PathBuf, (Option<UpAxis>, Option<LengthUnit>), [Option<Choice>; 3], [Option<u64>; 2]);
 
-/// The models of one pose, one for each set of material overrides.
-type Alike<'a> = Vec<(&'a [MaterialFile], Arc<Model>)>;
+/// A model of one pose with its colors and materials.
+struct ColoredModel<'a> {
+    scalars: Option<&'a ScalarsFile>,
+    materials: &'a [MaterialFile],
+    model: Arc<Model>,
+}
 
 /// The models that are loaded. Models in one pose are shared; a model in two poses, or with other
 /// materials, is two models.
 #[derive(Default)]
 struct LoadedModels<'a> {
-    by_pose: BTreeMap<Pose, Alike<'a>>,
+    by_pose: BTreeMap<Pose, Vec<ColoredModel<'a>>>,
     /// The bytes of their arrays and images.
     bytes: u64,
 }
@@ -49,10 +53,11 @@ impl<'a> LoadedModels<'a> {
         let choices = [&entry.scene, &entry.variant, &entry.animation].map(Clone::clone);
         let pose = (origin.folder.join(&entry.path), (entry.up, entry.unit), choices, bits);
         let alike = self.by_pose.entry(pose).or_default();
-        if let Some((_, model)) =
-            alike.iter().find(|(materials, _)| **materials == *entry.materials)
-        {
-            return Ok(Arc::clone(model));
+        let (scalars, materials) = (entry.scalars.as_ref(), entry.materials.as_slice());
+        let is_same =
+            |one: &&ColoredModel<'_>| one.scalars == scalars && one.materials == materials;
+        if let Some(loaded) = alike.iter().find(is_same) {
+            return Ok(Arc::clone(&loaded.model));
         }
         // What the models before this one have left; importers count some arrays that they drop.
         let (mut rest, limits) = (options.clone(), &options.import.limits);
@@ -74,7 +79,7 @@ impl<'a> LoadedModels<'a> {
         if self.bytes > limits.scene_bytes {
             return Err(exceeded().into());
         }
-        alike.push((&entry.materials, Arc::clone(&model)));
+        alike.push(ColoredModel { scalars, materials, model: Arc::clone(&model) });
         Ok(model)
     }
 }
@@ -240,6 +245,7 @@ fn load_model(
         up: options.import.up.or(entry.up),
         length_unit: options.import.length_unit.or(entry.unit),
         crease_angle: options.import.crease_angle.or(resolve_crease(origin, number, entry)?),
+        scalars: entry.scalars.as_ref().map(Into::into).or(options.import.scalars.clone()),
         ..options.import.clone()
     };
     let loaded = match &origin.models {
@@ -276,8 +282,8 @@ fn resolve_crease(
     Err(origin.error_at(&at, format!("there is no crease angle of {angle} degrees"), Some(help)))
 }
 
-/// A scene or a variant that the model does not have is a mistake of the scene file, if there is
-/// one.
+/// A scene, a variant or a scalar attribute that the model does not have is a mistake of the scene
+/// file, if there is one.
 fn choice_error(
     origin: &Origin,
     number: usize,
@@ -287,8 +293,13 @@ fn choice_error(
     if origin.text.is_empty() || error.diagnostic.code != model::codes::NO_SUCH_ITEM {
         return ModelError::File(error);
     }
-    let scene = entry.scene.is_some() && error.diagnostic.location == "/scenes";
-    let field = if scene { "scene" } else { "variant" };
+    let location = error.diagnostic.location.as_str();
+    let field = match location {
+        "/scenes" if entry.scene.is_some() => "scene",
+        _ if entry.variant.is_some() && location.starts_with("/extensions") => "variant",
+        _ if entry.scalars.is_some() => "scalars",
+        _ => "variant",
+    };
     let message = format!("{}: {}", entry.path, error.diagnostic.message);
     let at = [Field("models"), Index(number), Field(field)];
     origin.error_at(&at, message, error.diagnostic.help).into()

@@ -8,7 +8,7 @@ use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::{CameraAxes, NamedView};
 use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
-use model::{LengthUnit, UpAxis};
+use model::{Colormap, LengthUnit, UpAxis};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
 use sheet::{DecimalMark, DimensionUnit, ExplosionAxis, SheetFrame, TitleBlockLanguage};
@@ -76,6 +76,17 @@ named_values! {
         X = "x is up, y to the left and z to the front, as in COLLADA.",
         Y = "y is up, x to the right and z to the front: glTF, OBJ and PLY.",
         Z = "z is up, x to the right and y to the back: STL and 3MF, Blender and CAD programs.",
+    }
+}
+
+named_values! {
+    /// A colormap: colors for numbers.
+    Colormap as "Colormap" {
+        Viridis = "From dark violet through green to yellow, perceptually uniform.",
+        Turbo = "A rainbow from dark blue through green to dark red.",
+        Inferno = "From black through red to light yellow, perceptually uniform.",
+        Grayscale = "From black to white.",
+        CoolWarm = "From blue through light gray to red, for values on both sides of a middle.",
     }
 }
 

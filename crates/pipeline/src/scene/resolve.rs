@@ -231,7 +231,7 @@ pub(super) fn resolve_without_insets(
 ) -> Option<Scene> {
     let image = resolve_image(origin, file, faults);
     let caption = faults.take(resolve_caption(origin, file.caption.as_ref()));
-    let style = faults.take(resolve_style(origin, &file.style));
+    let style = faults.take(resolve_style(origin, file));
     let sections = resolve_sections(origin, &file.sections, faults);
     let shadow = faults.take(resolve_scene_shadow(origin, file));
     let described = resolve_described_lights(origin, file, shadow.flatten(), faults);

@@ -28,7 +28,7 @@ pub(super) fn check_sheet(
     let sections = sections.filter(|_| models.is_some()).unwrap_or_default();
     let models = models.unwrap_or_default();
     let uncut = resolve_uncut(origin, &file.sections, models).unwrap_or_default();
-    let style = match resolve_style(origin, &file.style) {
+    let style = match resolve_style(origin, file) {
         Ok(Style::Lines(style)) if !models.is_empty() => Some(style),
         _ => None,
     };

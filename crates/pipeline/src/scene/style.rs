@@ -3,19 +3,19 @@
 use super::file::{LinesFile, StyleFile, WidthFile};
 use super::number::{CreaseAngle, Positive};
 use super::syntax::PathStep::{self, Field};
-use super::{Origin, SceneError, Style};
+use super::{Origin, SceneError, SceneFile, Style};
 use drawing::{IsoLineGroup, LineStyle, LineWidths};
 
 /// The style of a scene.
-pub(super) fn resolve_style(origin: &Origin, file: &StyleFile) -> Result<Style, SceneError> {
-    Ok(match file {
+pub(super) fn resolve_style(origin: &Origin, file: &SceneFile) -> Result<Style, SceneError> {
+    Ok(match &file.style {
         StyleFile::Shaded => Style::Shaded,
         StyleFile::Flat => Style::Flat,
         StyleFile::Gouraud => Style::Gouraud,
         StyleFile::Clay => Style::Clay,
         StyleFile::Matcap => Style::Matcap,
         StyleFile::Normals => Style::Normals,
-        StyleFile::Depth => Style::Depth,
+        StyleFile::Depth => Style::Depth(file.depth_colormap),
         StyleFile::UvChecker => Style::UvChecker,
         StyleFile::Ids => Style::Ids,
         StyleFile::Toon => Style::Toon,

@@ -1,4 +1,4 @@
-//! The colors of styles: matcap, checkerboard, part colors, and numbers as sRGB codes.
+//! The colors of styles: matcap, checkerboard, part colors, colormaps, and numbers as sRGB codes.
 
 use crate::Draw;
 use crate::approximations::{exp2_approx, floor_to_int, log2_approx};
@@ -7,7 +7,7 @@ use crate::fragment_lanes::FragmentLanes;
 use crate::kernel_part::kernel_part;
 use crate::lanes::{Lanes, Rgb, Vec3Lanes};
 use crate::vector::normalize_or_zero;
-use model::TextureInfo;
+use model::{Colormap, TextureInfo};
 
 /// The squares of a checkerboard in a unit of texture coordinates.
 const CHECKER_SQUARES: f32 = 8.0;
@@ -75,6 +75,17 @@ pub(super) fn part_color(part: u32) -> [f32; 3] {
         let sextant = (hue * 6.0 + shift) % 6.0;
         low + (high - low) * ((sextant - 3.0).abs() - 1.0).clamp(0.0, 1.0)
     })
+}
+
+/// The colors of numbers from 0 to 1 in a colormap, as sRGB codes from 0 to 1.
+#[inline(always)]
+pub(super) fn map_colors<const N: usize>(colormap: Colormap, numbers: Lanes<N>) -> Rgb<N> {
+    let mut colors = Rgb::ZERO;
+    for lane in 0..N {
+        let [r, g, b] = colormap.srgb_at(numbers[lane]);
+        (colors.r[lane], colors.g[lane], colors.b[lane]) = (r, g, b);
+    }
+    colors
 }
 
 /// The linear colors with these sRGB codes, from 0 to 1.

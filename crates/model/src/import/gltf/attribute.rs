@@ -42,6 +42,11 @@ pub(super) const TEXCOORD: AllowedFormats =
 /// Vertex colors, linear RGB with or without alpha.
 pub(super) const COLOR: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec3, Type::Vec4], component_types: &[F32, U8, U16] };
+/// Scalars of a custom attribute, such as `_TEMPERATURE`.
+pub(super) const CUSTOM_SCALAR: AllowedFormats = AllowedFormats {
+    element_types: &[Type::Scalar],
+    component_types: &[F32, I8, U8, I16, U16, U32],
+};
 /// Joint indices, four a vertex.
 pub(super) const JOINTS: AllowedFormats =
     AllowedFormats { element_types: &[Type::Vec4], component_types: &[U8, U16] };

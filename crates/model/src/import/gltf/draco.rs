@@ -17,7 +17,7 @@
 use super::accessor::AccessorReader;
 use super::elements::{ResolvedAccessor, StridedBytes};
 use crate::diagnostic::Diagnostic;
-use gltf::json::mesh::Primitive;
+use gltf::json::mesh::{Primitive, Semantic};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -78,8 +78,8 @@ struct DracoStream<'a> {
     pointer: String,
 }
 
-/// Decodes the stream of a primitive, its tangents only if they are needed; `pointer` is the
-/// location of the primitive. `None` if it is not compressed.
+/// Decodes the stream of a primitive, its tangents only if they are needed, of its custom attributes
+/// that of `custom`; `pointer` is the location of the primitive. `None` if it is not compressed.
 ///
 /// # Errors
 /// A member of the extension is missing, an accessor is invalid, the counts of the attributes
@@ -88,6 +88,7 @@ pub(super) fn decode_draco(
     source: &AccessorReader<'_>,
     json: &Primitive,
     tangents: bool,
+    custom: Option<&Semantic>,
     pointer: &str,
 ) -> Result<Option<DracoData>, Diagnostic> {
     let Some(extension) = draco_extension(json) else { return Ok(None) };
@@ -102,7 +103,7 @@ pub(super) fn decode_draco(
     };
     let view = usize::try_from(view).unwrap_or(usize::MAX);
     let bytes = source.buffers.buffer_view(view, &format!("{pointer}/bufferView"))?.bytes;
-    let attributes = stream_attributes(json, ids, tangents, &pointer)?;
+    let attributes = stream_attributes(json, ids, tangents, custom, &pointer)?;
     let mut vertices = None;
     for &(accessor, _) in &attributes {
         let count = source.resolve_accessor(accessor, &pointer)?.count;
@@ -126,21 +127,26 @@ pub(super) fn decode_draco(
 
 /// The attributes that are read: accessor and id in the stream.
 ///
-/// Attributes without an id are not in the stream: they are uncompressed, or absent. Custom
-/// attributes and unneeded tangents are skipped, which saves their decoding.
+/// Attributes without an id are not in the stream: they are uncompressed, or absent. Other
+/// custom attributes than `custom` and unneeded tangents are skipped, which saves their decoding.
 fn stream_attributes(
     json: &Primitive,
     ids: &Map<String, Value>,
     tangents: bool,
+    custom: Option<&Semantic>,
     pointer: &str,
 ) -> Result<Vec<(usize, u32)>, Diagnostic> {
-    use gltf::json::mesh::Semantic::{Extras, Tangents};
     use gltf::json::validation::Checked::Valid;
     let mut attributes = Vec::new();
     for (semantic, accessor) in &json.attributes {
         // Attributes without effect on the picture are not decoded.
         let Valid(semantic) = semantic else { continue };
-        if matches!(semantic, Extras(_)) || matches!(semantic, Tangents) && !tangents {
+        let is_skipped = match semantic {
+            Semantic::Extras(_) => custom != Some(semantic),
+            Semantic::Tangents => !tangents,
+            _ => false,
+        };
+        if is_skipped {
             continue;
         }
         let name = semantic.to_string();

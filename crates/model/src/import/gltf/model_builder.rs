@@ -15,8 +15,8 @@ use super::animation::{self, AnimatedObjects};
 use super::document::GltfDocument;
 use super::images::EncodedImages;
 use super::{
-    camera, gpu_instancing, images, lights, material, primitive, scene_graph, selection, skin,
-    texture,
+    camera, gpu_instancing, images, lights, material, primitive, scalars, scene_graph, selection,
+    skin, texture,
 };
 use crate::diagnostic::Diagnostic;
 use crate::import::parallel_decoding::decode_images_alongside;
@@ -41,8 +41,8 @@ pub(super) fn build_model(
     let mut model = timings.measure("geometry", build_graph)?;
     let announced =
         timings.measure("images", || collect_announced_images(source, &model, options.images));
-    let geometry =
-        || timings.measure("geometry", || build_meshes(document, source, &mut model, warnings));
+    let meshes = || build_meshes(document, source, options, &mut model, warnings);
+    let geometry = || timings.measure("geometry", meshes);
     let ((), decoded) = decode_images_alongside(&announced.encoded, timings, geometry)?;
     let announced = (announced, decoded);
     let store = || images::import_images(source, &mut model, announced, options.images, warnings);
@@ -93,6 +93,7 @@ fn build_scene_graph(
         cameras,
         skins: skin::import_skins(source, warnings)?,
         variants: selection::variant_names(root),
+        scalar_attributes: scalars::scalar_attributes(root),
         extensions_used: sorted_names(&root.extensions_used),
         extensions_required: sorted_names(&root.extensions_required),
         ..Model::default()
@@ -127,23 +128,29 @@ fn build_animations(
     Ok(())
 }
 
-/// Reads the meshes with the materials of the active variant, and their instances.
+/// Reads the meshes with the materials of the active variant or the colors of a scalar attribute,
+/// and their instances.
 ///
 /// The limit on scene items is checked at the end, when the number of instances is known.
 fn build_meshes(
     document: &GltfDocument,
     source: &AccessorReader<'_>,
+    options: &ImportOptions,
     model: &mut Model,
     warnings: &mut ImportWarnings,
 ) -> Result<(), Diagnostic> {
+    let mut values = scalars::CollectedScalars::new(options.scalars.as_ref(), model)?;
     let context = primitive::PrimitiveContext {
         materials: &model.materials,
         variants: model.variants.len(),
         untyped: &document.untyped,
     };
-    model.meshes = primitive::import_meshes(source, context, warnings)?;
+    model.meshes = primitive::import_meshes(source, context, &mut values, warnings)?;
     if let Some(variant) = model.active_variant {
         selection::apply_variant(&mut model.meshes, variant);
+    }
+    if let Some(colors) = &options.scalars {
+        values.color_primitives(colors, model, warnings);
     }
     material::warn_of_missing_texcoords(model, warnings);
     gpu_instancing::import_instances(source, &mut model.nodes, warnings)?;

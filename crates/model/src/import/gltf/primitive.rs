@@ -21,6 +21,7 @@ use super::attribute::{
 use super::draco::DracoData;
 use super::elements::ResolvedAccessor;
 use super::morph_target::MorphTargetReader;
+use super::scalars::CollectedScalars;
 use super::untyped_members::UntypedMembers;
 use super::{draco, edge_visibility, selection, topology};
 use crate::diagnostic::{Diagnostic, codes};
@@ -53,7 +54,7 @@ pub(super) struct PrimitiveContext<'a> {
     pub(super) untyped: &'a UntypedMembers,
 }
 
-/// Reads all meshes of a file.
+/// Reads all meshes of a file, and collects the values of a scalar attribute.
 ///
 /// A primitive that cannot be read becomes an empty one, because indices of primitives are part of
 /// JSON pointers and of the public interface: they must not shift.
@@ -64,6 +65,7 @@ pub(super) struct PrimitiveContext<'a> {
 pub(super) fn import_meshes(
     source: &AccessorReader<'_>,
     context: PrimitiveContext<'_>,
+    scalars: &mut CollectedScalars,
     warnings: &mut ImportWarnings,
 ) -> Result<Vec<Mesh>, Diagnostic> {
     let mut meshes = Vec::with_capacity(source.root.meshes.len());
@@ -78,6 +80,7 @@ pub(super) fn import_meshes(
                 context,
                 mesh_and_part: place,
                 pointer,
+                scalars: &mut *scalars,
                 warnings: &mut *warnings,
             };
             primitives.push(match reader.read_primitive() {
@@ -100,7 +103,7 @@ pub(super) fn import_meshes(
 
 /// Reader of one primitive.
 ///
-/// It lives for one primitive; `warnings` is shared by the whole import.
+/// It lives for one primitive; `scalars` and `warnings` are shared by the whole import.
 struct PrimitiveReader<'a, 'w> {
     source: &'a AccessorReader<'a>,
     json: &'a json::mesh::Primitive,
@@ -108,6 +111,7 @@ struct PrimitiveReader<'a, 'w> {
     /// Index of the mesh, and of the primitive in it.
     mesh_and_part: (usize, usize),
     pointer: String,
+    scalars: &'w mut CollectedScalars,
     warnings: &'w mut ImportWarnings,
 }
 
@@ -211,7 +215,8 @@ impl<'a> PrimitiveReader<'a, '_> {
     fn decode_draco_data(&mut self, tangents: bool) -> Result<Option<DracoData>, Diagnostic> {
         let positions = self.attribute_accessor(Semantic::Positions);
         let has_other_data = positions.is_some_and(|accessor| !self.source.has_no_data(accessor));
-        match draco::decode_draco(self.source, self.json, tangents, &self.pointer) {
+        let custom = self.scalars.attribute.as_ref();
+        match draco::decode_draco(self.source, self.json, tangents, custom, &self.pointer) {
             Err(diagnostic) if diagnostic.is_downgradable() && has_other_data => {
                 self.warnings.downgrade(&diagnostic, "the uncompressed data is used");
                 Ok(None)
@@ -347,6 +352,7 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
         let (color, pointer) = named(Semantic::Colors(0));
         primitive.colors = attributes.read_colors(color, &pointer)?;
+        self.scalars.read_values(self.mesh_and_part, &mut attributes, named)?;
         read_joints(primitive, &mut attributes, named)?;
         let (mesh, part) = self.mesh_and_part;
         for (at, json) in json.targets.iter().flatten().enumerate() {

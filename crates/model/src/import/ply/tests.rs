@@ -1,6 +1,7 @@
 //! PLY files made by hand: what they are read as, and what is said about broken ones.
 
-use crate::{AlphaMode, ImportOptions, Model, Topology, load_bytes};
+use crate::import::srgb::linear_from_srgb;
+use crate::{AlphaMode, Colormap, ImportOptions, Model, ScalarColors, Topology, load_bytes};
 
 fn load(bytes: &[u8]) -> Model {
     let model = load_bytes("a.ply", bytes, &ImportOptions::default());
@@ -219,4 +220,56 @@ fn what_other_readers_accept_is_read_with_a_warning() {
         0 0 0 1 0 0 1 1 0 3 0 1 2\n";
     let model = load(joined.as_bytes());
     assert_eq!((corners(&model).len(), model.warnings.len()), (1, 0));
+}
+
+/// Three triangles beside each other; the vertices of each have one value of `quality`, the last
+/// one's is not a number.
+const QUALITIES: &str = "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\n\
+    property float y\nproperty float z\nproperty double quality\nproperty uchar red\n\
+    property uchar green\nproperty uchar blue\nproperty short flags\nelement face 3\n\
+    property list uchar int vertex_indices\nend_header\n\
+    0 0 0 -2 9 9 9 1\n1 0 0 -2 9 9 9 1\n0 1 0 -2 9 9 9 1\n\
+    2 0 0 6 9 9 9 1\n3 0 0 6 9 9 9 1\n2 1 0 6 9 9 9 1\n\
+    4 0 0 nan 9 9 9 1\n5 0 0 nan 9 9 9 1\n4 1 0 nan 9 9 9 1\n\
+    3 0 1 2\n3 3 4 5\n3 6 7 8\n";
+
+#[test]
+fn a_scalar_property_replaces_colors() {
+    let scalars = ScalarColors { attribute: "quality".to_owned(), ..ScalarColors::default() };
+    let options = ImportOptions { scalars: Some(scalars), ..ImportOptions::default() };
+    let model = load_bytes("a.ply", QUALITIES.as_bytes(), &options).unwrap();
+    assert_eq!(model.scalar_attributes, ["flags", "quality"]);
+    assert_eq!(model.active_scalar_attribute, Some(1));
+    let primitive = &model.meshes[0].primitives[0];
+    assert_eq!(model.materials[primitive.material.unwrap()].base_color, [1.0; 4]);
+    let colors = primitive.colors.as_ref().unwrap();
+    for (x, code) in [
+        (0.0, Colormap::Viridis.srgb_at(0.0)),
+        (2.0, Colormap::Viridis.srgb_at(1.0)),
+        (4.0, [0.5; 3]),
+    ] {
+        let vertex = primitive.positions.iter().position(|position| position[0] == x).unwrap();
+        let [r, g, b] = code.map(linear_from_srgb);
+        assert_eq!(colors[vertex], [r, g, b, 1.0], "{x}");
+    }
+    let warnings: Vec<String> = model.warnings.iter().map(|warning| warning.sentence()).collect();
+    let expected = "element vertex: 3 of 9 values of `quality` are not finite; they are drawn gray";
+    assert_eq!(warnings, [expected]);
+    // Without the option, the colors of the file.
+    assert_eq!(load(QUALITIES.as_bytes()).active_scalar_attribute, None);
+}
+
+#[test]
+fn a_scalar_property_that_is_not_there_is_an_error_with_those_that_are() {
+    let fault = |name: &str, file: &str, attribute: &str| {
+        let scalars = ScalarColors { attribute: attribute.to_owned(), ..ScalarColors::default() };
+        let options = ImportOptions { scalars: Some(scalars), ..ImportOptions::default() };
+        let error = load_bytes(name, file.as_bytes(), &options).unwrap_err().diagnostic;
+        assert_eq!(error.code, crate::codes::NO_SUCH_ITEM);
+        error.sentence()
+    };
+    let missing = "the vertices have no scalar attribute `red`; choose one of `flags`, `quality`";
+    assert_eq!(fault("a.ply", QUALITIES, "red"), missing);
+    let message = fault("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "quality");
+    assert!(message.contains("have no scalar attributes like `quality`"), "{message}");
 }

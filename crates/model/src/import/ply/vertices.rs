@@ -1,7 +1,7 @@
-//! The vertices of a PLY file: positions, normals, texture coordinates and colors.
+//! The vertices of a PLY file: positions, normals, texture coordinates, colors and scalars.
 
 use super::body::Body;
-use super::header::{PlyElement, PlyProperty, ScalarType};
+use super::header::{Header, PlyElement, PlyProperty, ScalarType};
 use crate::diagnostic::Diagnostic;
 use crate::import::srgb::{linear_from_srgb, linear_table};
 use crate::import::warnings::ImportWarnings;
@@ -26,6 +26,16 @@ pub(in crate::import) struct Vertices {
     pub(in crate::import) uvs: Option<Vec<[f32; 2]>>,
     /// Linear colors with alpha.
     pub(in crate::import) colors: Option<Vec<[f32; 4]>>,
+    /// Values of the property that colors are to show.
+    pub(in crate::import) scalars: Option<Vec<f64>>,
+}
+
+/// A vertex as it is in the file.
+struct VertexRow {
+    /// The properties with a meaning, by their [place](row_place).
+    values: [f32; 16],
+    /// The property that colors are to show; NaN without one.
+    scalar: f64,
 }
 
 /// The place of a property in a row: x y z, nx ny nz, s t, red green blue alpha, f_dc_0 to f_dc_2.
@@ -57,7 +67,19 @@ pub(super) fn color_channel(name: &str) -> Option<usize> {
     }
 }
 
-/// Reads the vertices.
+/// The names of the properties of vertices that are a number without a meaning here, each once, in
+/// alphabetical order.
+pub(super) fn scalar_attributes(header: &Header) -> Vec<String> {
+    let elements = header.elements.iter().filter(|element| element.name == "vertex");
+    let properties = elements.flat_map(|element| &element.properties);
+    let scalars = properties.filter(|p| p.list_length.is_none() && row_place(&p.name) == UNUSED);
+    let mut names: Vec<String> = scalars.map(|property| property.name.clone()).collect();
+    names.sort();
+    names.dedup();
+    names
+}
+
+/// Reads the vertices. `scalar` is the property that is read as the scalar of each vertex.
 ///
 /// # Errors
 /// They have no x, y and z, or the file ends before the last; reading leniently, those before the
@@ -65,6 +87,7 @@ pub(super) fn color_channel(name: &str) -> Option<usize> {
 pub(super) fn read_vertices(
     body: &mut Body<'_>,
     element: &PlyElement,
+    scalar: Option<&str>,
     warnings: &mut ImportWarnings,
 ) -> Result<Vertices, Diagnostic> {
     let places: Vec<usize> = element
@@ -86,9 +109,12 @@ pub(super) fn read_vertices(
         normals: has(3, 3).then(Vec::new),
         uvs: has(6, 2).then(Vec::new),
         colors: (has(COLOR, 3) || is_splat).then(Vec::new),
+        scalars: scalar.map(|_| Vec::new()),
     };
+    let is_scalar = |p: &PlyProperty| p.list_length.is_none() && scalar == Some(&*p.name);
+    let scalar = element.properties.iter().position(is_scalar);
     for _ in 0..element.count {
-        match read_row(body, &element.properties, &places) {
+        match read_row(body, &element.properties, &places, scalar) {
             Ok(row) => {
                 vertices.push_row(&row, is_splat);
                 body.end_record();
@@ -103,16 +129,23 @@ pub(super) fn read_vertices(
     Ok(vertices)
 }
 
-/// Reads a record; `places` has an entry for each property.
+/// Reads a record; `places` has an entry for each property, `scalar` is the index of one.
 fn read_row(
     body: &mut Body<'_>,
     properties: &[PlyProperty],
     places: &[usize],
-) -> Result<[f32; 16], Diagnostic> {
-    let mut row = [0.0; 16];
-    for (property, &place) in properties.iter().zip(places) {
+    scalar: Option<usize>,
+) -> Result<VertexRow, Diagnostic> {
+    let mut row = VertexRow { values: [0.0; 16], scalar: f64::NAN };
+    for (index, (property, &place)) in properties.iter().zip(places).enumerate() {
         match property.list_length {
-            None => row[place] = body.next_number(property.scalar)? as f32,
+            None => {
+                let number = body.next_number(property.scalar)?;
+                row.values[place] = number as f32;
+                if scalar == Some(index) {
+                    row.scalar = number;
+                }
+            }
             Some(length) => {
                 let count = body.next_list_length(length, property.scalar)?;
                 body.skip_numbers(count, property.scalar)?;
@@ -124,8 +157,11 @@ fn read_row(
 
 impl Vertices {
     /// Adds a vertex; its color is not yet decoded.
-    fn push_row(&mut self, row: &[f32; 16], is_splat: bool) {
+    fn push_row(&mut self, VertexRow { values: row, scalar }: &VertexRow, is_splat: bool) {
         self.positions.push([row[0], row[1], row[2]]);
+        if let Some(scalars) = &mut self.scalars {
+            scalars.push(*scalar);
+        }
         if let Some(normals) = &mut self.normals {
             normals.push([row[3], row[4], row[5]]);
         }

@@ -42,6 +42,7 @@ impl ModelFile {
             animation: None,
             time: None,
             instances: None,
+            scalars: None,
             materials: Vec::new(),
         }
     }

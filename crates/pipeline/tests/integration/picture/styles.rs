@@ -1,6 +1,7 @@
 //! Styles: pixels against the formulas of each, by what the passes say of them.
 
 use super::load_scene;
+use model::Colormap;
 use pipeline::render::{Pass, PassBuffer, render_passes};
 use pipeline::scene::Style;
 use pipeline::{Picture, Scene, Timings, render};
@@ -80,7 +81,7 @@ fn normals_are_the_codes_of_the_pass() {
 
 #[test]
 fn depth_is_linear_between_the_ends_of_the_models() {
-    let scene = styled_scene("teapot", Style::Depth);
+    let scene = styled_scene("teapot", Style::Depth(None));
     let (picture, told) =
         (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Depth]));
     let world_to_view = scene.view_projection.camera.world_to_view();
@@ -94,6 +95,28 @@ fn depth_is_linear_between_the_ends_of_the_models() {
         assert!(r == g && g == b && a == 255);
         assert!((f64::from(r) - expected).abs() < 0.8, "({x}, {y}): {r} {expected}");
     });
+}
+
+#[test]
+fn depth_in_a_colormap_has_its_last_color_at_the_nearest_vertex() {
+    let colormap = Colormap::Turbo;
+    let scene = styled_scene("teapot", Style::Depth(Some(colormap)));
+    let (picture, told) =
+        (render_scene(&scene), render_wanted_passes(&scene, &[Pass::Id, Pass::Depth]));
+    let world_to_view = scene.view_projection.camera.world_to_view();
+    let depths = scene.world_points();
+    let depths = depths.iter().map(|point| -world_to_view.transform_point(*point).z());
+    let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));
+    let seen = for_each_covered_pixel(&told[0], |x, y| {
+        let [depth] = float_values(&told[1], x, y);
+        let expected = colormap.srgb_at(((far - depth) / (far - near)) as f32);
+        let pixel = picture.pixel(x, y).expect("a pixel");
+        for (code, fraction) in pixel.iter().zip(expected) {
+            let off = (f64::from(*code) - 255.0 * f64::from(fraction)).abs();
+            assert!(off < 1.5, "({x}, {y}): {pixel:?} {expected:?}");
+        }
+    });
+    assert!(seen > 3000, "{seen}");
 }
 
 /// The light that a white Lambertian surface reflects, of suns and ambient light.

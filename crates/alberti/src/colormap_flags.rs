@@ -1,0 +1,107 @@
+//! Flags that show numbers as colors: scalar attributes of vertices, and depth.
+
+use super::number_list::parse_numbers;
+use super::options::option_parser;
+use model::Colormap;
+use pipeline::Scene;
+use pipeline::scene::Style;
+use pipeline::scene::file::{Finite, ScalarsFile, SceneFile};
+
+/// The colors of scalars and depths; each flag replaces what the scene file says of all models.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct ColormapArgs {
+    /// Color the model by this scalar attribute of its vertices: a custom attribute of glTF such as
+    /// `_TEMPERATURE`, or a property of PLY such as `quality`
+    ///
+    /// The leading underscore may be left out. `alberti info` lists the attributes. The colors
+    /// replace the materials; values that are not finite are gray.
+    #[arg(help_heading = "Picture", long, value_name = "NAME")]
+    scalars: Option<String>,
+    /// Colors for --scalars [default: viridis] and for --style depth [default: grays]
+    #[arg(help_heading = "Picture", long, value_parser = option_parser::<Colormap>())]
+    colormap: Option<Colormap>,
+    /// Values of the first and the last color of --scalars [default: the smallest and the largest
+    /// value of the model]
+    #[arg(
+        help_heading = "Picture",
+        long,
+        value_name = "MIN,MAX",
+        value_parser = parse_scalar_range,
+        allow_hyphen_values = true
+    )]
+    scalar_range: Option<ScalarRange>,
+}
+
+/// The values of the first and the last color.
+#[derive(Clone, Copy, Debug)]
+struct ScalarRange {
+    min: Finite,
+    max: Finite,
+}
+
+impl ColormapArgs {
+    /// Replaces the colors of depth, and of all models of a scene.
+    ///
+    /// Another attribute has its own range of values, so --scalars does not keep the scene's.
+    pub(crate) fn apply_to(&self, file: &mut SceneFile) {
+        file.depth_colormap = self.colormap.or(file.depth_colormap);
+        for model in &mut file.models {
+            let flag = self.scalars.as_ref().map(|attribute| ScalarsFile {
+                attribute: attribute.clone(),
+                colormap: model.scalars.as_ref().map(|file| file.colormap).unwrap_or_default(),
+                range: None,
+            });
+            let Some(mut scalars) = flag.or_else(|| model.scalars.take()) else { continue };
+            scalars.colormap = self.colormap.unwrap_or(scalars.colormap);
+            scalars.range = self.scalar_range.map(|range| (range.min, range.max)).or(scalars.range);
+            model.scalars = Some(scalars);
+        }
+    }
+
+    /// The warnings about flags without effect in a picture of a scene. `draws_lines` is whether
+    /// the picture is a line drawing, `style` is the name of its style.
+    pub(crate) fn find_unused(&self, scene: &Scene, draws_lines: bool, style: &str) -> Vec<String> {
+        let has_scalars =
+            scene.models.iter().any(|placed| placed.model.active_scalar_attribute.is_some());
+        let is_depth = |style: Style| matches!(style, Style::Depth(_));
+        let insets = || scene.insets.iter().map(|inset| inset.scene.style);
+        let shows_depth = !draws_lines && is_depth(scene.style) || insets().any(is_depth);
+        let shows_colors =
+            !draws_lines && shows_vertex_colors(scene.style) || insets().any(shows_vertex_colors);
+        let mut warnings = Vec::new();
+        if self.scalars.is_some() && !shows_colors {
+            let shown = match draws_lines {
+                true => "a line drawing".to_owned(),
+                false => format!("the `{style}` style"),
+            };
+            warnings
+                .push(format!("--scalars does nothing here: {shown} has no colors of vertices"));
+        }
+        if self.colormap.is_some() && !has_scalars && !shows_depth {
+            let use_of = "it needs --scalars or --style depth";
+            warnings.push(format!("--colormap does nothing here: {use_of}"));
+        }
+        if self.scalar_range.is_some() && !has_scalars {
+            warnings.push("--scalar-range does nothing here: it needs --scalars".to_owned());
+        }
+        warnings
+    }
+}
+
+/// Whether surfaces of a style have the colors of their vertices.
+const fn shows_vertex_colors(style: Style) -> bool {
+    matches!(style, Style::Shaded | Style::Flat | Style::Gouraud | Style::Toon)
+}
+
+/// Parses `MIN,MAX`.
+///
+/// # Errors
+/// If these are not two finite numbers, or the first is larger.
+fn parse_scalar_range(text: &str) -> Result<ScalarRange, String> {
+    let [min, max] = parse_numbers(text)?;
+    if min > max {
+        return Err("expected MIN,MAX with the smaller value first, such as 0,100".to_owned());
+    }
+    let finite = |value| Finite::new(value).ok_or_else(|| "expected finite numbers".to_owned());
+    Ok(ScalarRange { min: finite(min)?, max: finite(max)? })
+}
