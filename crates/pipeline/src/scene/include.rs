@@ -27,7 +27,7 @@ const MAX_INCLUDED_FILES: usize = 64;
 const MAX_INCLUDED_BYTES: usize = 4 << 20;
 
 /// The fields of a scene that are replaced whole.
-const REPLACED_FIELDS: [&str; 14] = [
+const REPLACED_FIELDS: [&str; 15] = [
     "camera",
     "light_intensity",
     "shadows",
@@ -35,6 +35,7 @@ const REPLACED_FIELDS: [&str; 14] = [
     "environment",
     "ambient_occlusion",
     "style",
+    "depth_colormap",
     "image",
     "passes",
     "sheet",
