@@ -1,5 +1,6 @@
 //! PLY files made by hand: what they are read as, and what is said about broken ones.
 
+use crate::diagnostic::Diagnostic;
 use crate::import::srgb::linear_from_srgb;
 use crate::{AlphaMode, Colormap, ImportOptions, Model, ScalarColors, Topology, load_bytes};
 
@@ -210,7 +211,7 @@ fn what_other_readers_accept_is_read_with_a_warning() {
         [[0.0; 3], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
     ];
     assert_eq!(corners(&model), expected);
-    let warnings: Vec<String> = model.warnings.iter().map(crate::Diagnostic::sentence).collect();
+    let warnings: Vec<String> = model.warnings.iter().map(Diagnostic::sentence).collect();
     assert_eq!(warnings.len(), 2, "{warnings:?}");
     assert!(warnings[0].starts_with("line 3: `Created by somebody` is not a line of a PLY header"));
     assert!(warnings[1].contains("2 records from here on have more numbers"), "{warnings:?}");
@@ -252,7 +253,7 @@ fn a_scalar_property_replaces_colors() {
         let [r, g, b] = code.map(linear_from_srgb);
         assert_eq!(colors[vertex], [r, g, b, 1.0], "{x}");
     }
-    let warnings: Vec<String> = model.warnings.iter().map(|warning| warning.sentence()).collect();
+    let warnings: Vec<String> = model.warnings.iter().map(Diagnostic::sentence).collect();
     let expected = "element vertex: 3 of 9 values of `quality` are not finite; they are drawn gray";
     assert_eq!(warnings, [expected]);
     // Without the option, the colors of the file.
