@@ -27,7 +27,6 @@ mod batch;
 mod calibrated_camera;
 mod check;
 mod color;
-mod colormap_flags;
 mod compare;
 mod compare_projections;
 mod content_digest;

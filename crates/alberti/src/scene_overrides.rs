@@ -9,10 +9,11 @@
 //! A flag that is not given changes nothing. Lists (`--section`, `--overlay`) are appended to those
 //! of the scene; everything else is replaced.
 
+mod colormap_flags;
+
 use super::CliError;
 use super::args::{OverlayArg, ProjectionArg, StyleArg};
 use super::calibrated_camera::CalibratedCameraArgs;
-use super::colormap_flags::ColormapArgs;
 use super::light::LightArgs;
 use super::load_options::LoadArgs;
 use super::model_state::ModelStateArgs;
@@ -21,6 +22,7 @@ use super::section::SectionArgs;
 use super::viewpoint::ViewpointArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use colormap_flags::ColormapArgs;
 use model::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{

@@ -1,7 +1,7 @@
 //! Flags that show numbers as colors: scalar attributes of vertices, and depth.
 
-use super::number_list::parse_numbers;
-use super::options::option_parser;
+use crate::number_list::parse_numbers;
+use crate::options::option_parser;
 use model::Colormap;
 use pipeline::Scene;
 use pipeline::scene::Style;
