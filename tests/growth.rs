@@ -67,12 +67,20 @@ const WORKLOADS: &[Workload] = &[
         after: &["--size", "64x64", "-o", "out.png"],
     },
     Workload {
-        name: "triangles outlined",
+        name: "triangles in lines",
         file: "soup.stl",
         text: soup,
         size: 500,
         before: &["render"],
         after: &["--style", "lines", "-o", "out.svg"],
+    },
+    Workload {
+        name: "triangles outlined",
+        file: "soup.stl",
+        text: soup,
+        size: 500,
+        before: &["render"],
+        after: &["--style", "outline", "-o", "out.svg"],
     },
     Workload {
         name: "triangles dashed",

@@ -29,7 +29,7 @@ use super::projector::Projector;
 use super::region::{Region, region_edges};
 use super::retained_points::idle_section_warnings;
 use super::view_cover::{Occluding, ViewCover, view_cover};
-use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Warning};
+use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Placement, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
 use glam::DVec2;
@@ -153,6 +153,8 @@ fn draw_candidates(
         let segments = hatching.segments.into_iter();
         edges.extend(segments.map(|(ends, object)| CandidateEdge { ends, class, object }));
     }
+    let is_traced = regions.iter().any(|region| Placement::PICTURE.traces_region(region));
+    warnings.extend(is_traced.then_some(Warning::OutlinesTraced));
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     warnings.extend(crowd.map(|_| Warning::CrowdApproximated));
     if let Some(view) = &cover {

@@ -27,7 +27,7 @@ use super::page::{
 use super::palette::{WHITE, ink_on_paper};
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::region::{Region, RegionHatching};
-use super::region_outline::outline_loops;
+use super::region_outline::{is_traced, outline_loops};
 use super::speckles::{LEAST_CHAIN_LENGTH, ShortChains, remove_speckles};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
 use glam::DVec2;
@@ -56,6 +56,12 @@ impl Placement {
     fn region_loops(&self, region: &Region) -> Vec<Polyline> {
         let on_page = |end: DVec2| to_micrometers(self.pixels_to_page(end));
         outline_loops(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
+    }
+
+    /// Whether the loops around a region are traced on a grid.
+    pub(super) fn traces_region(&self, region: &Region) -> bool {
+        let on_page = |end: DVec2| to_micrometers(self.pixels_to_page(end));
+        is_traced(region.edges.iter().map(|edge| (edge.ends.map(on_page), edge.winding)))
     }
 
     /// The area of a hatched region on the page; `None` if there is none.

@@ -16,8 +16,14 @@
 //!    integers. A side is of the outline if there are some at its one side and none at the other.
 //! 3. At each point as many sides of the outline begin as end, so they join to loops. Each loop
 //!    keeps the area at its left and is divided where it touches itself.
+//!
+//! Sides of random triangles cross as often as they have pairs. Where they are too many, the area is
+//! sampled on a grid that is finer than a pen, and its border is that of the grid's cells.
+
+mod coverage;
 
 use super::page::{PagePoint, Polyline};
+use coverage::traced_border;
 use std::collections::BTreeMap;
 
 /// A point in micrometers.
@@ -37,16 +43,36 @@ const MIN_WIDTH: f64 = 2.0;
 pub(super) fn outline_loops(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> Vec<Polyline> {
     let widen = |point: PagePoint| point.map(i64::from);
     let mut sides = merge_sides(sides.map(|(ends, sign)| (ends.map(widen), sign)).collect());
-    for _ in 0..MAX_ROUNDS {
-        let crossings = find_crossings(&sides);
-        if crossings.is_empty() {
-            break;
+    let border = match find_crossings(&sides) {
+        None => traced_border(&sides),
+        Some(mut crossings) => {
+            for _ in 0..MAX_ROUNDS {
+                if crossings.is_empty() {
+                    break;
+                }
+                sides = snap_to_points(&sides, crossings);
+                // The pieces are as many as the crossings, and cross hardly ever.
+                crossings = find_crossings(&sides).unwrap_or_default();
+            }
+            border_sides(&sides)
         }
-        sides = snap_to_points(&sides, crossings);
-    }
-    let loops = join_loops(&border_sides(&sides));
+    };
+    let loops = join_loops(&border);
     loops.iter().filter_map(|points| finish_loop(points)).collect()
 }
+
+/// Whether sides cross so often that the outline of their area is traced on a grid.
+pub(super) fn is_traced(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> bool {
+    let widen = |point: PagePoint| point.map(i64::from);
+    let sides = merge_sides(sides.map(|(ends, sign)| (ends.map(widen), sign)).collect());
+    find_crossings(&sides).is_none()
+}
+
+/// Sides may cross this often whatever their number, and [`CROSSINGS_PER_SIDE`] times more each. The
+/// sides of models cross once or twice.
+const ANY_CROSSINGS: usize = 1 << 14;
+/// See [`ANY_CROSSINGS`].
+const CROSSINGS_PER_SIDE: usize = 8;
 
 /// Orients sides from the lesser to the greater end, sums equal ones, and drops those that cancel.
 fn merge_sides(mut sides: Vec<Side>) -> Vec<Side> {
@@ -70,10 +96,11 @@ fn cross(from: Point, a: Point, b: Point) -> i128 {
 }
 
 /// The points, rounded to the grid, where sides cross or touch other than at common ends; the ends
-/// of sides that lie on others are among them.
+/// of sides that lie on others are among them. `None` if there are too many.
 ///
 /// A sweep along x over the sides, which are sorted by their lesser ends.
-fn find_crossings(sides: &[Side]) -> Vec<Point> {
+fn find_crossings(sides: &[Side]) -> Option<Vec<Point>> {
+    let most = ANY_CROSSINGS + CROSSINGS_PER_SIDE * sides.len();
     let mut crossings = Vec::new();
     let mut active: Vec<usize> = Vec::new();
     for (index, (ends, _)) in sides.iter().enumerate() {
@@ -86,10 +113,13 @@ fn find_crossings(sides: &[Side]) -> Vec<Point> {
             }
         }
         active.push(index);
+        if crossings.len() > most {
+            return None;
+        }
     }
     crossings.sort_unstable();
     crossings.dedup();
-    crossings
+    Some(crossings)
 }
 
 /// Adds where two sides meet, unless that is an end of both.
@@ -300,18 +330,21 @@ fn join_loops(sides: &[[Point; 2]]) -> Vec<Vec<Point>> {
             continue;
         }
         let mut path = vec![sorted[first][0]];
+        let mut places = BTreeMap::from([(sorted[first][0], 0)]);
         let mut at = first;
         while !used[at] {
             used[at] = true;
             let [from, here] = sorted[at];
             // A point that the loop has been at divides it.
-            match path.iter().rposition(|point| *point == here) {
-                Some(start) => {
-                    loops.push(path.split_off(start));
-                    path.push(here);
+            if let Some(&start) = places.get(&here) {
+                let closed = path.split_off(start);
+                for point in &closed {
+                    places.remove(point);
                 }
-                None => path.push(here),
+                loops.push(closed);
             }
+            places.insert(here, path.len());
+            path.push(here);
             let Some(next) = next_side(&sorted, &used, from, here) else { break };
             at = next;
         }

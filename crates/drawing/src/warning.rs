@@ -107,6 +107,8 @@ pub enum Warning {
     CutOutsDrawnWhole,
     /// So many faces lie behind each other that small gaps between them count as closed.
     CrowdApproximated,
+    /// The sides of so many faces cross that outlines are those of a grid.
+    OutlinesTraced,
     /// Outlines over surfaces are left out, because copies have too many triangles.
     OutlinesLeftOut,
     /// Nothing is in the picture.
@@ -242,6 +244,7 @@ impl fmt::Display for Warning {
             | Self::AnaglyphIgnored
             | Self::CutOutsDrawnWhole
             | Self::CrowdApproximated
+            | Self::OutlinesTraced
             | Self::OutlinesLeftOut
             | Self::IntersectionsIncomplete
             | Self::HatchingIncomplete
@@ -289,6 +292,10 @@ impl Warning {
             Self::CrowdApproximated => {
                 "so many surfaces lie behind each other that lines behind gaps of a pixel or two are \
                  left out: `--no-line-limits` draws them, and may take long"
+            }
+            Self::OutlinesTraced => {
+                "so many faces overlap that outlines are traced on a grid of 0.05 mm, finer than the \
+                 pens"
             }
             Self::OutlinesLeftOut => {
                 "the models have so many copies that their outlines would take long, and they are left \

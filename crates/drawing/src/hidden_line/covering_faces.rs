@@ -84,7 +84,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
                     if !scratch.take_work(triangles.len()) {
                         break;
                     }
-                    for &triangle in triangles {
+                    for triangle in triangles {
                         let view = (&on_screen, &tolerance);
                         self.occlude_edge(triangle, edge, view, |one| count.insert(one));
                     }

@@ -12,7 +12,7 @@ use super::crack_intervals::{CrackIntervals, SideIntervals};
 use super::occluder::{Occluder, OccluderInWorld, Occlusion, SideInterval, SideOverlap};
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
-use super::screen_bvh::{ScreenBvh, ScreenEdge, TriangleMesh};
+use super::screen_bvh::{LeafTriangle, ScreenBvh, ScreenEdge, TriangleMesh};
 use glam::DVec3;
 use homog::{Point, World};
 
@@ -288,7 +288,11 @@ impl<M: TriangleMesh> MeshOccluders<M> {
                     if !scratch.take_work(triangles.len()) {
                         break;
                     }
-                    for &triangle in triangles {
+                    for triangle in triangles {
+                        let interval = on_screen.interval_behind_triangle(triangle);
+                        if interval.is_none_or(|part| scratch.hidden.contains_interval(part)) {
+                            continue;
+                        }
                         let view = (&on_screen, &self.tolerance);
                         self.occlude_edge(triangle, edge, view, |part| scratch.insert(part));
                     }
@@ -308,12 +312,12 @@ impl<M: TriangleMesh> MeshOccluders<M> {
     /// Finds what a triangle of the hierarchy hides of an edge.
     pub(super) fn occlude_edge(
         &self,
-        packed: u32,
+        leaf: &LeafTriangle,
         edge: &ProjectedEdge,
         (on_screen, tolerance): (&ScreenEdge<'_>, &Tolerance),
         mut found: impl FnMut(Occlusion),
     ) {
-        let (vertices, triangle) = self.screen.triangle(packed, &self.mesh);
+        let (vertices, triangle) = self.screen.triangle(leaf, &self.mesh);
         if on_screen.is_beside(vertices, tolerance.crack.max(tolerance.screen)) {
             return;
         }
@@ -322,7 +326,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         let in_world = |vertices| OccluderInWorld { vertices, projector: &self.projector };
         // The plane is that of the triangle before clipping, which must not tilt it.
         let whole = || in_world(self.mesh.positions(triangle));
-        let clipped = || in_world(self.screen.world_vertices(packed, &self.mesh));
+        let clipped = || in_world(self.screen.world_vertices(leaf, &self.mesh));
         let interior = overlap.interior.and_then(|interval| match self.respects_depth {
             true => whole().interval_behind(edge, interval, tolerance),
             false => Some(interval),

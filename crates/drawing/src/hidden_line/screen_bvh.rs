@@ -10,8 +10,9 @@
 //! leaves up. What is near in space is near on the screen, so such boxes are as good as those of a
 //! tree that is built on the screen, and those of different depth are apart.
 //!
-//! A triangle is an index here, and its vertices are those of the mesh: a record for each would
-//! take several times the memory of the mesh.
+//! A triangle is an index and a box here, and its vertices are those of the mesh. Most triangles of a
+//! leaf that an edge meets are beside the edge or behind it: their boxes say so in the order of
+//! memory, and their vertices are not looked for.
 
 use super::super::projector::Projector;
 use super::bounds::{greatest, least, round_down, round_up};
@@ -79,13 +80,41 @@ struct ClippedPiece {
     weights: [[f64; 3]; 3],
 }
 
-/// A node: its box on the screen, with the nearest depth in it.
+/// A box on the screen, with the nearest depth in it.
 #[derive(Clone, Copy, Debug)]
-struct ScreenNode {
+struct DepthBox {
     min: [f32; 2],
     max: [f32; 2],
     /// The greatest depth, with 1 nearest.
     nearest: f32,
+}
+
+impl DepthBox {
+    const EMPTY: Self =
+        Self { min: [f32::INFINITY; 2], max: [f32::NEG_INFINITY; 2], nearest: f32::NEG_INFINITY };
+
+    /// The box around two others.
+    fn union(&self, other: &Self) -> Self {
+        Self {
+            min: [0, 1].map(|k| least(self.min[k], other.min[k])),
+            max: [0, 1].map(|k| greatest(self.max[k], other.max[k])),
+            nearest: greatest(self.nearest, other.nearest),
+        }
+    }
+}
+
+/// A triangle of a leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeafTriangle {
+    bounds: DepthBox,
+    /// A [`ScreenTriangle`].
+    packed: u32,
+}
+
+/// A node.
+#[derive(Clone, Copy, Debug)]
+struct ScreenNode {
+    bounds: DepthBox,
     /// As in [`Bvh`]: the second child, or the first triangle of a leaf.
     first: u32,
     /// The number of triangles of a leaf, or [`INNER_NODE`].
@@ -99,8 +128,8 @@ const INNER_NODE: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub(super) struct ScreenBvh {
     nodes: Vec<ScreenNode>,
-    /// The triangles in the order of the leaves, packed.
-    triangles: Vec<u32>,
+    /// The triangles in the order of the leaves.
+    triangles: Vec<LeafTriangle>,
     pieces: Vec<ClippedPiece>,
     /// The vertices on the screen in pixels, where they have an image.
     vertices: Vec<DVec2>,
@@ -142,13 +171,7 @@ impl ScreenBvh {
         [thinnest, margin]: [f64; 2],
     ) -> Self {
         let projected = ProjectedVertices::new(mesh, projector);
-        let empty = ScreenNode {
-            min: [f32::INFINITY; 2],
-            max: [f32::NEG_INFINITY; 2],
-            nearest: f32::NEG_INFINITY,
-            first: 0,
-            count: 0,
-        };
+        let empty = ScreenNode { bounds: DepthBox::EMPTY, first: 0, count: 0 };
         let mut tree = Self {
             nodes: vec![empty; bvh.node_count()],
             triangles: Vec::with_capacity(bvh.order.len()),
@@ -161,17 +184,14 @@ impl ScreenBvh {
                 NodeContents::Nodes(children) => tree.join_nodes(children),
                 NodeContents::Items(range) => {
                     let first = tree.triangles.len() as u32;
-                    let mut area = ScreenArea::EMPTY;
                     for &triangle in &bvh.order[range] {
-                        tree.push_triangle(
-                            triangle,
-                            mesh,
-                            (projector, &projected, thinnest),
-                            &mut area,
-                        );
+                        let view = (projector, &projected, [thinnest, margin]);
+                        tree.push_triangle(triangle, mesh, view);
                     }
+                    let boxes = tree.triangles[first as usize..].iter().map(|leaf| &leaf.bounds);
+                    let bounds = boxes.fold(DepthBox::EMPTY, |all, next| all.union(next));
                     let count = tree.triangles.len() as u32 - first;
-                    area.to_leaf(first, count, margin)
+                    ScreenNode { bounds, first, count }
                 }
             };
         }
@@ -181,14 +201,8 @@ impl ScreenBvh {
 
     /// The node above two others, of which the first follows it.
     fn join_nodes(&self, [first, second]: [u32; 2]) -> ScreenNode {
-        let [a, b] = [first, second].map(|node| self.nodes[node as usize]);
-        ScreenNode {
-            min: [0, 1].map(|k| least(a.min[k], b.min[k])),
-            max: [0, 1].map(|k| greatest(a.max[k], b.max[k])),
-            nearest: greatest(a.nearest, b.nearest),
-            first: second,
-            count: INNER_NODE,
-        }
+        let [a, b] = [first, second].map(|node| &self.nodes[node as usize].bounds);
+        ScreenNode { bounds: a.union(b), first: second, count: INNER_NODE }
     }
 
     /// Adds a triangle, or its pieces within the view volume, to the leaf that is being made.
@@ -196,22 +210,22 @@ impl ScreenBvh {
         &mut self,
         triangle: u32,
         mesh: &impl TriangleMesh,
-        (projector, projected, thinnest): (&Projector, &ProjectedVertices, f64),
-        area: &mut ScreenArea,
+        (projector, projected, [thinnest, margin]): (&Projector, &ProjectedVertices, [f64; 2]),
     ) {
         let indices = mesh.vertex_indices(triangle).map(|vertex| vertex as usize);
         let outcodes = indices.map(|vertex| projected.outcodes[vertex]);
         if Outcode::trivially_accepts(&outcodes) {
             let corners = indices.map(|vertex| projected.screen[vertex]);
             if let Some(is_reversed) = orientation(corners, thinnest) {
-                corners.iter().for_each(|corner| area.extend_to(*corner));
-                indices.iter().for_each(|vertex| area.extend_to_depth(projected.depths[*vertex]));
-                self.triangles.push(ScreenTriangle::Whole { triangle, is_reversed }.pack());
+                let depths = indices.map(|vertex| projected.depths[vertex]);
+                let bounds = box_around(corners, depths, margin);
+                let packed = ScreenTriangle::Whole { triangle, is_reversed }.pack();
+                self.triangles.push(LeafTriangle { bounds, packed });
             }
         } else if Outcode::trivially_rejects(&outcodes).is_inside() {
             let clip = mesh.positions(triangle).map(|at| projector.world_to_clip_point(at));
             for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-                self.push_piece(triangle, piece, (projector, thinnest), area);
+                self.push_piece(triangle, piece, projector, [thinnest, margin]);
             }
         }
     }
@@ -221,27 +235,29 @@ impl ScreenBvh {
         &mut self,
         triangle: u32,
         corners: [ClipVertex; 3],
-        (projector, thinnest): (&Projector, f64),
-        area: &mut ScreenArea,
+        projector: &Projector,
+        [thinnest, margin]: [f64; 2],
     ) {
         let to_screen = |corner: ClipVertex| projector.project_to_screen(corner.point);
         let [Some(a), Some(b), Some(c)] = corners.map(to_screen) else { return };
         let [p, q, r] = [a, b, c].map(DVec3::truncate);
         let Some(is_reversed) = orientation([p, q, r], thinnest) else { return };
-        for corner in [a, b, c] {
-            area.extend_to(corner.truncate());
-            area.extend_to_depth(round_up(corner.z));
-        }
+        let bounds = box_around([p, q, r], [a, b, c].map(|corner| round_up(corner.z)), margin);
         let vertices = reverse_if(is_reversed, [p, q, r]);
         let weights = reverse_if(is_reversed, corners.map(|corner| corner.weights));
-        self.triangles.push(ScreenTriangle::Clipped(self.pieces.len() as u32).pack());
+        let packed = ScreenTriangle::Clipped(self.pieces.len() as u32).pack();
+        self.triangles.push(LeafTriangle { bounds, packed });
         self.pieces.push(ClippedPiece { triangle, vertices, weights });
     }
 
     /// The vertices of a triangle of a leaf in pixels, ordered so that `(b − a) × (c − a)` is
     /// positive, and its index in the mesh.
-    pub(super) fn triangle(&self, packed: u32, mesh: &impl TriangleMesh) -> ([DVec2; 3], u32) {
-        match ScreenTriangle::unpack(packed) {
+    pub(super) fn triangle(
+        &self,
+        leaf: &LeafTriangle,
+        mesh: &impl TriangleMesh,
+    ) -> ([DVec2; 3], u32) {
+        match ScreenTriangle::unpack(leaf.packed) {
             ScreenTriangle::Whole { triangle, is_reversed } => {
                 let corners = mesh.vertex_indices(triangle);
                 let vertices = corners.map(|vertex| self.vertices[vertex as usize]);
@@ -255,8 +271,12 @@ impl ScreenBvh {
     }
 
     /// The vertices of a triangle of a leaf in the world, in the order of [`Self::triangle`].
-    pub(super) fn world_vertices(&self, packed: u32, mesh: &impl TriangleMesh) -> [DVec3; 3] {
-        match ScreenTriangle::unpack(packed) {
+    pub(super) fn world_vertices(
+        &self,
+        leaf: &LeafTriangle,
+        mesh: &impl TriangleMesh,
+    ) -> [DVec3; 3] {
+        match ScreenTriangle::unpack(leaf.packed) {
             ScreenTriangle::Whole { triangle, is_reversed } => {
                 reverse_if(is_reversed, mesh.positions(triangle))
             }
@@ -271,7 +291,7 @@ impl ScreenBvh {
     /// The interval of s in which an edge passes over the box of a node and is not wholly in front
     /// of it.
     pub(super) fn interval_behind(&self, node: u32, edge: &ScreenEdge<'_>) -> Option<[f64; 2]> {
-        edge.interval_behind_node(&self.nodes[node as usize])
+        edge.interval_behind(&self.nodes[node as usize].bounds)
     }
 
     /// The root; `None` if there is nothing.
@@ -280,46 +300,24 @@ impl ScreenBvh {
     }
 
     /// The two children of a node, the nearer one last, or the triangles of a leaf.
-    pub(super) fn contents(&self, index: u32) -> Result<[u32; 2], &[u32]> {
+    pub(super) fn contents(&self, index: u32) -> Result<[u32; 2], &[LeafTriangle]> {
         let node = &self.nodes[index as usize];
         if node.count != INNER_NODE {
             return Err(&self.triangles[node.first as usize..(node.first + node.count) as usize]);
         }
         let [a, b] = [index + 1, node.first];
-        let nearest = |node: u32| self.nodes[node as usize].nearest;
+        let nearest = |node: u32| self.nodes[node as usize].bounds.nearest;
         Ok(if nearest(a) > nearest(b) { [b, a] } else { [a, b] })
     }
 }
 
-/// The box of a leaf, in double precision.
-struct ScreenArea {
-    min: DVec2,
-    max: DVec2,
-    nearest: f32,
-}
-
-impl ScreenArea {
-    const EMPTY: Self =
-        Self { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY, nearest: f32::NEG_INFINITY };
-
-    fn extend_to(&mut self, point: DVec2) {
-        self.min = self.min.min(point);
-        self.max = self.max.max(point);
-    }
-
-    fn extend_to_depth(&mut self, depth: f32) {
-        self.nearest = greatest(self.nearest, depth);
-    }
-
-    /// The node of a leaf with a margin around its triangles.
-    fn to_leaf(&self, first: u32, count: u32, margin: f64) -> ScreenNode {
-        ScreenNode {
-            min: (self.min - margin).to_array().map(round_down),
-            max: (self.max + margin).to_array().map(round_up),
-            nearest: self.nearest,
-            first,
-            count,
-        }
+/// The box around the corners of a triangle, with a margin in pixels on the screen.
+fn box_around([a, b, c]: [DVec2; 3], depths: [f32; 3], margin: f64) -> DepthBox {
+    let (min, max) = (a.min(b).min(c) - margin, a.max(b).max(c) + margin);
+    DepthBox {
+        min: min.to_array().map(round_down),
+        max: max.to_array().map(round_up),
+        nearest: greatest(greatest(depths[0], depths[1]), depths[2]),
     }
 }
 
@@ -388,8 +386,8 @@ impl<'a> ScreenEdge<'a> {
     /// farthest point of the edge is nearer than the nearest point of the box, nothing in the box
     /// can hide it. Depth is linear in s, so its extremes are at the ends. Boxes have a margin far
     /// greater than what is rounded here.
-    fn interval_behind_node(&self, node: &ScreenNode) -> Option<[f64; 2]> {
-        let (min, max) = (node.min.map(f64::from), node.max.map(f64::from));
+    fn interval_behind(&self, bounds: &DepthBox) -> Option<[f64; 2]> {
+        let (min, max) = (bounds.min.map(f64::from), bounds.max.map(f64::from));
         let is_apart = self.high.x < min[0]
             || self.low.x > max[0]
             || self.high.y < min[1]
@@ -397,6 +395,25 @@ impl<'a> ScreenEdge<'a> {
         if is_apart {
             return None;
         }
+        let [enter, leave] = self.interval_over_box(min, max)?;
+        if !self.respects_depth {
+            return Some([enter, leave]);
+        }
+        let [a, b] = self.edge.depths;
+        let [first, last] = [enter, leave].map(|s| a + (b - a) * s);
+        let farthest = if first < last { first } else { last };
+        (farthest <= f64::from(bounds.nearest)).then_some([enter, leave])
+    }
+
+    /// The interval of s in which the edge passes over the box around a triangle and is not wholly
+    /// in front of it.
+    pub(super) fn interval_behind_triangle(&self, leaf: &LeafTriangle) -> Option<[f64; 2]> {
+        self.interval_behind(&leaf.bounds)
+    }
+
+    /// The slab test: the interval of s in which the edge passes over a box that is not beside it
+    /// along an axis to which it is parallel.
+    fn interval_over_box(&self, min: [f64; 2], max: [f64; 2]) -> Option<[f64; 2]> {
         let from = self.edge.screen[0];
         let (mut enter, mut leave) = (0.0, 1.0);
         for k in 0..2 {
@@ -407,15 +424,6 @@ impl<'a> ScreenEdge<'a> {
                 leave = if last < leave { last } else { leave };
             }
         }
-        if enter > leave {
-            return None;
-        }
-        if !self.respects_depth {
-            return Some([enter, leave]);
-        }
-        let [a, b] = self.edge.depths;
-        let [first, last] = [enter, leave].map(|s| a + (b - a) * s);
-        let farthest = if first < last { first } else { last };
-        (farthest <= f64::from(node.nearest)).then_some([enter, leave])
+        (enter <= leave).then_some([enter, leave])
     }
 }

@@ -44,7 +44,9 @@ fn are_simple(loops: &[Polyline]) -> bool {
         points.windows(2).any(|pair| pair[0] == pair[1])
     };
     let merged = merge_sides(sides.clone());
-    merged.len() == sides.len() && find_crossings(&merged).is_empty() && !loops.iter().any(repeats)
+    merged.len() == sides.len()
+        && find_crossings(&merged).is_some_and(|crossings| crossings.is_empty())
+        && !loops.iter().any(repeats)
 }
 
 #[test]
@@ -142,4 +144,32 @@ fn random_triangles_are_covered_where_their_outline_winds() {
             assert_eq!(winding, i32::from(depth > 0.0), "round {round}, {point:?}");
         }
     }
+}
+
+#[test]
+fn what_crosses_too_often_is_traced_on_the_grid() {
+    // Sticks across each other, a thousand each way: a million crossings in a square of 20 mm.
+    let stick = |at: i32| [[at, 0], [at + 10, 0], [at + 10, 20_000], [at, 20_000]];
+    let sticks = (0..1000).map(|k| stick(20 * k));
+    let sides = sticks.flat_map(|upright| {
+        let lying = upright.map(|[x, y]| [y, x]);
+        // Turned over: their orientation is negative.
+        let lying = [lying[3], lying[2], lying[1], lying[0]];
+        [polygon(&upright), polygon(&lying)].concat()
+    });
+    let sides: Vec<_> = sides.collect();
+    assert!(is_traced(sides.iter().copied()));
+    let loops = outline_loops(sides.into_iter());
+    let area: i64 = loops.iter().map(|line| doubled_area(line) / 2).sum();
+    // Sticks and gaps are finer than the grid: what its samples see counts.
+    assert!(area > 200_000_000 && area <= 441_000_000, "{area}");
+    assert!(loops.iter().all(|line| line.closed && line.points.len() >= 4));
+    // A square between two steps of the grid keeps its size within a cell.
+    let square = square(130, 70, 7000);
+    let border = traced_border(&merge_sides(
+        square.iter().map(|(ends, sign)| (ends.map(|end| end.map(i64::from)), *sign)).collect(),
+    ));
+    let traced = finish_loop(&join_loops(&border)[0]).expect("a loop");
+    assert!((doubled_area(&traced) / 2 - 49_000_000).abs() < 2 * 7000 * 100, "{traced:?}");
+    assert_eq!(traced.points.len(), 4);
 }
