@@ -77,6 +77,7 @@ mod prepared_scene;
 mod primitive_assembly;
 mod projected_mesh;
 mod renderer;
+mod repeated_models;
 mod screen_transform;
 mod shadow_maps;
 #[cfg(test)]

@@ -15,6 +15,7 @@ use super::RenderError;
 use super::context::RenderContext;
 use super::draw_call::DrawCall;
 use super::renderer::FrameMemory;
+use super::repeated_models::find_repeated;
 use super::screen_transform::ScreenTransform;
 use super::vertex_inputs::VertexInputs;
 use super::vertex_processing::{VertexArrays, world_tangents};
@@ -114,8 +115,14 @@ impl<'a> PrimitiveAssembler<'a> {
     /// Issues the draw calls of a scene: models, ground, environment and backdrop.
     fn assemble_all(mut self, context: &RenderContext<'a>) -> Result<FrameMemory<'a>, RenderError> {
         let RenderContext { scene, textures, .. } = *context;
+        let is_repeated = find_repeated(&scene.models, scene.style);
         for (index, model_instance) in scene.models.iter().enumerate() {
             for (instance, primitive) in model_instance.model.scene_primitives() {
+                if is_repeated[index] {
+                    // The ids of what follows stay.
+                    self.allocate_ids(primitive)?;
+                    continue;
+                }
                 let texture =
                     |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);
                 self.draw_primitive(model_instance, instance, primitive, texture)?;

@@ -14,6 +14,7 @@ use crate::render::context::RenderContext;
 use crate::render::draw_call::DrawCall;
 use crate::render::primitive_assembly::DEFAULT_MATERIAL;
 use crate::render::projected_mesh::ProjectedMesh;
+use crate::render::repeated_models::find_repeated;
 use crate::render::screen_transform::ScreenTransform;
 use crate::render::vertex_inputs::material_opacity;
 use crate::render::vertex_processing::{VertexArrays, material_uv_set};
@@ -59,7 +60,11 @@ impl<'a> CasterPass<'a, '_> {
     pub(super) fn draw_scene(&mut self, context: &RenderContext<'a>) -> Result<(), RenderError> {
         let RenderContext { scene, textures, threads, .. } = *context;
         let mut first_id = 0_u32;
+        let is_repeated = find_repeated(&scene.models, scene.style);
         for (index, model_instance) in scene.models.iter().enumerate() {
+            if is_repeated[index] {
+                continue;
+            }
             for (instance, primitive) in model_instance.model.scene_primitives() {
                 let texture =
                     |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);

@@ -1,0 +1,64 @@
+//! Models that stand where they stand already, and need not be drawn again.
+//!
+//! A scene that names one model a hundred thousand times has two megabytes, and filled the picture
+//! as often. Of opaque surfaces at one depth the first stays: drawing the others changes nothing.
+
+use super::vertex_inputs::material_opacity;
+use crate::scene::Style;
+use model::ModelInstance;
+use raster::Opacity;
+use std::sync::Arc;
+
+/// For each model of a scene, whether the same one stands at the same place before it, and shows no
+/// translucent surface, which would be denser for being drawn twice.
+pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool> {
+    let mut is_repeated = vec![false; models.len()];
+    // All of it is translucent.
+    if style == Style::XRay {
+        return is_repeated;
+    }
+    let place = |index: usize| {
+        let ModelInstance { model, model_to_world } = &models[index];
+        (Arc::as_ptr(model).addr(), model_to_world.raw().to_cols_array().map(f64::to_bits))
+    };
+    let mut order: Vec<usize> = (0..models.len()).collect();
+    // Addresses only bring equal ones together; the first of them is that of the scene's order.
+    order.sort_by_key(|index| place(*index));
+    for pair in order.windows(2) {
+        if place(pair[0]) == place(pair[1]) {
+            let materials = &models[pair[1]].model.materials;
+            let is_opaque = materials.iter().all(|it| material_opacity(it) != Opacity::Translucent);
+            is_repeated[pair[1]] = is_opaque;
+        }
+    }
+    is_repeated
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use homog::{Affine, Vector};
+    use model::{AlphaMode, Material, Model};
+
+    #[test]
+    fn equal_places_of_opaque_models_are_found() {
+        let opaque = Arc::new(Model::default());
+        let glass = Material { alpha_mode: AlphaMode::Blend, ..Material::default() };
+        let glass = Arc::new(Model { materials: vec![glass], ..Model::default() });
+        let at = |model: &Arc<Model>, x: f64| ModelInstance {
+            model: Arc::clone(model),
+            model_to_world: Affine::translation(Vector::new(x, 0.0, 0.0)),
+        };
+        let models = [
+            at(&opaque, 1.0),
+            at(&glass, 1.0),
+            at(&opaque, 2.0),
+            at(&opaque, 1.0),
+            at(&glass, 1.0),
+            at(&opaque, 1.0),
+        ];
+        let expected = [false, false, false, true, false, true];
+        assert_eq!(find_repeated(&models, Style::Shaded), expected);
+        assert_eq!(find_repeated(&models, Style::XRay), [false; 6]);
+    }
+}
