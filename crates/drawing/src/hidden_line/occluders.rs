@@ -289,7 +289,7 @@ impl<M: TriangleMesh> MeshOccluders<M> {
                         break;
                     }
                     for triangle in triangles {
-                        let interval = on_screen.interval_behind_triangle(triangle);
+                        let interval = on_screen.interval_over_triangle(triangle);
                         if interval.is_none_or(|part| scratch.hidden.contains_interval(part)) {
                             continue;
                         }

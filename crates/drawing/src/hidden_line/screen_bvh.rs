@@ -405,10 +405,9 @@ impl<'a> ScreenEdge<'a> {
         (farthest <= f64::from(bounds.nearest)).then_some([enter, leave])
     }
 
-    /// The interval of s in which the edge passes over the box around a triangle and is not wholly
-    /// in front of it.
-    pub(super) fn interval_behind_triangle(&self, leaf: &LeafTriangle) -> Option<[f64; 2]> {
-        self.interval_behind(&leaf.bounds)
+    /// The interval of s in which the edge passes over the box around a triangle.
+    pub(super) fn interval_over_triangle(&self, leaf: &LeafTriangle) -> Option<[f64; 2]> {
+        self.interval_over_box(leaf.bounds.min.map(f64::from), leaf.bounds.max.map(f64::from))
     }
 
     /// The slab test: the interval of s in which the edge passes over a box that is not beside it
