@@ -22,12 +22,41 @@ fn flags_of_other_programs_lead_to_ours() {
         (&["--camera-position", "1,2,3"], "use `--eye 1,2,3 --target 0,0,0`"),
         (&["--out-file", "a.png"], "use `--output a.png`"),
         (&["--turntable"], "run `alberti animate model.glb --turntable -o turn.gif`"),
+        (&["-resize", "8x8"], "use `--size 8x8`"),
+        (&["-e"], "use `--overlay edges`"),
+        (&["-b"], "it never opens a window; leave it out"),
+        (&["--engine", "CYCLES"], "there is one renderer; `--style` chooses a look"),
+        (
+            &["--dpi", "300"],
+            "`--size` gives the pixels; `alberti sheet model.glb --dpi 300` draws on paper, to scale",
+        ),
     ] {
         let run = sandbox.run(&[&["render", "teapot.glb"], flags].concat());
         let name = flags[0].split('=').next().expect("a name");
         let expected = format!("error: `{name}` is not a flag of `alberti render`; {told}\n");
         assert_eq!((run.code, run.stderr), (2, expected), "{flags:?}");
     }
+}
+
+#[test]
+fn habits_of_other_programs_do_not_make_wrong_files() {
+    let sandbox = sandbox_with_teapot("foreign_habits");
+    for (words, told) in [
+        (
+            &["render", "teapot.glb", "-quality", "80"][..],
+            "`-quality` needs two hyphens here: `--quality`",
+        ),
+        (&["render", "teapot.glb", "out.jpg"], "run `alberti render teapot.glb -o out.jpg`"),
+        (&["animate", "teapot.glb", "--turntable", "-o", "o.%04d.png"], "write 'o.{frame:04}.png'"),
+        (&["animate", "teapot.glb", "--turntable", "-o", "o_####.png"], "write 'o_{frame:04}.png'"),
+        (&["render", "teapot.glb", "--up", "-Y"], "invalid value '-Y' for '--up <AXIS>'"),
+    ] {
+        let run = sandbox.run(words);
+        assert_ne!(run.code, 0, "{words:?}: {}", run.stderr);
+        assert!(run.stderr.contains(told), "{words:?}: {}", run.stderr);
+    }
+    let files = std::fs::read_dir(sandbox.path_of(".")).expect("the folder").count();
+    assert_eq!(files, 1, "only the model is there");
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub(crate) struct LoadArgs {
     #[arg(long, value_name = "DIR")]
     allow_outside: Vec<PathBuf>,
     /// Axis that points up in the file [default: z for STL and 3MF, y for all others]
-    #[arg(long, value_name = "AXIS", value_parser = option_parser::<UpAxis>())]
+    #[arg(long, value_name = "AXIS", value_parser = option_parser::<UpAxis>(), allow_hyphen_values = true)]
     pub(crate) up: Option<UpAxis>,
     /// Length unit of the model, for sheets and dimensions [default: what the file declares; else
     /// mm for STL and 3MF, m for all others]

@@ -53,10 +53,10 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
     for task in &tasks {
         match render_task(args, task) {
             Err(failure) if tasks.len() > 1 => {
-                print_message(
-                    "error",
-                    &format!("{}: {}", visible_path(&task.input), failure.to_message()),
-                );
+                let (name, message) = (visible_path(&task.input), failure.to_message());
+                let is_named = message.starts_with(&name);
+                let prefix = if is_named { String::new() } else { format!("{name}: ") };
+                print_message("error", &format!("{prefix}{message}"));
                 code = ExitCode::FAILURE;
             }
             Ok(false) => code = ExitCode::FAILURE,

@@ -28,6 +28,23 @@ enum TemplatePart {
     Number(&'static str, usize),
 }
 
+/// What to write for `%04d` (printf, ffmpeg) or `####` (Blender), if a name has one.
+fn counter_of_others(text: &str, number: &str) -> Option<String> {
+    let hashes =
+        text.find("##").map(|at| at..at + text[at..].chars().take_while(|c| *c == '#').count());
+    let printf = text.match_indices('%').find_map(|(at, _)| {
+        let digits = text[at + 1..].chars().take_while(char::is_ascii_digit).count();
+        let behind = text[at + 1 + digits..].strip_prefix('d')?;
+        (!behind.starts_with(char::is_alphanumeric)).then_some(at..at + digits + 2)
+    });
+    let counter = printf.or(hashes)?;
+    let meant = format!("{}{{{number}:04}}{}", &text[..counter.start], &text[counter.end..]);
+    Some(format!(
+        "`{}` is not a counter here\n  = help: for a file for each picture write '{meant}'",
+        &text[counter]
+    ))
+}
+
 impl NameTemplate {
     /// Parses a template whose fields may be these `words` and `numbers`.
     ///
@@ -35,12 +52,16 @@ impl NameTemplate {
     /// field up to the next `}`.
     ///
     /// # Errors
-    /// If a brace has no partner or a field is unknown; the message lists the known fields.
+    /// If a brace has no partner or a field is unknown; the message lists the known fields. If there
+    /// is a counter as of other programs, `%04d` or `####`.
     pub(super) fn parse(
         text: &str,
         words: &[&'static str],
         numbers: &[&'static str],
     ) -> Result<Self, String> {
+        if let Some(field) = numbers.first().and_then(|number| counter_of_others(text, number)) {
+            return Err(field);
+        }
         let mut parts = Vec::new();
         let mut rest = text;
         while let Some(at) = rest.find(['{', '}']) {
@@ -179,6 +200,21 @@ mod tests {
         }
         let template = NameTemplate::parse("{stem}", &["stem"], &[]).expect("a template");
         assert!(template.has_field("stem") && !template.has_field("view"));
+    }
+
+    #[test]
+    fn counters_of_other_programs_are_told() {
+        for (name, meant) in [
+            ("out.%04d.png", "'out.{frame:04}.png'"),
+            ("a_%d.png", "'a_{frame:04}.png'"),
+            ("b_####.png", "'b_{frame:04}.png'"),
+        ] {
+            let message = NameTemplate::parse(name, &[], &["frame"]).unwrap_err();
+            assert!(message.contains(meant), "{message}");
+        }
+        for name in ["100%.png", "#1.png", "50%done.png", "%0.png"] {
+            assert!(NameTemplate::parse(name, &[], &["frame"]).is_ok(), "{name}");
+        }
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
 /// holds for every command that draws, since it names another one.
 const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     (
-        "resolution res dimensions image-size img-size imgsize geometry width height",
+        "resolution res dimensions image-size img-size imgsize geometry resize width height",
         "size",
         "--size 1920x1080",
     ),
@@ -50,7 +50,7 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("no-background transparent alpha film-transparent", "background", "--background transparent"),
     ("background-hdri hdri-background skybox", "background", "--background environment"),
     ("wireframe wire", "style", "--style wireframe"),
-    ("edges show-edges", "overlay", "--overlay edges"),
+    ("edges show-edges e", "overlay", "--overlay edges"),
     ("toon cel cartoon", "style", "--style toon"),
     ("line-art lineart hidden-line hidden-lines freestyle", "style", "--style lines"),
     ("flat flat-shading", "style", "--style flat"),
@@ -91,7 +91,7 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("grid", "overlay", "--overlay grid"),
     ("clip cut slice clipping-plane cross-section", "section", "--section x=0"),
     ("up-axis z-up zup", "up", "--up z"),
-    ("s size-px", "size", "--size 1920x1080"),
+    ("size-px", "size", "--size 1920x1080"),
     ("units", "unit", "--unit mm"),
     ("pointsize point-sprites point-radius", "point-size", "--point-size 5"),
     (
@@ -109,7 +109,37 @@ const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("out outfile out-file output-file save export image write", "output", "--output picture.png"),
     ("paper-size page page-size", "paper", "--paper a4"),
     ("jobs cores num-threads", "threads", "--threads 4"),
-    ("turntable orbit spin animate", "", "alberti animate model.glb --turntable -o turn.gif"),
+    (
+        "turntable orbit spin animate frames",
+        "",
+        "alberti animate model.glb --turntable -o turn.gif",
+    ),
+];
+
+/// Flags of other programs that have no counterpart, or several: their names, and what to do.
+const FOREIGN_HABITS: &[(&str, &str)] = &[
+    ("b", "it never opens a window; leave it out"),
+    (
+        "P python python-expr",
+        "no scripts are run; `alberti scene init model.glb` begins a scene file",
+    ),
+    ("f render-frame", "for one moment of an animation use `--time 1.5`"),
+    ("a render-anim", "`alberti animate model.glb -o film.gif` renders a whole animation"),
+    ("E engine renderer", "there is one renderer; `--style` chooses a look"),
+    (
+        "F render-format output-format",
+        "the ending of the output file decides the format, as in `-o picture.png`",
+    ),
+    (
+        "dpi density",
+        "`--size` gives the pixels; `alberti sheet model.glb --dpi 300` draws on paper, to scale",
+    ),
+    (
+        "s",
+        "`--size 1920x1080` gives the pixels, `--scalars temperature` colors by an attribute, and \
+         `--from 0.5` is where an animation begins",
+    ),
+    ("tile montage contact-sheet", "`alberti batch` writes a contact sheet beside its pictures"),
 ];
 
 /// Values of other programs: the flag, their names, and the value here.
@@ -178,8 +208,18 @@ fn context(error: &Error, kind: ContextKind) -> Option<&str> {
 /// it is very similar.
 fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> Option<String> {
     let command = called_command(program, words);
-    let word = context(error, ContextKind::InvalidArg)?.to_owned();
+    let word = whole_word(context(error, ContextKind::InvalidArg)?, words);
     let name = word.split('=').next().unwrap_or(&word).to_owned();
+    let stem = name.trim_start_matches('-');
+    if let Some(help) = foreign_habit(stem) {
+        return Some(format!(
+            "`{name}` is not a flag of `{}`; {help}",
+            full_name(command, program)
+        ));
+    }
+    if !name.starts_with("--") && has_flag(command, stem) {
+        return Some(format!("`{name}` needs two hyphens here: `--{stem}`"));
+    }
     let short = name.strip_prefix('-').filter(|short| foreign_flag(short, command).is_some());
     let Some(flag) = name.strip_prefix("--").or(short) else {
         return advise_on_detached_value(words, command);
@@ -208,6 +248,24 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
         error.remove(ContextKind::SuggestedArg);
     }
     None
+}
+
+/// The word that was typed: of `-resize` the parser tells `-r` alone.
+fn whole_word(told: &str, words: &[OsString]) -> String {
+    let is_long = |word: &&str| {
+        !word.starts_with("--")
+            && word.starts_with(told)
+            && word[1..].chars().all(char::is_alphabetic)
+    };
+    let typed = (told.chars().count() == 2 && !told.starts_with("--"))
+        .then(|| words.iter().filter_map(|word| word.to_str()).find(is_long));
+    typed.flatten().unwrap_or(told).to_owned()
+}
+
+/// What to do about a flag of another program that has no counterpart.
+fn foreign_habit(word: &str) -> Option<&'static str> {
+    let is_meant = |(words, _): &&(&str, &str)| words.split(' ').any(|known| known == word);
+    FOREIGN_HABITS.iter().find(is_meant).map(|(_, help)| *help)
 }
 
 /// Whether two names are too different for one to be a misspelling of the other: more than a third

@@ -43,6 +43,7 @@ pub(crate) struct RenderTask {
 /// # Errors
 /// If the name is no valid template, or two pictures would have the same name.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
+    refuse_output_as_input(&args.inputs)?;
     let looks = overrides_per_view(args);
     let count = args.inputs.len() * looks.len();
     let to_stdout = args.output.as_deref() == Some(Path::new("-"));
@@ -72,6 +73,18 @@ pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError>
     }
     check_distinct_outputs(&jobs)?;
     Ok(jobs)
+}
+
+/// Refuses `render model.glb picture.png`, before a picture is made of the first alone.
+fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
+    let is_output = |path: &&PathBuf| !path.exists() && OutputFormat::from_path(path).is_ok();
+    let (Some(output), [first, ..]) = (inputs.iter().skip(1).find(is_output), inputs) else {
+        return Ok(());
+    };
+    let [output, first] = [output, first].map(visible_path);
+    Err(CliError::Usage(format!(
+        "{output} is not a model\n  = help: to write the picture to it, run `alberti render {first} -o {output}`"
+    )))
 }
 
 /// The overrides of each picture of an input: one for each of `--views`.
