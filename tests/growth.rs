@@ -75,14 +75,6 @@ const WORKLOADS: &[Workload] = &[
         after: &["--style", "lines", "-o", "out.svg"],
     },
     Workload {
-        name: "triangles outlined",
-        file: "soup.stl",
-        text: soup,
-        size: 500,
-        before: &["render"],
-        after: &["--style", "outline", "-o", "out.svg"],
-    },
-    Workload {
         name: "triangles dashed",
         file: "soup.stl",
         text: soup,
