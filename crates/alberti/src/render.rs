@@ -54,9 +54,10 @@ fn render_all(args: &RenderArgs) -> Result<ExitCode, CliError> {
         match render_task(args, task) {
             Err(failure) if tasks.len() > 1 => {
                 let (name, message) = (visible_path(&task.input), failure.to_message());
-                let is_named = message.starts_with(&name);
-                let prefix = if is_named { String::new() } else { format!("{name}: ") };
-                print_message("error", &format!("{prefix}{message}"));
+                let prefix = format!("{name}: ");
+                // Most messages begin with the file that they are about.
+                let rest = message.strip_prefix(&prefix).unwrap_or(&message);
+                print_message("error", &format!("{prefix}{rest}"));
                 code = ExitCode::FAILURE;
             }
             Ok(false) => code = ExitCode::FAILURE,

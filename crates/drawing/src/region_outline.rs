@@ -18,7 +18,7 @@
 //!    keeps the area at its left and is divided where it touches itself.
 //!
 //! Sides of random triangles cross as often as they have pairs. Where they are too many, the area is
-//! sampled on a grid that is finer than a pen, and its border is that of the grid's cells.
+//! sampled on a fine grid, and its border follows the cells of the grid.
 
 mod coverage;
 
@@ -68,8 +68,8 @@ pub(super) fn is_traced(sides: impl Iterator<Item = ([PagePoint; 2], i32)>) -> b
     find_crossings(&sides).is_none()
 }
 
-/// Sides may cross this often whatever their number, and [`CROSSINGS_PER_SIDE`] times more each. The
-/// sides of models cross once or twice.
+/// The number of crossings up to which an outline is exact: this many, and
+/// [`CROSSINGS_PER_SIDE`] more for each side.
 const ANY_CROSSINGS: usize = 1 << 14;
 /// See [`ANY_CROSSINGS`].
 const CROSSINGS_PER_SIDE: usize = 8;

@@ -107,7 +107,7 @@ pub enum Warning {
     CutOutsDrawnWhole,
     /// So many faces lie behind each other that small gaps between them count as closed.
     CrowdApproximated,
-    /// The sides of so many faces cross that outlines are those of a grid.
+    /// So many faces overlap that their outlines are traced on a grid, and are not exact.
     OutlinesTraced,
     /// Outlines over surfaces are left out, because copies have too many triangles.
     OutlinesLeftOut,
@@ -294,8 +294,7 @@ impl Warning {
                  left out: `--no-line-limits` draws them, and may take long"
             }
             Self::OutlinesTraced => {
-                "so many faces overlap that outlines are traced on a grid of 0.05 mm, finer than the \
-                 pens"
+                "so many faces overlap that their outlines are traced on a fine grid, and are not exact"
             }
             Self::OutlinesLeftOut => {
                 "the models have so many copies that their outlines would take long, and they are left \

@@ -159,6 +159,16 @@ impl ProjectedVertices {
     }
 }
 
+/// What the triangles of leaves are made with.
+struct LeafView<'a> {
+    projector: &'a Projector,
+    projected: &'a ProjectedVertices,
+    /// The height in pixels up to which a triangle hides nothing.
+    thinnest: f64,
+    /// The margin of boxes in pixels.
+    margin: f64,
+}
+
 impl ScreenBvh {
     /// Projects a mesh, and finds the boxes of its hierarchy on the screen: O(n).
     ///
@@ -171,6 +181,7 @@ impl ScreenBvh {
         [thinnest, margin]: [f64; 2],
     ) -> Self {
         let projected = ProjectedVertices::new(mesh, projector);
+        let view = LeafView { projector, projected: &projected, thinnest, margin };
         let empty = ScreenNode { bounds: DepthBox::EMPTY, first: 0, count: 0 };
         let mut tree = Self {
             nodes: vec![empty; bvh.node_count()],
@@ -185,8 +196,7 @@ impl ScreenBvh {
                 NodeContents::Items(range) => {
                     let first = tree.triangles.len() as u32;
                     for &triangle in &bvh.order[range] {
-                        let view = (projector, &projected, [thinnest, margin]);
-                        tree.push_triangle(triangle, mesh, view);
+                        tree.push_triangle(triangle, mesh, &view);
                     }
                     let boxes = tree.triangles[first as usize..].iter().map(|leaf| &leaf.bounds);
                     let bounds = boxes.fold(DepthBox::EMPTY, |all, next| all.union(next));
@@ -206,12 +216,8 @@ impl ScreenBvh {
     }
 
     /// Adds a triangle, or its pieces within the view volume, to the leaf that is being made.
-    fn push_triangle(
-        &mut self,
-        triangle: u32,
-        mesh: &impl TriangleMesh,
-        (projector, projected, [thinnest, margin]): (&Projector, &ProjectedVertices, [f64; 2]),
-    ) {
+    fn push_triangle(&mut self, triangle: u32, mesh: &impl TriangleMesh, view: &LeafView<'_>) {
+        let LeafView { projector, projected, thinnest, margin } = *view;
         let indices = mesh.vertex_indices(triangle).map(|vertex| vertex as usize);
         let outcodes = indices.map(|vertex| projected.outcodes[vertex]);
         if Outcode::trivially_accepts(&outcodes) {
@@ -225,7 +231,7 @@ impl ScreenBvh {
         } else if Outcode::trivially_rejects(&outcodes).is_inside() {
             let clip = mesh.positions(triangle).map(|at| projector.world_to_clip_point(at));
             for piece in clip_triangle(clip, &Volume::CHAPTER).triangles() {
-                self.push_piece(triangle, piece, projector, [thinnest, margin]);
+                self.push_piece(triangle, piece, view);
             }
         }
     }
@@ -235,8 +241,7 @@ impl ScreenBvh {
         &mut self,
         triangle: u32,
         corners: [ClipVertex; 3],
-        projector: &Projector,
-        [thinnest, margin]: [f64; 2],
+        &LeafView { projector, thinnest, margin, .. }: &LeafView<'_>,
     ) {
         let to_screen = |corner: ClipVertex| projector.project_to_screen(corner.point);
         let [Some(a), Some(b), Some(c)] = corners.map(to_screen) else { return };

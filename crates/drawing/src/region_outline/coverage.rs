@@ -8,9 +8,9 @@
 
 use super::{Point, Side};
 
-/// The side of a cell in micrometers, a tenth of a pen of 0.5 mm.
+/// The side of a cell in micrometers: a tenth of a pen of 0.5 mm.
 const CELL: i64 = 50;
-/// The most cells in a row or a column: of larger drawings the cells are larger.
+/// The most cells in a row or a column. Drawings of more than 0.4 m have larger cells.
 const MAX_CELLS: i64 = 8192;
 
 /// The cells between which the border runs.

@@ -13,8 +13,8 @@ use std::sync::Arc;
 /// translucent surface, which would be denser for being drawn twice.
 pub(super) fn find_repeated(models: &[ModelInstance], style: Style) -> Vec<bool> {
     let mut is_repeated = vec![false; models.len()];
-    // All of it is translucent.
-    if style == Style::XRay {
+    // X-ray surfaces are all translucent.
+    if models.len() < 2 || style == Style::XRay {
         return is_repeated;
     }
     let place = |index: usize| {

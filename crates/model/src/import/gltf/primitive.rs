@@ -352,9 +352,9 @@ impl<'a> PrimitiveReader<'a, '_> {
         }
         let (color, pointer) = named(Semantic::Colors(0));
         primitive.colors = attributes.read_colors(color, &pointer)?;
-        self.scalars.read_values(self.mesh_and_part, &mut attributes, named)?;
-        read_joints(primitive, &mut attributes, named)?;
         let (mesh, part) = self.mesh_and_part;
+        self.scalars.read_values(mesh, part, &mut attributes, named)?;
+        read_joints(primitive, &mut attributes, named)?;
         for (at, json) in json.targets.iter().flatten().enumerate() {
             let further = self.context.untyped.extra_morph_attributes.get(&(mesh, part, at));
             let mut reader = MorphTargetReader {

@@ -77,7 +77,8 @@ impl CollectedScalars {
     /// Exceeded limits and unreadable files. Invalid values are left out with a warning.
     pub(super) fn read_values(
         &mut self,
-        (mesh, primitive): (usize, usize),
+        mesh: usize,
+        primitive: usize,
         attributes: &mut AttributeReader<'_, '_>,
         named: impl Fn(Semantic) -> (Option<usize>, String),
     ) -> Result<(), Diagnostic> {
