@@ -2,8 +2,8 @@
 
 use crate::hostile::promises;
 use alberti_tests::gltf::Document;
-use model::Model;
 use model::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
+use model::{Diagnostic, Model};
 use std::path::Path;
 
 /// A file that wishes the importer ill.
@@ -51,12 +51,20 @@ impl Case {
         check_path(&path, &self.options, &self.expected)
     }
 
-    /// Checks the file: a report that says whether it loads, and why not.
+    /// Checks the file and loads it from memory, strictly and leniently: the report says whether it
+    /// loads, and why not.
     pub fn check_bytes(&self) -> Result<(), String> {
-        let report = check_bytes(self.file_name, &self.file, &self.options);
         let fault =
             load_bytes(self.file_name, &self.file, &self.options).err().map(|e| *e.diagnostic);
-        if report.load_error != fault {
+        let loads = fault.is_none();
+        self.check_report(fault.as_ref())?;
+        self.load_leniently(loads)
+    }
+
+    /// Compares the report about the file with the `fault` that loading found.
+    fn check_report(&self, fault: Option<&Diagnostic>) -> Result<(), String> {
+        let report = check_bytes(self.file_name, &self.file, &self.options);
+        if report.load_error.as_ref() != fault {
             return Err(format!("loading says {fault:?}, the report {:?}", report.load_error));
         }
         if fault.is_some() && report.errors == 0 {
@@ -72,11 +80,10 @@ impl Case {
         Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
     }
 
-    /// Loads the file leniently: what loads otherwise loads so too, and what is left keeps every
-    /// promise.
-    pub fn load_leniently(&self) -> Result<(), String> {
+    /// Loads the file leniently: a file that `loads` strictly loads so too, and what is left keeps
+    /// every promise.
+    fn load_leniently(&self, loads: bool) -> Result<(), String> {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
-        let loads = load_bytes(self.file_name, &self.file, &self.options).is_ok();
         match load_bytes(self.file_name, &self.file, &options) {
             Ok(model) => promises::check_model(&model),
             Err(error) if loads => {

@@ -62,12 +62,6 @@ fn build_steps() -> Vec<Step> {
         )
         .shared(),
         Step::built_in("build", "programs and tests compile", || TestPrograms::build().map(drop)),
-        Step::new("units", "unit and integration tests of the crates", Action::CrateTests),
-        Step::cargo(
-            "doctests",
-            "the examples of the documentation run",
-            &["test --quiet --workspace --doc -- --skip book_pages"],
-        ),
         Step::built_in("docs", "the documentation builds without warnings", build_documentation),
         Step::built_in(
             "api",
@@ -87,6 +81,14 @@ fn build_documentation() -> Outcome {
 fn suite_steps() -> Vec<Step> {
     let suite = |name, about: &str| Step::new(name, about, Action::Suite(name)).shared();
     vec![
+        Step::new("units", "unit and integration tests of the crates", Action::CrateTests).shared(),
+        suite("hostile", "malicious files against the importer, with limits of time and memory"),
+        Step::cargo(
+            "doctests",
+            "the examples of the documentation run",
+            &["test --quiet --workspace --doc -- --skip book_pages"],
+        )
+        .shared(),
         Step::new(
             "program",
             "the command line: flags, messages, exit codes, output files",
@@ -103,7 +105,6 @@ fn suite_steps() -> Vec<Step> {
             "drawing",
             "line drawings against the z-buffer: models, a tenth of the random scenes",
         ),
-        suite("hostile", "malicious files against the importer, with limits of time and memory"),
         suite("corpus", "valid, odd and broken glTF files are rendered, or refused with a reason"),
         suite("looks", "what is drawn is not black, empty or unlit"),
         suite("references", "pictures against ray traced ones, by the formulas of glTF"),
