@@ -28,7 +28,7 @@ use super::parallel::map_in_order;
 use super::projector::Projector;
 use super::region::{Region, region_edges};
 use super::retained_points::idle_section_warnings;
-use super::view_cover::{Occluding, ViewCover, view_cover};
+use super::view_cover::{Occluding, ViewCover, VisibleParts, view_cover};
 use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Placement, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
@@ -276,10 +276,10 @@ impl<'a> EdgeDivider<'a> {
         let tolerance = surface.touch_tolerance();
         let is_ignored = options.hidden_edges == HiddenEdges::Ignored && !options.outline_only;
         let occluders = (!is_ignored).then(|| {
-            let triangles =
-                Occluding { surface, visible: crowd.map(|cover| surface.visible_triangles(cover)) };
-            let of_visible = triangles.visible.is_some().then(|| mesh_bvh(&triangles));
-            let bvh = of_visible.as_ref().unwrap_or_else(|| surface.face_bvh());
+            let parts = crowd.map(|crowd| VisibleParts::new(surface, crowd));
+            let triangles = Occluding { surface, parts };
+            let of_parts = triangles.parts.is_some().then(|| mesh_bvh(&triangles));
+            let bvh = of_parts.as_ref().unwrap_or_else(|| surface.face_bvh());
             let faces = MeshOccluders::new(triangles, bvh, projector, tolerance);
             if options.outline_only { faces.at_any_depth() } else { faces }
         });

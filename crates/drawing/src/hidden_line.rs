@@ -45,7 +45,7 @@ mod screen_bvh;
 
 pub use bvh::Aabb;
 pub(super) use bvh::Bvh;
-pub(super) use depth_cover::DepthCover;
+pub(super) use depth_cover::{DepthCover, ScreenBox};
 pub use occluders::{EdgeParts, Occluders, Tolerance};
 pub(super) use occluders::{MeshOccluders, OcclusionScratch, mesh_bvh};
 pub(super) use occlusion_intervals::OcclusionIntervals;

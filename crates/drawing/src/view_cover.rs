@@ -44,35 +44,56 @@ pub(super) fn view_cover(
 #[derive(Clone, Debug)]
 pub(super) struct Occluding<'a> {
     pub(super) surface: &'a WeldedSurface,
-    /// Those that are not hidden themselves; `None` for all.
-    pub(super) visible: Option<Vec<u32>>,
+    /// What hides instead of the triangles of the surface.
+    pub(super) parts: Option<VisibleParts>,
 }
 
-impl Occluding<'_> {
-    /// The index of a triangle in the surface.
-    fn in_surface(&self, triangle: u32) -> u32 {
-        self.visible.as_ref().map_or(triangle, |visible| visible[triangle as usize])
+/// The parts of triangles that a crowd does not hide itself: of a soup of long triangles, an edge
+/// meets few of them.
+#[derive(Clone, Debug)]
+pub(super) struct VisibleParts {
+    corners: Vec<[DVec3; 3]>,
+    /// The triangle of the surface that each is a part of.
+    triangles: Vec<u32>,
+}
+
+impl VisibleParts {
+    pub(super) fn new(surface: &WeldedSurface, crowd: &DepthCover) -> Self {
+        let (corners, triangles) = surface.visible_parts(crowd);
+        Self { corners, triangles }
     }
 }
 
 impl TriangleMesh for Occluding<'_> {
     fn triangle_count(&self) -> u32 {
-        self.visible.as_ref().map_or(self.surface.triangle_count(), |list| list.len() as u32)
+        self.parts
+            .as_ref()
+            .map_or_else(|| self.surface.triangle_count(), |parts| parts.corners.len() as u32)
     }
 
     fn vertex_count(&self) -> u32 {
-        self.surface.vertex_count()
+        match &self.parts {
+            Some(_) => 3 * self.triangle_count(),
+            None => self.surface.vertex_count(),
+        }
     }
 
     fn vertex_indices(&self, triangle: u32) -> [u32; 3] {
-        self.surface.vertex_indices(self.in_surface(triangle))
+        match &self.parts {
+            Some(_) => [0, 1, 2].map(|corner| 3 * triangle + corner),
+            None => self.surface.vertex_indices(triangle),
+        }
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
-        self.surface.position(vertex)
+        match &self.parts {
+            Some(parts) => parts.corners[vertex as usize / 3][vertex as usize % 3],
+            None => self.surface.position(vertex),
+        }
     }
 
     fn object(&self, triangle: u32) -> u32 {
-        self.surface.object(self.in_surface(triangle))
+        let part_of = |parts: &VisibleParts| parts.triangles[triangle as usize];
+        self.surface.object(self.parts.as_ref().map_or(triangle, part_of))
     }
 }

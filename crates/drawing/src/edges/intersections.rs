@@ -15,9 +15,10 @@
 
 use super::seams::{BorderEdge, WeldRadii};
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::{Aabb, Bvh, DepthCover};
+use crate::hidden_line::{Aabb, Bvh, DepthCover, ScreenBox};
 use crate::parallel::map_in_order;
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Triangles nowhere farther from each other's planes than this many touching distances are
@@ -75,7 +76,8 @@ pub(super) fn intersect_faces(
     // Without what is out of sight there is less to compare.
     let in_sight = cover.map(|cover| FacesInSight::new(mesh, cover));
     let of_view = in_sight.as_ref().map(|in_sight| {
-        Bvh::new(in_sight.visible.iter().map(|face| Aabb::around_triangle(mesh.triangle(*face))))
+        let items = in_sight.items.iter();
+        Bvh::new(items.map(|item| Aabb::around_triangle(in_sight.corners(mesh, *item))))
     });
     let bvh = of_view.as_ref().unwrap_or(bvh);
     let leaves = bvh.leaf_nodes();
@@ -84,11 +86,13 @@ pub(super) fn intersect_faces(
         true => [usize::MAX; 2],
         false => [most, Bvh::query_budget(leaves.len())],
     };
+    // Parts of two faces find their segment several times, but only what is seen counts.
+    let least = if in_sight.is_some() { 1024 } else { 256 };
     let search = IntersectionSearch {
         mesh,
         borders: FaceBorders::new(borders, weld_radii),
         touching,
-        most_per_leaf: (most / leaves.len().max(1)).max(256),
+        most_per_leaf: (most / leaves.len().max(1)).max(least),
         in_sight,
     };
     let is_cut_off = AtomicBool::new(false);
@@ -115,6 +119,8 @@ pub(super) fn intersect_faces(
             }
         });
     pairs.sort_by_key(|(faces, _)| *faces);
+    // Several parts of two faces may meet in their one segment.
+    pairs.dedup_by_key(|(faces, _)| *faces);
     let segments = pairs.into_iter().map(|(_, segment)| segment).collect();
     Intersections { segments, is_cut_off: is_cut_off.into_inner() }
 }
@@ -145,26 +151,44 @@ struct IntersectionSearch<'a> {
     in_sight: Option<FacesInSight<'a>>,
 }
 
-/// The faces of a mesh that one viewer may see.
+/// The faces of a mesh that one viewer may see, and where they are long, those of their parts.
 struct FacesInSight<'a> {
     cover: &'a DepthCover,
-    /// The faces that are not hidden as a whole.
-    visible: Vec<u32>,
+    /// The face of each item, and the index of its part unless it is all of the face.
+    items: Vec<(u32, Option<u32>)>,
+    parts: Vec<[DVec3; 3]>,
 }
 
 impl<'a> FacesInSight<'a> {
     fn new(mesh: &WorldMesh, cover: &'a DepthCover) -> Self {
-        let is_visible = |face: &u32| !cover.hides_triangle(mesh.triangle(*face));
-        let visible = (0..mesh.faces.len() as u32).filter(is_visible).collect();
-        Self { cover, visible }
+        let mut in_sight = Self { cover, items: Vec::new(), parts: Vec::new() };
+        let mut visible = Vec::new();
+        for face in 0..mesh.faces.len() as u32 {
+            let whole = mesh.triangle(face);
+            cover.add_visible_parts(whole, &mut visible);
+            for part in visible.drain(..) {
+                let index = in_sight.parts.len() as u32;
+                in_sight.items.push((face, (part != whole).then_some(index)));
+                in_sight.parts.extend((part != whole).then_some(part));
+            }
+        }
+        in_sight
+    }
+
+    /// The corners of what is visible of a face.
+    fn corners(&self, mesh: &WorldMesh, (face, part): (u32, Option<u32>)) -> [DVec3; 3] {
+        part.map_or_else(|| mesh.triangle(face), |part| self.parts[part as usize])
     }
 
     /// Whether what two triangles have in common is hidden.
     fn hide_pair(&self, pair: [&IntersectionTriangle; 2]) -> bool {
-        let [Some(one), Some(other)] = pair.map(|face| self.cover.image_of(&face.vertices)) else {
-            return false;
+        let image = |triangle: &IntersectionTriangle| {
+            let part = triangle.part.map(|part| &self.parts[part as usize]);
+            let find = || self.cover.image_of(part.unwrap_or(&triangle.vertices));
+            *triangle.image.get_or_init(find)
         };
-        self.cover.hides(&one.intersection(&other))
+        let [one, other] = pair.map(image);
+        one.zip(other).is_some_and(|(one, other)| self.cover.hides(&one.intersection(&other)))
     }
 }
 
@@ -176,10 +200,18 @@ impl IntersectionSearch<'_> {
         items: &[u32],
         within: Option<&Aabb>,
     ) -> impl Iterator<Item = IntersectionTriangle> {
-        let faces = items.iter().filter(|item| (**item as usize) < self.mesh.faces.len());
-        let faces =
-            faces.map(|item| self.in_sight.as_ref().map_or(*item, |of| of.visible[*item as usize]));
-        faces.filter_map(move |face| IntersectionTriangle::from_face(self.mesh, face, within))
+        let faces = items.iter().filter_map(move |&item| match &self.in_sight {
+            Some(in_sight) => Some(in_sight.items[item as usize]),
+            None => ((item as usize) < self.mesh.faces.len()).then_some((item, None)),
+        });
+        faces.filter_map(move |(face, part)| {
+            let vertices = self.mesh.triangle(face);
+            let seen = part.zip(self.in_sight.as_ref());
+            let corners = seen.map_or(vertices, |(part, in_sight)| in_sight.parts[part as usize]);
+            let bounds = Aabb::around_triangle(corners);
+            let is_near = within.is_none_or(|within| within.intersects(&bounds));
+            is_near.then(|| IntersectionTriangle::new((face, part), vertices, bounds))
+        })
     }
 
     /// Intersects the triangles of a leaf with each other.
@@ -219,10 +251,17 @@ impl IntersectionSearch<'_> {
         if shares_edge(faces) {
             return None;
         }
-        let size =
-            |triangle: &IntersectionTriangle| (triangle.bounds.half_surface_area(), triangle.face);
+        // By their faces, so that parts of them find the same segment.
+        let size = |triangle: &IntersectionTriangle| {
+            let around = Aabb::around_triangle(triangle.vertices);
+            (around.half_surface_area(), triangle.face)
+        };
         let (one, other) = if size(a) < size(b) { (a, b) } else { (b, a) };
         let ends = one.intersect_triangle(other, self.touching)?;
+        // Of the pairs of a soup most meet where it cannot be seen: they are not to be counted.
+        if self.in_sight.as_ref().is_some_and(|in_sight| in_sight.cover.hides_segment(ends)) {
+            return None;
+        }
         let is_seam = [one, other].iter().all(|triangle| self.borders.have_segment(triangle, ends));
         let object = faces[0].object.min(faces[1].object);
         (!is_seam).then_some(([one.face, other.face], (ends, object)))
@@ -271,26 +310,25 @@ impl FaceBorders {
 }
 
 /// A triangle with what the intersection test needs of it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct IntersectionTriangle {
     face: u32,
+    /// The index of the part of it that is compared; `None` for all of it.
+    part: Option<u32>,
     vertices: [DVec3; 3],
+    /// The box around the part.
     bounds: Aabb,
     /// The unit normal.
     normal: DVec3,
+    /// The image of the part, once it was asked for; `None` if it has none.
+    image: OnceCell<Option<ScreenBox>>,
 }
 
 impl IntersectionTriangle {
-    /// The triangle of a face; `None` if its box does not overlap the one that is given.
-    fn from_face(mesh: &WorldMesh, face: u32, within: Option<&Aabb>) -> Option<Self> {
-        let vertices = mesh.triangle(face);
-        let bounds = Aabb::around_triangle(vertices);
-        if within.is_some_and(|within| !within.intersects(&bounds)) {
-            return None;
-        }
+    fn new((face, part): (u32, Option<u32>), vertices: [DVec3; 3], bounds: Aabb) -> Self {
         let [a, b, c] = vertices;
         let normal = (b - a).cross(c - a).normalize_or_zero();
-        Some(Self { face, vertices, bounds, normal })
+        Self { face, part, vertices, bounds, normal, image: OnceCell::new() }
     }
 
     /// Whether no vertex is farther than `touching` on one side of another triangle's plane.

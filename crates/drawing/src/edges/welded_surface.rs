@@ -361,11 +361,15 @@ impl WeldedSurface {
         )
     }
 
-    /// The triangles that hide, by their indices, but for those that a cover hides.
-    pub(crate) fn visible_triangles(&self, cover: &DepthCover) -> Vec<u32> {
-        let triangles = (0..).zip(self.occluder_triangles());
-        let visible = triangles.filter(|(_, c)| !cover.hides_triangle(c.map(Point::raw)));
-        visible.map(|(triangle, _)| triangle).collect()
+    /// The parts of the triangles that hide, without those that a cover hides, each with the index
+    /// of its triangle.
+    pub(crate) fn visible_parts(&self, cover: &DepthCover) -> (Vec<[DVec3; 3]>, Vec<u32>) {
+        let (mut parts, mut triangles) = (Vec::new(), Vec::new());
+        for (triangle, corners) in (0..).zip(self.occluder_triangles()) {
+            cover.add_visible_parts(corners.map(Point::raw), &mut parts);
+            triangles.resize(parts.len(), triangle);
+        }
+        (parts, triangles)
     }
 
     /// A triangle that hides, by its index among the faces, which come first, and the fillings.

@@ -40,6 +40,10 @@ const MAX_SAMPLES: f64 = 134_217_728.0;
 const MAX_CROWD_CELLS: f64 = 1024.0;
 /// How often a segment or a triangle is divided before it counts as visible.
 const DIVISIONS: u32 = 6;
+/// How often a triangle is divided to leave out those of its parts that are hidden.
+const PART_DIVISIONS: u32 = 4;
+/// Parts of fewer cells than this along both sides are not divided.
+const SMALL_PART: f64 = 16.0;
 
 /// The depths behind which nothing is visible, as a pyramid of grids.
 ///
@@ -207,10 +211,37 @@ impl DepthCover {
         }
     }
 
-    /// Whether a triangle of the world is hidden as a whole.
-    pub(crate) fn hides_triangle(&self, corners: [DVec3; 3]) -> bool {
-        let images = images_of(&corners, &self.projector);
-        images.is_some_and(|corners| self.hides_image_of_triangle(corners, DIVISIONS))
+    /// Adds the parts of a triangle of the world that are not hidden: quarters, quarters of
+    /// quarters, or all of it.
+    pub(crate) fn add_visible_parts(&self, corners: [DVec3; 3], parts: &mut Vec<[DVec3; 3]>) {
+        self.divide_visible(corners, PART_DIVISIONS, parts);
+    }
+
+    /// Adds the parts that are not hidden; whether that is all of the triangle.
+    fn divide_visible(
+        &self,
+        corners: [DVec3; 3],
+        divisions: u32,
+        parts: &mut Vec<[DVec3; 3]>,
+    ) -> bool {
+        let image = self.image_of(&corners);
+        if image.is_some_and(|image| self.hides(&image)) {
+            return false;
+        }
+        // What crosses the eye's plane has no box to be judged by.
+        let size = image.map_or(0.0, |image| ((image.max - image.min) * self.scale).max_element());
+        let first = parts.len();
+        let mut is_whole = true;
+        if divisions > 0 && size >= SMALL_PART {
+            for part in quarters(corners) {
+                is_whole &= self.divide_visible(part, divisions - 1, parts);
+            }
+        }
+        if is_whole {
+            parts.truncate(first);
+            parts.push(corners);
+        }
+        is_whole
     }
 
     /// Whether a segment of the screen is hidden: by its box, or else by those of its halves.
@@ -224,21 +255,6 @@ impl DepthCover {
         }
         let middle = 0.5 * (a + b);
         [[a, middle], [middle, b]].into_iter().all(|half| self.hides_image(half, divisions - 1))
-    }
-
-    /// Whether a triangle of the screen is hidden: by its box, or else by those of its quarters.
-    fn hides_image_of_triangle(&self, corners: [DVec3; 3], divisions: u32) -> bool {
-        let around = ScreenBox::around_images(&corners);
-        if self.hides(&around) {
-            return true;
-        }
-        if divisions == 0 || ((around.max - around.min) * self.scale).max_element() < 2.0 {
-            return false;
-        }
-        let [a, b, c] = corners;
-        let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
-        let quarters = [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]];
-        quarters.into_iter().all(|part| self.hides_image_of_triangle(part, divisions - 1))
     }
 
     /// The box around the images of points; `None` if one of them has no image.
@@ -272,6 +288,12 @@ impl DepthCover {
         let Some(plane) = DepthPlane::through(images) else { return };
         self.levels[0].cover(images.map(DVec3::truncate), &plane, MARGIN * self.scale);
     }
+}
+
+/// The four parts of a triangle between the middles of its sides.
+fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
+    let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
+    [[ab, bc, ca], [a, ab, ca], [ab, b, bc], [ca, bc, c]]
 }
 
 /// The image of a point within the depths of the view volume.
@@ -357,5 +379,42 @@ mod tests {
         let cover = DepthCover::new(small, projector(true), [400; 2], &Tolerance::for_scene(4.0));
         let behind = [[0.0, 0.05, -1.0], [0.01, 0.05, -1.0]].map(DVec3::from);
         assert!(!cover.hides_segment(behind));
+    }
+
+    #[test]
+    fn parts_of_a_triangle_leave_out_only_what_is_hidden() {
+        for is_parallel in [true, false] {
+            let cover = DepthCover::new(
+                [triangle(0.0, 1.5)].into_iter(),
+                projector(is_parallel),
+                [400; 2],
+                &Tolerance::for_scene(4.0),
+            );
+            let parts_of = |corners| {
+                let mut parts = Vec::new();
+                cover.add_visible_parts(corners, &mut parts);
+                parts
+            };
+            assert!(parts_of(triangle(-1.0, 0.5)).is_empty(), "behind: {is_parallel}");
+            let before = triangle(0.5, 1.9);
+            assert_eq!(parts_of(before), [before], "before: {is_parallel}");
+            // It sticks out on all sides of the face that hides the middle of it.
+            let larger = triangle(-0.5, 1.9);
+            let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+            let parts = parts_of(larger);
+            let seen: f64 = parts.iter().map(|part| area(*part)).sum();
+            assert!(seen > 0.3 * area(larger) && seen < 0.9 * area(larger), "{seen}");
+            let is_in = |[a, b, c]: [DVec3; 3], p: DVec3| {
+                let side = |a: DVec3, b: DVec3| (b - a).truncate().perp_dot((p - a).truncate());
+                side(a, b) >= -1e-9 && side(b, c) >= -1e-9 && side(c, a) >= -1e-9
+            };
+            let [a, b, c] = larger;
+            for k in 0..400_u32 {
+                let [u, v] = [f64::from(k % 20) / 20.0, f64::from(k / 20) / 20.0];
+                let point = a + (b - a) * u * (1.0 - v) + (c - a) * v;
+                let is_hidden = cover.hides_segment([point, point]);
+                assert!(is_hidden || parts.iter().any(|part| is_in(*part, point)), "{point}");
+            }
+        }
     }
 }
