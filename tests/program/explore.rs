@@ -216,7 +216,7 @@ fn slow_readers_and_abandoned_pictures_do_not_stop_it() {
     sandbox.write_file("large.bin", vec![0; 16 << 20]);
     let server = Server::start(&sandbox, &["a.gltf"]);
     // More than the server holds at once; none of them reads.
-    let _slow: Vec<TcpStream> = (0..100).map(|_| server.ask("/files/large.bin")).collect();
+    let _slow: Vec<TcpStream> = (0..500).map(|_| server.ask("/files/large.bin")).collect();
     server.assert_answers_soon("what=state&lesson=frustum");
     // Each takes the better part of a minute.
     let picture = "/compute?v=1&lesson=frustum&what=picture&size=8192x8192";
