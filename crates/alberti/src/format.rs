@@ -10,6 +10,7 @@ pub(crate) use dxf::{DxfArgs, image_warning};
 pub(crate) use raster::{DEFAULT_QUALITY, parse_quality};
 
 use super::error::CliError;
+use clap::ValueEnum as _;
 use drawing::{DxfOptions, Page, to_pdf};
 use model::visible_path;
 use std::path::Path;
@@ -41,6 +42,9 @@ impl OutputFormat {
     /// # Errors
     /// If the extension is none of those above.
     pub(super) fn from_path(output: &Path) -> Result<Self, CliError> {
+        if let Some(error) = prefix_error(&visible_path(output).to_string()) {
+            return Err(error);
+        }
         let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("png") => Ok(Self::Png),
@@ -126,4 +130,14 @@ impl OutputFormat {
             }
         }
     }
+}
+
+/// The error of ImageMagick's `png:-` and `png:out.png`, if a name is one.
+fn prefix_error(name: &str) -> Option<CliError> {
+    let (format, rest) = name.split_once(':')?;
+    let format = if format == "jpg" { "jpeg" } else { format };
+    OutputFormat::from_str(format, true).ok()?;
+    Some(CliError::Usage(format!(
+        "{name}: no format stands before the name here\n  = help: write `--format {format} -o {rest}`"
+    )))
 }

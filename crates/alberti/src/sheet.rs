@@ -10,7 +10,7 @@ mod parts_list_json;
 use super::CliError;
 use super::format::{DEFAULT_QUALITY, DxfArgs, OutputFormat, image_warning};
 use super::load_options::LoadArgs;
-use super::messages::{print_note, print_warnings};
+use super::messages::{print_message, print_note, print_warnings};
 use super::model_state::ModelStateArgs;
 use super::options::option_parser;
 use super::progress::Progress;
@@ -100,12 +100,9 @@ pub(crate) struct SheetArgs {
     /// Sign before decimals [default: point]
     #[arg(long, value_parser = option_parser::<DecimalMark>())]
     decimal_mark: Option<DecimalMark>,
-    /// Dots to the inch of a PNG, from 10 to 1200
-    #[arg(
-        long, value_name = "N", default_value_t = DEFAULT_DPI,
-        value_parser = clap::value_parser!(u32).range(10..=1200)
-    )]
-    dpi: u32,
+    /// Dots to the inch of a PNG, from 10 to 1200 [default: 150]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(10..=1200))]
+    dpi: Option<u32>,
     /// Say how much of the drawing area the views fill, and why the scale is not larger
     #[arg(long)]
     explain_scale: bool,
@@ -168,9 +165,10 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
         warnings.push(Warning::StyleIgnored);
     }
     warnings.extend(pages.iter().find_map(|page| image_warning(format, page)));
+    let dpi = args.dpi.unwrap_or(DEFAULT_DPI);
     let encode = |page: &Page| match format {
         format if format.is_raster() => {
-            format.encode_picture(&rasterize_page(page, args.dpi)?, DEFAULT_QUALITY)
+            format.encode_picture(&rasterize_page(page, dpi)?, DEFAULT_QUALITY)
         }
         OutputFormat::Dxf => Ok(page.to_dxf(&args.dxf.apply_to(DxfOptions::on_paper(page)))),
         _ => Ok(format.encode_pages(std::slice::from_ref(page))),
@@ -186,7 +184,18 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
         print_note(&sheet.fill(&scene.models, &scene.sections)?.to_string());
     }
     print_warnings(&scene, &warnings, true);
+    if !format.is_raster() {
+        warn_of_unused_dpi(args);
+    }
     Ok(())
+}
+
+/// Warns of a resolution for an output without pixels.
+fn warn_of_unused_dpi(args: &SheetArgs) {
+    if args.dpi.is_some() {
+        let message = "--dpi does nothing here: it applies only to pixels; write a .png to use it";
+        print_message("warning", message);
+    }
 }
 
 /// The error of a sheet that cannot be drawn: at its place in the scene file, if it has one there.

@@ -38,9 +38,13 @@ fn counter_of_others(text: &str, number: &str) -> Option<String> {
         (!behind.starts_with(char::is_alphanumeric)).then_some(at..at + digits + 2)
     });
     let counter = printf.or(hashes)?;
-    let meant = format!("{}{{{number}:04}}{}", &text[..counter.start], &text[counter.end..]);
+    // `//` is the folder of the model in Blender, and the root of the disk here.
+    let before = text[..counter.start].trim_start_matches("//");
+    let after = &text[counter.end..];
+    let ending = if after.contains('.') { "" } else { ".png" };
+    let meant = format!("{before}{{{number}:04}}{after}{ending}");
     Some(format!(
-        "`{}` is not a counter here\n  = help: for a file for each picture write '{meant}'",
+        "`{}` is not a counter here\n  = help: to write one file per picture, use -o '{meant}'",
         &text[counter]
     ))
 }
@@ -208,6 +212,7 @@ mod tests {
             ("out.%04d.png", "'out.{frame:04}.png'"),
             ("a_%d.png", "'a_{frame:04}.png'"),
             ("b_####.png", "'b_{frame:04}.png'"),
+            ("//b_####", "'b_{frame:04}.png'"),
         ] {
             let message = NameTemplate::parse(name, &[], &["frame"]).unwrap_err();
             assert!(message.contains(meant), "{message}");

@@ -1,8 +1,11 @@
 //! Advice on wrong command lines: flags and values of other programs lead to those of this one.
 //!
 //! clap compares the letters of words, which finds misspellings and otherwise misleads:
-//! `--resolution` is not like `--size`. What people bring from f3d, Blender, three.js or stl-thumb
-//! is in tables here, and is looked up first.
+//! `--resolution` is not like `--size`. What people bring from other programs is in the tables of
+//! `foreign_words`, and is looked up first.
+
+mod foreign_words;
+mod given_value;
 
 use super::args::Args;
 use super::help_groups;
@@ -10,6 +13,10 @@ use super::negative_numbers::called_command;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory as _, Error, FromArgMatches as _};
+use foreign_words::{FOREIGN_COMMANDS, FOREIGN_FLAGS, FOREIGN_HABITS};
+use given_value::{
+    Given, accepted_value, foreign_value, invalid_value, quoted, value_of, with_given_value,
+};
 use pipeline::scene::closest_name;
 use std::ffi::OsString;
 use std::path::Path;
@@ -31,146 +38,6 @@ pub(crate) fn parse_args(words: &[OsString]) -> Result<Args, Error> {
     })
 }
 
-/// Flags of other programs: their names without hyphens at the front; a flag that the command must
-/// have; and what to write.
-///
-/// Of several rows with a name the first counts whose flag the command has. A row without a flag
-/// holds for every command that draws, since it names another one.
-const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
-    (
-        "resolution res dimensions image-size img-size imgsize geometry resize width height",
-        "size",
-        "--size 1920x1080",
-    ),
-    (
-        "bg bgcolor bg-color background-color back-color clear-color",
-        "background",
-        "--background '#f4f1ea'",
-    ),
-    ("no-background transparent alpha film-transparent", "background", "--background transparent"),
-    ("background-hdri hdri-background skybox", "background", "--background environment"),
-    ("wireframe wire", "style", "--style wireframe"),
-    ("edges show-edges e", "overlay", "--overlay edges"),
-    ("toon cel cartoon", "style", "--style toon"),
-    ("line-art lineart hidden-line hidden-lines freestyle", "style", "--style lines"),
-    ("flat flat-shading", "style", "--style flat"),
-    ("shading render-mode mode", "style", "--style shaded"),
-    (
-        "hdri hdr hdri-file env-map envmap environment-map ibl hdri-ambient",
-        "environment",
-        "--environment studio.hdr",
-    ),
-    (
-        "hdri-rotation hdri-angle environment-angle",
-        "environment-rotation",
-        "--environment-rotation 90",
-    ),
-    ("light lights brightness light-strength key-light", "light-intensity", "--light-intensity 2"),
-    (
-        "ortho orthographic orthogonal parallel camera-orthographic",
-        "projection",
-        "--projection orthographic",
-    ),
-    ("perspective persp", "projection", "--projection perspective"),
-    ("isometric iso", "projection", "--projection isometric"),
-    ("yaw rotate-y camera-azimuth camera-azimuth-angle", "azimuth", "--azimuth 30"),
-    ("pitch rotate-x camera-elevation camera-elevation-angle", "elevation", "--elevation 20"),
-    ("fovy field-of-view view-angle camera-fov camera-view-angle focal-length", "fov", "--fov 35"),
-    ("camera-zoom camera-zoom-factor zoom-factor", "zoom", "--zoom 1.5"),
-    ("position camera-position camera-pos eye-position from", "eye", "--eye 4,3,6 --target 0,0,0"),
-    ("look-at lookat focal-point camera-focal-point center", "eye", "--eye 4,3,6 --target 0,0,0"),
-    ("camera-view-up camera-up viewup", "view-up", "--eye 4,3,6 --target 0,0,0 --view-up 0,1,0"),
-    ("camera-direction direction viewpoint", "view", "--view front"),
-    ("camera-index", "camera", "--camera 0"),
-    ("ao ssao", "ambient-occlusion", "--ambient-occlusion"),
-    ("antialias antialiasing anti-alias anti-aliasing msaa aa spp", "samples", "--samples 8"),
-    ("tonemap tonemapping", "tone-mapping", "--tone-mapping aces"),
-    ("shadow", "shadows", "--shadows on"),
-    ("floor ground-plane shadow-catcher", "ground", "--ground shadow"),
-    ("axis axes", "overlay", "--overlay axes"),
-    ("grid", "overlay", "--overlay grid"),
-    ("clip cut slice clipping-plane cross-section", "section", "--section x=0"),
-    ("up-axis z-up zup", "up", "--up z"),
-    ("size-px", "size", "--size 1920x1080"),
-    ("units", "unit", "--unit mm"),
-    ("pointsize point-sprites point-radius", "point-size", "--point-size 5"),
-    (
-        "scalar scalar-coloring coloring coloring-array color-by colorby attribute vertex-attribute",
-        "scalars",
-        "--scalars temperature",
-    ),
-    ("cmap color-map colour-map colormap-file lut palette", "colormap", "--colormap turbo"),
-    ("clim crange coloring-range range color-range", "scalar-range", "--scalar-range 0,100"),
-    ("animation-time", "time", "--time 1.5"),
-    ("animation-index animation-name", "animation", "--animation 0"),
-    ("frame-rate framerate", "fps", "--fps 30"),
-    ("frame-count num-frames", "frames", "--frames 60"),
-    ("output out outdir output-dir output-folder", "out-dir", "--out-dir pictures"),
-    ("out outfile out-file output-file save export image write", "output", "--output picture.png"),
-    ("paper-size page page-size", "paper", "--paper a4"),
-    ("jobs cores num-threads", "threads", "--threads 4"),
-    (
-        "turntable orbit spin animate frames",
-        "",
-        "alberti animate model.glb --turntable -o turn.gif",
-    ),
-];
-
-/// Flags of other programs that have no counterpart, or several: their names, and what to do.
-const FOREIGN_HABITS: &[(&str, &str)] = &[
-    ("b", "it never opens a window; leave it out"),
-    (
-        "P python python-expr",
-        "no scripts are run; `alberti scene init model.glb` begins a scene file",
-    ),
-    ("f render-frame", "for one moment of an animation use `--time 1.5`"),
-    ("a render-anim", "`alberti animate model.glb -o film.gif` renders a whole animation"),
-    ("E engine renderer", "there is one renderer; `--style` chooses a look"),
-    (
-        "F render-format output-format",
-        "the ending of the output file decides the format, as in `-o picture.png`",
-    ),
-    (
-        "dpi density",
-        "`--size` gives the pixels; `alberti sheet model.glb --dpi 300` draws on paper, to scale",
-    ),
-    (
-        "s",
-        "`--size 1920x1080` gives the pixels, `--scalars temperature` colors by an attribute, and \
-         `--from 0.5` is where an animation begins",
-    ),
-    ("tile montage contact-sheet", "`alberti batch` writes a contact sheet beside its pictures"),
-];
-
-/// Values of other programs: the flag, their names, and the value here.
-const FOREIGN_VALUES: &[(&str, &str, &str)] = &[
-    ("style", "cel cel-shaded cel-shading celshading cartoon comic anime", "toon"),
-    ("style", "wire wires mesh", "wireframe"),
-    ("style", "phong pbr rendered lit solid smooth realistic material textured", "shaded"),
-    (
-        "style",
-        "line line-art lineart edges hidden-line hidden-lines hlr drawing ink freestyle",
-        "lines",
-    ),
-    ("style", "normal normal-map", "normals"),
-    ("style", "id object-id segmentation mask", "ids"),
-    ("style", "xray ghost transparent glass", "x-ray"),
-    ("style", "z zbuffer z-buffer depth-map", "depth"),
-    ("style", "uvs checker checkerboard", "uv"),
-    ("style", "pencil hand-drawn", "sketch"),
-    ("style", "flat-shading faceted facetted low-poly", "flat"),
-    ("projection", "ortho orthogonal parallel", "orthographic"),
-    ("projection", "persp", "perspective"),
-    ("projection", "iso", "isometric"),
-    ("view", "behind rear", "back"),
-    ("view", "side", "right"),
-    ("view", "above plan", "top"),
-    ("view", "below under", "bottom"),
-    ("view", "3d perspective angled corner threequarter 3/4", "three-quarter"),
-    ("tone-mapping", "filmic aces-filmic hill", "aces"),
-    ("tone-mapping", "linear off raw standard", "none"),
-];
-
 /// The error of clap with a tip that helps, or an error in its place.
 ///
 /// `program` has all its flags declared; `words` are those of the command line.
@@ -180,9 +47,8 @@ fn advise(mut error: Error, words: &[OsString], program: &Command) -> Error {
     let message = match error.kind() {
         ErrorKind::UnknownArgument => advise_on_flag(&mut error, words, program),
         ErrorKind::InvalidSubcommand => advise_on_command(&error, program),
-        ErrorKind::InvalidValue => {
-            advise_on_value(&mut error);
-            None
+        ErrorKind::InvalidValue | ErrorKind::ValueValidation => {
+            advise_on_value(&mut error, words, program)
         }
         ErrorKind::ArgumentConflict => {
             advise_on_conflict(&mut error);
@@ -207,47 +73,72 @@ fn context(error: &Error, kind: ContextKind) -> Option<&str> {
 /// What to write in place of a flag that does not exist; a similar name of clap's is kept only if
 /// it is very similar.
 fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> Option<String> {
+    // It would list the flags that were typed as if the command needed them.
+    error.remove(ContextKind::Usage);
     let command = called_command(program, words);
     let word = whole_word(context(error, ContextKind::InvalidArg)?, words);
+    let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
     let name = word.split('=').next().unwrap_or(&word).to_owned();
     let stem = name.trim_start_matches('-');
-    if let Some(help) = foreign_habit(stem) {
-        return Some(format!(
-            "`{name}` is not a flag of `{}`; {help}",
-            full_name(command, program)
-        ));
-    }
-    if !name.starts_with("--") && has_flag(command, stem) {
-        return Some(format!("`{name}` needs two hyphens here: `--{stem}`"));
-    }
-    let short = name.strip_prefix('-').filter(|short| foreign_flag(short, command).is_some());
-    let Some(flag) = name.strip_prefix("--").or(short) else {
-        return advise_on_detached_value(words, command);
+    let is_ours = has_flag(command, stem);
+    let help = if !name.starts_with("--") && is_ours {
+        let value = value_of(&word, &words).filter(|_| takes_value(command, stem));
+        let meant = value.as_ref().and_then(|value| accepted_value(stem, value, command));
+        let text = meant.as_ref().map_or(String::new(), |meant| format!(" {}", quoted(meant)));
+        if meant == value || meant.is_none() {
+            return Some(format!("`{name}` needs two hyphens here: `--{stem}{text}`"));
+        }
+        Some(format!("use `--{stem}{text}`"))
+    } else if let Some(help) = foreign_habit(stem, command) {
+        Some(help.to_owned())
+    } else {
+        foreign_flag(stem, command).map(|advice| {
+            match with_given_value(advice, &word, &words, command) {
+                _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
+                Given::Nothing => format!("use `{advice}`"),
+                Given::Fits(advice) => format!("use `{advice}`"),
+                Given::FitsNot(flag) => format!("the flag here is `{flag}`, as in `{advice}`"),
+            }
+        })
     };
-    if let Some(advice) = foreign_flag(flag, command) {
-        let help = match with_given_value(advice, &word, words, command) {
-            _ if advice.starts_with("alberti ") => format!("run `{advice}`"),
-            Given::Nothing => format!("use `{advice}`"),
-            Given::Fits(advice) => format!("use `{advice}`"),
-            Given::FitsNot(flag) => format!("the flag here is `{flag}`, as in `{advice}`"),
-        };
-        return Some(format!(
-            "`{name}` is not a flag of `{}`; {help}",
-            full_name(command, program)
-        ));
+    if let Some(help) = help {
+        let command = full_name(command, program);
+        return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
     }
     if command.get_name() == program.get_name() {
-        let render = program.find_subcommand("render")?;
-        let help = "flags come after the command";
-        return has_flag(render, flag).then(|| {
-            format!("`{name}` is not a flag of `alberti` itself; {help}, as in `alberti render model.glb {name} …`")
-        });
+        return advise_before_command(&name, &words, program);
+    }
+    if !name.starts_with("--") {
+        return advise_on_detached_value(&words, command);
     }
     let names: Vec<&str> = command.get_arguments().filter_map(|flag| flag.get_long()).collect();
-    if closest_name(flag, &names).is_none_or(|similar| differs_widely(flag, similar)) {
+    if closest_name(stem, &names).is_none_or(|similar| differs_widely(stem, similar)) {
         error.remove(ContextKind::SuggestedArg);
     }
     None
+}
+
+/// What to do about a flag before any command.
+fn advise_before_command(name: &str, words: &[String], program: &Command) -> Option<String> {
+    // Blender's `--background` draws without a window.
+    let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some());
+    if let Some(file) = file.filter(|_| name == "--background") {
+        let is_blend = file.to_ascii_lowercase().ends_with(".blend");
+        let help = match is_blend {
+            true => "export the .blend file as .glb and run `alberti render model.glb`".to_owned(),
+            false => format!("run `alberti render {}`", quoted(&file)),
+        };
+        return Some(format!(
+            "nothing opens a window here, so leave `--background` out: {help}, whose `--background` \
+             is the color behind the model"
+        ));
+    }
+    let stem = name.strip_prefix("--")?;
+    has_flag(program.find_subcommand("render")?, stem).then(|| {
+        format!(
+            "`{name}` is not a flag of `alberti` itself; flags come after the command, as in `alberti render model.glb {name} …`"
+        )
+    })
 }
 
 /// The word that was typed: of `-resize` the parser tells `-r` alone.
@@ -255,17 +146,29 @@ fn whole_word(told: &str, words: &[OsString]) -> String {
     let is_long = |word: &&str| {
         !word.starts_with("--")
             && word.starts_with(told)
-            && word[1..].chars().all(char::is_alphabetic)
+            && word[1..].chars().all(|c| c.is_alphanumeric() || ":_-".contains(c))
     };
     let typed = (told.chars().count() == 2 && !told.starts_with("--"))
         .then(|| words.iter().filter_map(|word| word.to_str()).find(is_long));
     typed.flatten().unwrap_or(told).to_owned()
 }
 
-/// What to do about a flag of another program that has no counterpart.
-fn foreign_habit(word: &str) -> Option<&'static str> {
-    let is_meant = |(words, _): &&(&str, &str)| words.split(' ').any(|known| known == word);
-    FOREIGN_HABITS.iter().find(is_meant).map(|(_, help)| *help)
+/// What to do about a flag of another program that has no counterpart, or several.
+fn foreign_habit(word: &str, command: &Command) -> Option<&'static str> {
+    let word = with_hyphens(word);
+    let is_meant = |(words, only, _): &&(&str, &str, &str)| {
+        (only.is_empty() || *only == command.get_name())
+            && words.split(' ').any(|known| known == word)
+    };
+    FOREIGN_HABITS.iter().find(is_meant).map(|(.., help)| *help)
+}
+
+/// A name as the tables have it: single letters keep their case.
+fn with_hyphens(word: &str) -> String {
+    match word.chars().count() {
+        1 => word.to_owned(),
+        _ => word.to_ascii_lowercase().replace('_', "-"),
+    }
 }
 
 /// Whether two names are too different for one to be a misspelling of the other: more than a third
@@ -293,9 +196,15 @@ fn has_flag(command: &Command, name: &str) -> bool {
     command.get_arguments().any(|flag| flag.get_long() == Some(name))
 }
 
+/// Whether a flag of a command takes a value.
+fn takes_value(command: &Command, name: &str) -> bool {
+    let flag = command.get_arguments().find(|flag| flag.get_long() == Some(name));
+    flag.is_some_and(|flag| flag.get_action().takes_values())
+}
+
 /// What to write for a flag of another program.
 fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
-    let word = word.to_ascii_lowercase().replace('_', "-");
+    let word = with_hyphens(word);
     let is_meant = |(words, flag, _): &&(&str, &str, &str)| {
         let is_known =
             if flag.is_empty() { has_flag(command, "style") } else { has_flag(command, flag) };
@@ -304,53 +213,11 @@ fn foreign_flag(word: &str, command: &Command) -> Option<&'static str> {
     FOREIGN_FLAGS.iter().find(is_meant).map(|(.., advice)| *advice)
 }
 
-/// The value that was given for another program's flag.
-enum Given {
-    /// No value was given, or the flag here takes none.
-    Nothing,
-    /// The flag here takes it: the advice with the value.
-    Fits(String),
-    /// The flag here, which does not take it.
-    FitsNot(String),
-}
-
-/// The advice with the value that was given for the other program's flag, where the flag here takes
-/// it.
-fn with_given_value(advice: &str, word: &str, words: &[OsString], command: &Command) -> Given {
-    let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
-    let name = word.split('=').next().unwrap_or(word);
-    let joined = words.iter().find_map(|it| it.strip_prefix(name)?.strip_prefix('='));
-    let next = || words.iter().skip_while(|it| *it != name).nth(1);
-    let given = joined.map(str::to_owned).or_else(|| next().cloned());
-    let given = given.filter(|value| !value.starts_with('-') && !value.is_empty());
-    let (Some(given), Some((flag, rest))) = (given, advice.split_once(' ')) else {
-        return Given::Nothing;
-    };
-    let example = rest.split(" --").next().unwrap_or(rest);
-    let attempt = [command.get_name().to_owned(), format!("{flag}={given}")];
-    let is_valid = match command.clone().try_get_matches_from(attempt) {
-        Ok(_) => true,
-        Err(error) => error.kind() == ErrorKind::MissingRequiredArgument,
-    };
-    // A word that chooses what the flag is set to, such as `wireframe`, is no example.
-    let takes_any = example.contains(|c: char| c.is_ascii_digit() || c == '#' || c == '.');
-    if !takes_any || !flag.starts_with("--") {
-        return Given::Nothing;
-    }
-    if !is_valid {
-        return Given::FitsNot(flag.to_owned());
-    }
-    let is_plain = given.chars().all(|c| c.is_ascii_alphanumeric() || "._-,/=+:".contains(c));
-    let given = if is_plain { given } else { format!("'{given}'") };
-    Given::Fits(advice.replacen(example, &given, 1))
-}
-
 /// What to write for a value that was given apart from a flag that wants an equals sign, as in
 /// `--turntable 180`.
-fn advise_on_detached_value(words: &[OsString], command: &Command) -> Option<String> {
-    let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
+fn advise_on_detached_value(words: &[String], command: &Command) -> Option<String> {
     words.windows(2).find_map(|pair| {
-        let [flag, value] = *pair else { return None };
+        let [flag, value] = pair else { return None };
         let name = flag.strip_prefix("--")?;
         let wants_equals =
             |known: &clap::Arg| known.get_long() == Some(name) && known.is_require_equals_set();
@@ -360,27 +227,6 @@ fn advise_on_detached_value(words: &[OsString], command: &Command) -> Option<Str
         })
     })
 }
-
-/// Commands of other programs, and what to write.
-const FOREIGN_COMMANDS: &[(&str, &str)] = &[
-    (
-        "view show open display preview",
-        "to look at a model run `alberti explore model.glb`; to make a picture, `alberti render model.glb`",
-    ),
-    ("thumbnail thumb", "run `alberti render model.glb --size 256x256 -o thumb.png`"),
-    ("turntable spin video film movie", "run `alberti animate model.glb --turntable -o turn.gif`"),
-    (
-        "draw drawing lines",
-        "run `alberti render model.glb --style lines -o drawing.svg`, or `alberti sheet model.glb` for views to scale",
-    ),
-    ("validate lint verify", "run `alberti check model.glb`"),
-    ("inspect stat stats identify", "run `alberti info model.glb`"),
-    (
-        "convert export",
-        "it renders models and does not convert them: use another program, such as Blender",
-    ),
-    ("init new", "run `alberti scene init model.glb`"),
-];
 
 /// What to do with a file, a folder or another program's command in the place of a command.
 fn advise_on_command(error: &Error, program: &Command) -> Option<String> {
@@ -405,19 +251,20 @@ fn advise_on_command(error: &Error, program: &Command) -> Option<String> {
     })
 }
 
-/// Puts the value that another program's name means in the place of clap's tip.
-fn advise_on_value(error: &mut Error) {
-    let flag = context(error, ContextKind::InvalidArg).unwrap_or_default();
-    let flag = flag.trim_start_matches('-').split([' ', '=']).next().unwrap_or_default();
-    let value = context(error, ContextKind::InvalidValue).unwrap_or_default().to_ascii_lowercase();
-    let value = value.replace('_', "-");
-    let is_meant = |(name, words, _): &&(&str, &str, &str)| {
-        *name == flag && words.split(' ').any(|known| known == value)
-    };
-    if let Some((.., meant)) = FOREIGN_VALUES.iter().find(is_meant) {
-        let meant = ContextValue::String((*meant).to_owned());
-        error.insert(ContextKind::SuggestedValue, meant);
+/// Puts the value that another program's one means in the place of clap's tip; says more where a
+/// flag of this name has another meaning.
+fn advise_on_value(error: &mut Error, words: &[OsString], program: &Command) -> Option<String> {
+    let (flag, given) = invalid_value(error)?;
+    if flag == "color" && given.contains([',', '#']) {
+        return Some(format!(
+            "`--color` says when messages are colored (auto, always or never), and does not accept \
+             {given}; the colors of a model come from its file, and `--style clay` ignores them"
+        ));
     }
+    let command = called_command(program, words);
+    let meant = foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command))?;
+    error.insert(ContextKind::SuggestedValue, ContextValue::String(meant));
+    None
 }
 
 /// Says what to do about two flags that exclude each other.
@@ -430,6 +277,7 @@ fn advise_on_conflict(error: &mut Error) {
 
 #[cfg(test)]
 mod tests {
+    use super::foreign_words::FOREIGN_VALUES;
     use super::*;
     use crate::args::Args;
 
@@ -484,6 +332,30 @@ mod tests {
             assert!(names.iter().any(|name| name == value), "{value}: {names:?}");
             for word in words.split(' ') {
                 assert!(!names.iter().any(|name| name == word), "{word} is a value itself");
+            }
+        }
+    }
+
+    /// What habits are answered with exists: each command between backquotes parses, and each flag
+    /// is one of a command.
+    #[test]
+    fn what_habits_lead_to_exists() {
+        let program = built_program();
+        let exists = |flag: &str| program.get_subcommands().any(|it| has_flag(it, flag));
+        for (words, only, help) in FOREIGN_HABITS {
+            assert!(only.is_empty() || program.find_subcommand(only).is_some(), "{only}");
+            for word in words.split(' ') {
+                assert_eq!(with_hyphens(word), word, "names are looked up in this form");
+            }
+            for quoted in help.split('`').skip(1).step_by(2) {
+                let words: Vec<&str> = quoted.split(' ').collect();
+                let flags = words.iter().filter_map(|word| word.strip_prefix("--"));
+                let unknown: Vec<&str> = flags.filter(|flag| !exists(flag)).collect();
+                assert!(unknown.is_empty(), "{unknown:?} in {help}");
+                if words[0] == "alberti" && !words.contains(&"--help") {
+                    let parsed = Args::command().try_get_matches_from(&words);
+                    assert!(parsed.is_ok(), "{quoted}: {:?}", parsed.err());
+                }
             }
         }
     }

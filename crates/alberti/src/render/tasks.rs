@@ -44,6 +44,7 @@ pub(crate) struct RenderTask {
 /// If the name is no valid template, or two pictures would have the same name.
 pub(super) fn plan_tasks(args: &RenderArgs) -> Result<Vec<RenderTask>, CliError> {
     refuse_output_as_input(&args.inputs)?;
+    refuse_words_as_input(&args.inputs)?;
     let looks = overrides_per_view(args);
     let count = args.inputs.len() * looks.len();
     let to_stdout = args.output.as_deref() == Some(Path::new("-"));
@@ -85,6 +86,22 @@ fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     Err(CliError::Usage(format!(
         "{output} is not a model\n  = help: to write the picture to it, run `alberti render {first} -o {output}`"
     )))
+}
+
+/// Refuses words among several inputs that name no file: `+antialias`, or a flag after `--`. Their
+/// pictures would have the name of the first one's, which is what would be told.
+fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
+    let is_word = |path: &&PathBuf| path.as_os_str() != "-" && !path.exists();
+    let Some(word) = inputs.iter().find(is_word).filter(|_| inputs.len() > 1) else {
+        return Ok(());
+    };
+    let name = visible_path(word);
+    let help = match word.to_string_lossy().chars().next() {
+        Some('-') => format!("everything after `--` is taken as a model; leave {name} out"),
+        Some('+') => format!("{name} is taken as a model; flags begin with two hyphens"),
+        _ => "check the name".to_owned(),
+    };
+    Err(CliError::Usage(format!("{name}: the file does not exist\n  = help: {help}")))
 }
 
 /// The overrides of each picture of an input: one for each of `--views`.

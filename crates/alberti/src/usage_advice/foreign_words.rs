@@ -1,0 +1,328 @@
+//! Words that people bring from f3d, Blender, ImageMagick, ffmpeg, three.js or stl-thumb.
+
+/// Flags of other programs: their names without hyphens at the front; a flag that the command must
+/// have; and what to write.
+///
+/// Of several rows with a name the first counts whose flag the command has. A row without a flag
+/// holds for every command that draws, since it names another one. Single letters keep their case.
+pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
+    (
+        "resolution res dimensions image-size img-size imgsize geometry resize thumbnail width height \
+         W H",
+        "size",
+        "--size 1920x1080",
+    ),
+    (
+        "bg bgcolor bg-color background-color back-color clear-color",
+        "background",
+        "--background '#f4f1ea'",
+    ),
+    ("no-background transparent alpha film-transparent", "background", "--background transparent"),
+    (
+        "background-hdri hdri-background skybox hdri-skybox",
+        "background",
+        "--background environment",
+    ),
+    ("wireframe wire", "style", "--style wireframe"),
+    ("toon cel cartoon", "style", "--style toon"),
+    ("line-art lineart hidden-line hidden-lines freestyle", "style", "--style lines"),
+    ("flat flat-shading", "style", "--style flat"),
+    ("texture-matcap", "style", "--style matcap"),
+    ("shading render-mode mode", "style", "--style shaded"),
+    (
+        "hdri hdr hdri-file env-map envmap environment-map ibl",
+        "environment",
+        "--environment studio.hdr",
+    ),
+    (
+        "hdri-rotation hdri-angle environment-angle",
+        "environment-rotation",
+        "--environment-rotation 90",
+    ),
+    ("light lights brightness light-strength key-light", "light-intensity", "--light-intensity 2"),
+    (
+        "ortho orthographic orthogonal parallel camera-orthographic",
+        "projection",
+        "--projection orthographic",
+    ),
+    ("perspective persp", "projection", "--projection perspective"),
+    ("isometric iso", "projection", "--projection isometric"),
+    ("yaw rotate-y camera-azimuth camera-azimuth-angle", "azimuth", "--azimuth 30"),
+    ("pitch rotate-x camera-elevation camera-elevation-angle", "elevation", "--elevation 20"),
+    ("fovy field-of-view view-angle camera-fov camera-view-angle focal-length", "fov", "--fov 35"),
+    ("camera-zoom camera-zoom-factor zoom-factor", "zoom", "--zoom 1.5"),
+    ("position camera-position camera-pos eye-position from", "eye", "--eye 4,3,6 --target 0,0,0"),
+    (
+        "look-at lookat focal-point camera-focal-point center",
+        "target",
+        "--target 0,0,0 --eye 4,3,6",
+    ),
+    ("camera-view-up camera-up viewup", "view-up", "--eye 4,3,6 --target 0,0,0 --view-up 0,1,0"),
+    ("camera-index", "camera", "--camera 0"),
+    ("q ao ssao", "ambient-occlusion", "--ambient-occlusion"),
+    ("antialias antialiasing anti-alias anti-aliasing msaa aa spp", "samples", "--samples 8"),
+    ("tonemap tonemapping", "tone-mapping", "--tone-mapping aces"),
+    ("shadow", "shadows", "--shadows on"),
+    ("floor ground-plane shadow-catcher", "ground", "--ground shadow"),
+    ("axis axes", "overlay", "--overlay axes"),
+    ("g grid", "overlay", "--overlay grid"),
+    ("clip cut slice clipping-plane cross-section", "section", "--section x=0"),
+    ("up-axis z-up zup", "up", "--up z"),
+    ("size-px", "size", "--size 1920x1080"),
+    ("supersample supersampling resolution-percentage", "scale", "--scale 2"),
+    ("depth bit-depth color-depth", "bits", "--bits 16"),
+    ("units", "unit", "--unit mm"),
+    ("pointsize point-sprites point-radius", "point-size", "--point-size 5"),
+    (
+        "scalar scalar-coloring coloring coloring-array color-by colorby attribute vertex-attribute",
+        "scalars",
+        "--scalars temperature",
+    ),
+    ("cmap color-map colour-map colormap-file lut palette", "colormap", "--colormap turbo"),
+    ("clim crange coloring-range range color-range", "scalar-range", "--scalar-range 0,100"),
+    ("animation-time ss", "time", "--time 1.5"),
+    ("animation-index animation-name", "animation", "--animation 0"),
+    ("frame-rate framerate r", "fps", "--fps 30"),
+    ("frame-count num-frames frames:v vframes", "frames", "--frames 60"),
+    ("output out outdir output-dir output-folder", "out-dir", "--out-dir pictures"),
+    ("out outfile out-file output-file save export image write", "output", "--output picture.png"),
+    ("paper-size page page-size", "paper", "--paper a4"),
+    ("jobs cores num-threads nthreads j", "threads", "--threads 4"),
+    ("S scene-name scene-index", "scene", "--scene 0"),
+    (
+        "turntable orbit spin animate frames",
+        "",
+        "alberti animate model.glb --turntable -o turn.gif",
+    ),
+];
+
+/// Flags of other programs that have no counterpart, or several: their names, the only command for
+/// which it holds if there is one, and what to do.
+pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
+    ("b", "", "nothing opens a window here, so leave it out"),
+    (
+        "y overwrite overwrite-output",
+        "",
+        "files that are there are replaced once the new ones are whole, so leave it out",
+    ),
+    (
+        "i input in file filename",
+        "",
+        "the input needs no flag, as in `alberti render model.glb -o picture.png`",
+    ),
+    (
+        "P python python-expr python-text",
+        "",
+        "no scripts are run; `alberti scene init model.glb` creates a scene file to edit instead",
+    ),
+    (
+        "s e frame-start frame-end start-frame end-frame start end to-frame",
+        "animate",
+        "times are in seconds, as in `--from 0 --to 2.5`, and `--frames 10` is the number of frames",
+    ),
+    ("f frame render-frame", "", "for one moment of an animation use `--time 1.5`, in seconds"),
+    (
+        "frame-start frame-end start-frame end-frame fps framerate frame-rate r",
+        "render",
+        "this command draws one moment; run `alberti animate model.glb -o film.gif` for more",
+    ),
+    ("a render-anim", "", "`alberti animate model.glb -o film.gif` renders a whole animation"),
+    (
+        "E engine renderer cycles-device device gpu cuda opencl raytracing raytrace ray-tracing \
+         path-tracing pathtracing denoise denoiser",
+        "",
+        "there is one renderer, on the CPU and without ray tracing; `--samples 16` smooths edges",
+    ),
+    (
+        "F render-format output-format image-format",
+        "render",
+        "`--format jpeg` chooses the format, and so does the ending of the output file, as in \
+         `-o picture.jpg`",
+    ),
+    (
+        "F render-format output-format image-format format",
+        "",
+        "the ending of the output file chooses the format, as in `-o film.gif`",
+    ),
+    (
+        "render-output",
+        "",
+        "`-o 'pictures/{stem}.png'` names the output, and `{frame:04}` in it is the number of a frame",
+    ),
+    (
+        "vf filter:v filter-complex",
+        "",
+        "`--size 320x240` gives the size of pictures; for other filters give them to ffmpeg",
+    ),
+    (
+        "x use-extension",
+        "",
+        "the ending of the output file decides the format, as in `-o picture.png`: leave it out",
+    ),
+    (
+        "t",
+        "",
+        "`--threads 4` is the number of threads, and `--tone-mapping aces` chooses the tone curve",
+    ),
+    (
+        "e edges show-edges",
+        "",
+        "`--style wireframe` shows all edges of the mesh, and `--overlay edges` draws outlines and \
+         creases over the picture",
+    ),
+    (
+        "camera-direction direction viewpoint",
+        "",
+        "a direction is given as `--azimuth 30 --elevation 20`, or by `--eye 4,3,6 --target 0,0,0`",
+    ),
+    (
+        "roll camera-roll camera-roll-angle",
+        "",
+        "`--view-up 0,1,0`, beside `--eye 4,3,6 --target 0,0,0`, says what is up in the picture",
+    ),
+    (
+        "hdri-ambient",
+        "",
+        "a file given to `--environment studio.hdr` lights the model too, so leave it out",
+    ),
+    (
+        "dpi density",
+        "",
+        "`--size 1920x1080` gives the pixels; `alberti sheet model.glb --dpi 300 -o sheet.png` draws \
+         on paper, to scale",
+    ),
+    (
+        "s",
+        "",
+        "`--size 1920x1080` gives the pixels, and `--scalars temperature` colors by an attribute",
+    ),
+    (
+        "tile montage contact-sheet",
+        "",
+        "`alberti batch models --out-dir pictures` writes a contact sheet beside its pictures",
+    ),
+    (
+        "verbose v vv vvv debug debug-all log log-level loglevel",
+        "render",
+        "`--timings` prints the time of each stage, and `--json` a report",
+    ),
+    (
+        "verbose v vv vvv debug debug-all log log-level loglevel quiet silent hide-banner nostats",
+        "",
+        "only warnings and errors are printed; leave it out",
+    ),
+    (
+        "opacity metallic roughness base-color emissive-factor normal-scale texture-base-color \
+         texture-normal texture-material texture-emissive material materials",
+        "",
+        "materials come from the file; `alberti scene init model.glb` creates a scene file, which can \
+         replace them",
+    ),
+    (
+        "bar scalar-bar coloring-scalar-bar legend colorbar",
+        "",
+        "there is no color bar; `--scalar-range 0,100` says what the ends of the colormap stand for",
+    ),
+    (
+        "line-width linewidth edge-width stroke-width strokewidth edge-color line-color stroke fill",
+        "",
+        "a scene file sets the pens of lines; `alberti scene doc` lists them",
+    ),
+    (
+        "c:v vcodec codec:v codec pix-fmt crf b:v bitrate preset an movflags",
+        "",
+        "ffmpeg makes the video: `alberti animate model.glb -o film.mp4` says how to pipe frames to it",
+    ),
+    ("delay", "animate", "`--fps 30` gives the speed"),
+    ("loop", "", "a film begins again by itself in `-o film.gif` and `-o film.png`: leave it out"),
+    (
+        "rotate flip flop trim blur strip border gravity extent colorspace negate gamma level \
+         sharpen unsharp sepia-tone monochrome grayscale colors dither quantize composite append \
+         annotate draw label font shave splice chop distort repage adjoin compress interlace fuzz \
+         opaque modulate normalize equalize edge emboss charcoal posterize mattecolor bordercolor \
+         sample page type",
+        "",
+        "pictures are not edited here; give the result to ImageMagick",
+    ),
+    (
+        "factory-startup noaudio no-audio setaudio enable-autoexec disable-autoexec addons no-window-focus \
+         window-geometry no-native-pixels python-exit-code disable-crash-handler env-system-datafiles \
+         no-render rendering-backend trackball invert-zoom interaction-test-play",
+        "",
+        "there is no counterpart, and nothing opens a window here: leave it out",
+    ),
+    (
+        "depth-peeling translucency translucency-support depth-sorting",
+        "",
+        "transparent surfaces are always sorted, so leave it out",
+    ),
+    (
+        "config",
+        "",
+        "settings are read only from a scene file; `alberti scene init model.glb` creates one",
+    ),
+    ("volume volume-rendering inverse", "", "volumes are not drawn"),
+    (
+        "readers-list list-readers list-formats formats readers",
+        "",
+        "`alberti render --help` names the formats of models",
+    ),
+    ("dry-run", "", "`alberti check model.glb` reads a model and draws nothing"),
+];
+
+/// Values of other programs: the flag, their names, and the value here.
+pub(super) const FOREIGN_VALUES: &[(&str, &str, &str)] = &[
+    ("style", "cel cel-shaded cel-shading celshading cartoon comic anime", "toon"),
+    ("style", "wire wires mesh", "wireframe"),
+    ("style", "phong pbr rendered lit solid smooth realistic material textured", "shaded"),
+    (
+        "style",
+        "line line-art lineart edges hidden-line hidden-lines hlr drawing ink freestyle",
+        "lines",
+    ),
+    ("style", "normal normal-map", "normals"),
+    ("style", "id object-id segmentation mask", "ids"),
+    ("style", "xray ghost transparent glass", "x-ray"),
+    ("style", "z zbuffer z-buffer depth-map", "depth"),
+    ("style", "uvs checker checkerboard", "uv"),
+    ("style", "pencil hand-drawn", "sketch"),
+    ("style", "flat-shading faceted facetted low-poly", "flat"),
+    ("projection", "ortho orthogonal parallel", "orthographic"),
+    ("projection", "persp", "perspective"),
+    ("projection", "iso", "isometric"),
+    ("view", "behind rear", "back"),
+    ("view", "side", "right"),
+    ("view", "above plan", "top"),
+    ("view", "below under", "bottom"),
+    ("view", "3d perspective angled corner threequarter 3/4", "three-quarter"),
+    ("tone-mapping", "filmic aces-filmic hill", "aces"),
+    ("tone-mapping", "linear off raw standard", "none"),
+    ("up", "+x", "x"),
+    ("up", "+y", "y"),
+    ("up", "+z", "z"),
+];
+
+/// Commands of other programs, and what to write.
+pub(super) const FOREIGN_COMMANDS: &[(&str, &str)] = &[
+    (
+        "view show open display preview",
+        "to look at a model run `alberti explore model.glb`; to make a picture, `alberti render model.glb`",
+    ),
+    ("thumbnail thumb", "run `alberti render model.glb --size 256x256 -o thumb.png`"),
+    ("turntable spin video film movie", "run `alberti animate model.glb --turntable -o turn.gif`"),
+    (
+        "draw drawing lines",
+        "run `alberti render model.glb --style lines -o drawing.svg`, or `alberti sheet model.glb` for views to scale",
+    ),
+    ("validate lint verify", "run `alberti check model.glb`"),
+    ("inspect stat stats identify", "run `alberti info model.glb`"),
+    (
+        "convert export magick",
+        "to make a picture run `alberti render model.glb -o picture.png`; models are not converted: use another program for that, such as Blender",
+    ),
+    (
+        "montage mogrify composite",
+        "to make pictures of many models run `alberti batch models --out-dir pictures`",
+    ),
+    ("init new", "run `alberti scene init model.glb`"),
+];

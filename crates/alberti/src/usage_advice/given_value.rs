@@ -1,0 +1,170 @@
+//! Values that were given in the manner of another program, in the manner of this one.
+
+use super::context;
+use super::foreign_words::FOREIGN_VALUES;
+use clap::error::{ContextKind, ErrorKind};
+use clap::{Command, Error};
+
+/// The value that was given for another program's flag.
+pub(super) enum Given {
+    /// No value was given, or the flag here takes none.
+    Nothing,
+    /// The flag here takes it: the advice with the value.
+    Fits(String),
+    /// The flag here, which does not take it.
+    FitsNot(String),
+}
+
+/// The advice with the value that was given for the other program's flag, where the flag here takes
+/// it.
+pub(super) fn with_given_value(
+    advice: &str,
+    word: &str,
+    words: &[String],
+    command: &Command,
+) -> Given {
+    let (Some(given), Some((flag, rest))) = (value_of(word, words), advice.split_once(' ')) else {
+        return Given::Nothing;
+    };
+    let Some(name) = flag.strip_prefix("--") else { return Given::Nothing };
+    let example = rest.split(" --").next().unwrap_or(rest);
+    // A word that chooses what the flag is set to, such as `wireframe`, is no example.
+    let is_choice =
+        has_choices(command, name) || example == "transparent" || example == "environment";
+    if is_choice || example.starts_with("--") {
+        return Given::Nothing;
+    }
+    if let Some(factor) = percent(&given).filter(|_| name == "size") {
+        return Given::Fits(format!("--scale {factor}"));
+    }
+    match accepted_value(name, &given, command) {
+        Some(value) => Given::Fits(advice.replacen(example, &quoted(&value), 1)),
+        None => Given::FitsNot(flag.to_owned()),
+    }
+}
+
+/// The value that follows a word of the command line, or stands behind its equals sign.
+pub(super) fn value_of(word: &str, words: &[String]) -> Option<String> {
+    let name = word.split('=').next().unwrap_or(word);
+    let joined = words.iter().find_map(|it| it.strip_prefix(name)?.strip_prefix('='));
+    let next = || words.iter().skip_while(|it| *it != name).nth(1);
+    let given = joined.map(str::to_owned).or_else(|| next().cloned());
+    let is_number =
+        |value: &str| value.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit());
+    given.filter(|value| !value.is_empty() && (!value.starts_with('-') || is_number(value)))
+}
+
+/// A value as a shell takes it.
+pub(super) fn quoted(value: &str) -> String {
+    let is_plain = value.chars().all(|c| c.is_ascii_alphanumeric() || "._-,/=+:".contains(c));
+    if is_plain { value.to_owned() } else { format!("'{value}'") }
+}
+
+/// A value that a flag takes: the one that was given, or what it means in another program.
+pub(super) fn accepted_value(flag: &str, given: &str, command: &Command) -> Option<String> {
+    let meant = [Some(given.to_owned()), foreign_value(flag, given), rewritten(flag, given)];
+    meant.into_iter().flatten().find(|value| is_accepted(flag, value, command))
+}
+
+/// The value here for one of another program.
+pub(super) fn foreign_value(flag: &str, given: &str) -> Option<String> {
+    let given = given.to_ascii_lowercase().replace('_', "-");
+    let is_meant = |(name, words, _): &&(&str, &str, &str)| {
+        *name == flag && words.split(' ').any(|known| known == given)
+    };
+    FOREIGN_VALUES.iter().find(is_meant).map(|(.., meant)| (*meant).to_owned())
+}
+
+/// A value in the form of this program: `200,150` as `200x150`, `1,0,0` as `#ff0000`, and
+/// `100x80+10+20` as `10,20,100,80`.
+fn rewritten(flag: &str, given: &str) -> Option<String> {
+    match flag {
+        "size" => {
+            let given = given.trim_end_matches(['!', '^', '>', '<']);
+            let sides: Vec<&str> = given.split([',', ' ', ':', '*', 'X']).collect();
+            Some(sides.join("x"))
+        }
+        "background" if given.eq_ignore_ascii_case("none") => Some("transparent".to_owned()),
+        "background" => {
+            let channels = given.trim_start_matches("rgb(").trim_end_matches(')').split([',', ' ']);
+            let channels: Vec<f64> =
+                channels.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
+            let [red, green, blue] = channels[..] else { return None };
+            let whole = if channels.iter().all(|channel| *channel <= 1.0) { 255.0 } else { 1.0 };
+            let [red, green, blue] = [red, green, blue].map(|it| (it * whole).round() as u8);
+            Some(format!("#{red:02x}{green:02x}{blue:02x}"))
+        }
+        "crop" => {
+            let (size, [x, y]) = given.split_once('+').and_then(|(size, place)| {
+                let (x, y) = place.split_once('+')?;
+                Some((size, [x, y]))
+            })?;
+            let (width, height) = size.split_once('x')?;
+            Some(format!("{x},{y},{width},{height}"))
+        }
+        "eye" | "target" | "view-up" => {
+            Some(given.split_whitespace().collect::<Vec<_>>().join(","))
+        }
+        _ => None,
+    }
+}
+
+/// The factor of a percentage, such as 0.5 of `50%`.
+fn percent(given: &str) -> Option<f64> {
+    let percent: f64 = given.strip_suffix('%')?.parse().ok()?;
+    (percent > 0.0).then_some(percent / 100.0)
+}
+
+/// Whether a flag has a list of values.
+fn has_choices(command: &Command, name: &str) -> bool {
+    let flag = command.get_arguments().find(|flag| flag.get_long() == Some(name));
+    flag.is_some_and(|flag| !flag.get_possible_values().is_empty())
+}
+
+/// Whether a flag takes a value.
+fn is_accepted(flag: &str, value: &str, command: &Command) -> bool {
+    let attempt = [command.get_name().to_owned(), format!("--{flag}={value}")];
+    match command.clone().try_get_matches_from(attempt) {
+        Ok(_) => true,
+        Err(error) => error.kind() == ErrorKind::MissingRequiredArgument,
+    }
+}
+
+/// The flag, without hyphens, and the value of an error about a value.
+pub(super) fn invalid_value(error: &Error) -> Option<(String, String)> {
+    let flag = context(error, ContextKind::InvalidArg)?;
+    let flag = flag.trim_start_matches('-').split([' ', '=']).next()?;
+    let value = context(error, ContextKind::InvalidValue)?;
+    Some((flag.to_owned(), value.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_of_other_programs_are_rewritten() {
+        for (flag, given, meant) in [
+            ("size", "200,150", "200x150"),
+            ("size", "200x150!", "200x150"),
+            ("background", "none", "transparent"),
+            ("background", "1,0,0.5", "#ff0080"),
+            ("background", "rgb(255, 0, 10)", ""),
+            ("background", "rgb(255,0,10)", "#ff000a"),
+            ("crop", "100x80+10+20", "10,20,100,80"),
+            ("eye", "1 2 3", "1,2,3"),
+        ] {
+            assert_eq!(rewritten(flag, given).unwrap_or_default(), meant, "{flag} {given}");
+        }
+    }
+
+    #[test]
+    fn a_value_stands_behind_its_flag_or_its_equals_sign() {
+        let words = ["render", "--bg=red", "--roll", "-30", "-e", "-b"].map(str::to_owned);
+        for (word, value) in
+            [("--bg", Some("red")), ("--roll", Some("-30")), ("-e", None), ("-b", None)]
+        {
+            assert_eq!(value_of(word, &words).as_deref(), value, "{word}");
+        }
+    }
+}
