@@ -110,3 +110,33 @@ fn a_camera_that_is_not_there_is_answered_with_those_that_are() {
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("nobody") && run.stderr.contains("possible"), "{}", run.stderr);
 }
+
+/// What a person sees on a terminal while a large picture is drawn: the stage, the seconds and the
+/// part that is done, and afterwards nothing of it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_shows_how_far_a_large_picture_is() {
+    let sandbox = Sandbox::new("terminal_progress");
+    sandbox.copy_model("crate.glb");
+    let program = alberti_tests::program_path().expect("the program");
+    let command = format!(
+        "{} render crate.glb --size 3000x3000 --samples 1 --threads 1 -o a.png",
+        program.display()
+    );
+    let mut script = std::process::Command::new("script");
+    script.args(["-qec", &command, "/dev/null"]).current_dir(sandbox.path_of("."));
+    let Ok(output) = script.stdin(std::process::Stdio::null()).output() else {
+        alberti_tests::skip::report_skip("progress on a terminal", "script is not installed");
+        return;
+    };
+    let shown = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{shown}");
+    // Each line is drawn over the one before.
+    let lines: Vec<&str> = shown.split("\r\u{1b}[K").collect();
+    let percent = |line: &&str| line.strip_suffix(" %")?.rsplit(' ').next()?.parse::<u32>().ok();
+    let done: Vec<u32> = lines.iter().filter_map(percent).collect();
+    assert!(done.len() > 2 && done.is_sorted(), "{shown:?}");
+    assert!(done.first() < done.last() && done.iter().all(|part| *part <= 100), "{shown:?}");
+    assert!(lines.iter().any(|line| line.starts_with("rendering … ")), "{shown:?}");
+    assert_eq!(lines.last().map(|line| line.trim()), Some(""), "{shown:?}");
+}

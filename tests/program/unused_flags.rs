@@ -96,3 +96,15 @@ fn only_pictures_of_materials_warn_of_materials() {
         assert_eq!(!run.stderr.is_empty(), warns, "{model} {style}: {}", run.stderr);
     }
 }
+
+#[test]
+fn a_batch_notes_them_in_its_report() {
+    let sandbox = Sandbox::new("unused_flags_batch");
+    sandbox.copy_model("crate.glb");
+    let flags = ["--size", "8x8", "--style", "lines", "--exposure", "3"];
+    let run = sandbox.run(&[&["batch", "crate.glb", "--out-dir", "out"], &flags[..]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let records = crate::batch::read_records(&sandbox, "");
+    let message = records[0]["message"].as_str().expect("words");
+    assert_eq!(message, "--exposure does nothing here: a line drawing has no shading");
+}

@@ -8,6 +8,7 @@ use super::worker_scene::SceneLoader;
 use crate::CliError;
 use crate::content_digest::hexadecimal_sha256;
 use crate::memory_limit::{limit_process_memory, parse_memory_size};
+use crate::unused_flags::find_unused_overrides;
 use model::{visible_path, visible_text};
 use pipeline::shade::{create_partial_file, forget_partial_file};
 use pipeline::{RenderContext, Renderer, Textures};
@@ -146,7 +147,9 @@ impl Worker {
         let (png, drawing) = self.renderer.render_png(&context).map_err(CliError::from)?;
         let warnings = scene.models.iter().flat_map(|placed| &placed.model.warnings);
         let warnings = warnings.map(model::Diagnostic::sentence);
-        Ok((png, warnings.chain(drawing.iter().map(ToString::to_string)).collect()))
+        let unused = find_unused_overrides(&flags.overrides, &scene, false);
+        let warnings = warnings.chain(drawing.iter().map(ToString::to_string)).chain(unused);
+        Ok((png, warnings.collect()))
     }
 }
 
