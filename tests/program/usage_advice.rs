@@ -45,6 +45,7 @@ fn flags_of_other_programs_lead_to_ours() {
         (&["--bg-color", "1,0,0"], "use `--background '#ff0000'`"),
         (&["--coloring-array=Height"], "use `--scalars Height`"),
         (&["-q"], "use `--ambient-occlusion`"),
+        (&["--reference=old.png"], "use `--compare old.png`"),
         (&["-S", "Scene.001"], "use `--scene Scene.001`"),
         (&["-j", "2"], "use `--threads 2`"),
     ] {
@@ -79,12 +80,13 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
         (&["render", "teapot.glb", "+repage", "-o", "a.png"], "flags begin with two hyphens"),
         (
             &["render", "teapot.glb", "-o", "a.png", "--", "--gpu"],
-            "everything after `--` is taken as a model; leave --gpu out",
+            "everything after `--` is taken as a model",
         ),
         (&["render", "teapot.glb", "-o", "//frame_####"], "use -o 'frame_{frame:04}.png'"),
         (&["render", "teapot.glb", "-o", "png:out.png"], "write `--format png -o out.png`"),
         (&["--background", "teapot.glb", "-f", "1"], "run `alberti render teapot.glb`"),
-        (&["render", "teapot.glb", "-F", "JPEG"], "`--format jpeg` chooses the format"),
+        (&["render", "teapot.glb", "--background"], "is the color behind the model"),
+        (&["render", "teapot.glb", "-F", "JPEG"], "`--format png` chooses the format"),
         (&["animate", "teapot.glb", "-s", "1"], "`--frames 10` is the number of frames"),
         (&["animate", "teapot.glb", "-frames:v", "4"], "use `--frames 4`"),
         (&["--background", "a.blend", "-a"], "export the .blend file as .glb"),

@@ -261,6 +261,13 @@ fn advise_on_value(error: &mut Error, words: &[OsString], program: &Command) -> 
              {given}; the colors of a model come from its file, and `--style clay` ignores them"
         ));
     }
+    if flag == "background" && given.is_empty() {
+        return Some(
+            "`--background` is the color behind the model, such as `--background white` or \
+             `--background transparent`; nothing opens a window here"
+                .to_owned(),
+        );
+    }
     let command = called_command(program, words);
     let meant = foreign_value(&flag, &given).or_else(|| accepted_value(&flag, &given, command))?;
     error.insert(ContextKind::SuggestedValue, ContextValue::String(meant));
@@ -349,7 +356,8 @@ mod tests {
             }
             for quoted in help.split('`').skip(1).step_by(2) {
                 let words: Vec<&str> = quoted.split(' ').collect();
-                let flags = words.iter().filter_map(|word| word.strip_prefix("--"));
+                let names = words.iter().filter_map(|word| word.split('=').next());
+                let flags = names.filter_map(|word| word.strip_prefix("--"));
                 let unknown: Vec<&str> = flags.filter(|flag| !exists(flag)).collect();
                 assert!(unknown.is_empty(), "{unknown:?} in {help}");
                 if words[0] == "alberti" && !words.contains(&"--help") {

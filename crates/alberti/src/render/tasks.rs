@@ -97,7 +97,9 @@ fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     };
     let name = visible_path(word);
     let help = match word.to_string_lossy().chars().next() {
-        Some('-') => format!("everything after `--` is taken as a model; leave {name} out"),
+        Some('-') => {
+            "everything after `--` is taken as a model; leave `--` and what follows out".to_owned()
+        }
         Some('+') => format!("{name} is taken as a model; flags begin with two hyphens"),
         _ => "check the name".to_owned(),
     };

@@ -8,7 +8,7 @@
 pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     (
         "resolution res dimensions image-size img-size imgsize geometry resize thumbnail width height \
-         W H",
+         resolution-x resolution-y W H",
         "size",
         "--size 1920x1080",
     ),
@@ -30,7 +30,7 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("texture-matcap", "style", "--style matcap"),
     ("shading render-mode mode", "style", "--style shaded"),
     (
-        "hdri hdr hdri-file env-map envmap environment-map ibl",
+        "hdri hdr hdri-file hdri-filename env-map envmap environment-map ibl",
         "environment",
         "--environment studio.hdr",
     ),
@@ -60,7 +60,11 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("camera-view-up camera-up viewup", "view-up", "--eye 4,3,6 --target 0,0,0 --view-up 0,1,0"),
     ("camera-index", "camera", "--camera 0"),
     ("q ao ssao", "ambient-occlusion", "--ambient-occlusion"),
-    ("antialias antialiasing anti-alias anti-aliasing msaa aa spp", "samples", "--samples 8"),
+    (
+        "antialias antialiasing anti-alias anti-aliasing msaa aa spp raytracing-samples",
+        "samples",
+        "--samples 8",
+    ),
     ("tonemap tonemapping", "tone-mapping", "--tone-mapping aces"),
     ("shadow", "shadows", "--shadows on"),
     ("floor ground-plane shadow-catcher", "ground", "--ground shadow"),
@@ -81,13 +85,21 @@ pub(super) const FOREIGN_FLAGS: &[(&str, &str, &str)] = &[
     ("cmap color-map colour-map colormap-file lut palette", "colormap", "--colormap turbo"),
     ("clim crange coloring-range range color-range", "scalar-range", "--scalar-range 0,100"),
     ("animation-time ss", "time", "--time 1.5"),
-    ("animation-index animation-name", "animation", "--animation 0"),
-    ("frame-rate framerate r", "fps", "--fps 30"),
+    ("animation-index animation-indices animation-name", "animation", "--animation 0"),
+    ("frame-rate framerate animation-frame-rate r", "fps", "--fps 30"),
     ("frame-count num-frames frames:v vframes", "frames", "--frames 60"),
     ("output out outdir output-dir output-folder", "out-dir", "--out-dir pictures"),
-    ("out outfile out-file output-file save export image write", "output", "--output picture.png"),
+    (
+        "out outfile out-file output-file screenshot-filename save export image write",
+        "output",
+        "--output picture.png",
+    ),
     ("paper-size page page-size", "paper", "--paper a4"),
     ("jobs cores num-threads nthreads j", "threads", "--threads 4"),
+    ("reference ref baseline diff", "compare", "--compare reference.png"),
+    ("ref-threshold threshold", "tolerance", "--tolerance 2 --compare reference.png"),
+    ("qscale:v q:v", "quality", "--quality 85"),
+    ("max-size", "max-file-bytes", "--max-file-bytes 100MiB"),
     ("S scene-name scene-index", "scene", "--scene 0"),
     (
         "turntable orbit spin animate frames",
@@ -103,7 +115,12 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
     (
         "y overwrite overwrite-output",
         "",
-        "files that are there are replaced once the new ones are whole, so leave it out",
+        "existing files are overwritten without asking once the new ones are complete, so leave it out",
+    ),
+    (
+        "i input in file filename",
+        "animate",
+        "the input needs no flag, as in `alberti animate model.glb -o film.gif`",
     ),
     (
         "i input in file filename",
@@ -120,7 +137,12 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "animate",
         "times are in seconds, as in `--from 0 --to 2.5`, and `--frames 10` is the number of frames",
     ),
-    ("f frame render-frame", "", "for one moment of an animation use `--time 1.5`, in seconds"),
+    (
+        "f frame render-frame",
+        "",
+        "`alberti render model.glb` draws one picture without it; for another moment of an animation \
+         use `--time 1.5`, in seconds",
+    ),
     (
         "frame-start frame-end start-frame end-frame fps framerate frame-rate r",
         "render",
@@ -136,7 +158,7 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
     (
         "F render-format output-format image-format",
         "render",
-        "`--format jpeg` chooses the format, and so does the ending of the output file, as in \
+        "`--format png` chooses the format, and so does the ending of the output file, as in \
          `-o picture.jpg`",
     ),
     (
@@ -183,7 +205,7 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
     (
         "hdri-ambient",
         "",
-        "a file given to `--environment studio.hdr` lights the model too, so leave it out",
+        "leave it out: an environment file, as in `--environment studio.hdr`, lights the model as well",
     ),
     (
         "dpi density",
@@ -233,23 +255,71 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "",
         "ffmpeg makes the video: `alberti animate model.glb -o film.mp4` says how to pipe frames to it",
     ),
-    ("delay", "animate", "`--fps 30` gives the speed"),
-    ("loop", "", "a film begins again by itself in `-o film.gif` and `-o film.png`: leave it out"),
+    (
+        "delay speed animation-speed-factor step frame-step frame-jump",
+        "animate",
+        "`--fps 30` gives the speed, and `--frames 10` the number of frames",
+    ),
+    (
+        "duration length seconds",
+        "animate",
+        "`--from 0 --to 2.5` gives the part of an animation, in seconds; a turntable takes as long as \
+         `--frames 60` at `--fps 30`",
+    ),
+    (
+        "angle degrees sweep",
+        "animate",
+        "a turntable turns by an angle in degrees: `alberti animate model.glb --turntable=180`",
+    ),
+    ("flatten", "", "`--background white` fills what the model leaves empty"),
+    ("version", "", "run `alberti --version`"),
+    ("progress animation-progress", "", "a terminal shows the progress by itself, so leave it out"),
+    (
+        "recursive multi-file-mode",
+        "",
+        "`alberti batch models --out-dir pictures` draws every model in a folder",
+    ),
+    (
+        "axes-grid grid-absolute grid-unit grid-subdivisions grid-color",
+        "",
+        "`--overlay grid` draws a grid, whose spacing a scene file can set",
+    ),
+    ("metadata", "", "`alberti info model.glb` lists what a file contains"),
+    ("armature skeleton bones", "", "skeletons are not drawn"),
+    ("backface-type culling cull", "", "the materials of the file say which faces have two sides"),
+    (
+        "blur-background blur-coc",
+        "",
+        "`--background environment` shows the environment sharp, and a scene file can blur it",
+    ),
+    (
+        "coloring-component coloring-by-cells colormap-discretization",
+        "",
+        "`--scalars temperature` colors by one attribute of the vertices; there is nothing more to set",
+    ),
+    (
+        "loop no-loop",
+        "",
+        "a film begins again by itself in `-o film.gif` and `-o film.png`: leave it out",
+    ),
     (
         "rotate flip flop trim blur strip border gravity extent colorspace negate gamma level \
          sharpen unsharp sepia-tone monochrome grayscale colors dither quantize composite append \
          annotate draw label font shave splice chop distort repage adjoin compress interlace fuzz \
          opaque modulate normalize equalize edge emboss charcoal posterize mattecolor bordercolor \
-         sample page type",
+         sample page type layers dispose coalesce set interpolate filter define monitor reverse",
         "",
         "pictures are not edited here; give the result to ImageMagick",
     ),
     (
         "factory-startup noaudio no-audio setaudio enable-autoexec disable-autoexec addons no-window-focus \
          window-geometry no-native-pixels python-exit-code disable-crash-handler env-system-datafiles \
-         no-render rendering-backend trackball invert-zoom interaction-test-play",
+         no-render rendering-backend trackball invert-zoom interaction-test-play \
+         interaction-test-record interaction-style list-bindings bindings-list cheatsheet font-file \
+         font-scale load-plugins list-rendering-backends force-reader textures-transform base-ior \
+         final-shader display-depth blending animation-autoplay window-border",
         "",
-        "there is no counterpart, and nothing opens a window here: leave it out",
+        "it has no counterpart here, so leave it out",
     ),
     (
         "depth-peeling translucency translucency-support depth-sorting",
@@ -261,7 +331,11 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
         "",
         "settings are read only from a scene file; `alberti scene init model.glb` creates one",
     ),
-    ("volume volume-rendering inverse", "", "volumes are not drawn"),
+    (
+        "volume volume-rendering volume-opacity-file volume-opacity-map volume-inverse inverse",
+        "",
+        "volumes are not drawn",
+    ),
     (
         "readers-list list-readers list-formats formats readers",
         "",
