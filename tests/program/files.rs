@@ -62,7 +62,11 @@ fn an_output_that_cannot_be_written_is_named() {
     let run = sandbox.run(&["render", "crate.glb", "-o", "no/such/folder/out.png"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("no/such/folder/out.png"), "{}", run.stderr);
-    assert!(run.stderr.contains("help: create the folder no/such/folder first"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("help: create the folder `no/such/folder` first"),
+        "{}",
+        run.stderr
+    );
     let run = sandbox.run(&["render", "crate.glb", "-o", "out.tga"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("out.tga") && run.stderr.contains(".png"), "{}", run.stderr);

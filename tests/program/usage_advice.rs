@@ -85,6 +85,7 @@ fn habits_of_other_programs_do_not_make_wrong_files() {
         (&["render", "teapot.glb", "-o", "//frame_####"], "use -o 'frame_{frame:04}.png'"),
         (&["render", "teapot.glb", "-o", "png:out.png"], "write `--format png -o out.png`"),
         (&["--background", "teapot.glb", "-f", "1"], "run `alberti render teapot.glb`"),
+        (&["-b", "teapot.glb", "-o", "//a", "-f", "1"], "run `alberti render teapot.glb`"),
         (&["render", "teapot.glb", "--background"], "is the color behind the model"),
         (&["render", "teapot.glb", "-F", "JPEG"], "`--format png` chooses the format"),
         (&["animate", "teapot.glb", "-s", "1"], "`--frames 10` is the number of frames"),

@@ -184,15 +184,13 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
         print_note(&sheet.fill(&scene.models, &scene.sections)?.to_string());
     }
     print_warnings(&scene, &warnings, true);
-    if !format.is_raster() {
-        warn_of_unused_dpi(args);
-    }
+    warn_of_unused_dpi(args, format);
     Ok(())
 }
 
 /// Warns of a resolution for an output without pixels.
-fn warn_of_unused_dpi(args: &SheetArgs) {
-    if args.dpi.is_some() {
+fn warn_of_unused_dpi(args: &SheetArgs, format: OutputFormat) {
+    if args.dpi.is_some() && !format.is_raster() {
         let message = "--dpi does nothing here: it applies only to pixels; write a .png to use it";
         print_message("warning", message);
     }

@@ -80,6 +80,10 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
     let words: Vec<String> = words.iter().map(|it| it.to_string_lossy().into_owned()).collect();
     let name = word.split('=').next().unwrap_or(&word).to_owned();
     let stem = name.trim_start_matches('-');
+    let before_command = command.get_name() == program.get_name();
+    if let Some(advice) = before_command.then(|| advise_on_no_window(&name, &words)).flatten() {
+        return Some(advice);
+    }
     let is_ours = has_flag(command, stem);
     let help = if !name.starts_with("--") && is_ours {
         let value = value_of(&word, &words).filter(|_| takes_value(command, stem));
@@ -105,8 +109,8 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
         let command = full_name(command, program);
         return Some(format!("`{name}` is not a flag of `{command}`; {help}"));
     }
-    if command.get_name() == program.get_name() {
-        return advise_before_command(&name, &words, program);
+    if before_command {
+        return advise_before_command(&name, program);
     }
     if !name.starts_with("--") {
         return advise_on_detached_value(&words, command);
@@ -118,21 +122,26 @@ fn advise_on_flag(error: &mut Error, words: &[OsString], program: &Command) -> O
     None
 }
 
-/// What to do about a flag before any command.
-fn advise_before_command(name: &str, words: &[String], program: &Command) -> Option<String> {
-    // Blender's `--background` draws without a window.
-    let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some());
-    if let Some(file) = file.filter(|_| name == "--background") {
-        let is_blend = file.to_ascii_lowercase().ends_with(".blend");
-        let help = match is_blend {
-            true => "export the .blend file as .glb and run `alberti render model.glb`".to_owned(),
-            false => format!("run `alberti render {}`", quoted(&file)),
-        };
-        return Some(format!(
-            "nothing opens a window here, so leave `--background` out: {help}, whose `--background` \
-             is the color behind the model"
-        ));
+/// What to do about Blender's `-b` or `--background` before a file: it draws without a window.
+fn advise_on_no_window(name: &str, words: &[String]) -> Option<String> {
+    let file = value_of(name, words).filter(|value| Path::new(value).extension().is_some())?;
+    if !matches!(name, "-b" | "--background") {
+        return None;
     }
+    let help = if file.to_ascii_lowercase().ends_with(".blend") {
+        "export the .blend file as .glb and run `alberti render model.glb`".to_owned()
+    } else {
+        format!("run `alberti render {}`", quoted(&file))
+    };
+    let color = match name {
+        "-b" => "",
+        _ => ", whose `--background` is the color behind the model",
+    };
+    Some(format!("nothing opens a window here, so leave `{name}` out: {help}{color}"))
+}
+
+/// What to do about a flag before any command.
+fn advise_before_command(name: &str, program: &Command) -> Option<String> {
     let stem = name.strip_prefix("--")?;
     has_flag(program.find_subcommand("render")?, stem).then(|| {
         format!(
@@ -356,11 +365,15 @@ mod tests {
             }
             for quoted in help.split('`').skip(1).step_by(2) {
                 let words: Vec<&str> = quoted.split(' ').collect();
+                // Flags of the program itself end it with what they print.
+                if words.iter().any(|word| ["--help", "--version"].contains(word)) {
+                    continue;
+                }
                 let names = words.iter().filter_map(|word| word.split('=').next());
                 let flags = names.filter_map(|word| word.strip_prefix("--"));
                 let unknown: Vec<&str> = flags.filter(|flag| !exists(flag)).collect();
                 assert!(unknown.is_empty(), "{unknown:?} in {help}");
-                if words[0] == "alberti" && !words.contains(&"--help") {
+                if words[0] == "alberti" {
                     let parsed = Args::command().try_get_matches_from(&words);
                     assert!(parsed.is_ok(), "{quoted}: {:?}", parsed.err());
                 }

@@ -32,7 +32,7 @@ impl OutputError {
         let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         match folder {
             Some(folder) if self.cause.kind() == ErrorKind::NotFound => {
-                format!("\n  = help: create the folder {} first", visible_path(folder))
+                format!("\n  = help: create the folder `{}` first", visible_path(folder))
             }
             _ => String::new(),
         }

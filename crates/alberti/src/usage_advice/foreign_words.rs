@@ -269,7 +269,7 @@ pub(super) const FOREIGN_HABITS: &[(&str, &str, &str)] = &[
     (
         "angle degrees sweep",
         "animate",
-        "a turntable turns by an angle in degrees: `alberti animate model.glb --turntable=180`",
+        "a turntable turns by an angle in degrees: `alberti animate model.glb --turntable=180 -o turn.gif`",
     ),
     ("flatten", "", "`--background white` fills what the model leaves empty"),
     ("version", "", "run `alberti --version`"),
