@@ -80,8 +80,8 @@ impl Case {
         Err(format!("{} problems of {all} are listed", report.diagnostics.len()))
     }
 
-    /// Loads the file leniently: a file that `loads` strictly loads so too, and what is left keeps
-    /// every promise.
+    /// Loads the file leniently, which must succeed if it `loads` strictly. The model that results
+    /// must keep every promise.
     fn load_leniently(&self, loads: bool) -> Result<(), String> {
         let options = ImportOptions { lenient: true, ..self.options.clone() };
         match load_bytes(self.file_name, &self.file, &options) {

@@ -138,6 +138,6 @@ fn prefix_error(name: &str) -> Option<CliError> {
     let format = if format == "jpg" { "jpeg" } else { format };
     OutputFormat::from_str(format, true).ok()?;
     Some(CliError::Usage(format!(
-        "{name}: no format stands before the name here\n  = help: write `--format {format} -o {rest}`"
+        "{name}: a format in front of the name is not supported\n  = help: write `--format {format} -o {rest}`"
     )))
 }

@@ -88,8 +88,8 @@ fn refuse_output_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     )))
 }
 
-/// Refuses words among several inputs that name no file: `+antialias`, or a flag after `--`. Their
-/// pictures would have the name of the first one's, which is what would be told.
+/// Refuses an input that does not exist, such as `+antialias` or a flag after `--`, if there are
+/// several. Otherwise the error would be that two pictures have the same name.
 fn refuse_words_as_input(inputs: &[PathBuf]) -> Result<(), CliError> {
     let is_word = |path: &&PathBuf| path.as_os_str() != "-" && !path.exists();
     let Some(word) = inputs.iter().find(is_word).filter(|_| inputs.len() > 1) else {

@@ -87,6 +87,7 @@ fn rewritten(flag: &str, given: &str) -> Option<String> {
         "background" if given.eq_ignore_ascii_case("none") => Some("transparent".to_owned()),
         "background" => {
             let channels = given.trim_start_matches("rgb(").trim_end_matches(')').split([',', ' ']);
+            let channels = channels.filter(|word| !word.is_empty());
             let channels: Vec<f64> =
                 channels.map(|word| word.trim().parse().ok()).collect::<Option<_>>()?;
             let [red, green, blue] = channels[..] else { return None };
@@ -149,7 +150,7 @@ mod tests {
             ("size", "200x150!", "200x150"),
             ("background", "none", "transparent"),
             ("background", "1,0,0.5", "#ff0080"),
-            ("background", "rgb(255, 0, 10)", ""),
+            ("background", "rgb(255, 0, 10)", "#ff000a"),
             ("background", "rgb(255,0,10)", "#ff000a"),
             ("crop", "100x80+10+20", "10,20,100,80"),
             ("eye", "1 2 3", "1,2,3"),
