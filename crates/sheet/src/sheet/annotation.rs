@@ -83,13 +83,22 @@ pub(super) enum AnnotationShape {
 /// The annotations of one view.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(super) struct ViewAnnotations {
-    items: Vec<(AnnotationLayer, AnnotationShape)>,
+    items: Vec<PlacedShape>,
     /// The dimensions that were asked for, each a group of its own.
     dimensions: Vec<PlacedDimension>,
     /// The names of dimensions without a place.
     pub(super) left_out: Vec<String>,
     /// The texts of overlays that are not there, and why.
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
+}
+
+/// A shape of a layer. Its rectangle is kept, because a place of a text is compared with every shape,
+/// and that of a text takes all strokes of its letters.
+#[derive(Clone, PartialEq, Debug)]
+struct PlacedShape {
+    layer: AnnotationLayer,
+    shape: AnnotationShape,
+    extent: Option<Extent>,
 }
 
 /// A dimension with its place.
@@ -131,8 +140,8 @@ impl AnnotationShape {
         }
     }
 
-    /// Whether the shape comes into a rectangle.
-    fn touches(&self, area: Extent) -> bool {
+    /// Whether the shape, which lies in `extent`, comes into a rectangle.
+    fn touches(&self, extent: Option<Extent>, area: Extent) -> bool {
         match self {
             Self::Line(ends) => segment_crosses(*ends, area),
             Self::Path(points) => {
@@ -142,7 +151,7 @@ impl AnnotationShape {
                 let next = points.iter().cycle().skip(1);
                 points.iter().zip(next).any(|(a, b)| segment_crosses([*a, *b], area))
             }
-            _ => self.extent().is_some_and(|extent| overlap(extent, area)),
+            _ => extent.is_some_and(|extent| overlap(extent, area)),
         }
     }
 }
@@ -167,7 +176,8 @@ impl AnnotationShape {
 impl ViewAnnotations {
     /// Adds a shape.
     pub(super) fn push(&mut self, layer: AnnotationLayer, shape: AnnotationShape) {
-        self.items.push((layer, shape));
+        let extent = shape.extent();
+        self.items.push(PlacedShape { layer, shape, extent });
     }
 
     /// Adds a straight line.
@@ -203,25 +213,24 @@ impl ViewAnnotations {
 
     /// Whether neither the object nor an annotation comes into a rectangle.
     pub(super) fn is_empty_area(&self, area: Extent, object: Extent) -> bool {
-        !overlap(object, area) && !self.shapes().any(|other| other.touches(area))
+        !overlap(object, area)
+            && !self.shapes_with_extents().any(|(other, extent)| other.touches(extent, area))
     }
 
     /// Whether a line touches no text and no arrowhead.
     pub(super) fn is_clear(&self, line: [DVec2; 2]) -> bool {
-        let lies_across = |shape: &AnnotationShape| match shape {
-            AnnotationShape::Text(_) | AnnotationShape::Head(_) => {
-                shape.extent().is_some_and(|[low, high]| {
+        let lies_across = |(shape, extent): (&AnnotationShape, Option<Extent>)| {
+            matches!(shape, AnnotationShape::Text(_) | AnnotationShape::Head(_))
+                && extent.is_some_and(|[low, high]| {
                     segment_crosses(line, [low - LINE_CLEARANCE, high + LINE_CLEARANCE])
                 })
-            }
-            _ => false,
         };
-        !self.shapes().any(lies_across)
+        !self.shapes_with_extents().any(lies_across)
     }
 
     /// The rectangle around the object and all annotations.
     pub(super) fn extent_with(&self, object: Extent) -> Extent {
-        let extents = self.shapes().filter_map(AnnotationShape::extent);
+        let extents = self.shapes_with_extents().filter_map(|(_, extent)| extent);
         extents.fold(object, |[low, high], other| [low.min(other[0]), high.max(other[1])])
     }
 
@@ -239,8 +248,15 @@ impl ViewAnnotations {
 
     /// All shapes, those of dimensions last.
     pub(super) fn shapes(&self) -> impl Iterator<Item = &AnnotationShape> {
-        let own = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
-        self.items.iter().chain(own).map(|(_, shape)| shape)
+        let of_dimensions = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
+        self.items.iter().map(|placed| &placed.shape).chain(of_dimensions.map(|(_, shape)| shape))
+    }
+
+    /// All shapes and the rectangles around them, those of dimensions last.
+    fn shapes_with_extents(&self) -> impl Iterator<Item = (&AnnotationShape, Option<Extent>)> {
+        let of_dimensions = self.dimensions.iter().flat_map(|dimension| &dimension.shapes);
+        let of_dimensions = of_dimensions.map(|(_, shape)| (shape, shape.extent()));
+        self.items.iter().map(|placed| (&placed.shape, placed.extent)).chain(of_dimensions)
     }
 
     /// The annotations of one layer as groups, with the center of the view at `origin`.
@@ -249,9 +265,9 @@ impl ViewAnnotations {
         layer: AnnotationLayer,
         origin: DVec2,
     ) -> impl Iterator<Item = Group> {
-        let of_layer = self.items.iter().filter(move |(other, _)| *other == layer);
+        let of_layer = self.items.iter().filter(move |placed| placed.layer == layer);
         let own = self.dimensions.iter().flat_map(move |one| one.groups(layer, origin));
-        of_layer.map(move |(_, shape)| shape.group(origin)).chain(own)
+        of_layer.map(move |placed| placed.shape.group(origin)).chain(own)
     }
 }
 
