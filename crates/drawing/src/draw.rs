@@ -163,7 +163,7 @@ fn draw_candidates(
     }
     edges.sort_by_key(|candidate| candidate.object);
     let face_fill = match options.face_fill {
-        FaceFill::Flat | FaceFill::Gray => {
+        FaceFill::Flat | FaceFill::Gray if !surface.mesh().faces.is_empty() => {
             let faces = surface.colored_faces().zip(&surface.mesh().faces);
             let faces = faces.map(|((vertices, _, color), face)| {
                 (vertices, face.cap_section.is_none().then_some(color))

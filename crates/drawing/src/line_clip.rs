@@ -206,13 +206,16 @@ impl LineDrawing {
         self.segments.extend(other.segments.into_iter().map(moved));
         self.segments.sort_by_key(|segment| segment.object);
         self.regions.extend(other.regions);
-        if let (Some(fill), Some(added)) = (&mut self.face_fill, &other.face_fill) {
-            for (pixel, other) in fill.pixels.iter_mut().zip(&added.pixels) {
-                if pixel[3] == 0 {
-                    *pixel = *other;
-                }
-            }
+        let added = other.face_fill;
+        let pairs = self
+            .face_fill
+            .iter_mut()
+            .zip(&added)
+            .flat_map(|(fill, added)| fill.pixels.iter_mut().zip(&added.pixels));
+        for (pixel, other) in pairs.filter(|(pixel, _)| pixel[3] == 0) {
+            *pixel = *other;
         }
+        self.face_fill = self.face_fill.take().or(added);
         self.warnings.extend(other.warnings);
         self.warnings.sort_unstable();
         self.warnings.dedup();

@@ -62,8 +62,8 @@ pub struct LineDrawing {
     pub segments: Vec<EdgeSegment>,
     /// The cut faces with their hatch lines, and the outlines if the options ask for them.
     pub regions: Vec<Region>,
-    /// The flat or gray fill under the lines, if the options ask for one: an image that fills the
-    /// drawing. Of a gray fill its pixels are levels of gray, not colors.
+    /// The flat or gray fill under the lines, if the options ask for one and there are faces: an
+    /// image that fills the drawing. Of a gray fill its pixels are levels of gray, not colors.
     pub face_fill: Option<Picture>,
     /// Warnings of the drawing, each once.
     pub warnings: Vec<Warning>,
