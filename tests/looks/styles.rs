@@ -1,10 +1,9 @@
 //! Every model in every style, still and as a thumbnail: no picture is empty, and lines leave some of
 //! the paper free.
 
+use super::BareModel;
+use pipeline::scene::Style;
 use pipeline::scene::file::StyleFile;
-use pipeline::scene::{ResolveOptions, SceneFile, Style};
-use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
-use std::path::Path;
 
 /// The size of a thumbnail.
 const THUMBNAIL: (u32, u32) = (64, 64);
@@ -15,9 +14,6 @@ const LEAST_DRAWN: f64 = 0.0005;
 
 /// How many pictures of each model there are in the first tier.
 const FEW_CASES: usize = 2;
-
-/// Models that cover all of a picture, or of which next to nothing is seen, and why.
-const ODD_MODELS: [(&str, &str); 0] = [];
 
 /// All styles of the command line, with their names.
 pub fn all_styles() -> Vec<(&'static str, StyleFile)> {
@@ -58,15 +54,7 @@ pub fn keep_few<T>(cases: &mut Vec<T>, name: &str, count: usize) {
 }
 
 /// What is wrong with the pictures of a model in some of the styles, or in all.
-pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
-    if ODD_MODELS.iter().any(|(odd, _)| *odd == name) {
-        return Vec::new();
-    }
-    let (origin, file) = Origin::from_model_path(model);
-    let Ok(loaded) = Scene::resolve(&origin, &file, &ResolveOptions::default()) else {
-        return Vec::new();
-    };
-    let textures = Textures::for_models(&loaded.models);
+pub(super) fn judge_styles(model: &BareModel<'_>, name: &str) -> Vec<String> {
     let mut cases: Vec<_> = all_styles()
         .into_iter()
         .flat_map(|style| [super::SIZE, THUMBNAIL].map(|size| (style.clone(), size)))
@@ -74,12 +62,7 @@ pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
     keep_few(&mut cases, name, FEW_CASES);
     let mut faults = Vec::new();
     for ((style_name, style), size) in cases {
-        let style = style.with_fitting_lines(size);
-        let mut file = SceneFile { style, ..file.clone() };
-        file.image.size = size;
-        let fault = Scene::from_models(&origin, &file, &loaded.models)
-            .map_err(|error| error.to_string())
-            .and_then(|scene| judge_picture(&scene, &textures));
+        let fault = judge_picture(model, style.with_fitting_lines(size), size);
         // Refused with a flag that draws it: millions of triangles by copies.
         let is_refused = |fault: &String| fault.contains("--no-line-limits");
         let (width, height) = size;
@@ -89,12 +72,9 @@ pub fn judge_styles(model: &Path, name: &str) -> Vec<String> {
     faults
 }
 
-/// Renders a scene and looks at the picture.
-fn judge_picture(scene: &Scene, textures: &Textures<'_>) -> Result<(), String> {
-    let mut picture = Picture::<u8>::default();
-    let context = RenderContext::new(scene, textures, 1);
-    let warnings = Renderer::default().render(&context, &mut picture);
-    let warnings = warnings.map_err(|error| error.to_string())?;
+/// Renders a model in a style and looks at the picture.
+fn judge_picture(model: &BareModel<'_>, style: StyleFile, size: (u32, u32)) -> Result<(), String> {
+    let (picture, scene, warnings) = model.render(style, size)?;
     if let Some(empty) =
         warnings.iter().find(|it| matches!(it, drawing::Warning::PictureEmpty { .. }))
     {
