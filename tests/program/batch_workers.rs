@@ -72,11 +72,11 @@ fn end_of(run: Child) -> RunResult {
 #[test]
 fn a_job_that_takes_too_long_is_one_line_of_the_report() {
     let sandbox = slow_sandbox("batch_slow");
-    let run = sandbox.run(&[&SLOW[..], &["--job-seconds", "15"]].concat());
+    let run = sandbox.run(&[&SLOW[..], &["--job-seconds", "6"]].concat());
     assert_eq!((run.code, run.stdout.as_str()), (1, "2 rendered, 0 up to date, 1 failed\n"));
     let record = record_of(&sandbox, "slow.png").expect("a record");
     let message = record["message"].as_str().expect("a message");
-    assert!(message.contains("15 s") && message.contains("--job-seconds"), "{message}");
+    assert!(message.contains("6 s") && message.contains("--job-seconds"), "{message}");
     assert!(!sandbox.path_of("out/slow.png").exists());
     assert_eq!(sandbox.read_picture("out/last.png").0, 8);
 }

@@ -62,23 +62,15 @@ impl TestPrograms {
     }
 
     /// Runs the unit tests and the integration tests of all crates.
-    pub fn run_crate_tests(&self) -> Outcome {
+    pub fn run_crate_tests(&self, variables: &[(&str, &str)]) -> Outcome {
         let is_of_crate = |program: &&TestProgram| {
             program.package != TESTS || !matches!(program.target.as_str(), "suites" | "program")
         };
         // A fault in one crate hides none in another.
-        let run = |program| self.run(program, &[], &[]).err();
+        let run = |program| self.run(program, &[], variables).err();
         let faults: Vec<String> =
             self.programs.iter().filter(is_of_crate).filter_map(run).collect();
         if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
-    }
-
-    /// Runs the integration tests of a crate with all cases and sizes.
-    pub fn run_thorough_tests(&self, package: &str) -> Outcome {
-        let is_it = |one: &&TestProgram| one.package == package && one.target == "integration";
-        let found = self.programs.iter().find(is_it);
-        let program = found.ok_or_else(|| format!("cargo built no tests of {package}"))?;
-        self.run(program, &[], &[("THOROUGH", "1")])
     }
 
     /// Runs a suite of `tests/suites.rs`.
@@ -87,10 +79,15 @@ impl TestPrograms {
     }
 
     /// Runs the tests of `tests/program` whose names contain `part` and not `without`.
-    pub fn run_program_tests(&self, part: &str, without: Option<&str>) -> Outcome {
+    pub fn run_program_tests(
+        &self,
+        part: &str,
+        without: Option<&str>,
+        variables: &[(&str, &str)],
+    ) -> Outcome {
         let mut arguments = vec![part];
         arguments.extend(without.iter().flat_map(|without| ["--skip", *without]));
-        self.run(self.find("program")?, &arguments, &[])
+        self.run(self.find("program")?, &arguments, variables)
     }
 
     fn find(&self, target: &str) -> Result<&TestProgram, String> {

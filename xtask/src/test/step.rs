@@ -52,8 +52,6 @@ pub enum Action {
     Program(&'static str, Option<&'static str>),
     /// Unit and integration tests of the crates.
     CrateTests,
-    /// The integration tests of a crate, with all cases and sizes.
-    Thorough(&'static str),
     /// A command of this program.
     Own(fn() -> Outcome),
 }
@@ -116,6 +114,11 @@ impl Step {
         Self { tier: Tier::Second, ..self }
     }
 
+    /// What tells tests how many of their cases to run.
+    fn variables(&self) -> &'static [(&'static str, &'static str)] {
+        if self.tier == Tier::Second { &[("THOROUGH", "1")] } else { &[] }
+    }
+
     /// Runs the step in this process, and leaves its costs in the report file.
     pub fn run_here(&self) -> Outcome {
         let outcome = match &self.action {
@@ -124,18 +127,14 @@ impl Step {
                 let words: Vec<&str> = call.iter().map(String::as_str).collect();
                 crate::program::compile(|| run_visibly(&mut cargo_command(&words)))
             }),
-            Action::Suite(name) => TestPrograms::build().and_then(|tests| {
-                let flags =
-                    if self.tier == Tier::Second { [("THOROUGH", "1")].as_slice() } else { &[] };
-                tests.run_suite(name, flags)
-            }),
-            Action::Program(part, without) => {
-                TestPrograms::build().and_then(|tests| tests.run_program_tests(part, *without))
+            Action::Suite(name) => {
+                TestPrograms::build().and_then(|tests| tests.run_suite(name, self.variables()))
             }
-            Action::Thorough(package) => {
-                TestPrograms::build().and_then(|tests| tests.run_thorough_tests(package))
+            Action::Program(part, without) => TestPrograms::build()
+                .and_then(|tests| tests.run_program_tests(part, *without, self.variables())),
+            Action::CrateTests => {
+                TestPrograms::build().and_then(|tests| tests.run_crate_tests(self.variables()))
             }
-            Action::CrateTests => TestPrograms::build().and_then(|tests| tests.run_crate_tests()),
         };
         let costs = format!("{} {}", process_seconds(), compile_seconds());
         let written = fs::write(costs_path(&self.name), costs);

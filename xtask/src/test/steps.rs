@@ -198,11 +198,18 @@ fn later_steps() -> Vec<Step> {
         suite("thumbnails", "thumbnails", "thumbnails of every format by a thumbnail service"),
         suite("drawing-all", "drawing", "line drawings: every random scene"),
         Step::new(
-            "parts-all",
-            "the tests of sheets, with some of a thousand parts",
-            Action::Thorough("alberti-sheet"),
+            "units-all",
+            "unit and integration tests: every random case, and sheets of a thousand parts",
+            Action::CrateTests,
         )
         .shared(),
+        Step::new(
+            "scenes-all",
+            "scenes in RON and JSON: every random case",
+            Action::Program("scene_data", None),
+        )
+        .shared(),
+        suite("hostile-all", "hostile", "malicious files: each from a file as well as from memory"),
         suite("assemblies-all", "assemblies", "sheets of every model with several parts"),
     ]
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The directions in which the reference looks for occluders.
-const DIRECTION_COUNT: usize = 256;
+const DIRECTION_COUNT: usize = 128;
 
 /// Makes all surfaces matte and nearly black: no light comes back from what occludes.
 fn blacken_materials(scene: &mut Scene) {

@@ -96,7 +96,7 @@ fn fifty_different_parts_take_three_pages() {
 
 #[test]
 fn a_thousand_parts_are_listed_and_numbered() {
-    // A thousand take a minute; `cargo xtask test parts-all` sets the variable.
+    // A thousand take a minute; `cargo xtask test units-all` sets the variable.
     let (parts, each) =
         if std::env::var_os("THOROUGH").is_some() { (1000, 100) } else { (150, 15) };
     for (kinds, models) in [(parts, scattered_parts(parts)), (10, stacked_assembly(10, each))] {
