@@ -8,6 +8,7 @@ mod scene_text;
 
 use alberti_tests::harness::sample_cases;
 use pipeline::SceneFile;
+use pipeline::scene::file::ModelFile;
 use pipeline::scene::scene_ron_options;
 use scene_text::{SceneFiles, random_scene_text};
 use std::fs;
@@ -82,6 +83,16 @@ fn what_has_its_default_is_not_written() {
     assert_eq!(scene.to_ron().expect("it is written"), "Scene(models: [(path: \"a.glb\")])\n");
     let json = serde_json::to_string(&scene).expect("it is written");
     assert_eq!(json, r#"{"models":[{"path":"a.glb"}]}"#);
+}
+
+#[test]
+fn values_that_cannot_be_read_are_not_written() {
+    let crate_at = |place: [f64; 3]| SceneFile::new([ModelFile::new("crate.glb").at(place)]);
+    assert!(crate_at([1.0, 2.0, 3.0]).to_ron().is_ok());
+    for wrong in [crate_at([f64::NAN, 0.0, 0.0]), crate_at([0.0, f64::INFINITY, 0.0])] {
+        let error = wrong.to_ron().expect_err("it cannot be read").to_string();
+        assert!(error.contains("finite"), "{error}");
+    }
 }
 
 #[test]

@@ -145,11 +145,8 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
         ImportOptions { images: ImageLoading::Headers, ..args.load_options.import_options() };
     let options = ResolveOptions::with_import(import);
     let scene = Scene::resolve(&origin, &file, &options)?;
-    let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
-    let (models, overlays) = (&*scene.models, &*scene.overlays);
-    let (sections, uncut) = (&*scene.sections, &*scene.uncut);
     let allowed_folders = &*options.import.allow_outside;
-    let content = SheetContent { models, sections, uncut, style, overlays, allowed_folders };
+    let content = SheetContent { allowed_folders, ..SheetContent::from_scene(&scene) };
     let mut sheet = pipeline::scene::resolve_sheet(&origin, &sheet_file, content)
         .map_err(pipeline::ResolveError::from)?;
     if let Some(degrees) = args.load_options.crease {

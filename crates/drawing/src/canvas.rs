@@ -77,7 +77,8 @@ pub fn pixmap_to_picture(pixmap: &Pixmap) -> Picture {
 
 impl Page {
     /// The page as a picture of this size in pixels, stretched to fill it; transparent where there
-    /// is no paper.
+    /// is no paper. For a resolution the sides are those of the page in millimeters, times the dots
+    /// per inch, over 25.4.
     ///
     /// `None` if the picture would have no pixels, or a side longer than [`raster::MAX_SIDE`].
     #[must_use]

@@ -19,6 +19,7 @@
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
 //! | lines as SVG, PDF, DXF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
+//! | a drawing sheet with views to scale | [`scene::resolve_sheet`], [`sheet::Sheet`] | that of `resolve_sheet` |
 //! | a frame sequence of one scene | [`sequence::Sequence`] | `examples/turntable.rs` |
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |
@@ -54,6 +55,8 @@ pub use render::{
 pub use scene::options;
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
 pub use shade::{self, AtomicFile, Channel, OutputError, Picture, PngRows, encode_png, write_file};
+#[cfg(feature = "sheets")]
+pub use sheet;
 
 /// The examples of the README, compiled as documentation tests.
 #[cfg(doctest)]

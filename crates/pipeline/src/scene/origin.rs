@@ -44,7 +44,10 @@ pub(super) enum ModelSource {
 }
 
 impl Origin {
-    /// Where a scene comes from whose text is at hand.
+    /// Where a scene comes from whose text is at hand; its files lie in the folder.
+    ///
+    /// Errors point into the text. A scene that is built in Rust has that of
+    /// [`SceneFile::to_ron`], or an empty one: then errors name a field without its line.
     #[must_use]
     pub fn from_text(file: impl Into<String>, text: impl Into<String>, folder: PathBuf) -> Self {
         Self {
@@ -81,7 +84,8 @@ impl Origin {
         Self { models, ..Self::from_text(file, text, PathBuf::new()) }
     }
 
-    /// Reads and parses a scene file and those it includes, which must lie below its folder.
+    /// Reads and parses a scene file and those it includes, which must lie below its folder. The
+    /// scene that is returned has what they include, and includes nothing itself.
     ///
     /// # Errors
     /// If one cannot be read, is not UTF-8, is too long, or if files include each other; and every

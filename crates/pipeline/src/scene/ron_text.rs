@@ -52,10 +52,13 @@ impl SceneFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// [`write_file`](crate::write_file) writes it to a file, which is there whole or not at all.
+    ///
     /// # Errors
-    /// If `ron` cannot write the scene, which happens to none that can be read.
+    /// If a number of the scene is one that scene files refuse, such as NaN or a scale of 0.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         let text = format!("Scene{}\n", scene_ron_options().to_string(self)?);
+        scene_ron_options().from_str::<Self>(&text).map_err(|error| error.code)?;
         Ok(format_source("scene", &text).unwrap_or(text))
     }
 }

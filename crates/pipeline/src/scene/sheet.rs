@@ -7,7 +7,7 @@ use super::sheet_views::resolve_sheet_views;
 use super::style::resolve_iso_group;
 use super::surrounding_light::read_image_bytes;
 use super::syntax::PathStep::{self, Field};
-use super::{Origin, SceneError};
+use super::{Origin, Scene, SceneError, Style};
 use camera::NamedView;
 use drawing::{LineStyle, LineWidths, Overlay};
 use homog::{Plane, World};
@@ -33,6 +33,21 @@ pub struct SheetContent<'a> {
     pub allowed_folders: &'a [PathBuf],
 }
 
+impl<'a> SheetContent<'a> {
+    /// What a sheet takes from a resolved scene, whose title block lies in the folder of the scene.
+    #[must_use]
+    pub fn from_scene(scene: &'a Scene) -> Self {
+        Self {
+            models: &scene.models,
+            sections: &scene.sections,
+            uncut: &scene.uncut,
+            style: if let Style::Lines(style) = scene.style { Some(style) } else { None },
+            overlays: &scene.overlays,
+            allowed_folders: &[],
+        }
+    }
+}
+
 /// The place of the sheet's scale in a scene file.
 pub(super) const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("scale")];
 
@@ -42,6 +57,30 @@ pub(super) const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("sc
 /// style, and so is a width in millimeters; what the sheet says itself goes before. Without an
 /// orientation the paper is turned so that the scale is greatest, and without a size it is the
 /// smallest that is large enough: [`Sheet::smallest_of`].
+///
+/// ```
+/// use pipeline::import::MemoryFolder;
+/// use pipeline::scene::file::{ModelFile, SheetFile};
+/// use pipeline::scene::{SheetContent, resolve_sheet};
+/// use pipeline::{Origin, Scene, SceneFile};
+///
+/// let file = SceneFile {
+///     sheet: Some(SheetFile::default()),
+///     ..SceneFile::new([ModelFile::new("wedge.obj")])
+/// };
+/// let mut folder = MemoryFolder::default();
+/// let wedge = b"v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+/// folder.insert("wedge.obj", wedge.to_vec());
+/// // Errors point into this text. For files on the disk there is `Origin::from_text`.
+/// let origin = Origin::from_text_in_memory("wedge.ron", file.to_ron()?, folder);
+/// let scene = Scene::resolve(&origin, &file, &Default::default())?;
+///
+/// let content = SheetContent::from_scene(&scene);
+/// let sheet = resolve_sheet(&origin, &file.sheet.unwrap_or_default(), content)?;
+/// let page = sheet.draw(&scene.models, &scene.sections, 1)?;
+/// assert!(page.to_svg().contains("wedge"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// If the scale has a 0, ISO 128 has no line group of the width, the models have several units, or

@@ -26,14 +26,7 @@ fn sheet_with(dimensions: &str) -> Result<Sheet, SceneError> {
     let file = parse_scene("scene.ron", &text).expect("a scene");
     let origin = Origin::from_text_in_memory("scene.ron", &text, folder);
     let scene = Scene::resolve(&origin, &file, &ResolveOptions::default()).expect("models");
-    let content = SheetContent {
-        models: &scene.models,
-        sections: &[],
-        uncut: &[],
-        style: None,
-        overlays: &[],
-        allowed_folders: &[],
-    };
+    let content = SheetContent::from_scene(&scene);
     resolve_sheet(&origin, &file.sheet.expect("a sheet"), content)
 }
 

@@ -108,6 +108,27 @@ impl LightFile {
         Ok(Self::Point { position, intensity, range: None, color, shadows: None })
     }
 
+    /// A white spot light with a cone of 45 degrees around its axis; its intensity is in candela.
+    ///
+    /// # Errors
+    /// If the intensity is negative or not finite.
+    pub fn spot(
+        position: impl Into<Triple>,
+        direction: impl Into<Triple>,
+        intensity: f64,
+    ) -> Result<Self, InvalidNumber> {
+        Ok(Self::Spot {
+            position: position.into(),
+            direction: direction.into(),
+            intensity: NonNegative::try_from(intensity)?,
+            inner_cone_degrees: None,
+            outer_cone_degrees: None,
+            range: None,
+            color: LightColor::WHITE,
+            shadows: None,
+        })
+    }
+
     /// White light from all directions; the illuminance of every surface is in lux.
     ///
     /// # Errors

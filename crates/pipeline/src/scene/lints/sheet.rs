@@ -1,7 +1,6 @@
 //! Lints of sheets: views without a place, sections that no view shows, letters without a glyph.
 
 use super::{Lint, Linter};
-use crate::scene::Style;
 use crate::scene::sheet::{SheetContent, resolve_sheet};
 use crate::scene::syntax::PathStep::Field;
 use drawing::Warning;
@@ -12,15 +11,7 @@ use std::path::PathBuf;
 pub(super) fn lint_sheet(adviser: &Linter<'_>, allowed_folders: &[PathBuf]) -> Vec<Lint> {
     let Linter { origin, file, scene, .. } = *adviser;
     let Some(sheet_file) = &file.sheet else { return Vec::new() };
-    let style = if let Style::Lines(style) = scene.style { Some(style) } else { None };
-    let content = SheetContent {
-        models: &scene.models,
-        sections: &scene.sections,
-        uncut: &scene.uncut,
-        style,
-        overlays: &scene.overlays,
-        allowed_folders,
-    };
+    let content = SheetContent { allowed_folders, ..SheetContent::from_scene(scene) };
     let sheet = resolve_sheet(origin, sheet_file, content).ok();
     let warnings = sheet.and_then(|sheet| sheet.check_layout(&scene.models, &scene.sections).ok());
     let to_lint = |warning: Warning| {
