@@ -278,7 +278,7 @@ impl Sheet {
         sections: &[Plane<World>],
         threads: usize,
     ) -> Result<Page, SheetError> {
-        self.draw_views(models, sections, (&mut SurfaceCache::new(models, &self.uncut), threads))
+        self.draw_views(models, sections, &mut SurfaceCache::new(models, &self.uncut), threads)
     }
 
     /// As [`draw`](Self::draw), with surfaces that other pages use as well.
@@ -286,7 +286,8 @@ impl Sheet {
         &self,
         models: &[ModelInstance],
         sections: &[Plane<World>],
-        (surfaces, threads): (&mut SurfaceCache<'_>, usize),
+        surfaces: &mut SurfaceCache<'_>,
+        threads: usize,
     ) -> Result<Page, SheetError> {
         let plan = ViewPlan::new(self, models, sections)?;
         let layout = ViewLayout::arrange_views(self, &plan)?;
@@ -438,7 +439,7 @@ impl Sheet {
 
     /// The frame, with its zones if it has them; centering marks stop where contents are near.
     fn frame_layers(&self, contents: &[Extent], ink: Ink) -> Vec<Layer> {
-        let frame = frame::frame_layer((self.paper, self.frame), contents, ink);
+        let frame = frame::frame_layer(self.paper, self.frame, contents, ink);
         let zones = match self.frame {
             SheetFrame::Plain => Vec::new(),
             SheetFrame::Zones => frame_zones::zone_layers(self.paper, ink),

@@ -100,8 +100,8 @@ pub fn resolve_sheet(
         Ok(Sheet { dimensions, measures: measures.clone(), ..sheet })
     });
     let turns = file.orientation.is_none();
-    let content = (content.models, content.sections);
-    let chosen = Sheet::smallest_of(sheets.collect::<Result<_, _>>()?, turns, content);
+    let sheets = sheets.collect::<Result<_, _>>()?;
+    let chosen = Sheet::smallest_of(sheets, turns, content.models, content.sections);
     chosen.ok_or_else(|| origin.error_at(&[Field("sheet")], "there is no paper", None))
 }
 

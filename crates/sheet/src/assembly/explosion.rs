@@ -13,7 +13,7 @@
 //! The box of a moved part does not meet the parts that were placed before it, and so no two parts
 //! intersect. There is no iteration that might not end.
 
-use super::part_shapes::{Column, Corners, PartShapes};
+use super::part_shapes::{Column, Corners, PartShapes, PlacedPart};
 use super::removal::removal_sides;
 use glam::DVec3;
 
@@ -68,15 +68,15 @@ impl ExplosionSettings {
             ExplosionAxis::X => Some(0),
             ExplosionAxis::Y => Some(1),
             ExplosionAxis::Z => Some(2),
-            ExplosionAxis::Auto => Some(axis_of_assembly(shapes, base, (size, gap))),
+            ExplosionAxis::Auto => Some(axis_of_assembly(shapes, base, size, gap)),
             ExplosionAxis::All => None,
         };
-        moves_along(shapes, base, (axis, gap))
+        moves_along(shapes, base, axis, gap)
     }
 }
 
 /// The moves of all parts away from the base, along an axis or each along its own.
-fn moves_along(shapes: &PartShapes, base: usize, (axis, gap): (Option<usize>, f64)) -> Vec<DVec3> {
+fn moves_along(shapes: &PartShapes, base: usize, axis: Option<usize>, gap: f64) -> Vec<DVec3> {
     let boxes = &shapes.boxes;
     let directions: Vec<Direction> =
         boxes.iter().map(|part| Direction::away_from_base(*part, boxes[base], axis)).collect();
@@ -94,11 +94,11 @@ fn moves_along(shapes: &PartShapes, base: usize, (axis, gap): (Option<usize>, f6
         way.distance(boxes[*i]).total_cmp(&other.distance(boxes[*k])).then(i.cmp(k))
     });
     let mut moves = vec![DVec3::ZERO; boxes.len()];
-    let mut placed = vec![(base, DVec3::ZERO)];
+    let mut placed = vec![PlacedPart { part: base, by: DVec3::ZERO }];
     for (direction, part) in order {
-        let by = direction.clearance(boxes[part], (shapes, &placed), gap);
+        let by = direction.clearance(boxes[part], shapes, &placed, gap);
         moves[part] = direction.unit() * by;
-        placed.push((part, moves[part]));
+        placed.push(PlacedPart { part, by: moves[part] });
     }
     moves
 }
@@ -140,12 +140,7 @@ impl Direction {
     }
 
     /// The way that the box of a part has to go beyond all parts in its column, 0 or more.
-    fn clearance(
-        self,
-        part: Corners,
-        (shapes, placed): (&PartShapes, &[(usize, DVec3)]),
-        gap: f64,
-    ) -> f64 {
+    fn clearance(self, part: Corners, shapes: &PartShapes, placed: &[PlacedPart], gap: f64) -> f64 {
         // Where a column ends, rounding must not decide.
         let column = Column::new(part, self.axis, gap * 1e-3);
         let near = part[usize::from(self.sign < 0.0)][self.axis] * self.sign;
@@ -170,7 +165,7 @@ fn largest(boxes: &[Corners]) -> usize {
 
 /// The axis on which most parts are in line with the base; among equal ones that on which parts move
 /// least, y before x before z.
-fn axis_of_assembly(shapes: &PartShapes, base: usize, (size, gap): (DVec3, f64)) -> usize {
+fn axis_of_assembly(shapes: &PartShapes, base: usize, size: DVec3, gap: f64) -> usize {
     let boxes = &shapes.boxes;
     let center = |[low, high]: Corners| (low + high) * 0.5;
     let near = size.length() * IN_LINE;
@@ -182,8 +177,7 @@ fn axis_of_assembly(shapes: &PartShapes, base: usize, (size, gap): (DVec3, f64))
         };
         boxes.iter().filter(is_in_line).count()
     };
-    let way =
-        |axis| moves_along(shapes, base, (Some(axis), gap)).iter().map(|by| by.length()).sum();
+    let way = |axis| moves_along(shapes, base, Some(axis), gap).iter().map(|by| by.length()).sum();
     let scored = [1, 0, 2].map(|axis| (axis, in_line(axis)));
     let most = scored.iter().map(|(_, count)| *count).max();
     let mut best: Option<(usize, f64)> = None;

@@ -76,7 +76,7 @@ impl<'a> PartClasses<'a> {
         let same_digest = self.contents.entry(digest).or_default();
         let is_equal = |(number, instance): &(usize, MeshInstance)| {
             let other = &self.models[*number].model;
-            meshes_are_equal((model, part.instance), (other, *instance))
+            meshes_are_equal(model, part.instance, other, *instance)
         };
         let content = same_digest.iter().position(is_equal).unwrap_or_else(|| {
             same_digest.push((part.model, part.instance));
@@ -123,8 +123,10 @@ fn digest_of_mesh(model: &Model, instance: MeshInstance) -> u64 {
 
 /// Whether two meshes have the same triangles, lines and materials, bit for bit.
 fn meshes_are_equal(
-    (model, instance): (&Model, MeshInstance),
-    (other_model, other_instance): (&Model, MeshInstance),
+    model: &Model,
+    instance: MeshInstance,
+    other_model: &Model,
+    other_instance: MeshInstance,
 ) -> bool {
     let mut own = drawn_primitives(model, instance);
     let mut others = drawn_primitives(other_model, other_instance);

@@ -16,6 +16,13 @@ use std::cell::Cell;
 /// A box by its least and its greatest corner.
 pub(super) type Corners = [DVec3; 2];
 
+/// A part by its index, and how far it has moved from its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlacedPart {
+    pub(super) part: usize,
+    pub(super) by: DVec3,
+}
+
 /// Parts beyond this number of triangles are taken for their boxes: 72 bytes each.
 const MAX_TRIANGLES: usize = 4_000_000;
 
@@ -70,14 +77,10 @@ impl PartShapes {
         count as u64 <= left
     }
 
-    /// How far a part that moved by `by` reaches within a column, along the direction of `sign`;
-    /// `None` if it is beside the column.
-    pub(super) fn reach(
-        &self,
-        (part, by): (usize, DVec3),
-        column: &Column,
-        sign: f64,
-    ) -> Option<f64> {
+    /// How far a placed part reaches within a column, along the direction of `sign`; `None` if it
+    /// is beside the column.
+    pub(super) fn reach(&self, placed: PlacedPart, column: &Column, sign: f64) -> Option<f64> {
+        let PlacedPart { part, by } = placed;
         let corners = self.boxes[part].map(|corner| corner + by);
         if !column.meets(corners) {
             return None;
@@ -279,11 +282,12 @@ mod tests {
             let corners = [DVec3::new(low, 50.0, -0.5), DVec3::new(high, 51.0, 0.5)];
             Column::new(corners, 1, 0.0)
         };
-        let up = shapes.reach((0, DVec3::ZERO), &over(3.0, 4.0), 1.0).expect("in the column");
+        let at = |by: DVec3| PlacedPart { part: 0, by };
+        let up = shapes.reach(at(DVec3::ZERO), &over(3.0, 4.0), 1.0).expect("in the column");
         assert!((up - 4.0).abs() < 1e-12, "{up}");
-        let down = shapes.reach((0, DVec3::Y), &over(3.0, 4.0), -1.0).expect("in the column");
+        let down = shapes.reach(at(DVec3::Y), &over(3.0, 4.0), -1.0).expect("in the column");
         assert!((down + 4.0).abs() < 1e-12, "{down}");
-        assert_eq!(shapes.reach((0, DVec3::ZERO), &over(11.0, 12.0), 1.0), None);
+        assert_eq!(shapes.reach(at(DVec3::ZERO), &over(11.0, 12.0), 1.0), None);
         let heights = shapes.heights(0, &over(3.0, 4.0));
         assert_eq!(heights.count(), CELLS * CELLS);
         let most = heights.0.iter().map(|cell| cell[1]).fold(0.0, f64::max);
@@ -295,7 +299,7 @@ mod tests {
         let corners = [DVec3::ZERO, DVec3::ONE];
         let shapes = PartShapes::from_raw(vec![corners], vec![Vec::new()]);
         let column = Column::new([DVec3::splat(0.5), DVec3::splat(2.0)], 2, 0.0);
-        assert_eq!(shapes.reach((0, DVec3::Z), &column, 1.0), Some(2.0));
+        assert_eq!(shapes.reach(PlacedPart { part: 0, by: DVec3::Z }, &column, 1.0), Some(2.0));
         // The column is from 0.5 to 2: a third of its cells on each side are over the box.
         assert_eq!(shapes.heights(0, &column).count(), 25);
     }

@@ -88,14 +88,15 @@ impl PartsList {
         millimeters_per_unit: f64,
     ) -> Self {
         let parts = gather_parts(models);
-        Self::from_parts(models, &parts, (densities, millimeters_per_unit))
+        Self::from_parts(models, &parts, densities, millimeters_per_unit)
     }
 
     /// The list of these parts of the models.
     pub(crate) fn from_parts(
         models: &[ModelInstance],
         parts: &[Part],
-        (densities, millimeters_per_unit): (&[PartDensity], f64),
+        densities: &[PartDensity],
+        millimeters_per_unit: f64,
     ) -> Self {
         let mut classes = PartClasses::new(models);
         let mut known: BTreeMap<(usize, &str), usize> = BTreeMap::new();

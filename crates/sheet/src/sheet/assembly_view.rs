@@ -150,7 +150,8 @@ impl AssemblyLayout {
     pub(super) fn balloon_layers<'a>(
         &self,
         targets: &[BalloonTarget<'a>],
-        (width, ink): (f64, Ink),
+        width: f64,
+        ink: Ink,
     ) -> ([Layer; 2], Vec<&'a PartsListItem>) {
         let spots: Vec<DVec2> = targets.iter().map(|target| target.spot).collect();
         let centers = self.choose_places(&spots);

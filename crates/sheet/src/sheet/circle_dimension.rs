@@ -47,7 +47,7 @@ impl DimensionBoard {
                 if best.as_ref().is_some_and(|(least, _)| *least <= length) {
                     break;
                 }
-                let candidate = leader(&text, (tip, away, length), letters);
+                let candidate = leader(&text, tip, away, length, letters);
                 if self.is_free(&candidate) {
                     best = Some((length, candidate));
                     break;
@@ -71,7 +71,7 @@ impl DimensionBoard {
 }
 
 /// An arrow onto a point of a circle from a direction, with a shelf at the other end of its shaft.
-fn leader(text: &str, (tip, away, length): (DVec2, DVec2, f64), letters: f64) -> Candidate {
+fn leader(text: &str, tip: DVec2, away: DVec2, length: f64, letters: f64) -> Candidate {
     let mut candidate = Candidate::default();
     let corner = tip + away * length;
     let sense = if away.x < 0.0 { -1.0 } else { 1.0 };

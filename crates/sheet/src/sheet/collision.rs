@@ -89,9 +89,11 @@ pub(super) fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 /// perpendicular to it; `None` if it has no such part.
 pub(super) fn reach_between(
     hull: &[DVec2],
-    (along, [low, high]): (DVec2, [f64; 2]),
+    along: DVec2,
+    range: [f64; 2],
     outward: DVec2,
 ) -> Option<f64> {
+    let [low, high] = range;
     let count = hull.len();
     let mut most: Option<f64> = None;
     let mut add = |point: DVec2| {
@@ -137,7 +139,7 @@ mod tests {
         let hull = convex_hull(square);
         assert_eq!(hull.len(), 4);
         let triangle = convex_hull(points(&[[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]]));
-        let reach = |low, high| reach_between(&triangle, (DVec2::X, [low, high]), DVec2::Y);
+        let reach = |low, high| reach_between(&triangle, DVec2::X, [low, high], DVec2::Y);
         assert_eq!(
             [reach(0.0, 1.0), reach(2.0, 3.0), reach(9.0, 10.0)],
             [Some(8.0), Some(6.0), None]

@@ -35,15 +35,11 @@ pub(super) fn area_within_frame(paper: Paper) -> Rectangle {
 }
 
 /// The frame and its centering marks, which stop at the frame where something is in their way.
-pub(super) fn frame_layer(
-    (paper, style): (Paper, SheetFrame),
-    contents: &[Extent],
-    ink: Ink,
-) -> Layer {
+pub(super) fn frame_layer(paper: Paper, style: SheetFrame, contents: &[Extent], ink: Ink) -> Layer {
     let pen = Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(FRAME_LINE_WIDTH, ink) };
     let mut layer = Layer::new("frame", "frame", pen);
     let mut strokes = vec![rectangle_outline(area_within_frame(paper))];
-    strokes.extend(centering_marks((paper, style), contents));
+    strokes.extend(centering_marks(paper, style, contents));
     layer.groups.push(Group { strokes, ..Group::default() });
     layer
 }
@@ -58,7 +54,7 @@ pub(super) fn rectangle_outline(area: Rectangle) -> Polyline {
 }
 
 /// Marks at the middles of the sides, by which a sheet is aligned in a copier.
-fn centering_marks((paper, style): (Paper, SheetFrame), contents: &[Extent]) -> Vec<Polyline> {
+fn centering_marks(paper: Paper, style: SheetFrame, contents: &[Extent]) -> Vec<Polyline> {
     let size = DVec2::new(paper.width(), paper.height());
     let (middle, area) = (size * 0.5, area_within_frame(paper));
     let (left, top) = (area.x(), area.y());

@@ -76,7 +76,7 @@ impl DimensionBoard {
             a.total_cmp(&b)
         });
         let on_side = |outward: &DVec2| {
-            let rows = self.baseline_rows(dimension, (base, &feet), along, *outward);
+            let rows = self.baseline_rows(dimension, base, &feet, along, *outward);
             rows.into_iter().collect::<Option<Vec<Candidate>>>()
         };
         match sides.iter().find_map(on_side) {
@@ -89,7 +89,8 @@ impl DimensionBoard {
     fn baseline_rows(
         &self,
         dimension: &ViewDimension,
-        (base, feet): (DVec2, &[DVec2]),
+        base: DVec2,
+        feet: &[DVec2],
         along: DVec2,
         outward: DVec2,
     ) -> Vec<Option<Candidate>> {
@@ -139,7 +140,7 @@ impl DimensionBoard {
         });
         // Beside slanted lengths the part counts as far as they go.
         let room = if is_upright { f64::INFINITY } else { 3.0 * self.settings.letters };
-        let hull = reach_between(&self.hull, (along, [low - room, high + room]), outward);
+        let hull = reach_between(&self.hull, along, [low - room, high + room], outward);
         let of_feet = feet.iter().map(|foot| foot.dot(outward));
         of_feet.fold(hull.unwrap_or(f64::NEG_INFINITY), f64::max)
     }

@@ -167,8 +167,8 @@ impl Measure {
         match self {
             Self::Chain(points, direction) => lengths_in(view, points, *direction, false),
             Self::Baseline(points, direction) => lengths_in(view, points, *direction, true),
-            Self::Diameter(circle) => circle_in(view, circle, ("Ø", 2.0)),
-            Self::Radius(circle) => circle_in(view, circle, ("R", 1.0)),
+            Self::Diameter(circle) => circle_in(view, circle, "Ø", 2.0),
+            Self::Radius(circle) => circle_in(view, circle, "R", 1.0),
             Self::Angle(points) => angle_in(view, points),
         }
     }
@@ -211,7 +211,8 @@ fn lengths_in(
 fn circle_in(
     view: &SheetView,
     circle: &WorldCircle,
-    (prefix, radii): (&'static str, f64),
+    prefix: &'static str,
+    radii: f64,
 ) -> Result<(ViewMeasure, u8), DimensionFault> {
     let axis = circle.axis.raw();
     let center = view.image_of(circle.center);

@@ -18,6 +18,7 @@ use super::annotation::{
 use super::balloon_ring::ring_places;
 use super::composition::Composition;
 use super::sheet_view::SheetView;
+use super::view_mark::MarkSettings;
 use super::view_plan::{PlannedView, ViewPlan};
 use drawing::{AXES, Overlay, SheetLabelFault, Warning, circle_points, missing_glyph_warning};
 use glam::DVec2;
@@ -127,11 +128,8 @@ impl ViewOverlays {
     }
 
     /// Adds the overlays at a scale, clear of what is there.
-    pub(super) fn annotate(
-        &self,
-        annotations: &mut ViewAnnotations,
-        (ratio, object, letters): (f64, Extent, f64),
-    ) {
+    pub(super) fn annotate(&self, annotations: &mut ViewAnnotations, settings: &MarkSettings) {
+        let MarkSettings { ratio, object, letters } = *settings;
         let board = LabelBoard { object, letters };
         for (ends, name) in &self.axes {
             board.add_axis(annotations, ends.map(|end| end * ratio), name);

@@ -96,7 +96,7 @@ impl Sheet {
         let beside = table.above_title_block(most);
         let beside = beside.filter(|_| options.parts_list && options.has_view());
         let view = match options.has_view() {
-            true => Some(assembly.draw_view((&table, beside.as_ref()), &mut surfaces, threads)?),
+            true => Some(assembly.draw_view(&table, beside.as_ref(), &mut surfaces, threads)?),
             false => None,
         };
         let has_own_pages = options.parts_list && beside.is_none();
@@ -106,13 +106,13 @@ impl Sheet {
         let view_pages = view.as_ref().map_or(0, |view| view.balloons.len().max(1));
         let total = 1 + view_pages + list_pages.len() + part_sheets.len();
         let numbered = |number: usize| self.numbered(number, total);
-        let mut pages = vec![numbered(1).draw_views(models, sections, (&mut surfaces, threads))?];
+        let mut pages = vec![numbered(1).draw_views(models, sections, &mut surfaces, threads)?];
         pages[0].warnings.extend(assembly.warnings.iter().cloned());
         for index in 0..view_pages {
             let Some(view) = &view else { break };
             let list = beside.as_ref().filter(|_| index == 0).map(|column| (&table, column));
             let sheet = numbered(pages.len() + 1);
-            pages.push(assembly.view_page(&sheet, (view, index), list));
+            pages.push(assembly.view_page(&sheet, view, index, list));
         }
         for columns in &list_pages {
             let mut page = assembly.empty_page();
@@ -156,7 +156,7 @@ impl<'a> DrawnAssembly<'a> {
         let AssemblyPages { densities, explosion, part_sheets, .. } = &sheet.assembly;
         let parts = gather_parts(models);
         let unit = sheet.millimeters_per_unit;
-        let list = PartsList::from_parts(models, &parts, (densities, unit));
+        let list = PartsList::from_parts(models, &parts, densities, unit);
         let mut warnings = list.warnings.clone();
         warnings.extend(unreadable_names(&list));
         let mut explosion = explosion.as_ref();
@@ -188,7 +188,8 @@ impl<'a> DrawnAssembly<'a> {
     /// Draws the view of all parts, and arranges it on its page.
     fn draw_view(
         &self,
-        (table, beside): (&PartsTable<'_>, Option<&TableColumn>),
+        table: &PartsTable<'_>,
+        beside: Option<&TableColumn>,
         surfaces: &mut SurfaceCache<'_>,
         threads: usize,
     ) -> Result<DrawnView, SheetError> {
@@ -230,7 +231,7 @@ impl<'a> DrawnAssembly<'a> {
                 None => self.parts[part].object,
             };
             add_spots_on_edges(&mut spots, &drawing, object, &view);
-            let targets = self.balloon_targets(&spots, (&layout, &view), &mut warnings);
+            let targets = self.balloon_targets(&spots, &layout, &view, &mut warnings);
             balloons = self.place_balloons(&layout, &targets, &mut warnings);
         }
         let inks = [self.ink, sheet.style.paper.unwrap_or(WHITE)];
@@ -260,7 +261,8 @@ impl<'a> DrawnAssembly<'a> {
     fn balloon_targets(
         &self,
         spots: &[Option<VisibleSpot>],
-        (layout, view): (&AssemblyLayout, &SheetView),
+        layout: &AssemblyLayout,
+        view: &SheetView,
         warnings: &mut Vec<Warning>,
     ) -> Vec<BalloonTarget<'_>> {
         let (mut targets, mut hidden) = (Vec::new(), Vec::new());
@@ -301,7 +303,7 @@ impl<'a> DrawnAssembly<'a> {
                 left_out.extend(chunk.iter().map(|target| target.item));
                 continue;
             }
-            let (layers, rest) = layout.balloon_layers(chunk, (width, self.ink));
+            let (layers, rest) = layout.balloon_layers(chunk, width, self.ink);
             left_out.extend(rest);
             pages.push(layers);
         }
@@ -316,7 +318,8 @@ impl<'a> DrawnAssembly<'a> {
     fn view_page(
         &self,
         sheet: &Sheet,
-        (view, index): (&DrawnView, usize),
+        view: &DrawnView,
+        index: usize,
         list: Option<(&PartsTable<'_>, &TableColumn)>,
     ) -> Page {
         let mut page = self.empty_page();

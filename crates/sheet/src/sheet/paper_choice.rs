@@ -41,7 +41,8 @@ impl Sheet {
     pub fn smallest_of(
         sheets: Vec<Self>,
         turns: bool,
-        (models, sections): (&[ModelInstance], &[Plane<World>]),
+        models: &[ModelInstance],
+        sections: &[Plane<World>],
     ) -> Option<Self> {
         if sheets.len() == 1 && !turns {
             return sheets.into_iter().next();

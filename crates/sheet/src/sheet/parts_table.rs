@@ -129,10 +129,10 @@ impl<'a> PartsTable<'a> {
         for column in columns {
             borders.groups.push(self.border_group(column));
             let heading = if column.is_upward { column.rows.len() } else { 0 };
-            self.add_row(&mut texts, (column, heading), &self.headings());
+            self.add_row(&mut texts, column, heading, &self.headings());
             for (row, item) in self.list.items[column.rows.clone()].iter().enumerate() {
                 let row = if column.is_upward { heading - 1 - row } else { row + 1 };
-                self.add_row(&mut texts, (column, row), &self.texts_of_item(item));
+                self.add_row(&mut texts, column, row, &self.texts_of_item(item));
             }
         }
         [borders, texts]
@@ -203,7 +203,7 @@ impl<'a> PartsTable<'a> {
     }
 
     /// Adds the texts of a row: counts in the middle of their cells, masses to the right.
-    fn add_row(&self, layer: &mut Layer, (column, row): (&TableColumn, usize), texts: &[String]) {
+    fn add_row(&self, layer: &mut Layer, column: &TableColumn, row: usize, texts: &[String]) {
         let foot = (ROW_HEIGHT - 1.0) * 0.5 * self.letters;
         let y = column.corner.y + self.row_height() * (row + 1) as f64 - foot;
         for (index, ((start, width), text)) in

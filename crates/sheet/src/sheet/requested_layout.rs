@@ -37,7 +37,8 @@ struct RequestedGrid<'a> {
 fn cell_at<'a>(
     planned: &'a PlannedView,
     sheet: &Sheet,
-    (scale, sheet_scale): (DrawingScale, DrawingScale),
+    scale: DrawingScale,
+    sheet_scale: DrawingScale,
 ) -> ViewCell<'a> {
     let annotations = if scale == sheet_scale {
         planned.annotate(sheet, scale)
@@ -61,7 +62,7 @@ impl<'a> RequestedGrid<'a> {
         let cells: Vec<(ViewCell<'a>, [usize; 2])> = placed()
             .map(|(one, [column, row])| {
                 let place = [index(&columns, column), index(&rows, row)];
-                (cell_at(one, sheet, (scale, scale)), place)
+                (cell_at(one, sheet, scale, scale), place)
             })
             .collect();
         let span = |axis: usize, index: usize| {
@@ -148,7 +149,7 @@ pub(super) fn arrange_requested<'a>(
     for planned in &plan.requested {
         let Some(at) = planned.place.at else { continue };
         let own = planned.place.scale.unwrap_or(scale);
-        let cell = cell_at(planned, sheet, (own, scale));
+        let cell = cell_at(planned, sheet, own, scale);
         check_place(sheet, &cell, at)?;
         taken.push(cell.extent_at(at));
         placed.push(cell.place(snap_to_grid(at)));
@@ -171,7 +172,7 @@ pub(super) fn arrange_requested<'a>(
         views.extend(cells().map(|(cell, center)| cell.clone().place(center)));
         let (left_out, overlaps) = (Vec::new(), Vec::new());
         let mut layout = ViewLayout { scale, views, left_out, scale_bar, overlaps };
-        place_others(&mut layout, sheet, (&plan.requested, obstacles));
+        place_others(&mut layout, sheet, &plan.requested, obstacles);
         let block = extent_of_rectangle(sheet.title_block_area());
         layout.overlaps =
             find_overlaps(&layout.views, [("title block", block), ("scale bar", bar)]);
@@ -211,7 +212,8 @@ fn check_place(sheet: &Sheet, cell: &ViewCell<'_>, at: DVec2) -> Result<(), Shee
 fn place_others<'a>(
     layout: &mut ViewLayout<'a>,
     sheet: &Sheet,
-    (views, mut obstacles): (&'a [PlannedView], Vec<Extent>),
+    views: &'a [PlannedView],
+    mut obstacles: Vec<Extent>,
 ) {
     let [low, high] = extent_of_rectangle(sheet.drawing_area());
     let area = [low + HALF_GAP, high - HALF_GAP];
@@ -219,7 +221,7 @@ fn place_others<'a>(
         let rectangles = free_rectangles(area, &obstacles);
         let wanted = (low + high) * 0.5;
         let fits = scales_of(planned, layout.scale).into_iter().find_map(|scale| {
-            let cell = cell_at(planned, sheet, (scale, layout.scale));
+            let cell = cell_at(planned, sheet, scale, layout.scale);
             let [low, high] = cell.extent;
             let rectangle = best_rectangle(&rectangles, high - low, wanted)?;
             let middle = (rectangle[0] + rectangle[1]) * 0.5;

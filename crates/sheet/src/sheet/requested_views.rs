@@ -115,7 +115,7 @@ impl RequestPlanner<'_> {
         let planned = match request {
             ViewRequest::Named { view, .. } => self.check_named(*view),
             ViewRequest::Detail { of, center, radius, place } => {
-                self.add_detail(*of, (*center, *radius), place)
+                self.add_detail(*of, *center, *radius, place)
             }
             ViewRequest::Stepped { removed, corners, place } => {
                 self.add_stepped(*removed, corners, place)
@@ -171,7 +171,8 @@ impl RequestPlanner<'_> {
     fn add_detail(
         &mut self,
         of: NamedView,
-        (center, radius): (Point<World>, f64),
+        center: Point<World>,
+        radius: f64,
         place: &ViewPlace,
     ) -> Result<(), Fault> {
         let index = self.index_of(of)?;
@@ -195,7 +196,7 @@ impl RequestPlanner<'_> {
             other => other.clone(),
         };
         let letter = self.next_letter()?;
-        let view = whole.detail_around((center, radius), letter)?;
+        let view = whole.detail_around(center, radius, letter)?;
         let on_paper = radius * view.millimeters_per_unit;
         let circle = |center, letter| ViewMark::Circle { center, radius: on_paper, letter };
         self.views[index].marks.push(circle(at, Some(letter)));
@@ -338,7 +339,7 @@ impl RequestPlanner<'_> {
         }
         let name = ViewName::Section(letter);
         let subject = self.subject;
-        let view = SheetView::frame_along(&subject.points, (name, -removed), subject.unit())?;
+        let view = SheetView::frame_along(&subject.points, name, -removed, subject.unit())?;
         let planned = PlannedView { composition, place: place.clone(), ..PlannedView::plain(view) };
         self.views.push(planned.with_letter(letter));
         Ok(())

@@ -39,6 +39,13 @@ pub(super) fn section_line_reserve(letters: f64) -> f64 {
     OVERHANG + 1.8 * letters
 }
 
+/// A section plane and the letter that names its section.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LetteredPlane {
+    pub(super) plane: Plane<World>,
+    pub(super) letter: char,
+}
+
 /// The line of a section in a view that sees the plane edge-on, about the center of the view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SectionLine {
@@ -83,8 +90,9 @@ impl SectionLine {
     pub(super) fn in_view(
         view: &SheetView,
         scale: DrawingScale,
-        (plane, letter): (Plane<World>, char),
+        section: LetteredPlane,
     ) -> Option<Self> {
+        let LetteredPlane { plane, letter } = section;
         let (point, retained) = view.section_trace(plane, scale)?;
         let half = view.size * scale.ratio() * 0.5;
         let along = DVec2::new(-retained.y, retained.x);
@@ -145,7 +153,7 @@ impl SectionLine {
         for (end, other) in [(a, b), (b, a)] {
             let (away, tail) = ((end - other).normalize_or_zero(), -self.retained_direction);
             let settings = MarkSettings { ratio: 1.0, object, letters };
-            add_end_letter(annotations, (end, away, tail), self.letter, &settings);
+            add_end_letter(annotations, end, away, tail, self.letter, &settings);
         }
     }
 }
@@ -163,7 +171,8 @@ pub(super) fn add_caption(
     annotations: &mut ViewAnnotations,
     layer: AnnotationLayer,
     text: &str,
-    (object, letters): (Extent, f64),
+    object: Extent,
+    letters: f64,
 ) {
     let places = (0..=TEXT_STEPS).map(|step| AnnotationText {
         text: text.to_owned(),

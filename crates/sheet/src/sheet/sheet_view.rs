@@ -9,6 +9,7 @@
 //! The drawing is made at a fixed resolution and scaled when it is laid out: pixels are only a
 //! unit, as coordinates are f64.
 
+use super::section_line::LetteredPlane;
 use super::{Placement, SheetError};
 use camera::{Basis, Camera, CameraError, FramingError, NamedView, ViewProjection, frame_parallel};
 use core::fmt;
@@ -78,7 +79,7 @@ impl SheetView {
         name: NamedView,
         unit: f64,
     ) -> Result<Self, SheetError> {
-        Self::frame_from(points, (ViewName::Named(name), name.basis()), unit)
+        Self::frame_from(points, ViewName::Named(name), name.basis(), unit)
     }
 
     /// The view onto a section plane, of the points that the plane retains.
@@ -87,11 +88,12 @@ impl SheetView {
     /// As for [`frame_points`](Self::frame_points).
     pub(super) fn frame_section(
         points: &[Point<World>],
-        (plane, letter): (Plane<World>, char),
+        section: LetteredPlane,
         unit: f64,
     ) -> Result<Self, SheetError> {
+        let LetteredPlane { plane, letter } = section;
         let gaze = Vector::from_raw(plane.normal().raw());
-        let view = Self::frame_along(points, (ViewName::Section(letter), gaze), unit)?;
+        let view = Self::frame_along(points, ViewName::Section(letter), gaze, unit)?;
         Ok(view.cut_by(vec![plane]))
     }
 
@@ -101,7 +103,8 @@ impl SheetView {
     /// As for [`frame_points`](Self::frame_points).
     pub(super) fn frame_along(
         points: &[Point<World>],
-        (name, gaze): (ViewName, Vector<World>),
+        name: ViewName,
+        gaze: Vector<World>,
         unit: f64,
     ) -> Result<Self, SheetError> {
         let view_error = |error: CameraError| SheetError::View {
@@ -109,7 +112,7 @@ impl SheetView {
             reason: error.to_string(),
         };
         let basis = Basis::from_gaze_or_fallback(gaze, Vector::Y).map_err(view_error)?;
-        Self::frame_from(points, (name, basis), unit)
+        Self::frame_from(points, name, basis, unit)
     }
 
     /// A part of the view: what is within a radius of a point, in units of the scene.
@@ -118,7 +121,8 @@ impl SheetView {
     /// [`SheetError::View`] if the camera cannot be moved there.
     pub(super) fn detail_around(
         &self,
-        (center, radius): (Point<World>, f64),
+        center: Point<World>,
+        radius: f64,
         letter: char,
     ) -> Result<Self, SheetError> {
         let name = ViewName::Detail(letter);
@@ -168,7 +172,8 @@ impl SheetView {
     /// The view of these points with a camera of this orientation.
     fn frame_from(
         points: &[Point<World>],
-        (name, basis): (ViewName, Basis),
+        name: ViewName,
+        basis: Basis,
         unit: f64,
     ) -> Result<Self, SheetError> {
         let framing_error = |error: FramingError| match error {

@@ -93,7 +93,7 @@ pub(super) fn title_block_layers(
     ink: Ink,
 ) -> Vec<Layer> {
     if let Some(template) = &sheet.title_block_template {
-        return template.layers(sheet, (title, scale), area, ink);
+        return template.layers(sheet, title, scale, area, ink);
     }
     let fields = title_block_fields(sheet, title, scale);
     let border = |width| Pen { cap: Cap::Butt, join: Join::Miter, ..Pen::solid(width, ink) };

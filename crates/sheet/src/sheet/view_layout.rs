@@ -191,7 +191,7 @@ impl<'a> ViewLayout<'a> {
             let (left_out, overlaps) = (Vec::new(), Vec::new());
             let mut layout = Self { scale, views, left_out, scale_bar, overlaps };
             let corner = DVec2::new(centers[2].x, centers[1].y);
-            layout.place_free_views(sheet, &plan.free, (obstacles, corner));
+            layout.place_free_views(sheet, &plan.free, obstacles, corner);
             if best.as_ref().is_none_or(|best| layout.is_better_than(best)) {
                 best = Some(layout);
             }
@@ -204,13 +204,14 @@ impl<'a> ViewLayout<'a> {
         &mut self,
         sheet: &Sheet,
         free: &'a [PlannedView],
-        (mut obstacles, corner): (Vec<Extent>, DVec2),
+        mut obstacles: Vec<Extent>,
+        corner: DVec2,
     ) {
         let [low, high] = extent_of_rectangle(sheet.drawing_area());
         let area = [low + HALF_GAP, high - HALF_GAP];
         for planned in free {
             let rectangles = free_rectangles(area, &obstacles);
-            match fit_into(sheet, planned, self.scale, (&rectangles, corner)) {
+            match fit_into(sheet, planned, self.scale, &rectangles, corner) {
                 Some((cell, center)) => {
                     obstacles.push(cell.extent_at(center));
                     self.views.push(cell.place(center));
@@ -284,7 +285,8 @@ fn fit_into<'a>(
     sheet: &Sheet,
     planned: &'a PlannedView,
     sheet_scale: DrawingScale,
-    (rectangles, corner): (&[Extent], DVec2),
+    rectangles: &[Extent],
+    corner: DVec2,
 ) -> Option<(ViewCell<'a>, DVec2)> {
     let smaller = DrawingScale::STANDARD.into_iter().filter(|s| s.ratio() < sheet_scale.ratio());
     for scale in core::iter::once(sheet_scale).chain(smaller) {

@@ -112,8 +112,8 @@ impl ViewMark {
             Self::Circle { letter: None, .. } | Self::CenterLine { .. } => {}
             Self::Circle { center, radius, letter: Some(letter) } => {
                 let ratio = settings.ratio;
-                let circle = (*center * ratio, radius * ratio);
-                add_circle_letter(annotations, circle, *letter, settings);
+                let (center, radius) = (*center * ratio, radius * ratio);
+                add_circle_letter(annotations, center, radius, *letter, settings);
             }
             Self::Direction { gaze, letter } => {
                 add_direction(annotations, *gaze, *letter, settings);
@@ -125,7 +125,7 @@ impl ViewMark {
                     let away = (end - other).normalize_or_zero();
                     let along = away - *retained * away.dot(*retained);
                     let away = along.normalize_or(away);
-                    add_end_letter(annotations, (end, away, -*retained), *letter, settings);
+                    add_end_letter(annotations, end, away, -*retained, *letter, settings);
                 }
             }
         }
@@ -162,7 +162,9 @@ fn annotate_stepped_line(annotations: &mut ViewAnnotations, corners: &[DVec2], r
 /// A letter at the end of a line of a section, beyond its arrow or beyond the line.
 pub(super) fn add_end_letter(
     annotations: &mut ViewAnnotations,
-    (end, away, tail): (DVec2, DVec2, DVec2),
+    end: DVec2,
+    away: DVec2,
+    tail: DVec2,
     letter: char,
     settings: &MarkSettings,
 ) {
@@ -185,7 +187,8 @@ pub(super) fn add_end_letter(
 /// The letter of a circle: as near to it as is free, with a leader line if it is not beside it.
 fn add_circle_letter(
     annotations: &mut ViewAnnotations,
-    (center, radius): (DVec2, f64),
+    center: DVec2,
+    radius: f64,
     letter: char,
     settings: &MarkSettings,
 ) {

@@ -99,7 +99,8 @@ impl ViewMeasures {
     pub(super) fn annotate(
         &self,
         annotations: &mut ViewAnnotations,
-        (overall, half): (&[OverallSide], DVec2),
+        overall: &[OverallSide],
+        half: DVec2,
         settings: &DimensionSettings,
     ) {
         self.center_lines.annotate(annotations, settings.scale);

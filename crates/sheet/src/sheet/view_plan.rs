@@ -16,7 +16,7 @@ use super::composition::{ComposedDrawing, Composition, PartDrawing};
 use super::dimension::{DimensionSettings, OverallSide, add_overall_dimensions};
 use super::overlay_marks::ViewOverlays;
 use super::requested_views::{mark_direction, unit_vector};
-use super::section_line::{SectionLine, add_caption, section_line_reserve};
+use super::section_line::{LetteredPlane, SectionLine, add_caption, section_line_reserve};
 use super::sheet_view::{SheetView, ViewName};
 use super::surface_cache::SurfaceCache;
 use super::view_mark::{MarkSettings, ViewMark};
@@ -30,9 +30,6 @@ use homog::{Bounds, Plane, Point, Vector, World};
 use model::{ModelInstance, world_points};
 use projection::SheetAngle;
 use viewport::DrawingScale;
-
-/// A section plane and its letter.
-pub(super) type LetteredPlane = (Plane<World>, char);
 
 /// A view and what is written beside it.
 #[derive(Clone, Debug)]
@@ -168,7 +165,7 @@ impl<'a> PlanSubject<'a> {
         letter: char,
     ) -> Result<PlannedView, SheetError> {
         let name = ViewName::Auxiliary(letter);
-        let view = SheetView::frame_along(&self.points, (name, gaze), self.unit())?;
+        let view = SheetView::frame_along(&self.points, name, gaze, self.unit())?;
         Ok(PlannedView::plain(view))
     }
 
@@ -209,24 +206,26 @@ impl<'a> PlanSubject<'a> {
                 facing.letter = Some(letter);
             } else if views.iter().any(|one| one.view.sees_edge_of(plane)) {
                 let retained = retained_points(self.models, &[plane], &self.sheet.uncut);
-                let view = SheetView::frame_section(&retained, (plane, letter), self.unit())?;
+                let section = LetteredPlane { plane, letter };
+                let view = SheetView::frame_section(&retained, section, self.unit())?;
                 free.push(PlannedView::plain(view).with_letter(letter));
             } else {
-                oblique.push((plane, letter, number));
+                oblique.push((LetteredPlane { plane, letter }, number));
                 continue;
             }
-            lettered.push((plane, letter));
+            lettered.push(LetteredPlane { plane, letter });
         }
-        for (plane, letter, number) in oblique {
+        for (section, number) in oblique {
             let auxiliary = letters.next().unwrap_or('Z');
-            match self.oblique_section(views, (plane, letter), auxiliary)? {
+            match self.oblique_section(views, section, auxiliary)? {
                 Some(both) => free.extend(both),
                 None => warnings.push(Warning::SectionOblique { number }),
             }
         }
         for one in views {
             let own = one.letter;
-            one.section_lines = lettered.iter().copied().filter(|(_, a)| Some(*a) != own).collect();
+            let others = lettered.iter().filter(|section| Some(section.letter) != own);
+            one.section_lines = others.copied().collect();
         }
         Ok((free, warnings))
     }
@@ -236,9 +235,10 @@ impl<'a> PlanSubject<'a> {
     fn oblique_section(
         &self,
         views: &mut [PlannedView],
-        (plane, letter): LetteredPlane,
+        section: LetteredPlane,
         auxiliary: char,
     ) -> Result<Option<[PlannedView; 2]>, SheetError> {
+        let LetteredPlane { plane, letter } = section;
         let normal = Vector::from_raw(plane.normal().raw());
         // A level gaze along the plane: the top view shows its direction in full.
         let level = unit_vector(normal.cross(Vector::Y)).unwrap_or(Vector::X);
@@ -246,10 +246,10 @@ impl<'a> PlanSubject<'a> {
             return Ok(None);
         }
         let retained = retained_points(self.models, &[plane], &self.sheet.uncut);
-        let section = SheetView::frame_section(&retained, (plane, letter), self.unit())?;
+        let view = SheetView::frame_section(&retained, section, self.unit())?;
         let mut auxiliary = self.auxiliary_view(level, auxiliary)?;
-        auxiliary.section_lines = vec![(plane, letter)];
-        Ok(Some([auxiliary, PlannedView::plain(section).with_letter(letter)]))
+        auxiliary.section_lines = vec![section];
+        Ok(Some([auxiliary, PlannedView::plain(view).with_letter(letter)]))
     }
 }
 
@@ -319,8 +319,9 @@ impl PlannedView {
 
     /// The view with the lines of all sections that others show.
     pub(super) fn with_lines_of(self, others: &[Self]) -> Self {
-        let shown =
-            others.iter().filter_map(|one| Some((*one.view.sections.first()?, one.letter?)));
+        let shown = others.iter().filter_map(|one| {
+            Some(LetteredPlane { plane: *one.view.sections.first()?, letter: one.letter? })
+        });
         Self { section_lines: shown.collect(), ..self }
     }
 
@@ -396,17 +397,17 @@ impl PlannedView {
             reserved: of_marks.fold(of_lines.max(self.measures.reserve()), f64::max),
             left_out: self.left_out(),
         };
-        self.measures.annotate(&mut annotations, (&self.dimensions, half), &settings);
+        self.measures.annotate(&mut annotations, &self.dimensions, half, &settings);
         add_overall_dimensions(&mut annotations, &self.dimensions, half, &settings);
         lines.iter().for_each(|line| line.add_letters(&mut annotations, object, letters));
         self.marks.iter().for_each(|mark| mark.add_letters(&mut annotations, &mark_settings));
         for (layer, caption) in self.captions(scale) {
-            add_caption(&mut annotations, layer, &caption, (object, letters));
+            add_caption(&mut annotations, layer, &caption, object, letters);
         }
         // Where the view does not fit there is no need to find places, of which there are many then.
         let paper = DVec2::new(sheet.paper.width(), sheet.paper.height());
         if (half * 2.0).cmple(paper).all() {
-            self.overlays.annotate(&mut annotations, (scale.ratio(), object, letters));
+            self.overlays.annotate(&mut annotations, &mark_settings);
         }
         annotations
     }
@@ -414,7 +415,7 @@ impl PlannedView {
     /// The lines of the sections that the view sees edge-on.
     fn lines_of_sections(&self, scale: DrawingScale) -> Vec<SectionLine> {
         let view = self.drawn_view();
-        let in_view = |plane: &LetteredPlane| SectionLine::in_view(&view, scale, *plane);
+        let in_view = |section: &LetteredPlane| SectionLine::in_view(&view, scale, *section);
         let lines = self.section_lines.iter().filter_map(in_view);
         let shortened = |line: SectionLine| match &self.composition {
             Composition::Broken(part) => line.shortened(part, scale),
@@ -452,7 +453,7 @@ impl PlannedView {
         }
         let half = self.view.size * scale.ratio() * 0.5;
         let layer = AnnotationLayer::ScaleNotes;
-        add_caption(&mut annotations, layer, &scale.to_string(), ([-half, half], letters));
+        add_caption(&mut annotations, layer, &scale.to_string(), [-half, half], letters);
         annotations
     }
 

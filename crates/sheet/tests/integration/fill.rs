@@ -134,7 +134,7 @@ fn the_smallest_paper_holds_the_part_at_full_size() {
     for _ in 0..200 {
         let (size, model) = random_box(&mut random, 0.2);
         let sheets = series(SheetAngle::First);
-        let smallest = Sheet::smallest_of(sheets.clone(), true, (&model, &[])).unwrap();
+        let smallest = Sheet::smallest_of(sheets.clone(), true, &model, &[]).unwrap();
         let scale = smallest.fill(&model, &[]).unwrap().scale.ratio();
         let at = sheets.iter().position(|sheet| sheet.paper_name == smallest.paper_name).unwrap();
         chosen[at] += 1;
@@ -150,8 +150,8 @@ fn the_smallest_paper_holds_the_part_at_full_size() {
         }
     }
     assert!(chosen.iter().filter(|count| **count > 0).count() >= 4, "{chosen:?}");
-    assert_eq!(Sheet::smallest_of(Vec::new(), true, (&[], &[])), None);
-    let first = Sheet::smallest_of(series(SheetAngle::Third), true, (&[], &[]));
+    assert_eq!(Sheet::smallest_of(Vec::new(), true, &[], &[]), None);
+    let first = Sheet::smallest_of(series(SheetAngle::Third), true, &[], &[]);
     assert_eq!(first, series(SheetAngle::Third).into_iter().next());
 }
 
@@ -162,7 +162,7 @@ fn the_smallest_paper_for_a_given_scale_holds_all_views() {
         let given = DrawingScale::new(scale.0, scale.1).ok();
         let sheets = series(SheetAngle::First);
         let sheets = sheets.into_iter().map(|one| Sheet { scale: given, ..one }).collect();
-        let smallest = Sheet::smallest_of(sheets, true, (&model, &[])).unwrap();
+        let smallest = Sheet::smallest_of(sheets, true, &model, &[]).unwrap();
         assert_eq!(smallest.paper_name, name, "{scale:?}");
         assert!(smallest.draw(&model, &[], 1).unwrap().warnings.is_empty());
     }

@@ -37,7 +37,8 @@ impl TitleBlockTemplate {
     pub(in crate::sheet) fn layers(
         &self,
         sheet: &Sheet,
-        (title, scale): (&str, Option<DrawingScale>),
+        title: &str,
+        scale: Option<DrawingScale>,
         area: Rectangle,
         ink: Ink,
     ) -> Vec<Layer> {
