@@ -65,11 +65,12 @@ pub fn draw(
     // There is no other view: memory of millions of edges is free for what follows.
     surface.forget_half_edges();
     let cover = view_cover(&surface, projector, subject.size, options);
-    let wanted = (options, cover.as_ref().map(|view| &view.cover));
-    let is_cut_off = surface.add_intersections(&mut candidates, wanted, threads);
-    let view = (&subject.view_projection, subject.size);
+    let hiding = cover.as_ref().map(|view| &view.cover);
+    let is_cut_off = surface.add_intersections(&mut candidates, options, hiding, threads);
     let candidates = Candidates { edges: candidates, is_cut_off, cover };
-    let mut drawing = draw_candidates(&surface, candidates, view, options, threads)?;
+    let Subject { view_projection, size, .. } = subject;
+    let mut drawing =
+        draw_candidates(&surface, candidates, view_projection, *size, options, threads)?;
     let draws_whole = has_cut_outs && !options.leaves_out_cut_outs;
     drawing.warnings.extend(draws_whole.then_some(Warning::CutOutsDrawnWhole));
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
@@ -95,10 +96,9 @@ pub fn draw_surface(
     let cover = view_cover(surface, projector, size, options);
     // Other views need other intersections: all are found once, unless they are too many.
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
-    let is_cut_off = surface.add_intersections(&mut candidates, (options, crowd), threads);
-    let view = (view_projection, size);
+    let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, threads);
     let candidates = Candidates { edges: candidates, is_cut_off, cover };
-    draw_candidates(surface, candidates, view, options, threads)
+    draw_candidates(surface, candidates, view_projection, size, options, threads)
 }
 
 /// The edges of a surface that may be visible.
@@ -137,7 +137,8 @@ fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
 fn draw_candidates(
     surface: &WeldedSurface,
     Candidates { mut edges, is_cut_off, cover }: Candidates,
-    (view_projection, size): (&ViewProjection, [u32; 2]),
+    view_projection: &ViewProjection,
+    size: [u32; 2],
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {

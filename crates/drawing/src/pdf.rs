@@ -97,7 +97,7 @@ pub fn to_pdf(pages: &[Page]) -> Vec<u8> {
     let fonts = TextFonts::new(pages);
     let (mut layers, mut pictures) = (0, 0);
     for (index, page) in pages.iter().enumerate() {
-        write_page(&mut pdf, (&ids, &fonts), (index, page), [layers, pictures]);
+        write_page(&mut pdf, &ids, &fonts, index, page, [layers, pictures]);
         for (at, pasted) in page.images.iter().enumerate() {
             write_image(&mut pdf, ids.image_ids(pictures + at), &pasted.picture);
         }
@@ -161,8 +161,10 @@ fn write_image(pdf: &mut Pdf, [color, mask]: [Ref; 2], picture: &Picture) {
 /// `layers` and `pictures` count those of the pages before, for the ids of the objects.
 fn write_page(
     pdf: &mut Pdf,
-    (ids, fonts): (&ObjectIds, &TextFonts),
-    (index, page): (usize, &Page),
+    ids: &ObjectIds,
+    fonts: &TextFonts,
+    index: usize,
+    page: &Page,
     [layers, pictures]: [usize; 2],
 ) {
     let [width, height] = page.size.to_array().map(|side| (side * POINTS_PER_MILLIMETER) as f32);

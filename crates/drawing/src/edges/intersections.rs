@@ -69,7 +69,8 @@ type IntersectingPair = ([u32; 2], IntersectionSegment);
 pub(super) fn intersect_faces(
     mesh: &WorldMesh,
     bvh: &Bvh,
-    (borders, weld_radii): (&[BorderEdge], &WeldRadii),
+    borders: &[BorderEdge],
+    weld_radii: &WeldRadii,
     SearchBounds { touching, cover, is_unlimited }: SearchBounds<'_>,
     threads: usize,
 ) -> Intersections {
@@ -110,7 +111,7 @@ pub(super) fn intersect_faces(
                         *bounds = own.iter().map(|triangle| triangle.bounds).reduce(Aabb::union);
                         search.intersect_own(own, pairs);
                     } else if let Some(bounds) = bounds {
-                        search.intersect_other((own, bounds), items, pairs);
+                        search.intersect_other(own, bounds, items, pairs);
                     }
                 });
                 if !visited || !is_complete {
@@ -151,11 +152,18 @@ struct IntersectionSearch<'a> {
     in_sight: Option<FacesInSight<'a>>,
 }
 
+/// A face by its index, and the index of the part of it that is compared; `None` for all of it.
+#[derive(Clone, Copy, Debug)]
+struct FacePart {
+    face: u32,
+    part: Option<u32>,
+}
+
 /// The faces of a mesh that one viewer may see, and where they are long, those of their parts.
 struct FacesInSight<'a> {
     cover: &'a DepthCover,
-    /// The face of each item, and the index of its part unless it is all of the face.
-    items: Vec<(u32, Option<u32>)>,
+    /// The face of each item, or its part.
+    items: Vec<FacePart>,
     parts: Vec<[DVec3; 3]>,
 }
 
@@ -168,7 +176,8 @@ impl<'a> FacesInSight<'a> {
             cover.add_visible_parts(whole, &mut visible);
             for part in visible.drain(..) {
                 let index = in_sight.parts.len() as u32;
-                in_sight.items.push((face, (part != whole).then_some(index)));
+                let index = (part != whole).then_some(index);
+                in_sight.items.push(FacePart { face, part: index });
                 in_sight.parts.extend((part != whole).then_some(part));
             }
         }
@@ -176,7 +185,8 @@ impl<'a> FacesInSight<'a> {
     }
 
     /// The corners of what is visible of a face.
-    fn corners(&self, mesh: &WorldMesh, (face, part): (u32, Option<u32>)) -> [DVec3; 3] {
+    fn corners(&self, mesh: &WorldMesh, visible: FacePart) -> [DVec3; 3] {
+        let FacePart { face, part } = visible;
         part.map_or_else(|| mesh.triangle(face), |part| self.parts[part as usize])
     }
 
@@ -202,15 +212,16 @@ impl IntersectionSearch<'_> {
     ) -> impl Iterator<Item = IntersectionTriangle> {
         let faces = items.iter().filter_map(move |&item| match &self.in_sight {
             Some(in_sight) => Some(in_sight.items[item as usize]),
-            None => ((item as usize) < self.mesh.faces.len()).then_some((item, None)),
+            None => ((item as usize) < self.mesh.faces.len())
+                .then_some(FacePart { face: item, part: None }),
         });
-        faces.filter_map(move |(face, part)| {
-            let vertices = self.mesh.triangle(face);
-            let seen = part.zip(self.in_sight.as_ref());
+        faces.filter_map(move |compared| {
+            let vertices = self.mesh.triangle(compared.face);
+            let seen = compared.part.zip(self.in_sight.as_ref());
             let corners = seen.map_or(vertices, |(part, in_sight)| in_sight.parts[part as usize]);
             let bounds = Aabb::around_triangle(corners);
             let is_near = within.is_none_or(|within| within.intersects(&bounds));
-            is_near.then(|| IntersectionTriangle::new((face, part), vertices, bounds))
+            is_near.then(|| IntersectionTriangle::new(compared, vertices, bounds))
         })
     }
 
@@ -224,7 +235,8 @@ impl IntersectionSearch<'_> {
     /// Intersects the triangles of a leaf, within a box, with those of another.
     fn intersect_other(
         &self,
-        (own, bounds): (&[IntersectionTriangle], &Aabb),
+        own: &[IntersectionTriangle],
+        bounds: &Aabb,
         items: &[u32],
         pairs: &mut Vec<IntersectingPair>,
     ) {
@@ -325,7 +337,8 @@ struct IntersectionTriangle {
 }
 
 impl IntersectionTriangle {
-    fn new((face, part): (u32, Option<u32>), vertices: [DVec3; 3], bounds: Aabb) -> Self {
+    fn new(compared: FacePart, vertices: [DVec3; 3], bounds: Aabb) -> Self {
+        let FacePart { face, part } = compared;
         let [a, b, c] = vertices;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         Self { face, part, vertices, bounds, normal, image: OnceCell::new() }

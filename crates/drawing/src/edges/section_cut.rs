@@ -69,7 +69,7 @@ pub(super) fn cut_mesh(
         let section_edge = ends.map(|end| add_point(mesh, end));
         mesh.section_edges.push(section_edge);
     }
-    add_caps(mesh, &openings, (plane, section), warnings);
+    add_caps(mesh, &openings, plane, section, warnings);
 }
 
 /// Closes a cut: the loops of its edges become faces with a material of their own.
@@ -78,7 +78,8 @@ pub(super) fn cut_mesh(
 fn add_caps(
     mesh: &mut WorldMesh,
     openings: &[CutEdge],
-    (plane, section): (Plane<World>, u16),
+    plane: Plane<World>,
+    section: u16,
     warnings: &mut Vec<Warning>,
 ) {
     let material = u32::MAX - u32::from(section);

@@ -308,7 +308,8 @@ impl WeldedSurface {
     pub(crate) fn add_intersections(
         &self,
         candidates: &mut Vec<CandidateEdge>,
-        (options, cover): (&DrawOptions, Option<&DepthCover>),
+        options: &DrawOptions,
+        cover: Option<&DepthCover>,
         threads: usize,
     ) -> bool {
         if !options.classes.contains(EdgeClass::Intersection) {
@@ -339,10 +340,10 @@ impl WeldedSurface {
         is_unlimited: bool,
         threads: usize,
     ) -> Intersections {
-        let borders = (self.border_edges.as_slice(), &self.weld_radii);
         let touching = self.touch_tolerance().world;
         let bounds = SearchBounds { touching, cover, is_unlimited };
-        intersect_faces(&self.mesh, self.face_bvh(), borders, bounds, threads)
+        let (borders, weld_radii) = (self.border_edges.as_slice(), &self.weld_radii);
+        intersect_faces(&self.mesh, self.face_bvh(), borders, weld_radii, bounds, threads)
     }
 
     /// The depths behind which nothing of the surface is visible.

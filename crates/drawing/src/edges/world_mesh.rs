@@ -98,7 +98,7 @@ impl WorldMesh {
                         model.skin_primitive(instance, primitive);
                     let to_world = to_model.then(placed.model_to_world);
                     let material = first_material + primitive.material.map_or(0, |m| m as u32 + 1);
-                    mesh.add_primitive(primitive, &positions, to_world, (object, material));
+                    mesh.add_primitive(primitive, &positions, to_world, object, material);
                 }
             }
             mesh.cut_outs.push(false);
@@ -120,7 +120,8 @@ impl WorldMesh {
         primitive: &Primitive,
         positions: &[[f32; 3]],
         to_world: Affine<ModelSpace, World>,
-        (object, material): (u32, u32),
+        object: u32,
+        material: u32,
     ) {
         let first = self.points.len() as u32;
         let to_position =
@@ -137,7 +138,7 @@ impl WorldMesh {
                 self.add_lines(pairs, first, object, false);
             }
             Topology::Triangles => {
-                self.add_faces(primitive, first, (object, material));
+                self.add_faces(primitive, first, object, material);
                 let lists = primitive.edges.as_deref().into_iter().flat_map(|edges| &edges.lines);
                 lists.for_each(|list| self.add_lines(&list.vertex_pairs, first, object, true));
             }
@@ -152,7 +153,7 @@ impl WorldMesh {
     }
 
     /// Appends the triangles of a primitive that have finite vertices.
-    fn add_faces(&mut self, primitive: &Primitive, first: u32, (object, material): (u32, u32)) {
+    fn add_faces(&mut self, primitive: &Primitive, first: u32, object: u32, material: u32) {
         let edges = primitive.edges.as_deref();
         let listed = |face: usize| Some(*edges?.visibility.as_ref()?.get(face)?);
         // A file that lists visible edges draws no others but silhouettes.

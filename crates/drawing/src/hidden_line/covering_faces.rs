@@ -85,8 +85,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
                         break;
                     }
                     for triangle in triangles {
-                        let view = (&on_screen, &tolerance);
-                        self.occlude_edge(triangle, edge, view, |one| count.insert(one));
+                        let found = |one| count.insert(one);
+                        self.occlude_edge(triangle, edge, &on_screen, &tolerance, found);
                     }
                 }
             }

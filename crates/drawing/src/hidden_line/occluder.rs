@@ -26,9 +26,14 @@ pub(super) struct Occluder {
     pub(super) vertices: [DVec2; 3],
 }
 
-/// The plane of a face in the world: the unit normal on the side of the viewer, and the distance
-/// from the origin along it. Points of the plane have `normal · p = offset`.
-type NormalAndOffset = (DVec3, f64);
+/// The plane of a face in the world; its points have `normal · p = offset`.
+#[derive(Clone, Copy, Debug)]
+struct OrientedPlane {
+    /// The unit normal on the side of the viewer.
+    normal: DVec3,
+    /// The distance from the origin along it.
+    offset: f64,
+}
 
 /// The interval of s in which a face hides an edge, and how.
 ///
@@ -196,11 +201,11 @@ impl OccluderInWorld<'_> {
     }
 
     /// The plane through a point with this normal, or the opposite one.
-    fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<NormalAndOffset> {
+    fn plane_towards_viewer(&self, normal: DVec3, point: DVec3) -> Option<OrientedPlane> {
         let normal = normal.normalize_or_zero();
         let towards = normal.dot(self.projector.towards_viewer(point));
         let normal = normal * towards.signum();
-        (towards != 0.0).then(|| (normal, normal.dot(point)))
+        (towards != 0.0).then(|| OrientedPlane { normal, offset: normal.dot(point) })
     }
 }
 
@@ -314,12 +319,12 @@ impl TriangleSides {
 /// by IN-1. An edge that nowhere gets farther behind the plane than `tolerance.world` lies in
 /// it and is not hidden at all.
 fn interval_behind_plane(
-    (normal, offset): NormalAndOffset,
+    plane: OrientedPlane,
     edge: &ProjectedEdge,
     interval: [f64; 2],
     tolerance: &Tolerance,
 ) -> Option<[f64; 2]> {
-    let height = edge.world.map(|end| normal.dot(end) - offset);
+    let height = edge.world.map(|end| plane.normal.dot(end) - plane.offset);
     let ends = interval.map(|s| evaluate_linear(height, edge.world_fraction(s)));
     if ends[0].min(ends[1]) >= -tolerance.world {
         return None;

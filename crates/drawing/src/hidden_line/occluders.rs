@@ -293,8 +293,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
                         if interval.is_none_or(|part| scratch.hidden.contains_interval(part)) {
                             continue;
                         }
-                        let view = (&on_screen, &self.tolerance);
-                        self.occlude_edge(triangle, edge, view, |part| scratch.insert(part));
+                        let (tolerance, found) = (&self.tolerance, |part| scratch.insert(part));
+                        self.occlude_edge(triangle, edge, &on_screen, tolerance, found);
                     }
                     if scratch.hidden.contains_interval([0.0, 1.0]) {
                         break;
@@ -314,7 +314,8 @@ impl<M: TriangleMesh> MeshOccluders<M> {
         &self,
         leaf: &LeafTriangle,
         edge: &ProjectedEdge,
-        (on_screen, tolerance): (&ScreenEdge<'_>, &Tolerance),
+        on_screen: &ScreenEdge<'_>,
+        tolerance: &Tolerance,
         mut found: impl FnMut(Occlusion),
     ) {
         let (vertices, triangle) = self.screen.triangle(leaf, &self.mesh);

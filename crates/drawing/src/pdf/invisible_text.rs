@@ -92,7 +92,7 @@ impl TextFonts {
         for (index, characters) in self.characters.chunks(FONT_CHARACTERS).enumerate() {
             let id = Self::font_id(first, index);
             let table = Ref::new(id.get() + 1);
-            write_font(pdf, (id, table), characters, &procedures);
+            write_font(pdf, id, table, characters, &procedures);
             let info =
                 SystemInfo { registry: Str(b"Alberti"), ordering: Str(b"Text"), supplement: 0 };
             let mut cmap: UnicodeCmap<u8> = UnicodeCmap::new(Name(b"Alberti-Text"), info);
@@ -150,7 +150,8 @@ impl TextFonts {
 /// Writes the dictionary of a font whose codes begin at 1.
 fn write_font(
     pdf: &mut Pdf,
-    (id, table): (Ref, Ref),
+    id: Ref,
+    table: Ref,
     characters: &[char],
     procedures: &BTreeMap<i32, Ref>,
 ) {
