@@ -143,8 +143,9 @@ fn side_panel(boards: &[Board]) -> Panel {
         lines.collect()
     };
     let mut page = Page::new(PICTURE_SIZE, "from the side", None);
+    let floors = BOARD_KINDS.iter().enumerate();
     page.layers
-        .extend(BOARD_KINDS.iter().enumerate().map(|(kind, of)| stroke_layer(*of, floor(kind))));
+        .extend(floors.map(|(kind, &(id, title, ink))| stroke_layer(id, title, ink, floor(kind))));
     let slope = libm::tan(30_f64.to_radians());
     let planes =
         [line([0.0, -3.0], [0.0, 7.0]), line([-NEAR, EYE_HEIGHT - 1.2], [-NEAR, EYE_HEIGHT + 1.2])];
@@ -155,14 +156,16 @@ fn side_panel(boards: &[Board]) -> Panel {
     let angle =
         [-1.0, 1.0].map(|side| line([0.0, EYE_HEIGHT], [-10.0, EYE_HEIGHT + side * 10.0 * slope]));
     let angle = stroke_layer(
-        ("angle", "what is seen", [110, 116, 124]),
+        "angle",
+        "what is seen",
+        [110, 116, 124],
         angle.into_iter().flatten().collect(),
     );
     let mut strokes = label_strokes("eye", position(0.6, EYE_HEIGHT), TextAlign::Start);
     strokes.extend(label_strokes("w = 0", position(0.0, 7.4), TextAlign::Middle));
     strokes.extend(label_strokes("w > 0", position(-7.5, -1.3), TextAlign::End));
     strokes.extend(label_strokes("w < 0", position(2.0, -1.3), TextAlign::Start));
-    let words = stroke_layer(("words", "names", INK), strokes);
+    let words = stroke_layer("words", "names", INK, strokes);
     page.layers.extend([plane, with_thin_pen(angle), with_thin_pen(words)]);
     let notes = vec![
         format!("eye at height {EYE_HEIGHT}, looking along -z; near plane at {NEAR}"),
@@ -231,9 +234,10 @@ fn boards_panel(
     outline: impl Fn(&Board) -> Vec<Polyline>,
 ) -> Panel {
     let mut page = Page::new(PICTURE_SIZE, title, None);
-    for (kind, of) in BOARD_KINDS.iter().enumerate() {
+    for (kind, &(layer_id, layer_title, ink)) in BOARD_KINDS.iter().enumerate() {
         let boards_of_kind = boards.iter().filter(|board| board.kind == kind);
-        page.layers.push(stroke_layer(*of, boards_of_kind.flat_map(&outline).collect()));
+        let strokes = boards_of_kind.flat_map(&outline).collect();
+        page.layers.push(stroke_layer(layer_id, layer_title, ink, strokes));
     }
     page.layers.retain(|layer| !layer.groups[0].strokes.is_empty());
     Panel { id: id.to_owned(), title: title.to_owned(), notes, page }
@@ -278,7 +282,7 @@ fn stroke_group(strokes: Vec<Polyline>) -> Group {
 }
 
 /// A layer of strokes with the pen of the boards.
-fn stroke_layer((id, title, ink): (&str, &str, Ink), strokes: Vec<Polyline>) -> Layer {
+fn stroke_layer(id: &str, title: &str, ink: Ink, strokes: Vec<Polyline>) -> Layer {
     let mut layer = Layer::new(id, title, Pen::solid(STROKE_WIDTH, ink));
     layer.groups.push(stroke_group(strokes));
     layer

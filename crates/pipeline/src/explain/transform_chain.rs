@@ -55,12 +55,13 @@ impl TransformChain {
     /// product in f64.
     pub fn new(
         view_projection: &ViewProjection,
-        (width, height): (u32, u32),
+        size: (u32, u32),
         conventions: ApiConventions,
     ) -> Result<Self, ViewportError> {
         let ViewProjection { camera, view_to_clip } = *view_projection;
         let own_volume = ApiConventions::Alberti.canonical_volume();
         let view_to_clip = own_volume.convert(conventions.canonical_volume(), view_to_clip);
+        let (width, height) = size;
         let viewport = conventions.viewport(width, height)?;
         let world_to_view = camera.world_to_view().then(conventions.view_flip());
         let transform = ViewTransform::with_world_to_clip(

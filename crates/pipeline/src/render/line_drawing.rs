@@ -97,7 +97,7 @@ fn paste_inset(page: &mut Page, mut view: Page, inset: &Inset, number: usize) {
     view.crop_to_border();
     page.paste_page(&view, low, &prefix);
     if let Some((color, width)) = inset.border {
-        page.layers.push(border_layer(format!("{prefix}border"), low, size, (color, width)));
+        page.layers.push(border_layer(format!("{prefix}border"), low, size, color, width));
     }
 }
 
@@ -125,7 +125,7 @@ fn paper_image(id: String, low: DVec2, high: DVec2, [r, g, b]: Ink) -> PlacedIma
 }
 
 /// A border of a width in pixels, inside of a rectangle in millimeters.
-fn border_layer(id: String, low: DVec2, size: DVec2, (color, width): (Ink, u32)) -> Layer {
+fn border_layer(id: String, low: DVec2, size: DVec2, color: Ink, width: u32) -> Layer {
     let width = to_page_millimeters(width);
     let half = DVec2::splat(0.5 * width);
     let (low, high) = (low + half, low + size - half);

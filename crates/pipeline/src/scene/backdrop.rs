@@ -120,13 +120,14 @@ fn resolve_gradient(
     origin: &Origin,
     colors: &[Color],
     angle: f64,
-    (width, height): (u32, u32),
+    size: (u32, u32),
 ) -> Result<Gradient, SceneError> {
     if !(2..=MAX_GRADIENT_COLORS).contains(&colors.len()) {
         let message = format!("a gradient cannot have {} colors", colors.len());
         let help = Some("from 2 to 16 are possible; one alone is Color(\"#…\")");
         return Err(background_error(origin, &[Field("colors")], message, help));
     }
+    let (width, height) = size;
     let codes: Vec<[u8; 3]> = colors.iter().map(|color| color.0).collect();
     Ok(Gradient::new(&codes, angle, [width, height]))
 }

@@ -149,7 +149,7 @@ impl DimensionResolver<'_> {
     /// The dimensions of an entry: one, none for `Overall`, several for the largest diameters.
     fn resolve(&self, entry: &DimensionFile) -> Result<Vec<Dimension>, SceneError> {
         let one = |kind, measure, view, side, decimals| {
-            vec![self.dimension(kind, measure, (view, side, decimals))]
+            vec![self.dimension(kind, measure, view, side, decimals)]
         };
         Ok(match entry {
             DimensionFile::Overall => Vec::new(),
@@ -191,7 +191,9 @@ impl DimensionResolver<'_> {
         &self,
         kind: &str,
         measure: Measure,
-        (view, side, decimals): (Option<DimensionView>, Option<DimensionSide>, Option<u32>),
+        view: Option<DimensionView>,
+        side: Option<DimensionSide>,
+        decimals: Option<u32>,
     ) -> Dimension {
         let name = format!("dimension {} ({kind})", self.index + 1);
         Dimension { measure, view: view.map(named_view), side, decimals, name }
@@ -251,7 +253,7 @@ impl DimensionResolver<'_> {
         circles.dedup_by(|a, b| (a.radius - b.radius).abs() <= 1e-5 * b.radius);
         circles.truncate(count);
         let dimension = |circle: WorldCircle| {
-            self.dimension("LargestDiameters", Measure::Diameter(circle), (None, None, decimals))
+            self.dimension("LargestDiameters", Measure::Diameter(circle), None, None, decimals)
         };
         circles.into_iter().map(dimension).collect()
     }

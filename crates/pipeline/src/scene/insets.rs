@@ -111,8 +111,9 @@ fn resolve_viewport_rect(
     origin: &Origin,
     number: usize,
     viewport: &ViewportFile,
-    (width, height): (u32, u32),
+    size: (u32, u32),
 ) -> Result<PixelRect, SceneError> {
+    let (width, height) = size;
     let place = |field: &'static str| [Field("viewports"), Index(number), Field(field)];
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {

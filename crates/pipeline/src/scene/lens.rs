@@ -30,13 +30,14 @@ pub(super) struct Lens {
 impl Lens {
     /// The lens with the vertical, horizontal or diagonal field of view that is given. Of several,
     /// which are an error, the first counts.
-    pub(super) fn new(angles: [Option<FieldOfView>; 3], (x, y): (Finite, Finite)) -> Self {
+    pub(super) fn new(angles: [Option<FieldOfView>; 3], shift: (Finite, Finite)) -> Self {
         let radians = |angle: FieldOfView| angle.value().to_radians();
         let fov = match angles {
             [None, Some(angle), _] => Fov::Horizontal(radians(angle)),
             [None, None, Some(angle)] => Fov::Diagonal(radians(angle)),
             [angle, ..] => Fov::Vertical(radians(angle.unwrap_or_default())),
         };
+        let (x, y) = shift;
         Self { fov, shift: [x.value(), y.value()] }
     }
 

@@ -62,7 +62,8 @@ pub(super) fn resolve_lights(
     file: &SceneFile,
     described: &[Option<Light>],
     models: &[ModelInstance],
-    (view_projection, shadow): (&ViewProjection, Option<Shadow>),
+    view_projection: &ViewProjection,
+    shadow: Option<Shadow>,
 ) -> Result<Vec<Light>, SceneError> {
     if file.lights.is_some() {
         let lights = described.iter().flat_map(|light| match light {

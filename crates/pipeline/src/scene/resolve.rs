@@ -241,14 +241,17 @@ pub(super) fn resolve_without_insets(
 
     let models = models?;
     let uncut = faults.take(resolve_uncut(origin, &file.sections, models));
-    let cuts = (sections.as_deref().unwrap_or_default(), uncut.as_deref().unwrap_or_default());
-    let points = || framed_points(models, style.unwrap_or(Style::Shaded), cuts);
+    let points = || {
+        let (planes, uncut) = (sections.as_deref(), uncut.as_deref());
+        let style = style.unwrap_or(Style::Shaded);
+        framed_points(models, style, planes.unwrap_or_default(), uncut.unwrap_or_default())
+    };
     let view_projection = image.filter(|_| is_placed).and_then(|image| {
-        let framed = (models, points());
-        faults.take(resolve_view_of_points(origin, &file.camera, framed, image, Vec::new()))
+        let (camera, points) = (&file.camera, points());
+        faults.take(resolve_view_of_points(origin, camera, models, points, image, Vec::new()))
     });
     let lights = described.zip(view_projection).and_then(|(described, view)| {
-        let lights = resolve_lights(origin, file, &described, models, (&view, shadow.flatten()));
+        let lights = resolve_lights(origin, file, &described, models, &view, shadow.flatten());
         faults.take(lights)
     });
     let lit = lights.as_deref();
@@ -292,8 +295,8 @@ impl SceneParts {
         if let Some(ground) = ground.filter(|_| is_framed && style.draws_surfaces()) {
             // The key light stands by the direction of view, which framing keeps.
             let shadows = shadow_points(ground, models, &lights);
-            let framed = (models, world_points(models));
-            let view = resolve_view_of_points(origin, &file.camera, framed, image, shadows);
+            let points = world_points(models);
+            let view = resolve_view_of_points(origin, &file.camera, models, points, image, shadows);
             view_projection = faults.take(view)?;
         }
         let occlusion_radius = file.ambient_occlusion.map(|file| {
@@ -333,7 +336,8 @@ impl SceneParts {
 fn framed_points(
     models: &[ModelInstance],
     style: Style,
-    (sections, uncut): (&[Plane<World>], &[u32]),
+    sections: &[Plane<World>],
+    uncut: &[u32],
 ) -> Vec<Point<World>> {
     if sections.is_empty() || style.draws_surfaces() {
         return world_points(models);

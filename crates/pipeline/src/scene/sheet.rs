@@ -238,9 +238,10 @@ fn resolve_paper(file: &SheetFile, size: PaperSize) -> (Paper, &'static str) {
 /// The scale as a ratio of lengths on paper to lengths of the object.
 pub(super) fn resolve_scale(
     origin: &Origin,
-    (paper, thing): (u32, u32),
+    scale: (u32, u32),
     path: &[PathStep<'_>],
 ) -> Result<DrawingScale, SceneError> {
+    let (paper, thing) = scale;
     DrawingScale::new(paper, thing).map_err(|error| {
         let help = "write (1, 50) for 1:50".to_owned();
         origin.error_at(path, error.to_string(), Some(help))

@@ -55,7 +55,7 @@ pub(super) fn resolve_view_projection(
     models: &[ModelInstance],
     image: ImageSpec,
 ) -> Result<ViewProjection, SceneError> {
-    resolve_view_of_points(origin, file, (models, world_points(models)), image, Vec::new())
+    resolve_view_of_points(origin, file, models, world_points(models), image, Vec::new())
 }
 
 /// Camera and projection of a scene; a view that frames its models frames these `points` of them,
@@ -65,7 +65,8 @@ pub(super) fn resolve_view_projection(
 pub(super) fn resolve_view_of_points(
     origin: &Origin,
     file: &CameraFile,
-    (models, points): (&[ModelInstance], Vec<Point<World>>),
+    models: &[ModelInstance],
+    points: Vec<Point<World>>,
     image: ImageSpec,
     shadow_points: Vec<Point<World>>,
 ) -> Result<ViewProjection, SceneError> {

@@ -52,6 +52,14 @@ pub(super) struct CasterPass<'a, 'b> {
     pub(super) draws: &'b mut DrawList<'a>,
 }
 
+/// A primitive of a model, in one of the places of its mesh.
+#[derive(Clone, Copy)]
+struct PlacedPrimitive<'a> {
+    model_instance: &'a ModelInstance,
+    instance: MeshInstance,
+    primitive: &'a Primitive,
+}
+
 impl<'a> CasterPass<'a, '_> {
     /// Draws the opaque and masked triangles of all models.
     ///
@@ -68,13 +76,8 @@ impl<'a> CasterPass<'a, '_> {
             for (instance, primitive) in model_instance.model.scene_primitives() {
                 let texture =
                     |slot, used: TextureInfo| textures.mip_chain(index, slot, used.texture);
-                let count = self.draw_primitive(
-                    model_instance,
-                    (instance, primitive),
-                    first_id,
-                    texture,
-                    threads,
-                );
+                let placed = PlacedPrimitive { model_instance, instance, primitive };
+                let count = self.draw_primitive(placed, first_id, texture, threads);
                 let next = u32::try_from(count).ok().and_then(|n| first_id.checked_add(n));
                 first_id = next.ok_or(RenderError::TooManyPrimitives)?;
             }
@@ -86,12 +89,12 @@ impl<'a> CasterPass<'a, '_> {
     /// shadow. Back faces cast too: open surfaces have no other side to do it.
     fn draw_primitive(
         &mut self,
-        model_instance: &'a ModelInstance,
-        (instance, primitive): (MeshInstance, &'a Primitive),
+        placed: PlacedPrimitive<'a>,
         first_id: u32,
         texture: impl Fn(TextureSlot, TextureInfo) -> Option<&'a MipChain<'a>>,
         threads: usize,
     ) -> usize {
+        let PlacedPrimitive { model_instance, instance, primitive } = placed;
         let model = &model_instance.model;
         let material = primitive.material.map_or(&*DEFAULT_MATERIAL, |m| &model.materials[m]);
         let opacity = material_opacity(material);

@@ -109,7 +109,7 @@ impl<'a> Picking<'a> {
                 Picked::Point(point_of_box(self.bounds(None, path)?, fraction.0))
             }
             PickFile::Node { name, number, fraction } => {
-                let objects = self.objects(name, *number, (path, "name"))?;
+                let objects = self.objects(name, *number, path, "name")?;
                 Picked::Point(point_of_box(self.bounds(Some(&objects), path)?, fraction.0))
             }
             PickFile::Vertex(place) => {
@@ -165,7 +165,7 @@ impl<'a> Picking<'a> {
     ) -> Result<(Point<World>, Option<Vec<u32>>), SceneError> {
         let node = place.node.as_ref();
         let objects =
-            node.map(|name| self.objects(name, place.number, (path, "node"))).transpose()?;
+            node.map(|name| self.objects(name, place.number, path, "node")).transpose()?;
         let point = match (place.near, place.fraction) {
             (Some(_), Some(_)) => {
                 let help = "give `near` in the world, or `fraction` of a box".to_owned();
@@ -196,7 +196,8 @@ impl<'a> Picking<'a> {
         &self,
         name: &str,
         number: usize,
-        (path, field): (&[PathStep<'_>], &str),
+        path: &[PathStep<'_>],
+        field: &str,
     ) -> Result<Vec<u32>, SceneError> {
         let mut nodes = objects_below(self.models, |own| own == name);
         let count = nodes.len();

@@ -158,7 +158,8 @@ impl StyleFile {
     /// The style with a line group of ISO 128 that suits a picture of this size in pixels, if its
     /// lines are those of a group: 0.25 mm below 300 pixels, 0.35 mm below 600.
     #[must_use]
-    pub fn with_fitting_lines(self, (width, height): (u32, u32)) -> Self {
+    pub fn with_fitting_lines(self, size: (u32, u32)) -> Self {
+        let (width, height) = size;
         let most = match width.min(height) {
             0..300 => 0.25,
             300..600 => 0.35,

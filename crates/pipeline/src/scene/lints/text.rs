@@ -30,7 +30,7 @@ fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
     let mut lints = Vec::new();
     for (number, overlay) in scene.overlays.iter().enumerate() {
         let Overlay::Label(label) = overlay else { continue };
-        lints.extend(lint_label(origin, scene, (number, label)));
+        lints.extend(lint_label(origin, scene, number, label));
         lints.extend(lint_glyphs(origin, &label.text, Some(number)));
     }
     lints.extend(scene.caption.iter().filter_map(|text| lint_glyphs(origin, text, None)));
@@ -38,11 +38,7 @@ fn lint_view(origin: &Origin, scene: &Scene) -> Vec<Lint> {
 }
 
 /// A label whose point is not in the picture.
-fn lint_label(
-    origin: &Origin,
-    scene: &Scene,
-    (number, label): (usize, &PointLabel),
-) -> Option<Lint> {
+fn lint_label(origin: &Origin, scene: &Scene, number: usize, label: &PointLabel) -> Option<Lint> {
     let view_height = scene.image.view_size().y / f64::from(scene.image.height);
     let place = match label.fault(&scene.view_projection, view_height)? {
         LabelFault::BehindEye => "behind the eye",
