@@ -71,7 +71,7 @@ pub(super) fn import_obj(
     let mut model =
         Model { up_axis: UpAxis::Y, length_unit: LengthUnit::Meter, ..Model::default() };
     scene::build_scene(&mut model, &groups, primitives);
-    build_materials(&mut model, &names, &libraries, (resolver, options), &mut warnings);
+    build_materials(&mut model, &names, &libraries, resolver, options, &mut warnings);
     model.warnings = warnings.into_list();
     Ok(model)
 }
@@ -149,7 +149,8 @@ fn build_materials(
     model: &mut Model,
     names: &[&[u8]],
     libraries: &[Library],
-    (resolver, options): (&UriResolver<'_>, &ImportOptions),
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
     warnings: &mut ImportWarnings,
 ) {
     // The first library that defines a name counts, and in it the last definition.

@@ -109,7 +109,8 @@ fn mark_material_images(material: Option<usize>, model: &Model, needed: &mut [bo
 pub(super) fn import_images(
     source: &AccessorReader<'_>,
     model: &mut Model,
-    (announced, decoded): (EncodedImages<'_>, Vec<DecodeResult>),
+    announced: EncodedImages<'_>,
+    decoded: Vec<DecodeResult>,
     loading: ImageLoading,
     warnings: &mut ImportWarnings,
 ) {

@@ -44,8 +44,10 @@ pub(super) fn build_model(
     let meshes = || build_meshes(document, source, options, &mut model, warnings);
     let geometry = || timings.measure("geometry", meshes);
     let ((), decoded) = decode_images_alongside(&announced.encoded, timings, geometry)?;
-    let announced = (announced, decoded);
-    let store = || images::import_images(source, &mut model, announced, options.images, warnings);
+    let store = || {
+        let loading = options.images;
+        images::import_images(source, &mut model, announced, decoded, loading, warnings);
+    };
     timings.measure("images", store);
     Ok(model)
 }

@@ -78,11 +78,7 @@ fn check_frame_sizes(file: &[u8], size: (u32, u32)) -> Result<(), String> {
 ///
 /// # Errors
 /// A message with both sizes.
-fn check_frame_size(
-    name: [u8; 4],
-    bytes: &[u8],
-    (width, height): (u32, u32),
-) -> Result<(), String> {
+fn check_frame_size(name: [u8; 4], bytes: &[u8], size: (u32, u32)) -> Result<(), String> {
     if &name != b"VP8 " {
         return Ok(());
     }
@@ -92,6 +88,7 @@ fn check_frame_size(
     // The upper two bits are an upscaling hint, without effect on the decoded size.
     let side = |low, high| u32::from(u16::from_le_bytes([low, high]) & 0x3FFF);
     let (w, h) = (side(w0, w1), side(h0, h1));
+    let (width, height) = size;
     if w <= width && h <= height {
         return Ok(());
     }

@@ -79,13 +79,12 @@ pub(super) fn split_elements(
                     continue;
                 }
             }
-            let attributes = (
-                corners.iter().all(|corner| corner.uv != NONE),
-                corners.iter().all(|corner| corner.normal != NONE),
-            );
+            let has_uvs = corners.iter().all(|corner| corner.uv != NONE);
+            let has_normals = corners.iter().all(|corner| corner.normal != NONE);
+            let attributes = (has_uvs, has_normals);
             let part = match latest {
                 Some((same, part)) if same == attributes => part,
-                _ => cutter.part_of(state, attributes),
+                _ => cutter.part_of(state, has_uvs, has_normals),
             };
             latest = Some((attributes, part));
             // A polygon that is not smooth is a group of its own, however it is cut.
@@ -147,7 +146,7 @@ impl<'a> ElementCutter<'a> {
     }
 
     /// The part of elements, new if it is the first.
-    fn part_of(&mut self, state: ElementState, (has_uvs, has_normals): (bool, bool)) -> usize {
+    fn part_of(&mut self, state: ElementState, has_uvs: bool, has_normals: bool) -> usize {
         let ElementState { group, material, topology, .. } = state;
         let corners_per_item = topology.vertices_per_item();
         let has_normals = has_normals && topology == Topology::Triangles;
