@@ -36,12 +36,8 @@ pub(super) enum FrameSink {
 /// The error of a video, with the command that makes it with ffmpeg.
 ///
 /// Most players want colors at half resolution, and with them an even width and height.
-fn unwritten_video_error(
-    input: &Path,
-    output: &Path,
-    (width, height): (u32, u32),
-    fps: f64,
-) -> CliError {
+fn unwritten_video_error(input: &Path, output: &Path, size: (u32, u32), fps: f64) -> CliError {
+    let (width, height) = size;
     let (input, name) = (input.display(), output.display());
     let is_even = width % 2 == 0 && height % 2 == 0;
     let even = if is_even { "" } else { "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' " };

@@ -71,7 +71,7 @@ impl LineReader<'_> {
         let flags = self.flags_of(members)?;
         let pictures = match members.get("pictures") {
             None | Some(Value::Null) => {
-                let one = self.read_job(Path::new(given), members, (flags, 0))?;
+                let one = self.read_job(Path::new(given), members, flags, 0)?;
                 return Ok(JobGroup { jobs: vec![one], bytes });
             }
             Some(Value::Array(pictures)) if !pictures.is_empty() => pictures,
@@ -82,7 +82,7 @@ impl LineReader<'_> {
         }
         let mut jobs: Vec<BatchJob> = Vec::new();
         for (at, picture) in pictures.iter().enumerate() {
-            let job = self.read_picture(Path::new(given), (members, picture), (&flags, at + 1));
+            let job = self.read_picture(Path::new(given), members, picture, &flags, at + 1);
             let job = job.map_err(|what| format!("pictures[{at}]: {what}"))?;
             if jobs.iter().any(|other| other.output == job.output) {
                 return Err(format!("two of the `pictures` have the name {}", job.output));
@@ -96,8 +96,10 @@ impl LineReader<'_> {
     fn read_picture(
         &self,
         given: &Path,
-        (line, picture): (&Map<String, Value>, &Value),
-        (flags, number): (&[String], usize),
+        line: &Map<String, Value>,
+        picture: &Value,
+        flags: &[String],
+        number: usize,
     ) -> Result<BatchJob, String> {
         let own =
             picture.as_object().ok_or("a picture is an object, such as {\"view\": \"top\"}")?;
@@ -111,7 +113,7 @@ impl LineReader<'_> {
         if let Some(scene) = line.get("scene").filter(|_| !own.contains_key("scene")) {
             members.insert("scene".to_owned(), scene.clone());
         }
-        self.read_job(given, &members, (flags, number))
+        self.read_job(given, &members, flags, number)
     }
 
     /// A job with these flags; `number` is that of the picture, 0 for the only one of its line.
@@ -119,7 +121,8 @@ impl LineReader<'_> {
         &self,
         given: &Path,
         members: &Map<String, Value>,
-        (flags, number): (Vec<String>, usize),
+        flags: Vec<String>,
+        number: usize,
     ) -> Result<BatchJob, String> {
         let output = match (text_member(members, "output")?, &self.context.picture_name) {
             (Some(output), _) => {

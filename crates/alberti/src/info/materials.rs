@@ -25,6 +25,7 @@ fn material_json(material: &Material) -> Value {
         AlphaMode::Mask { cutoff } => ("MASK", Some(shortest_number(cutoff))),
         AlphaMode::Blend => ("BLEND", None),
     };
+    let textures = material.all_textures().map(|(slot, used)| texture_use_json(slot, used));
     json!({
         "name": material.name,
         "base_color": shortest_numbers(&material.base_color),
@@ -35,7 +36,7 @@ fn material_json(material: &Material) -> Value {
         "alpha_cutoff": cutoff,
         "double_sided": material.double_sided,
         "unlit": material.unlit,
-        "textures": material.all_textures().map(texture_use_json).collect::<Vec<_>>(),
+        "textures": textures.collect::<Vec<_>>(),
         "extensions": material_extensions_json(material),
     })
 }
@@ -44,7 +45,7 @@ fn material_json(material: &Material) -> Value {
 ///
 /// `slot` is the path of the texture in the material's JSON. `transformed` says whether
 /// KHR_texture_transform changes the texture coordinates.
-fn texture_use_json((slot, used): (TextureSlot, TextureInfo)) -> Value {
+fn texture_use_json(slot: TextureSlot, used: TextureInfo) -> Value {
     json!({
         "slot": slot.json_path(),
         "texture": used.texture,

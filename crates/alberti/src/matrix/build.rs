@@ -38,7 +38,8 @@ struct BuilderFlag {
 }
 
 const fn flag(
-    (name, value): (&'static str, &'static str),
+    name: &'static str,
+    value: &'static str,
     uses: &'static [Modifier],
     build: fn(&NumberList, BuildOptions) -> Built,
     help: &'static str,
@@ -49,85 +50,98 @@ const fn flag(
 /// All of them, in the order of the help.
 const FLAGS: [BuilderFlag; 16] = [
     flag(
-        ("perspective", "FOVY,ASPECT,NEAR,FAR"),
+        "perspective",
+        "FOVY,ASPECT,NEAR,FAR",
         &[Conventions, Reversed],
         build_perspective,
         "Perspective by its vertical field of view in degrees; FAR may be `inf`",
     ),
     flag(
-        ("frustum", "L,R,B,T,NEAR,FAR"),
+        "frustum",
+        "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_frustum,
         "Perspective by its window on the near plane, as glFrustum; FAR may be `inf`",
     ),
     flag(
-        ("moved-apex", "L,R,B,T,NEAR,FAR"),
+        "moved-apex",
+        "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_moved_apex,
         "Perspective of the WebGL lesson: its apex moved behind the window's center",
     ),
     flag(
-        ("intrinsics", "FX,FY,CX,CY,WIDTH,HEIGHT,NEAR,FAR"),
+        "intrinsics",
+        "FX,FY,CX,CY,WIDTH,HEIGHT,NEAR,FAR",
         &[Conventions, Reversed],
         build_intrinsics,
         "Perspective of a calibrated camera by its matrix K for pictures of WIDTH x HEIGHT, pixel \
          centers at whole numbers as in OpenCV",
     ),
     flag(
-        ("ortho", "L,R,B,T,NEAR,FAR"),
+        "ortho",
+        "L,R,B,T,NEAR,FAR",
         &[Conventions, Reversed],
         build_ortho,
         "Orthographic box, as glOrtho",
     ),
-    flag(("p", "N,F"), &[], build_p, "The textbook's P for its signed n and f, such as -1,-10"),
+    flag("p", "N,F", &[], build_p, "The textbook's P for its signed n and f, such as -1,-10"),
     flag(
-        ("oblique", "LENGTH,ANGLE[,L,R,B,T,NEAR,FAR]"),
+        "oblique",
+        "LENGTH,ANGLE[,L,R,B,T,NEAR,FAR]",
         &[Conventions, Reversed, OntoPlane],
         build_oblique,
         "Oblique projection by the drawn length of a unit of depth and its angle in degrees; with \
          six more numbers the whole volume",
     ),
     flag(
-        ("axonometric", "ALPHA,BETA"),
+        "axonometric",
+        "ALPHA,BETA",
         &[OntoPlane],
         build_axonometric,
         "Axonometric projection by the angles about y and x in degrees; 45,35.26439 is isometric",
     ),
     flag(
-        ("n-point", "P,Q,R"),
+        "n-point",
+        "P,Q,R",
         &[OntoPlane],
         build_n_point,
         "One-, two- or three-point perspective by its bottom row (p, q, r, 1)",
     ),
     flag(
-        ("look-at", "EYE,TARGET[,UP]"),
+        "look-at",
+        "EYE,TARGET[,UP]",
         &[Conventions],
         build_look_at,
         "Camera by its eye, the point it looks at and, unless it is y, the direction that is up; \
          with --conventions direct3d in a left-handed world (XMMatrixLookAtLH)",
     ),
     flag(
-        ("look-to", "EYE,DIRECTION[,UP]"),
+        "look-to",
+        "EYE,DIRECTION[,UP]",
         &[Conventions],
         build_look_to,
         "Camera by its eye, the direction it looks in (the gaze) and, unless it is y, up",
     ),
     flag(
-        ("viewport", "[X,Y,]WIDTH,HEIGHT"),
+        "viewport",
+        "[X,Y,]WIDTH,HEIGHT",
         &[Conventions],
         build_viewport,
         "Viewport of an image, or of a rectangle in one",
     ),
     flag(
-        ("window-to-viewport", "L,R,B,T,L,R,B,T"),
+        "window-to-viewport",
+        "L,R,B,T,L,R,B,T",
         &[],
         build_window_to_viewport,
         "Window to viewport: left, right, bottom and top of both",
     ),
-    flag(("translate", "X,Y,Z"), &[], build_translation, "Translation"),
-    flag(("scale", "X,Y,Z"), &[], build_scale, "Scale"),
+    flag("translate", "X,Y,Z", &[], build_translation, "Translation"),
+    flag("scale", "X,Y,Z", &[], build_scale, "Scale"),
     flag(
-        ("rotate", "X,Y,Z,DEGREES"),
+        "rotate",
+        "X,Y,Z,DEGREES",
         &[],
         build_rotation,
         "Rotation about an axis through the origin",
@@ -324,7 +338,7 @@ impl BuildArgs {
         let rest = numbers.join(" ");
         let parts = numbers.iter().flat_map(|word| word.split([',', ' ']));
         let count = list.0.len() + parts.filter(|word| !word.is_empty()).count();
-        let written = Self::as_written(&(*at, list.clone()));
+        let written = Self::as_written(*at, list);
         let joined = numbers.join(",");
         Err(CliError::Usage(format!(
             "`{rest}` behind `{written}`: --{} takes one list of numbers joined by commas, without \
@@ -335,9 +349,9 @@ impl BuildArgs {
     }
 
     /// A flag with its numbers.
-    fn as_written((at, list): &(usize, NumberList)) -> String {
+    fn as_written(at: usize, list: &NumberList) -> String {
         let numbers: Vec<String> = list.0.iter().map(f64::to_string).collect();
-        format!("--{} {}", FLAGS[*at].name, numbers.join(","))
+        format!("--{} {}", FLAGS[at].name, numbers.join(","))
     }
 
     fn build_product(&self, options: BuildOptions) -> Built {
@@ -377,7 +391,8 @@ impl BuildArgs {
         let product = names.join(" · ");
         let subject = format!("The product {product}, the rightmost applied first{conventions}");
         let named = self.calls.iter().zip(&factors).rev();
-        let product_of = named.map(|(call, built)| (Self::as_written(call), built.matrix));
+        let product_of =
+            named.map(|((at, list), built)| (Self::as_written(*at, list), built.matrix));
         Ok(BuiltMatrix { product_of: product_of.collect(), ..BuiltMatrix::new(subject, matrix) })
     }
 }
