@@ -216,7 +216,7 @@ impl Explorer {
                 let stage = (lesson.volume)(&state.values(DEFAULT_SIZE));
                 let pointer = pointer(state, &loaded);
                 let conventions = lesson.conventions;
-                Arc::new(volume_scene(&facts, (stage, conventions), observer, pointer)?)
+                Arc::new(volume_scene(&facts, stage, conventions, observer, pointer)?)
             }
         };
         let pane = if is_world { &mut self.world } else { &mut self.volume };

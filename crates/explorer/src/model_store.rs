@@ -112,7 +112,7 @@ impl ModelStore {
         let mistakes = |errors| ExplorerError::from(pipeline::ResolveError::Scene(errors));
         let mut file = parse_scene(name, &text).map_err(mistakes)?;
         picture.apply_to(&mut file);
-        let loaded = self.load_scene((name, &text), &file, &[name.to_owned()])?;
+        let loaded = self.load_scene(name, &text, &file, &[name.to_owned()])?;
         self.keep_scene(key, &loaded);
         Ok((text, loaded))
     }
@@ -131,13 +131,14 @@ impl ModelStore {
     ) -> Result<LoadedScene, ExplorerError> {
         let file = parse_scene("scene.ron", text)
             .map_err(|errors| ExplorerError::from(pipeline::ResolveError::Scene(errors)))?;
-        self.load_scene(("scene.ron", text), &file, entries)
+        self.load_scene("scene.ron", text, &file, entries)
     }
 
     /// Resolves a scene; its models are loaded unless they are at hand. `entries` stand for them.
     fn load_scene(
         &mut self,
-        (name, text): (&str, &str),
+        name: &str,
+        text: &str,
         file: &SceneFile,
         entries: &[String],
     ) -> Result<LoadedScene, ExplorerError> {

@@ -114,7 +114,9 @@ impl PaneGeometry {
         let model = Model {
             name: "triangles".to_owned(),
             meshes: vec![Mesh { primitives, ..Mesh::default() }],
-            materials: [false, true].map(|unlit| COLORS.map(|it| material(it, unlit))).concat(),
+            materials: [false, true]
+                .map(|unlit| COLORS.map(|(name, color)| material(name, color, unlit)))
+                .concat(),
             nodes: vec![Node { mesh: Some(0), ..Node::default() }],
             roots: vec![0],
             ..Model::default()
@@ -138,7 +140,7 @@ fn primitive(material: usize, topology: Topology, positions: &[[f32; 3]]) -> Pri
 }
 
 /// Surfaces are lit, lines are not.
-fn material((name, color): (&str, [u8; 3]), unlit: bool) -> Material {
+fn material(name: &str, color: [u8; 3], unlit: bool) -> Material {
     let [r, g, b] = color.map(|code| srgb_to_linear_table()[usize::from(code)]);
     Material {
         name: Some(name.to_owned()),

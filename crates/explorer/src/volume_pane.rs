@@ -26,20 +26,22 @@ const TORN_LIMIT: f64 = 1e6;
 /// The scene cannot be framed.
 pub(crate) fn volume_scene(
     facts: &Facts,
-    (stage, conventions): (VolumeStage, ApiConventions),
+    stage: VolumeStage,
+    conventions: ApiConventions,
     observer: Observer,
     pointer: Pointer,
 ) -> Result<Scene, ExplorerError> {
     match stage {
         VolumeStage::Factors(count) => factor_scene(facts, count, observer),
-        stage => canonical_scene(facts, (stage, conventions), observer, pointer),
+        stage => canonical_scene(facts, stage, conventions, observer, pointer),
     }
 }
 
 /// The canonical view volume.
 fn canonical_scene(
     facts: &Facts,
-    (stage, conventions): (VolumeStage, ApiConventions),
+    stage: VolumeStage,
+    conventions: ApiConventions,
     observer: Observer,
     pointer: Pointer,
 ) -> Result<Scene, ExplorerError> {
