@@ -111,7 +111,8 @@ impl Samples {
 /// The offset in grid steps from the upper left corner of a pixel, of one in 1/16 pixel from its
 /// center: exact, for 1/16 pixel is 16 grid steps.
 #[inline(always)]
-const fn grid_offset((x, y): (i32, i32)) -> (i32, i32) {
+const fn grid_offset(from_center: (i32, i32)) -> (i32, i32) {
+    let (x, y) = from_center;
     (SUBPIXELS / 2 + x * (SUBPIXELS / 16), SUBPIXELS / 2 + y * (SUBPIXELS / 16))
 }
 

@@ -233,7 +233,8 @@ fn coordinate_extents([p, q, r]: &[Ints; 3]) -> (Ints, Ints) {
 /// corner. Pixels before the tile are cut off at 0, pixels behind the visible part at its right and
 /// bottom.
 #[inline(always)]
-fn pixel_bounds(extent: [Ints; 4], tile: TileRect, (least, greatest): (i32, i32)) -> [Ints; 4] {
+fn pixel_bounds(extent: [Ints; 4], tile: TileRect, offset_range: (i32, i32)) -> [Ints; 4] {
+    let (least, greatest) = offset_range;
     let [mut x0, mut y0, mut x1, mut y1] = extent;
     for low in [&mut x0, &mut y0] {
         for low in low {

@@ -187,7 +187,8 @@ impl DepthPlane {
     }
 
     /// The depth at a grid position.
-    fn depth_at(&self, (x, y): (i64, i64)) -> f64 {
+    fn depth_at(&self, position: (i64, i64)) -> f64 {
+        let (x, y) = position;
         self.z + self.dx * (x - self.origin.0) as f64 + self.dy * (y - self.origin.1) as f64
     }
 }
