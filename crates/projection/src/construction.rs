@@ -169,8 +169,9 @@ impl ConstructedPerspective {
 
 fn check_picture_point(
     parameter: &'static str,
-    (x, y): (f64, f64),
+    point: (f64, f64),
 ) -> Result<DVec2, ProjectionError> {
+    let (x, y) = point;
     Ok(DVec2::new(check_finite(parameter, x)?, check_finite(parameter, y)?))
 }
 

@@ -276,15 +276,16 @@ fn decompose_parallel(matrix: DMat4, convention: Convention) -> Result<Decompose
     decompose_rotated_box([x, y, z], convention)
 }
 
-/// x' = ax x + tx, y' = ay y + ty, depth = factor D + offset.
+/// x' = ax x + tx, y' = ay y + ty, depth' = factor D + offset; `depth` holds the last two.
 fn decompose_upright_box(
     ax: f64,
     tx: f64,
     ay: f64,
     ty: f64,
-    (factor, offset): (f64, f64),
+    depth: (f64, f64),
     convention: Convention,
 ) -> Result<Orthographic, DecomposeError> {
+    let (factor, offset) = depth;
     let near = (convention.near_depth() - offset) / factor;
     let far = (convention.far_depth() - offset) / factor;
     let window = Window::new((-1.0 - tx) / ax, (1.0 - tx) / ax, (-1.0 - ty) / ay, (1.0 - ty) / ay)?;

@@ -226,17 +226,15 @@ impl Orthographic {
 }
 
 /// A and B of the third row (0, 0, A, B) over w = z, such that A + B/z is `at_1` for z = `z_1` and
-/// `at_2` for z = `z_2`.
+/// `at_2` for z = `z_2`: `first` is (`z_1`, `at_1`), and `second` (`z_2`, `at_2`).
 ///
 /// This is how the third row of P is found (exercise 3, C40): with z kept on n and f, A = n + f and
 /// B = −nf. With −1 at z = −N and +1 at z = −F it gives the OpenGL row (C56), its sign turned.
 ///
 /// # Errors
 /// If a number is not finite, a z is 0, or both z are equal.
-pub fn third_row(
-    (z_1, at_1): (f64, f64),
-    (z_2, at_2): (f64, f64),
-) -> Result<(f64, f64), ProjectionError> {
+pub fn third_row(first: (f64, f64), second: (f64, f64)) -> Result<(f64, f64), ProjectionError> {
+    let ((z_1, at_1), (z_2, at_2)) = (first, second);
     for (parameter, value) in [("z_1", z_1), ("z_2", z_2)] {
         if check_finite(parameter, value)? == 0.0 {
             return Err(ProjectionError::OutOfRange { parameter, value, allowed: "not 0" });
