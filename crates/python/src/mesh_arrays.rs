@@ -58,7 +58,8 @@ fn default_node(meshes: &[MeshArrays], mesh: usize) -> MeshNode {
 }
 
 /// Reads a node.
-fn read_node((name, mesh, matrix): NodeOfPython<'_>) -> PyResult<MeshNode> {
+fn read_node(node: NodeOfPython<'_>) -> PyResult<MeshNode> {
+    let (name, mesh, matrix) = node;
     let argument = format!("transform of {}", name.as_deref().unwrap_or("a node"));
     Ok(MeshNode { name, mesh, to_model: affine_map(&argument, &matrix)? })
 }

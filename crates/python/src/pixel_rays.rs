@@ -22,7 +22,8 @@ pub(crate) struct PixelRays {
 
 impl PixelRays {
     /// The rays of a camera for pictures of a size.
-    pub(crate) fn new(view_projection: ViewProjection, (width, height): (u32, u32)) -> Self {
+    pub(crate) fn new(view_projection: ViewProjection, size: (u32, u32)) -> Self {
+        let (width, height) = size;
         Self {
             size: [width as usize, height as usize],
             world_to_view: view_projection.camera.world_to_view(),
