@@ -10,6 +10,7 @@ mod commits;
 mod documents;
 mod names;
 mod scenes;
+mod signatures;
 mod size;
 mod source;
 mod words;
@@ -39,6 +40,7 @@ const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
     size::file_length,
     size::function_length,
     size::argument_count,
+    signatures::tuple_parameters,
     boundaries::crate_boundaries,
     boundaries::no_std_where_promised,
     words::module_docs,

@@ -1,7 +1,7 @@
 //! Sizes: lines of files and of functions, arguments of functions.
 
 use super::Violation;
-use super::code::is_word_char;
+use super::signatures::{begins_function, parameters};
 use super::source::Source;
 
 /// Lines past which a file is noted: it may hold two subjects.
@@ -55,7 +55,7 @@ pub fn argument_count(source: &Source) -> Vec<Violation> {
         return Vec::new();
     }
     let many = |start: usize| {
-        let count = count_arguments(&source.code[start..]);
+        let count = parameters(&source.code[start..]).len();
         let is_listed = MANY_ARGUMENTS.iter().any(|(path, name)| {
             source.path == *path && source.code[start].contains(&format!("fn {name}"))
         });
@@ -65,50 +65,6 @@ pub fn argument_count(source: &Source) -> Vec<Violation> {
         })
     };
     (0..source.code.len()).filter(|i| begins_function(&source.code[*i])).filter_map(many).collect()
-}
-
-/// Arguments of the function that begins in the first line: the commas of its parameter list
-/// outside of inner brackets, and one more if the last one has no trailing comma.
-fn count_arguments(lines: &[String]) -> usize {
-    let signature = lines[..lines.len().min(80)].join("\n");
-    let Some((_, after_fn)) = signature.split_once("fn ") else { return 0 };
-    let (mut depth, mut angles, mut count, mut is_open) = (0, 0, 0, false);
-    let mut previous = ' ';
-    for c in after_fn.chars() {
-        match c {
-            '<' if depth <= 1 => angles += 1,
-            // The arrow of a function type closes nothing.
-            '>' if depth <= 1 && previous != '-' => angles -= 1,
-            '(' | '[' | '{' if angles == 0 || depth > 0 => depth += 1,
-            ')' | ']' | '}' if depth > 0 => depth -= 1,
-            _ => {}
-        }
-        if depth == 0 && is_list_end(c, angles) {
-            return count + usize::from(is_open);
-        }
-        match c {
-            ',' if depth == 1 && angles == 0 => {
-                count += 1;
-                is_open = false;
-            }
-            _ if depth >= 1 && c != '(' && !c.is_whitespace() => is_open = true,
-            _ => {}
-        }
-        previous = c;
-    }
-    0
-}
-
-/// Whether a character that closes the outermost bracket ends the parameter list.
-fn is_list_end(c: char, angles: i32) -> bool {
-    c == ')' && angles == 0
-}
-
-fn begins_function(line: &str) -> bool {
-    let Some(at) = line.find("fn ") else { return false };
-    let before = line[..at].chars().next_back();
-    let named = line[at + 3..].chars().next().is_some_and(is_word_char);
-    named && !before.is_some_and(is_word_char)
 }
 
 /// Lines from the signature to the closing brace; 0 for a function without a body.
@@ -136,17 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn arguments_are_counted_outside_of_inner_brackets() {
-        let table = [
-            ("fn f() {", 0),
-            ("fn f(a: u8) -> (u8, u8) {", 1),
-            ("pub fn f<A, B>(&self, a: Map<A, B>, b: [(A, B); 2]) {", 3),
-            ("fn f(a: impl Fn(u8, u8) -> u8, b: u8,) {", 2),
-            ("fn f<F: Fn(u8, u8) -> u8>(a: F, b: u8, c: u8) {", 3),
-        ];
-        for (signature, expected) in table {
-            assert_eq!(count_arguments(&[signature.to_owned()]), expected, "{signature}");
-        }
+    fn arguments_are_counted_in_crates_alone() {
         let source =
             |path: &str| Source::new(path, "fn f(a: A, b: B, c: C, d: D, e: E, f: F, g: G) {}\n");
         assert_eq!(argument_count(&source("crates/a/src/b.rs")).len(), 1);
@@ -171,7 +117,6 @@ mod tests {
         let source = Source::new("a.rs", text);
         assert_eq!(function_lines(&source.code), 3);
         assert_eq!(function_lines(&source.code[4..]), 0);
-        assert!(!begins_function("// fnord ") && !begins_function("let x: fn (u8)"));
     }
 
     #[test]
