@@ -76,8 +76,11 @@ fn run_groups(folder: &Path, arguments: &Arguments) -> Result<Tally, String> {
         let cases: Vec<Case> =
             cases().into_iter().filter(|case| arguments.select(&case.name)).collect();
         println!("{group}: {} files", cases.len());
-        // Reading a file is one path for all of them: in the first tier a tenth is enough.
-        let from_files = sample_cases(group, (0..cases.len()).collect());
+        let all: Vec<usize> = (0..cases.len()).collect();
+        // Reading a file is one path for all of them: in the first tier a tenth is enough. Cases that
+        // are named are run in full.
+        let is_named = !arguments.filters().is_empty();
+        let from_files = if is_named { all } else { sample_cases(group, all) };
         for (index, case) in cases.iter().enumerate() {
             let name = &case.name;
             let mut record = |name: &str, run: &dyn Fn() -> Result<(), String>| {

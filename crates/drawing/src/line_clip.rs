@@ -206,16 +206,17 @@ impl LineDrawing {
         self.segments.extend(other.segments.into_iter().map(moved));
         self.segments.sort_by_key(|segment| segment.object);
         self.regions.extend(other.regions);
-        let added = other.face_fill;
-        let pairs = self
-            .face_fill
-            .iter_mut()
-            .zip(&added)
-            .flat_map(|(fill, added)| fill.pixels.iter_mut().zip(&added.pixels));
-        for (pixel, other) in pairs.filter(|(pixel, _)| pixel[3] == 0) {
-            *pixel = *other;
+        match (&mut self.face_fill, other.face_fill) {
+            (Some(fill), Some(added)) => {
+                for (pixel, other) in fill.pixels.iter_mut().zip(added.pixels) {
+                    if pixel[3] == 0 {
+                        *pixel = other;
+                    }
+                }
+            }
+            (Some(_), None) => {}
+            (fill, added) => *fill = added,
         }
-        self.face_fill = self.face_fill.take().or(added);
         self.warnings.extend(other.warnings);
         self.warnings.sort_unstable();
         self.warnings.dedup();
@@ -293,6 +294,7 @@ fn corners_between(center: DVec2, corners: &[DVec2], ends: [DVec2; 2]) -> Vec<DV
 mod tests {
     use super::*;
     use crate::EdgeClass;
+    use shade::Picture;
 
     fn segment(ends: [DVec2; 2]) -> EdgeSegment {
         let class = EdgeClass::Crease;
@@ -322,6 +324,26 @@ mod tests {
             assert_eq!(drawing(ends).clipped(&area, ClipSide::Inside).segments, []);
             assert_eq!(drawing(ends).clipped(&area, ClipSide::Outside).segments, [segment(ends)]);
         }
+    }
+
+    #[test]
+    fn a_fill_goes_below_another_and_stands_where_there_is_none() {
+        let ends = [DVec2::ZERO, DVec2::splat(100.0)];
+        let filled = |pixels: Vec<[u8; 4]>| LineDrawing {
+            face_fill: Some(Picture { width: 2, height: 1, pixels }),
+            ..drawing(ends)
+        };
+        let (red, green) = ([255, 0, 0, 255], [0, 255, 0, 255]);
+        let pixels = |upper: LineDrawing, lower: LineDrawing| {
+            let mut merged = upper;
+            merged.merge(lower);
+            merged.face_fill.map(|fill| fill.pixels)
+        };
+        let half = || filled(vec![red, [0; 4]]);
+        assert_eq!(pixels(half(), filled(vec![green; 2])), Some(vec![red, green]));
+        assert_eq!(pixels(drawing(ends), half()), Some(vec![red, [0; 4]]));
+        assert_eq!(pixels(half(), drawing(ends)), Some(vec![red, [0; 4]]));
+        assert_eq!(pixels(drawing(ends), drawing(ends)), None);
     }
 
     #[test]

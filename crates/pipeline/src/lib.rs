@@ -19,7 +19,7 @@
 //! | --- | --- | --- |
 //! | a picture in memory, or a PNG | [`render()`] | `examples/thumbnail.rs` |
 //! | lines as SVG, PDF, DXF, PNG | [`draw_lines`], [`drawing::Page`] | `examples/isometric.rs` |
-//! | a drawing sheet with views to scale | [`scene::resolve_sheet`], [`sheet::Sheet`] | that of `resolve_sheet` |
+//! | a drawing sheet with views to scale | [`scene::resolve_sheet`] | its documentation |
 //! | a frame sequence of one scene | [`sequence::Sequence`] | `examples/turntable.rs` |
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |

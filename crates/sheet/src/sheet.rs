@@ -267,8 +267,8 @@ impl Sheet {
     }
 
     /// Draws models, cut open by section planes, with up to `threads` threads; their number does
-    /// not change the page. Parts lists, exploded views and sheets of single parts are further pages:
-    /// [`draw_pages`](Self::draw_pages).
+    /// not change the page. Parts lists, exploded views and sheets of single parts are further
+    /// pages: [`draw_pages`](Self::draw_pages).
     ///
     /// # Errors
     /// If there is nothing to draw, a view cannot be drawn, or the views are larger than the paper.

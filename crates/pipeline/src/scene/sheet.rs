@@ -34,7 +34,7 @@ pub struct SheetContent<'a> {
 }
 
 impl<'a> SheetContent<'a> {
-    /// What a sheet takes from a resolved scene, whose title block lies in the folder of the scene.
+    /// The content of a resolved scene, with a title block from no other folder than the scene's.
     #[must_use]
     pub fn from_scene(scene: &'a Scene) -> Self {
         Self {

@@ -92,8 +92,8 @@ pub(super) struct ViewAnnotations {
     pub(super) labels_left_out: Vec<(String, SheetLabelFault)>,
 }
 
-/// A shape of a layer. Its rectangle is kept, because a place of a text is compared with every shape,
-/// and that of a text takes all strokes of its letters.
+/// A shape of a layer, with the rectangle around it: each position of a text is compared with every
+/// shape, and the rectangle of a text takes all strokes of its letters.
 #[derive(Clone, PartialEq, Debug)]
 struct PlacedShape {
     layer: AnnotationLayer,
