@@ -6,12 +6,12 @@ use crate::subject::Subject;
 use homog::{Clip, Projective, View};
 use projection::{
     ApexMovedFrustum, Axonometric, Classical, ConstructedPerspective, Convention, Decomposed,
-    DepthCurve, DepthFormat, FourAngles, Fov, Frustum, Handedness, IntendedProjection, Jitter,
-    Misprint, NPoint, NdcY, Oblique, Orthographic, Perspective, Planometric, PrincipalView,
-    ProjectionError, Projector, SensorSize, VanishingPoint, ViewOffset, ViewVolume, Window, api,
-    chapter, decompose, misprint_of, oblique_near_plane, opening_angle_of,
-    principal_vanishing_points, readings, recognize, recognize_planar, third_row, vanishing_point,
+    DepthCurve, DepthFormat, FourAngles, Fov, Frustum, Handedness, Jitter, NPoint, NdcY, Oblique,
+    Orthographic, Perspective, Planometric, PrincipalView, ProjectionError, Projector, SensorSize,
+    VanishingPoint, ViewOffset, ViewVolume, Window, api, chapter, decompose, oblique_near_plane,
+    opening_angle_of, principal_vanishing_points, readings, third_row, vanishing_point,
 };
+use recognition::{IntendedProjection, Misprint, misprint_of, recognize, recognize_planar};
 
 pub const SUBJECTS: &[Subject] = &[
     ("projection::Window::new", |r| Some(any_window(r)?.finite())),
@@ -204,17 +204,17 @@ pub const SUBJECTS: &[Subject] = &[
         let mut read = readings(r.matrix4());
         Some(read.all(|(_, reading)| reading.factor.is_finite()))
     }),
-    ("projection::recognize", |r| {
+    ("recognition::recognize", |r| {
         let found = recognize(r.matrix4());
         let factors = found.readings.iter().all(|reading| reading.factor.is_finite());
         Some(factors && found.suspicions.iter().all(|slip| slip.remedied.finite()))
     }),
-    ("projection::recognize_planar", |r| {
+    ("recognition::recognize_planar", |r| {
         let rows = r.matrix4().transpose().to_cols_array_2d();
         let (found, _) = recognize_planar([0, 1, 2].map(|i| [0, 1, 2].map(|j| rows[i][j])));
         Some(found.iter().all(|reading| reading.factor.is_finite()))
     }),
-    ("projection::misprint_of", |r| {
+    ("recognition::misprint_of", |r| {
         let wanted = IntendedProjection::Frustum(any_frustum(r)?);
         let matrix = r.pick(&Misprint::ALL).misprinted_matrix(wanted)?;
         misprint_of(matrix, wanted).map(|_| matrix.finite())

@@ -20,7 +20,7 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 12] = [
+const CRATES: [&str; 13] = [
     "camera",
     "clip",
     "drawing",
@@ -30,6 +30,7 @@ const CRATES: [&str; 12] = [
     "pipeline",
     "projection",
     "raster",
+    "recognition",
     "shade",
     "sheet",
     "viewport",

@@ -58,13 +58,12 @@
 //! | where parallel lines meet | [`vanishing_point`], [`principal_vanishing_points`] |
 //! | what depth can tell apart | [`DepthCurve`] |
 //! | corners, planes, eye of what is seen | [`ViewVolume`] |
-//! | the meaning of a given matrix, or a misprint in it | [`recognize`], [`recognize_planar`] |
-//! | its parameters in a known convention | [`decompose()`], [`readings`] |
-//! | the slip in a matrix whose projection is known | [`misprint_of`] |
+//! | the parameters of a matrix in a known convention | [`decompose()`], [`readings`] |
 //! | the family tree | [`ProjectionClass`] |
 //!
 //! View space is right-handed unless the convention says otherwise: x right, y up, looking along
-//! −z. Column vectors, angles in radians, f64. Examples: `gallery`, and `doctor`, which reads matrices.
+//! −z. Column vectors, angles in radians, f64. Example: `gallery`. Matrices of unknown conventions are
+//! read by the crate `recognition`.
 #![no_std]
 
 extern crate alloc;
@@ -84,7 +83,6 @@ mod fov;
 mod frustum;
 mod intrinsics;
 mod matrix;
-mod misprint;
 mod multiview;
 mod normalize;
 mod npoint;
@@ -95,7 +93,6 @@ mod perspective;
 mod placement;
 mod projection_class;
 mod projector;
-mod recognition;
 mod vanishing;
 mod view_volume;
 mod window;
@@ -112,7 +109,6 @@ pub use error::ProjectionError;
 pub use fov::{Fov, HalfSlopes, SensorSize, opening_angle_of};
 pub use frustum::Frustum;
 pub use intrinsics::{Intrinsics, PixelCenters};
-pub use misprint::{IntendedProjection, Misprint, misprint_of};
 pub use multiview::{PrincipalPlane, PrincipalView, SheetAngle};
 pub use normalize::{FrustumFactors, ParallelFactors};
 pub use npoint::NPoint;
@@ -122,11 +118,6 @@ pub use orthographic::Orthographic;
 pub use perspective::Perspective;
 pub use projection_class::ProjectionClass;
 pub use projector::Projector;
-pub use recognition::{
-    CameraReading, IntrinsicsReading, Lens, MatrixMeaning, MatrixReading, PlanarMatrix,
-    PlanarReading, Recognition, Suspicion, SuspicionStrength, ViewportReading, recognize,
-    recognize_planar,
-};
 pub use vanishing::{
     PointPerspective, PrincipalVanishingPoints, VanishingPoint, principal_vanishing_points,
     vanishing_point,

@@ -38,6 +38,7 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("homog", None),
     ("camera", Some(&["homog"])),
     ("projection", Some(&["homog"])),
+    ("recognition", Some(&["homog", "projection"])),
     ("clip", Some(&["homog"])),
     ("viewport", Some(&["homog"])),
     ("raster", Some(&["homog"])),
@@ -62,7 +63,7 @@ const EXTRA_DEPENDENCIES: &[(&str, &str)] = &[("raster", "fearless_simd")];
 const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[("pipeline", &["clap", "gif", "terminal_size"])];
 
 /// The stages that promise to work without the standard library.
-pub const NO_STD: &[&str] = &["homog", "camera", "projection", "clip", "viewport"];
+pub const NO_STD: &[&str] = &["homog", "camera", "projection", "recognition", "clip", "viewport"];
 
 /// Names of crates outside of the part that may use them.
 pub fn crate_boundaries(source: &Source) -> Vec<Violation> {

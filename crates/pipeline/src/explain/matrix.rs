@@ -16,7 +16,7 @@ use super::{Explanation, Step};
 use glam::DMat4;
 use homog::{Clip, HPointKind, Projective, View};
 use meaning::{describe_meaning, meaning_steps};
-use projection::{
+use recognition::{
     MatrixMeaning, MatrixReading, Misprint, Recognition, Suspicion, SuspicionStrength, recognize,
 };
 

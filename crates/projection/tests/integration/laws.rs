@@ -6,7 +6,6 @@ mod builders;
 mod classical;
 mod decomposition;
 mod depth;
-mod doctor;
 mod exercises;
 mod extremes;
 mod intrinsics;

@@ -2,4 +2,3 @@
 
 mod items;
 mod laws;
-mod recognition;

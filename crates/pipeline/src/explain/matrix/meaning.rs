@@ -3,10 +3,8 @@
 use super::super::Step;
 use super::super::conventions::volume_name;
 use super::super::plain_text::format_number;
-use projection::{
-    CameraReading, Classical, Convention, Lens, MatrixMeaning, MatrixReading, Oblique,
-    PrincipalPlane, ProjectionClass, ViewportReading, Window,
-};
+use projection::{Classical, Convention, Oblique, PrincipalPlane, ProjectionClass, Window};
+use recognition::{CameraReading, Lens, MatrixMeaning, MatrixReading, ViewportReading};
 
 /// A reading in one sentence without its full stop: meaning, parameters, convention and factor.
 pub(super) fn describe_meaning(reading: &MatrixReading) -> String {

@@ -5,7 +5,7 @@ use super::super::{Explanation, ItemValue, Step};
 use super::check_finite;
 use super::meaning::describe_meaning;
 use homog::{HPoint2, Homography};
-use projection::{MatrixMeaning, MatrixReading, PlanarMatrix, PlanarReading, recognize_planar};
+use recognition::{MatrixMeaning, MatrixReading, PlanarMatrix, PlanarReading, recognize_planar};
 
 /// How many readings are listed beside the first.
 const OTHER_READINGS: usize = 3;

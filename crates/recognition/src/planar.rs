@@ -1,10 +1,11 @@
 //! Readings of 3×3 matrices: maps of the plane in homogeneous coordinates, camera intrinsics, and
 //! rotations of space.
 
+use super::matrix_reading::{UNNAMED, is_moderate, readings_of};
 use super::rigid::{axis_angle, largest_error, orthonormal_rows};
 use super::rounded::{Entries, Rounded, measure_entries};
 use super::viewport::intrinsics_of;
-use super::{IntrinsicsReading, MatrixMeaning, UNNAMED, is_moderate, readings_of};
+use super::{IntrinsicsReading, MatrixMeaning};
 use alloc::vec::Vec;
 use glam::DMat3;
 
@@ -43,7 +44,7 @@ pub struct PlanarReading {
 /// whether the transposed matrix is clearly the better one.
 ///
 /// ```
-/// use projection::{MatrixMeaning, PlanarMatrix, recognize_planar};
+/// use recognition::{MatrixMeaning, PlanarMatrix, recognize_planar};
 /// let k = [[1200.0, 0.0, 639.5], [0.0, 1200.0, 359.5], [0.0, 0.0, 1.0]];
 /// let (readings, transposed) = recognize_planar(k);
 /// assert!(matches!(readings[0].meaning, PlanarMatrix::Intrinsics(k) if k.fx == 1200.0));

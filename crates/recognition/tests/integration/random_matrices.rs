@@ -5,9 +5,9 @@ use super::table::{Expected, is_expected};
 use glam::DMat4;
 use homog::Vector;
 use projection::{
-    ApexMovedFrustum, Convention, Fov, Frustum, MatrixMeaning, NPoint, Oblique, Orthographic,
-    Perspective, chapter, recognize,
+    ApexMovedFrustum, Convention, Fov, Frustum, NPoint, Oblique, Orthographic, Perspective, chapter,
 };
+use recognition::{MatrixMeaning, recognize};
 
 /// SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every machine.
 struct Random(u64);

@@ -5,17 +5,21 @@
 
 mod formulas;
 mod hand_typed;
-
+mod misprints;
 mod placed;
 mod planar;
 mod random_matrices;
 mod right_matrices;
 mod rigid;
+#[allow(dead_code, reason = "the laws of `projection` need more of them")]
+#[path = "../../../projection/tests/integration/laws/samples.rs"]
+mod samples;
 mod table;
 mod wrong_matrices;
 
 use glam::{DMat4, DVec4};
-use projection::{AxonometricKind, MatrixMeaning, recognize};
+use projection::AxonometricKind;
+use recognition::{MatrixMeaning, recognize};
 
 /// 1/√2, 1/√6 and √(2/3) with three to nine decimals.
 #[test]
@@ -62,4 +66,23 @@ fn the_perspective_onto_a_plane_may_drop_z() {
     let rows = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::W, DVec4::ZERO);
     let expected = MatrixMeaning::CentralOntoPlane { plane_z: 1.0, onto_plane: true };
     assert_eq!(recognize(rows).first().meaning, expected);
+}
+
+proptest::proptest! {
+    #![proptest_config(samples::cases(512))]
+
+    /// Any numbers whatever have a reading, if only as a map without a name, and nothing panics.
+    #[test]
+    fn any_matrix_has_a_reading(entries in proptest::array::uniform16(any_entry())) {
+        let found = recognize(DMat4::from_cols_array(&entries));
+        proptest::prop_assert!(!found.readings.is_empty());
+    }
+}
+
+fn any_entry() -> impl proptest::strategy::Strategy<Value = f64> {
+    proptest::prop_oneof![
+        4 => -10.0..10.0,
+        1 => proptest::num::f64::ANY,
+        2 => proptest::sample::select(vec![0.0, -0.0, 1.0, -1.0, f64::MAX, 5e-324]),
+    ]
 }

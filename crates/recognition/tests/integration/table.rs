@@ -3,9 +3,8 @@
 use super::formulas::Rows;
 use super::{right_matrices, wrong_matrices};
 use glam::DMat4;
-use projection::{
-    Convention, MatrixMeaning, Misprint, PrincipalPlane, Recognition, SuspicionStrength, recognize,
-};
+use projection::{Convention, PrincipalPlane};
+use recognition::{MatrixMeaning, Misprint, Recognition, SuspicionStrength, recognize};
 
 /// The meaning of a matrix, from its source.
 #[derive(Clone, Debug)]

@@ -21,7 +21,7 @@ struct Pixels {
 }
 
 /// Adds the readings as a perspective to pixels, with integer centers or half-integer ones.
-pub(super) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_perspective_to_pixels(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let [x, y, _, w] = m;
     let dot = |a: &[Rounded; 4], b: &[Rounded; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let square = dot(w, w);

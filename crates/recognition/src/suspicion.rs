@@ -4,14 +4,16 @@
 //! clearly fewer digits, or the matrix as it stands makes no sense: every misprint is also the
 //! right matrix of something less likely.
 
+use super::matrix_reading::{is_moderate, readings_of, transpose};
 use super::rounded::{Entries, Rounded};
-use super::{MatrixMeaning, MatrixReading, is_moderate, readings_of, transpose};
-use crate::{Convention, Frustum, Misprint};
+use super::{MatrixMeaning, MatrixReading};
+use crate::Misprint;
 use alloc::vec::Vec;
 use glam::DMat4;
+use projection::{Convention, Frustum};
 
 /// How much better a reading must be before a slip is assumed.
-pub(super) const SLIP: u32 = 6;
+pub(crate) const SLIP: u32 = 6;
 /// The margin below which a misprint is as good a reading as the right matrix, and above which it
 /// is the better one.
 const MARGIN: u32 = 4;
@@ -47,7 +49,7 @@ struct Remedy {
 }
 
 /// The slips that may be in a matrix with these readings, the surest first.
-pub(super) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
+pub(crate) fn suspicions_of(m: &Entries<4>, readings: &[MatrixReading]) -> Vec<Suspicion> {
     if !m.as_flattened().iter().all(|entry| is_moderate(entry.value)) {
         return Vec::new();
     }

@@ -2,7 +2,7 @@
 
 use super::formulas::*;
 use glam::DMat4;
-use projection::{MatrixMeaning, Misprint, Recognition, recognize};
+use recognition::{MatrixMeaning, Misprint, Recognition, recognize};
 
 fn recognized(rows: Rows) -> Recognition {
     recognize(DMat4::from_cols_array_2d(&rows).transpose())

@@ -3,10 +3,8 @@
 
 use super::formulas::*;
 use glam::DMat4;
-use projection::{
-    Classical, Convention, MatrixMeaning, Misprint, Planometric, ProjectionClass, Recognition,
-    recognize,
-};
+use projection::{Classical, Convention, Planometric, ProjectionClass};
+use recognition::{MatrixMeaning, Misprint, Recognition, recognize};
 
 fn recognized(rows: Rows) -> Recognition {
     recognize(DMat4::from_cols_array_2d(&rows).transpose())

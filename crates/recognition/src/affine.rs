@@ -1,14 +1,15 @@
 //! Readings of affine matrices as maps of space: translation, scale, windowing, shear, and a model
 //! transform of translation, rotation and scale.
 
+use super::matrix_reading::factor_cost;
 use super::rigid::{axis_angle, is_square_frame, largest_error};
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{MatrixMeaning, MatrixReading, factor_cost};
+use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
 /// Adds every reading of a matrix with the bottom row (0, 0, 0, s).
-pub(super) fn read_affine(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_affine(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
         return;

@@ -1,11 +1,11 @@
 //! The meanings a matrix may have, with their parameters.
 
 use super::{CameraReading, IntrinsicsReading, ViewportReading};
-use crate::{
+use homog::{Plane, View};
+use projection::{
     ApexMovedFrustum, Axonometric, Convention, Frustum, NPoint, Oblique, Orthographic,
     PrincipalPlane, Window,
 };
-use homog::{Plane, View};
 
 /// Angles and proportions of a perspective, read from its matrix with as many digits as matter.
 #[derive(Clone, Copy, PartialEq, Debug)]

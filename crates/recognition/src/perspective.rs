@@ -2,16 +2,17 @@
 //! of both.
 
 use super::convention_list::conventions_looking;
+use super::matrix_reading::factor_cost;
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{Lens, MatrixMeaning, MatrixReading, factor_cost};
-use crate::{ApexMovedFrustum, Convention, Frustum};
+use super::{Lens, MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
+use projection::{ApexMovedFrustum, Convention, Frustum};
 
 /// The cost of a mirrored window beside the digits of a reading.
-pub(super) const MIRRORED: u32 = 12;
+pub(crate) const MIRRORED: u32 = 12;
 
 /// Adds the readings as a frustum (GL-1, PE-2) or as the lesson's with its apex moved (LW-1).
-pub(super) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][3]];
     if !zeros.into_iter().all(Rounded::is_zero) || m[3][2].is_zero() {
         return;
@@ -96,7 +97,7 @@ fn named_frustum(
 }
 
 /// Angles, aspect ratio and focal lengths of a window at a distance.
-pub(super) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
+pub(crate) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
     let angle = |low: Rounded, high: Rounded| {
         ((high / near).atan_degrees() - (low / near).atan_degrees()).simplest()
     };
@@ -111,7 +112,7 @@ pub(super) fn read_lens([l, r, b, t]: [Rounded; 4], near: Rounded) -> Lens {
 
 /// The fewest digits that describe the lens: by its window, or if it is centered by an angle and an
 /// aspect ratio, or by its two scales.
-pub(super) fn lens_digits(
+pub(crate) fn lens_digits(
     window: [Rounded; 4],
     near: Rounded,
     scale_y: Rounded,
@@ -130,7 +131,7 @@ pub(super) fn lens_digits(
 
 /// The distances at which factor + offset/D is the near and the far depth, if 0 < near < far; no
 /// far plane if rounding may hide it.
-pub(super) fn depth_planes(
+pub(crate) fn depth_planes(
     factor: Rounded,
     offset: Rounded,
     convention: Convention,
@@ -148,7 +149,7 @@ pub(super) fn depth_planes(
 }
 
 /// Adds the reading as the textbook's P (PE-1): n on the diagonal, n + f and −fn in the third row.
-pub(super) fn read_p(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_p(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][2];
     let zeros = [m[0][1], m[0][2], m[0][3], m[1][0], m[1][2], m[1][3], m[2][0], m[2][1]];
     let bottom = [m[3][0], m[3][1], m[3][3]];
@@ -164,7 +165,7 @@ pub(super) fn read_p(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
 }
 
 /// Adds the reading as the inverse of P in either printed form: as it is, or times nf.
-pub(super) fn read_p_inverse(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_p_inverse(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[2][3];
     let zeros = [m[0][3], m[1][3]];
     if !is_inverse_shaped(m) || !zeros.into_iter().all(Rounded::is_zero) {
@@ -211,7 +212,7 @@ fn is_inverse_shaped(m: &Entries<4>) -> bool {
 }
 
 /// Adds the readings as the inverse of a frustum's matrix: clip to view space (IV-1).
-pub(super) fn read_inverse_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_inverse_frusta(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     if !is_inverse_shaped(m) {
         return;
     }

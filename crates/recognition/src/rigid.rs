@@ -1,8 +1,9 @@
 //! Readings of rigid matrices: rotations, reflections, cameras with eye, gaze and up (CA-2), their
 //! poses, and model transforms.
 
+use super::matrix_reading::factor_cost;
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{MatrixMeaning, MatrixReading, factor_cost};
+use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
@@ -20,7 +21,7 @@ pub struct CameraReading {
 }
 
 /// True if three vectors of length 1 stand at right angles, as far as their rounding tells.
-pub(super) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
+pub(crate) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
     let dot = |a: [Rounded; 3], b: [Rounded; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let slack = 1e-12 + largest_error(axes);
     let square = |a: usize, b: usize| dot(axes[a], axes[b]).is_within(0.0, slack);
@@ -28,12 +29,12 @@ pub(super) fn is_square_frame(axes: &[[Rounded; 3]; 3]) -> bool {
 }
 
 /// The largest error of an entry: ±1 may be rounded, too.
-pub(super) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
+pub(crate) fn largest_error(rows: &[[Rounded; 3]; 3]) -> f64 {
     rows.as_flattened().iter().fold(0.0, |error: f64, entry| error.max(entry.error))
 }
 
 /// The rows of a 3×3 matrix, if they have length 1 and stand at right angles; made exactly so.
-pub(super) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
+pub(crate) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
     let unit = rows.iter().all(|[x, y, z]| {
         let square = *x * *x + *y * *y + *z * *z;
         square.is_within(1.0, 1e-12 + largest_error(rows))
@@ -51,7 +52,7 @@ pub(super) fn orthonormal_rows(rows: &[[Rounded; 3]; 3]) -> Option<[DVec3; 3]> {
 }
 
 /// Adds the reading of a rigid matrix: rotation, camera or reflection.
-pub(super) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_rigid(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
         return;
@@ -120,7 +121,7 @@ fn turn_cost(axis: [f64; 3], angle: Rounded) -> u32 {
 }
 
 /// A component of a unit vector without digits that its rounding does not carry.
-pub(super) fn shorten(value: f64, error: f64) -> f64 {
+pub(crate) fn shorten(value: f64, error: f64) -> f64 {
     Rounded { value, error: error.max(1e-13) }.simplest()
 }
 
@@ -155,7 +156,7 @@ fn reflection(rows: &[[Rounded; 3]; 3], offset: [Rounded; 3]) -> Option<(MatrixM
 
 /// Axis of length 1 and angle in degrees, 0 to 180, of a rotation whose entries have this error
 /// (Shoemake 1994, by the largest component of the quaternion).
-pub(super) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
+pub(crate) fn axis_angle(rotation: DMat3, error: f64) -> ([f64; 3], f64) {
     let m = |i: usize, j: usize| rotation.col(j)[i];
     let trace = m(0, 0) + m(1, 1) + m(2, 2);
     let skew = DVec3::new(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));

@@ -1,14 +1,14 @@
 //! Tells what a 4×4 matrix is, and whether it looks like a known misprint.
 //!
 //! ```text
-//! cargo run -p alberti-projection --example doctor                 the slides' Ortho, as printed
-//! cargo run -p alberti-projection --example doctor -- 1 0 0 0 …    sixteen numbers, row by row
+//! cargo run -p alberti-recognition --example doctor                 the slides' Ortho, as printed
+//! cargo run -p alberti-recognition --example doctor -- 1 0 0 0 …    sixteen numbers, row by row
 //! ```
 
 #![allow(clippy::print_stdout, reason = "an example speaks on its standard output")]
 
 use glam::DMat4;
-use projection::recognize;
+use recognition::recognize;
 
 /// Ortho(−1, 3, −2, 1, 2, 6) with + (far + near)/(far − near) at the end of its third row.
 const SLIDE: [f64; 16] =

@@ -1,14 +1,15 @@
 //! Readings of parallel matrices as view volumes: upright boxes and oblique prisms.
 
 use super::convention_list::CONVENTIONS;
+use super::matrix_reading::factor_cost;
 use super::perspective::MIRRORED;
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{MatrixMeaning, MatrixReading, factor_cost};
-use crate::{Convention, Oblique, Orthographic};
+use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
+use projection::{Convention, Oblique, Orthographic};
 
 /// Adds the readings as an orthographic box (OR-1, GL-3) or an oblique prism (VV-1).
-pub(super) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[1][0], m[2][0], m[2][1], m[3][0], m[3][1], m[3][2]];
     let factor = m[3][3];
     if factor.is_zero() || !zeros.into_iter().all(Rounded::is_zero) {
@@ -30,7 +31,7 @@ pub(super) fn read_boxes(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
 
 /// Boxes gain nothing from reversed depth, and few programs reverse it; the textbook's is no
 /// reversed one.
-pub(super) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
+pub(crate) fn box_rarity(convention: Convention, rarity: u32) -> u32 {
     let reversed = convention.near_depth() > convention.far_depth();
     if reversed && convention != Convention::CHAPTER { rarity + 3 } else { rarity }
 }
@@ -98,7 +99,7 @@ fn order_cost(near: Rounded, far: Rounded) -> u32 {
 
 /// The oblique projection with x' = x + slant z, y' alike, onto z = `plane_z`: by length and angle
 /// if these have fewer digits.
-pub(super) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
+pub(crate) fn oblique_by_slants(x: Rounded, y: Rounded, plane_z: f64) -> Option<Oblique> {
     let (length, phi) = length_and_angle(x, y);
     let direction = if length.digits() + phi.digits() < x.digits() + y.digits() {
         let (sin, cos) = libm::sincos(phi.simplest().to_radians());
@@ -119,7 +120,7 @@ fn length_and_angle(x: Rounded, y: Rounded) -> (Rounded, Rounded) {
 }
 
 /// Twice the digits of length and angle, or of the two slants.
-pub(super) fn oblique_cost(x: Rounded, y: Rounded) -> u32 {
+pub(crate) fn oblique_cost(x: Rounded, y: Rounded) -> u32 {
     let (length, angle) = length_and_angle(x, y);
     let angle = if x.is_zero() { 1 } else { angle.digits() };
     2 * (length.digits() + angle).min(x.digits() + y.digits())

@@ -8,20 +8,21 @@
 //! the reading whose up is upright in the world is the more sensible one.
 
 use super::convention_list::placed_conventions;
+use super::matrix_reading::factor_cost;
 use super::parallel::box_rarity;
 use super::perspective::{MIRRORED, depth_planes, lens_digits, read_lens};
 use super::rigid::shorten;
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{CameraReading, MatrixMeaning, MatrixReading, factor_cost};
-use crate::{Convention, Decomposed, Frustum, Orthographic, decompose};
+use super::{CameraReading, MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::{DMat3, DMat4, DVec3};
+use projection::{Convention, Decomposed, Frustum, Orthographic, decompose};
 
 /// The cost of a camera upside down in the world, where a rival reading has it upright.
 const UPSIDE_DOWN: u32 = 6;
 
 /// Adds the readings as a camera with a perspective, in a right- or left-handed world.
-pub(super) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_placed_perspective(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let linear = [m[3][0], m[3][1], m[3][2]];
     let length = length_of(linear);
     if length.is_zero() {
@@ -208,7 +209,7 @@ fn rows_dot(row: &[Rounded; 4], point: DVec3) -> f64 {
 }
 
 /// Adds the readings as a camera with an orthographic box: rows at right angles.
-pub(super) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_placed_box(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() || ![m[3][0], m[3][1], m[3][2]].into_iter().all(Rounded::is_zero) {
         return;
@@ -263,7 +264,7 @@ fn placed_box(
 }
 
 /// Adds the reading as a perspective whose near plane is inclined (Lengyel 2005), from the origin.
-pub(super) fn read_oblique_near(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_oblique_near(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let rows = m.map(|row| row.map(|entry| entry.value));
     let matrix = DMat4::from_cols_array_2d(&rows).transpose();
     let named = [Convention::OPENGL, Convention::WEBGPU, Convention::VULKAN, Convention::DIRECT3D];

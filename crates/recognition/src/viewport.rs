@@ -39,7 +39,7 @@ pub struct IntrinsicsReading {
 }
 
 /// Adds the reading as a viewport, if size and origin are whole pixels.
-pub(super) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][1], m[0][2], m[1][0], m[1][2], m[2][0], m[2][1]];
     let bottom = [m[3][0], m[3][1], m[3][2]];
     let affine = zeros.into_iter().chain(bottom).all(Rounded::is_zero) && m[3][3].is(1.0);
@@ -79,7 +79,7 @@ pub(super) fn read_viewport(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
 ///
 /// Scales below 20 or a principal point that is not right of and below the first pixel belong to
 /// other maps; a viewport, whose offsets equal its scales, is told apart by its caller.
-pub(super) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> {
+pub(crate) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> {
     let zeros = [k[1][0], k[2][0], k[2][1]];
     if !zeros.into_iter().all(Rounded::is_zero) || !k[2][2].is(1.0) {
         return None;
@@ -100,7 +100,7 @@ pub(super) fn intrinsics_of(k: &Entries<3>) -> Option<(IntrinsicsReading, u32)> 
 }
 
 /// Adds the reading as a 4×4 intrinsic matrix: K with a row and a column of the identity.
-pub(super) fn read_intrinsics(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_intrinsics(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let zeros = [m[0][3], m[1][3], m[2][3], m[3][0], m[3][1], m[3][2]];
     if !zeros.into_iter().all(Rounded::is_zero) || !m[3][3].is(1.0) {
         return;

@@ -3,7 +3,8 @@
 
 use super::formulas::*;
 use glam::DMat4;
-use projection::{Convention, MatrixMeaning, Misprint, Recognition, recognize};
+use projection::Convention;
+use recognition::{MatrixMeaning, Misprint, Recognition, recognize};
 
 fn recognized(rows: Rows) -> Recognition {
     recognize(DMat4::from_cols_array_2d(&rows).transpose())

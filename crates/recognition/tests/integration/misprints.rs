@@ -5,11 +5,11 @@ use super::samples::{self, convention, distance, frustum, orthographic, perspect
 use glam::{DMat4, DVec4};
 use homog::{Affine, Clip, HPoint, Ndc, Point, Projective, View, World};
 use projection::{
-    ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, IntendedProjection,
-    Misprint, NPoint, Oblique, Orthographic, Perspective, ProjectionError, SuspicionStrength, api,
-    chapter, misprint_of, principal_vanishing_points, recognize,
+    ApexMovedFrustum, Axonometric, Convention, DepthCurve, Fov, Frustum, NPoint, Oblique,
+    Orthographic, Perspective, ProjectionError, api, chapter, principal_vanishing_points,
 };
 use proptest::prelude::*;
+use recognition::{IntendedProjection, Misprint, SuspicionStrength, misprint_of, recognize};
 
 const LEFT: f64 = -1.0;
 const RIGHT: f64 = 3.0;

@@ -5,8 +5,8 @@
 //! wanted, and is certain; [`crate::recognize`] weighs slips against the readings of sixteen
 //! numbers alone.
 
-use crate::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 use glam::{DMat4, DVec4};
+use projection::{ApexMovedFrustum, Convention, Frustum, Orthographic, Perspective};
 
 /// A known slip: its number among M1 to M28, and in brackets its row in the formula collection's
 /// table of misprints.
@@ -258,7 +258,8 @@ fn apex_moved(frustum: Frustum) -> Option<DMat4> {
 /// as those of f32 programs do.
 ///
 /// ```
-/// use projection::{Misprint, Orthographic, IntendedProjection, misprint_of};
+/// use projection::Orthographic;
+/// use recognition::{Misprint, IntendedProjection, misprint_of};
 /// let volume = Orthographic::new(-1.0, 3.0, -2.0, 1.0, 2.0, 6.0)?;
 /// let wanted = IntendedProjection::Orthographic(volume);
 /// let mut slide = wanted.correct_matrix();

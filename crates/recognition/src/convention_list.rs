@@ -1,6 +1,6 @@
 //! The conventions a matrix is tried in, with how rarely each is met.
 
-use crate::{Convention, NdcY};
+use projection::{Convention, NdcY};
 
 const DOWN: NdcY = NdcY::Down;
 
@@ -8,7 +8,7 @@ const DOWN: NdcY = NdcY::Down;
 ///
 /// The second number counts against a reading beside the digits of its parameters; reversed and
 /// left-handed depth in [−1, 1], which no interface has, is rarest.
-pub(super) const CONVENTIONS: [(Convention, u32); 16] = [
+pub(crate) const CONVENTIONS: [(Convention, u32); 16] = [
     (Convention::OPENGL, 0),
     (Convention::CHAPTER, 1),
     (Convention::WEBGPU, 1),
@@ -31,13 +31,13 @@ pub(super) const CONVENTIONS: [(Convention, u32); 16] = [
 ///
 /// A view space that looks along +z with y down is a right-handed one turned about x: such a
 /// product is also one that looks along −z.
-pub(super) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
+pub(crate) fn placed_conventions() -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS
         .into_iter()
         .filter(|(convention, _)| convention.ahead() < 0.0 || convention.top() > 0.0)
 }
 
 /// Those of the conventions whose view space looks to this side: −1 or +1.
-pub(super) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
+pub(crate) fn conventions_looking(ahead: f64) -> impl Iterator<Item = (Convention, u32)> {
     CONVENTIONS.into_iter().filter(move |(convention, _)| convention.ahead() == ahead)
 }

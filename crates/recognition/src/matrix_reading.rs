@@ -1,51 +1,21 @@
-//! Meanings of sixteen or nine numbers: transforms, projections, viewports and their inverses, the
-//! most sensible reading first.
-//!
-//! ```text
-//!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
-//!              (decimals,    (one file        2 per digit of a                (misprints that
-//!               f32, f64)     each)           parameter, and how               explain the entries
-//!                                             rarely such a matrix is met       better)
-//! ```
-//!
-//! A matrix does not tell its meaning: the OpenGL matrix of (N, F) is the zero-to-one matrix of
-//! (2FN/(F+N), F). What people write has few digits, windows with left < right and bottom < top,
-//! and 0 < near < far; so the reading with the fewest digits stands first, usual conventions before
-//! rare ones (minimum description length, Rissanen 1978). A matrix is called a misprint only if it
-//! has no such reading, or a misprinted one needs clearly fewer digits.
+//! Reads a 4×4 matrix: every reader is asked, and the reading with the fewest digits stands first.
 
-mod affine;
-mod classical;
-mod convention_list;
-mod meaning;
-mod parallel;
-mod perspective;
-mod pixels;
-mod placed;
-mod planar;
-mod rigid;
-mod rounded;
-mod suspicion;
-mod viewport;
-
-pub use meaning::{Lens, MatrixMeaning};
-pub use planar::{PlanarMatrix, PlanarReading, recognize_planar};
-pub use rigid::CameraReading;
-pub use suspicion::{Suspicion, SuspicionStrength};
-pub use viewport::{IntrinsicsReading, ViewportReading};
-
+use crate::rounded::{Entries, Rounded, coarser_measures, measure_entries};
+use crate::{
+    MatrixMeaning, Suspicion, SuspicionStrength, affine, classical, parallel, perspective, pixels,
+    placed, rigid, suspicion, viewport,
+};
 use alloc::vec::Vec;
 use glam::DMat4;
-use rounded::{Entries, Rounded, coarser_measures, measure_entries};
 
 /// The cost of a matrix that nothing is known of.
-const UNNAMED: u32 = 1000;
+pub(crate) const UNNAMED: u32 = 1000;
 
 /// Readings that differ in cost by at most this are equally sensible.
-const EQUAL: u32 = 3;
+pub(crate) const EQUAL: u32 = 3;
 
 /// How much less a reading must cost before some entries are taken for rounded and others are not.
-const COARSER: u32 = 8;
+pub(crate) const COARSER: u32 = 8;
 
 /// One meaning of a matrix.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -103,7 +73,8 @@ impl Recognition {
 ///
 /// ```
 /// use glam::{DMat4, DVec4};
-/// use projection::{Convention, MatrixMeaning, recognize};
+/// use projection::Convention;
+/// use recognition::{MatrixMeaning, recognize};
 /// // gluPerspective(60°, 16/9, 0.1, 100), printed with four decimals.
 /// let matrix = DMat4::from_cols(
 ///     DVec4::new(0.9743, 0.0, 0.0, 0.0),
@@ -136,18 +107,18 @@ pub fn recognize(matrix: DMat4) -> Recognition {
 }
 
 /// The cost of the most sensible reading, also for row vectors.
-fn least_cost(entries: &Entries<4>) -> u32 {
+pub(crate) fn least_cost(entries: &Entries<4>) -> u32 {
     let cost = |entries| readings_of(entries).first().map_or(UNNAMED, |first| first.cost);
     cost(entries).min(cost(&transpose(entries)) + suspicion::SLIP)
 }
 
 /// Rows and columns exchanged.
-fn transpose(entries: &Entries<4>) -> Entries<4> {
+pub(crate) fn transpose(entries: &Entries<4>) -> Entries<4> {
     [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entries[j][i]))
 }
 
 /// All readings, the most sensible first.
-fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
+pub(crate) fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
     let mut found = Vec::new();
     let moderate = entries.as_flattened().iter().all(|entry| is_moderate(entry.value));
     if moderate {
@@ -181,7 +152,7 @@ fn readings_of(entries: &Entries<4>) -> Vec<MatrixReading> {
 }
 
 /// True if products of a few such numbers and quotients neither overflow nor vanish.
-fn is_moderate(entry: f64) -> bool {
+pub(crate) fn is_moderate(entry: f64) -> bool {
     entry == 0.0 || (1e-40..1e40).contains(&entry.abs())
 }
 
@@ -197,6 +168,6 @@ fn unnamed_reading(entries: &Entries<4>) -> MatrixReading {
 }
 
 /// The cost of a common factor: none for 1.
-fn factor_cost(factor: Rounded) -> u32 {
+pub(crate) fn factor_cost(factor: Rounded) -> u32 {
     if factor.is(1.0) { 0 } else { 2 + 2 * factor.digits() }
 }

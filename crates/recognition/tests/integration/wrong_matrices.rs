@@ -8,7 +8,8 @@
 
 use super::formulas::*;
 use super::table::{Expected, Row, Verdict};
-use projection::{Convention, Misprint};
+use projection::Convention;
+use recognition::Misprint;
 
 const EXACT: f64 = 1e-9;
 const WINDOW: [f64; 4] = [-1.0, 3.0, -2.0, 1.0];

@@ -1,6 +1,6 @@
 //! 3×3 matrices: the textbook's examples, intrinsics, rotations and maps of the plane.
 
-use projection::{MatrixMeaning, PlanarMatrix, PlanarReading, recognize_planar};
+use recognition::{MatrixMeaning, PlanarMatrix, PlanarReading, recognize_planar};
 
 type Rows3 = [[f64; 3]; 3];
 

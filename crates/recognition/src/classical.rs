@@ -1,17 +1,18 @@
 //! Readings of the classical projections: onto a plane and therefore singular, or with depth kept
 //! (MV-1, AX-1, OB-1, OB-2, ONE-1, TWO-1, THREE-1).
 
+use super::matrix_reading::factor_cost;
 use super::parallel::{oblique_by_slants, oblique_cost};
 use super::rigid::orthonormal_rows;
 use super::rounded::{Entries, Rounded, divide_entries};
-use super::{MatrixMeaning, MatrixReading, factor_cost};
-use crate::{Axonometric, NPoint, PrincipalPlane};
+use super::{MatrixMeaning, MatrixReading};
 use alloc::vec::Vec;
 use glam::DVec3;
 use homog::Normal;
+use projection::{Axonometric, NPoint, PrincipalPlane};
 
 /// Adds the readings as a classical projection.
-pub(super) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
+pub(crate) fn read_classical(m: &Entries<4>, found: &mut Vec<MatrixReading>) {
     let factor = m[3][3];
     if factor.is_zero() {
         return found.extend(read_central(m));

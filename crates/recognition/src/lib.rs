@@ -1,0 +1,73 @@
+//! Meanings of matrices: which projection, camera, viewport or transform sixteen or nine numbers are,
+//! with which parameters, and which known misprint explains them better.
+//!
+//! ```text
+//!   entries ─► precision ─► every reader ─► readings with a cost ─► sorted ─► suspicions
+//!              (decimals,    (one file        2 per digit of a                (misprints that
+//!               f32, f64)     each)           parameter, and how               explain the entries
+//!                                             rarely such a matrix is met       better)
+//! ```
+//!
+//! A matrix does not tell its meaning: the OpenGL matrix of (N, F) is the zero-to-one matrix of
+//! (2FN/(F+N), F). What people write has few digits, windows with left < right and bottom < top,
+//! and 0 < near < far; so the reading with the fewest digits stands first, usual conventions before
+//! rare ones (minimum description length, Rissanen 1978). A matrix is called a misprint only if it
+//! has no such reading, or a misprinted one needs clearly fewer digits.
+//!
+//! ```
+//! use glam::DMat4;
+//! use projection::{Convention, Fov, Perspective};
+//! use recognition::{MatrixMeaning, recognize};
+//!
+//! let lens = Perspective::new(Fov::vertical_degrees(60.0), 1.5, 0.1, 100.0)?;
+//! let matrix = lens.view_to_clip(Convention::VULKAN).raw();
+//! let MatrixMeaning::Perspective { lens, convention, .. } = recognize(matrix).first().meaning else {
+//!     panic!("a perspective")
+//! };
+//! assert_eq!((lens.fov_y_degrees, convention), (60.0, Convention::VULKAN));
+//!
+//! // Its transpose is what row vectors take.
+//! let slip = recognize(matrix.transpose()).misprint().map(|found| found.misprint);
+//! assert_eq!(slip, Some(recognition::Misprint::Transposed));
+//! # Ok::<(), projection::ProjectionError>(())
+//! ```
+//!
+//! | to get | use |
+//! | --- | --- |
+//! | the meaning of a 4×4 matrix, or a misprint in it | [`recognize`] |
+//! | the meaning of a 3×3 matrix | [`recognize_planar`] |
+//! | the slip in a matrix whose projection is known | [`misprint_of`] |
+//! | the parameters of a matrix in a known convention | [`projection::decompose()`] |
+//!
+//! Column vectors, f64. Example: `doctor`, which reads sixteen numbers.
+#![no_std]
+
+extern crate alloc;
+
+mod affine;
+mod classical;
+mod convention_list;
+mod matrix_reading;
+mod meaning;
+mod misprint;
+mod parallel;
+mod perspective;
+mod pixels;
+mod placed;
+mod planar;
+mod rigid;
+mod rounded;
+mod suspicion;
+mod viewport;
+
+pub use matrix_reading::{MatrixReading, Recognition, recognize};
+pub use meaning::{Lens, MatrixMeaning};
+pub use misprint::{IntendedProjection, Misprint, misprint_of};
+pub use planar::{PlanarMatrix, PlanarReading, recognize_planar};
+pub use rigid::CameraReading;
+pub use suspicion::{Suspicion, SuspicionStrength};
+pub use viewport::{IntrinsicsReading, ViewportReading};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
