@@ -13,7 +13,7 @@ mod separation;
 use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program, sample_cases};
 use alberti_tests::manifest::read_manifest;
 use homog::{Affine, Bounds};
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{ModelInstance, world_points};
 use sheet::{AssemblyPages, ExplosionAxis, ExplosionSettings, PartsList, Sheet, explode_models};
 use std::path::{Path, PathBuf};

@@ -12,7 +12,8 @@ mod expected;
 
 use alberti_tests::harness::{Tally, data_folder, run_program};
 use expected::MeshFacts;
-use model::{ImportOptions, Model, Topology, UpAxis, load};
+use import::{ImportOptions, load};
+use model::{Model, Topology, UpAxis};
 use std::path::Path;
 use std::process::ExitCode;
 

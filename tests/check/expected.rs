@@ -1,8 +1,8 @@
 //! Intended differences between the check and the Khronos validator, with reasons.
 
 use alberti_tests::manifest::Row;
+use gltf_check::CheckReport;
 use model::Severity;
-use model::import::CheckReport;
 use std::collections::BTreeSet;
 
 const KTX: &str = "KHR_texture_ktx, for images of several layers, is not supported";

@@ -3,8 +3,8 @@
 
 use alberti_tests::harness::Tally;
 use alberti_tests::manifest::Row;
+use import::{ImportOptions, load};
 use model::codes;
-use model::import::{ImportOptions, load};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use crate::corpus::expected;
 use alberti_tests::harness::Tally;
 use alberti_tests::manifest::Row;
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{Model, Primitive, Topology};
 use std::path::Path;
 

@@ -10,7 +10,7 @@
 
 use alberti_tests::harness::{Tally, map_parallel};
 use drawing::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{Model, ModelInstance};
 use pipeline::scene::reference::Shape;
 use pipeline::scene::{Style, parse_scene};

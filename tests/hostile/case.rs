@@ -2,7 +2,8 @@
 
 use crate::hostile::promises;
 use alberti_tests::gltf::Document;
-use model::import::{ImportError, ImportOptions, check_bytes, load, load_bytes};
+use gltf_check::check_bytes;
+use import::{ImportError, ImportOptions, load, load_bytes};
 use model::{Diagnostic, Model};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use crate::hostile::case::{Expected, check_load_result, check_path};
 use alberti_tests::gltf::Document;
-use model::import::{ImportOptions, Limits, load_bytes};
+use import::{ImportOptions, Limits, load_bytes};
 use serde_json::json;
 use std::fs;
 use std::path::Path;

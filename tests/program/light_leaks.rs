@@ -10,9 +10,8 @@
 use crate::asset_models::asset_path;
 use glam::DVec3;
 use homog::Affine;
-use model::ModelInstance;
-use model::import::{ImportOptions, load};
-use model::{Material, Model};
+use import::{ImportOptions, load};
+use model::{Material, Model, ModelInstance};
 use pipeline::render::{Pass, render_passes};
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, Picture, Scene, Timings, render};

@@ -2,7 +2,7 @@
 
 use alberti_tests::harness::data_folder;
 use alberti_tests::project_root;
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

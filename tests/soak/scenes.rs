@@ -8,7 +8,7 @@ use pipeline::render::passes::{Pass, PassValues, render_passes};
 use pipeline::scene::Style;
 use pipeline::{Origin, Scene, Timings, render};
 
-use shade::Picture;
+use picture::Picture;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

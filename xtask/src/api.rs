@@ -20,13 +20,18 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 13] = [
+const CRATES: [&str; 18] = [
     "camera",
     "clip",
     "drawing",
     "explorer",
+    "files",
+    "gltf-check",
     "homog",
+    "import",
     "model",
+    "page",
+    "picture",
     "pipeline",
     "projection",
     "raster",

@@ -56,8 +56,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "tidy",
-        arguments: "",
-        about: "Check the project rules that no lint covers",
+        arguments: "[--bless]",
+        about: "Check the project rules that no lint covers; --bless draws the map of the crates",
         run: tidy::run_tidy,
     },
     Command {

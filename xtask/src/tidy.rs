@@ -7,6 +7,7 @@ mod boundaries;
 mod code;
 mod comments;
 mod commits;
+mod crate_map;
 mod documents;
 mod names;
 mod scenes;
@@ -50,8 +51,10 @@ const FILE_RULES: &[fn(&Source) -> Vec<Violation>] = &[
 
 /// Checks all rules and lists every violation.
 pub fn run_tidy(arguments: &[String]) -> Outcome {
-    if let Some(argument) = arguments.first() {
-        return Err(format!("unknown argument `{argument}`"));
+    match arguments {
+        [] => {}
+        [flag] if flag == "--bless" => return crate_map::write_map(),
+        _ => return Err(format!("unknown arguments `{}`", arguments.join(" "))),
     }
     let sources = rust_files()?;
     for long in sources.iter().filter_map(size::long_file) {
@@ -66,6 +69,8 @@ pub fn run_tidy(arguments: &[String]) -> Outcome {
     violations.extend(comments::unlisted_formulas(&sources)?);
     violations.extend(words::machine_path_mentions(&source::text_files()?));
     violations.extend(boundaries::dependencies()?);
+    violations.extend(crate_map::outdated_map()?);
+    violations.extend(crate_map::crate_lengths(&sources));
     violations.extend(scenes::goldens_and_table()?);
     violations.extend(documents::broken_links()?);
     violations.extend(documents::citation_version()?);

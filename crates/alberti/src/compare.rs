@@ -8,8 +8,8 @@
 
 use super::CliError;
 use super::passes::sibling_path;
+use files::visible_path;
 use homog::PixelRect;
-use model::visible_path;
 use pipeline::{AtomicFile, OutputError, Picture};
 use std::fmt;
 use std::io::Write;

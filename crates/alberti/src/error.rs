@@ -8,7 +8,7 @@
 //! that solves the problem, as in rustc.
 
 use super::color;
-use model::import::ImportError;
+use import::ImportError;
 use pipeline::demonstration::DemonstrationError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
 use sheet::SheetError;

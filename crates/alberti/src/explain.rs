@@ -9,8 +9,9 @@ use super::number_list::{parse_number_list, parse_numbers};
 use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use super::{CliError, print_json, print_text};
+use files::visible_text;
 use homog::{HPoint, Point, World};
-use model::{Model, ModelInstance, visible_text};
+use model::{Model, ModelInstance};
 use pipeline::explain::{
     ApiConventions, BareMap, Explanation, TransformChain, VertexRef, explain_homogeneous_point,
     explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,

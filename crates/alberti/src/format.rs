@@ -11,8 +11,9 @@ pub(crate) use raster::{DEFAULT_QUALITY, parse_quality};
 
 use super::error::CliError;
 use clap::ValueEnum as _;
-use drawing::{DxfOptions, Page, to_pdf};
-use model::visible_path;
+use drawing::Page;
+use files::visible_path;
+use page::{DxfOptions, to_pdf};
 use std::path::Path;
 
 /// The format of an output file.

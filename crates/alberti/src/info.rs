@@ -11,10 +11,10 @@ mod scenes;
 use super::args::InfoArgs;
 use super::model_state::ModelStateArgs;
 use super::{CliError, print_json, print_text};
-use model::import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
+use files::{visible_path, visible_text};
+use import::{ExtensionUse, ImageLoading, ImportOptions, extension_use, load};
 use model::{
     AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
-    visible_path, visible_text,
 };
 use pipeline::scene::file::Finite;
 use pipeline::scene::select_animation;

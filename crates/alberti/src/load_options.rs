@@ -5,7 +5,7 @@
 //! demand terabytes. Every command that loads a model has these flags.
 
 use super::options::option_parser;
-use model::import::{ImportOptions, Limits};
+use import::{ImportOptions, Limits};
 use model::{LengthUnit, UpAxis};
 use pipeline::scene::file::{CreaseAngle, SceneFile, StyleFile};
 use std::path::PathBuf;

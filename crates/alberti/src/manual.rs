@@ -6,7 +6,7 @@
 use super::{CliError, print_stdout};
 use clap::Command;
 use clap_complete::Shell;
-use model::visible_path;
+use files::visible_path;
 use std::path::PathBuf;
 
 /// Arguments of `alberti completions`.

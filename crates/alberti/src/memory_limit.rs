@@ -1,6 +1,6 @@
 //! Limits of memory: those of the importer for a program of so much memory, and that of the system.
 
-use model::Limits;
+use import::Limits;
 
 /// The limits of the importer for a program of this much memory.
 ///

@@ -9,12 +9,12 @@
 //!
 //! Texts for people show controls by their codes, whatever file a name comes from: [`print_text`],
 //! [`print_json`], and all that is printed on the standard error stream. Names in a line of a message
-//! are written by [`model::visible_text`], which shows line ends as well.
+//! are written by [`files::visible_text`], which shows line ends as well.
 
 use super::CliError;
 use super::color;
+use files::{is_terminal_control, visible_text};
 use model::Diagnostic;
-use model::{is_terminal_control, visible_text};
 use pipeline::Scene;
 use std::borrow::Cow;
 use std::io::{ErrorKind, Write};

@@ -9,7 +9,7 @@ use super::messages::print_warnings;
 use super::progress::Progress;
 use super::sheet;
 use drawing::{Page, Panels};
-use model::visible_path;
+use files::visible_path;
 use pipeline::Scene;
 use std::path::Path;
 

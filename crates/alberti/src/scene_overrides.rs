@@ -23,7 +23,7 @@ use super::viewpoint::ViewpointArgs;
 use camera::NamedView;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use colormap_flags::ColormapArgs;
-use model::import::ImportOptions;
+use import::ImportOptions;
 use pipeline::scene::ResolveOptions;
 use pipeline::scene::file::{
     BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, NonNegative, OverlayFile,

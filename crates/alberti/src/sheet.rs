@@ -17,8 +17,9 @@ use super::progress::Progress;
 use super::render::{open_input, thread_count};
 use super::section::SectionArgs;
 use assembly::AssemblyArgs;
-use drawing::{DxfOptions, FaceFill, HiddenLines, Page, Warning};
-use model::import::{ImageLoading, ImportOptions};
+use drawing::{FaceFill, HiddenLines, Page, Warning};
+use import::{ImageLoading, ImportOptions};
+use page::DxfOptions;
 use page_files::{PageNames, write_all};
 use pipeline::scene::file::{
     AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,

@@ -7,7 +7,7 @@
 /// end the program at once.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
-    use pipeline::shade::remove_partial_files;
+    use files::remove_partial_files;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let heard = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     let Ok(mut signals) = signal_hook::iterator::Signals::new(heard) else { return };

@@ -15,8 +15,9 @@ use super::memory_limit::{import_limits, limit_process_memory, parse_memory_size
 use super::render::{open_input, thread_count};
 use clap::ValueEnum;
 use deadline::Deadline;
-use model::import::{ImportError, ImportOptions};
-use model::{Limits, codes, visible_path, visible_text};
+use files::{visible_path, visible_text};
+use import::{ImportError, ImportOptions, Limits};
+use model::codes;
 use pipeline::scene::{ResolveOptions, Style};
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,

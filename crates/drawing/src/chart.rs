@@ -12,12 +12,10 @@ mod axis;
 
 pub use axis::{Axis, Spacing};
 
-use super::label::{Label, TextAlign};
-use super::line_type::LineType;
-use super::page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
-use super::palette::{INK, LIGHT_GRAY};
 use axis::format_tick;
 use glam::DVec2;
+use page::palette::{INK, LIGHT_GRAY};
+use page::{Cap, Group, Ink, Join, Label, Layer, LineType, Pen, Polyline, TextAlign};
 
 /// The height of letters in millimeters.
 const LETTER_HEIGHT: f64 = 2.2;
@@ -35,7 +33,8 @@ const LEGEND_SAMPLE: f64 = 9.0;
 /// A chart: two axes, curves, and marked values.
 ///
 /// ```
-/// use drawing::{Axis, Chart, Curve, Spacing, palette};
+/// use drawing::{Axis, Chart, Curve, Spacing};
+/// use page::palette;
 /// use glam::DVec2;
 ///
 /// let spacing = Spacing::Linear;
@@ -261,7 +260,7 @@ impl Plot<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::to_millimeters;
+    use page::to_millimeters;
 
     #[test]
     fn curve_points_map_through_the_axes() {

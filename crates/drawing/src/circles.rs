@@ -5,12 +5,11 @@
 //! all of them within the tolerance of plane and circle. A polygon of up to twelve sides is no
 //! circle.
 
-use crate::dxf::arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use crate::edges::FeatureChain;
-use crate::page::Polyline;
 use core::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use homog::{Point, Vector, World};
+use page::{ArcVertex, Circle, LineShape, Polyline, recognize_arcs};
 
 /// A circle in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]

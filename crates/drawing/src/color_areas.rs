@@ -11,7 +11,7 @@
 //! What lies between two junctions is straightened in one direction, whichever of its two areas
 //! asks, so that neighbors have the same border without gaps and overlaps.
 
-use shade::Picture;
+use picture::Picture;
 use std::collections::BTreeMap;
 
 /// A corner of pixels: counted from the upper left one, to the right and down.

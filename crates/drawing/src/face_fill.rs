@@ -14,7 +14,7 @@ use crate::DrawError;
 use camera::ViewProjection;
 use glam::DVec3;
 use homog::{Vector, View};
-use shade::Picture;
+use picture::Picture;
 use shade::color::SrgbEncoder;
 use viewport::Viewport;
 

@@ -9,8 +9,8 @@ use super::LineDrawing;
 use super::color_areas::{PixelCorner, trace_color_areas};
 use super::layout::Placement;
 use super::line_style::{FaceFill, LineStyle};
-use super::page::{Group, Ink, Layer, Pen, Polyline};
 use glam::DVec2;
+use page::{Group, Ink, Layer, Pen, Polyline};
 use shade::color::SrgbEncoder;
 
 /// The number of grays, from black to white.

@@ -11,8 +11,8 @@
 //! model are not. The random numbers follow from the line itself, so equal lines waver alike in
 //! every run, and a line keeps its form when others come and go.
 
-use super::page::{PagePoint, Polyline, to_micrometers, to_millimeters};
 use glam::DVec2;
+use page::{PagePoint, Polyline, to_micrometers, to_millimeters};
 
 /// The distance between the points of a drawn stroke, in millimeters.
 const STEP: f64 = 1.5;

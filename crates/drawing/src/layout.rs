@@ -18,19 +18,19 @@
 use super::hand_drawn::draw_by_hand;
 use super::line_density::Thinning;
 use super::line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
-use super::line_type::LineType;
 use super::overlap_removal::{PageSegment, remove_overlaps};
-use super::page::{
-    Group, GroupContent, HatchArea, Ink, Layer, MILLIMETERS_PER_PIXEL, Page, Pen, PlacedImage,
-    Polyline, to_micrometers,
-};
-use super::palette::{WHITE, ink_on_paper};
 use super::polyline_chain::{PolylineChain, join_into_chains};
 use super::region::{Region, RegionHatching};
 use super::region_outline::{is_traced, outline_loops};
 use super::speckles::{LEAST_CHAIN_LENGTH, ShortChains, remove_speckles};
 use super::{EdgeClass, EdgeSegment, LineDrawing};
+use crate::Page;
 use glam::DVec2;
+use page::palette::{WHITE, ink_on_paper};
+use page::{
+    Group, GroupContent, HatchArea, Ink, Layer, LineType, MILLIMETERS_PER_PIXEL, Pen, PlacedImage,
+    Polyline, to_micrometers,
+};
 
 /// The map from pixels of a drawing to millimeters of a page: millimeters = pixels × `scale` +
 /// `corner`.
@@ -106,7 +106,7 @@ impl LineDrawing {
     #[must_use]
     pub fn to_page(&self, style: &LineStyle, title: &str, paper: Option<Ink>) -> Page {
         let mut page = Page::new(self.size * MILLIMETERS_PER_PIXEL, title, paper);
-        let ink = page.ink_for_style(style);
+        let ink = style.ink_on(page.paper);
         let inks = [ink, paper.or(style.paper).unwrap_or(WHITE)];
         page.images.extend(self.face_fill_image(style, Placement::PICTURE, ""));
         page.layers = self.face_fill_layers(style, Placement::PICTURE, "", inks);
@@ -254,12 +254,12 @@ impl LineDrawing {
     }
 }
 
-impl Page {
-    /// The ink of a style on this page: its own, or a dark or light one that contrasts with the
-    /// paper: [`ink_on_paper`].
+impl LineStyle {
+    /// The ink of the style on paper of this color: its own, or a dark or light one that contrasts
+    /// with the paper: [`ink_on_paper`].
     #[must_use]
-    pub fn ink_for_style(&self, style: &LineStyle) -> Ink {
-        style.ink.unwrap_or_else(|| ink_on_paper(self.paper))
+    pub fn ink_on(&self, paper: Option<Ink>) -> Ink {
+        self.ink.unwrap_or_else(|| ink_on_paper(paper))
     }
 }
 

@@ -24,92 +24,68 @@
 //! `viewport`), so a line drawing lies exactly over a picture of the same scene. Results do not
 //! depend on the number of threads.
 
-mod canvas;
 mod chart;
 mod circles;
 mod color_areas;
-mod dash_pattern;
 mod draw;
-mod dxf;
 mod edges;
 mod error;
 mod face_fill;
 mod face_raster;
 mod feature_picker;
-mod fixed_decimal;
 mod gray_fill;
 mod hand_drawn;
 mod hatching;
 mod hidden_line;
-mod label;
 mod layout;
 mod line_clip;
 mod line_density;
 mod line_drawing;
 mod line_style;
-mod line_type;
-mod markup;
 mod mirror_symmetry;
 mod options;
 mod overlap_removal;
 mod overlay;
-mod page;
-mod page_clip;
-pub mod palette;
 mod panels;
 mod parallel;
-mod pdf;
 mod polyline_chain;
 mod projector;
 mod region;
 mod region_outline;
 mod retained_points;
 mod speckles;
-mod stroke_font;
 mod subject;
-mod svg;
 mod view_cover;
 mod warning;
 mod z_buffer_check;
 
-pub use canvas::{draw_layers_over, picture_to_pixmap, pixmap_to_picture};
 pub use chart::{Axis, AxisMark, Chart, Curve, Spacing};
 pub use circles::WorldCircle;
 pub use draw::{draw, draw_surface};
-pub use dxf::DxfOptions;
 pub use edges::WeldedSurface;
 pub use error::DrawError;
 pub use feature_picker::{FeaturePicker, PickedFeature};
 pub use hidden_line::{Aabb, EdgeParts, Occluders, Tolerance};
-pub use label::{Label, TextAlign};
 pub use layout::Placement;
 pub use line_clip::{ClipArea, ClipSide, circle_points, point_at};
 pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
 pub use line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
-pub use line_type::{IsoLineGroup, LineType};
-pub use markup::escape_markup;
 pub use mirror_symmetry::MirrorSymmetry;
 pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
 pub use overlay::{
     AXES, LabelFault, Overlay, PointLabel, SheetLabelFault, label_rectangles, label_warnings,
     missing_glyph_warning, overlay_layers, with_label_halos,
 };
-pub use page::{
-    Cap, Group, GroupContent, HatchArea, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint,
-    Pen, PlacedImage, Polyline, TextLine, to_micrometers, to_millimeters,
-};
 pub use panels::{Panel, Panels};
-pub use pdf::to_pdf;
 pub use projector::Projector;
 pub use region::{Region, RegionEdge, RegionHatching, region_edges};
 pub use retained_points::{idle_section_warning, retained_points};
-pub use stroke_font::missing_glyphs;
 pub use subject::Subject;
+/// A page with the warnings of its drawings.
+pub type Page = page::Page<Warning>;
+
 pub use warning::{AssemblyWarning, DimensionFault, Warning, visible_text};
 pub use z_buffer_check::{Agreement, verify_with_z_buffer};
-
-/// The library that [`picture_to_pixmap`] hands pictures to.
-pub use tiny_skia;
 
 /// The example of the README, compiled as a documentation test.
 #[cfg(doctest)]

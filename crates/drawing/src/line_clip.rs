@@ -294,7 +294,7 @@ fn corners_between(center: DVec2, corners: &[DVec2], ends: [DVec2; 2]) -> Vec<DV
 mod tests {
     use super::*;
     use crate::EdgeClass;
-    use shade::Picture;
+    use picture::Picture;
 
     fn segment(ends: [DVec2; 2]) -> EdgeSegment {
         let class = EdgeClass::Crease;

@@ -7,7 +7,7 @@
 
 use super::{Region, Warning};
 use glam::DVec2;
-use shade::Picture;
+use picture::Picture;
 
 /// The reason why an edge is drawn; the first that applies, in order of importance.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]

@@ -1,17 +1,17 @@
 //! Line style: the selection of edges, hidden lines, pens and fills of a line drawing.
 
 use super::EdgeClass;
-use super::line_type::IsoLineGroup;
 use super::options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
-use super::page::{Cap, Ink, Join, MILLIMETERS_PER_PIXEL};
-use super::palette::{BLACK, BLUEPRINT_BLUE, GRAPHITE, WHITE};
+use page::palette::{BLACK, BLUEPRINT_BLUE, GRAPHITE, WHITE};
+use page::{Cap, Ink, IsoLineGroup, Join, MILLIMETERS_PER_PIXEL};
 
 /// The appearance of a line drawing.
 ///
 /// Constants are complete styles; change one with the update syntax:
 ///
 /// ```
-/// use drawing::{HiddenLines, IsoLineGroup, LineStyle, LineWidths};
+/// use drawing::{HiddenLines, LineStyle, LineWidths};
+/// use page::IsoLineGroup;
 ///
 /// let style = LineStyle {
 ///     line_widths: LineWidths::Iso(IsoLineGroup::MM_0_35),

@@ -5,8 +5,8 @@
 //! [`LineStyle`](crate::LineStyle), which yields fitting options by
 //! [`LineStyle::to_draw_options`](crate::LineStyle::to_draw_options).
 
-use super::page::MILLIMETERS_PER_PIXEL;
 use super::{EdgeClass, FaceFill};
+use page::MILLIMETERS_PER_PIXEL;
 
 /// The content of a line drawing; its appearance is a [`LineStyle`](crate::LineStyle).
 #[derive(Clone, Copy, PartialEq, Debug)]

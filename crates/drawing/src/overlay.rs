@@ -23,16 +23,16 @@ pub use point_label::{
 
 use super::edges::WeldedSurface;
 use super::hidden_line::Occluders;
-use super::label::{Label, TextAlign};
 use super::line_style::HiddenLines;
-use super::line_type::LineType;
-use super::page::{Cap, Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline};
-use super::palette::{BLUE, GRAY, GREEN, RED};
 use super::projector::Projector;
 use crate::Subject;
 use camera::ViewProjection;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use homog::{Bounds, Clip, Point, Projective, Vector, World};
+use page::palette::{BLUE, GRAY, GREEN, RED};
+use page::{
+    Cap, Group, Ink, Label, Layer, LineType, MILLIMETERS_PER_PIXEL, Pen, Polyline, TextAlign,
+};
 
 /// Something drawn over a picture to explain it.
 #[derive(Clone, PartialEq, Debug)]

@@ -11,11 +11,10 @@
 mod html;
 
 use super::Warning;
-use super::label::Label;
-use super::page::{Group, Layer, Page, Pen, PlacedImage, Polyline};
-use super::page::{PagePoint, to_micrometers};
-use super::palette::{GRAY, INK, WHITE};
+use crate::Page;
 use glam::DVec2;
+use page::palette::{GRAY, INK, WHITE};
+use page::{Group, Label, Layer, Pen, Polyline};
 
 /// The margin around all panels, in millimeters.
 const MARGIN: f64 = 8.0;
@@ -188,37 +187,10 @@ fn frame_group(panel: &Panel, corner: DVec2) -> Group {
     Group { id: panel.id.clone(), title: panel.title.clone(), strokes, ..Group::default() }
 }
 
-impl Page {
-    /// Puts the content of another page onto this one, with its upper left corner at `corner` in
-    /// millimeters.
-    ///
-    /// `prefix` begins the ids of images and layers, so that they stay unique.
-    pub fn paste_page(&mut self, other: &Self, corner: DVec2, prefix: &str) {
-        let by = to_micrometers(corner);
-        let moved = |point: PagePoint| [point[0] + by[0], point[1] + by[1]];
-        self.images.extend(other.images.iter().cloned().map(|pasted| PlacedImage {
-            id: format!("{prefix}{}", pasted.id),
-            corner: moved(pasted.corner),
-            ..pasted
-        }));
-        for layer in &other.layers {
-            let mut layer = layer.clone();
-            layer.id = format!("{prefix}{}", layer.id);
-            for group in &mut layer.groups {
-                let lines = group.strokes.iter_mut().chain(&mut group.fills);
-                lines.flat_map(|line| &mut line.points).for_each(|point| *point = moved(*point));
-                group.content.move_by(by);
-            }
-            self.layers.push(layer);
-        }
-        self.warnings.extend(other.warnings.iter().cloned());
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::to_millimeters;
+    use page::to_millimeters;
 
     /// A page of 40 × 30 mm with a diagonal.
     fn panel(id: &str) -> Panel {

@@ -11,7 +11,7 @@
 //! ```
 
 use super::overlap_removal::PageSegment;
-use super::page::{PagePoint, Polyline, to_micrometers};
+use page::{PagePoint, Polyline, to_micrometers};
 
 /// A polyline of one layer and object.
 #[derive(Clone, PartialEq, Eq, Debug)]

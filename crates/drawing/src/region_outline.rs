@@ -22,8 +22,8 @@
 
 mod coverage;
 
-use super::page::{PagePoint, Polyline};
 use coverage::traced_border;
+use page::{PagePoint, Polyline};
 use std::collections::BTreeMap;
 
 /// A point in micrometers.

@@ -9,8 +9,8 @@
 //! and there by the width of a rounding. Where an edge bridges a gap between longer lines it stays,
 //! however short.
 
-use super::page::PagePoint;
 use super::polyline_chain::PolylineChain;
+use page::PagePoint;
 
 /// The least length of chains on paper, in millimeters: about the width of a line on a screen.
 pub(super) const LEAST_CHAIN_LENGTH: f64 = 0.3;
@@ -133,7 +133,7 @@ fn root_of(parents: &mut [usize], mut chain: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Polyline;
+    use page::Polyline;
 
     /// A chain of a layer through points on one line, given in micrometers.
     fn chain(layer: u32, xs: &[i32]) -> PolylineChain {

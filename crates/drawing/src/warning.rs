@@ -262,7 +262,7 @@ const MAX_QUOTED: usize = 60;
 /// the direction of writing, are written by their code: `\u{202e}`. A long one is cut off.
 pub fn visible_text(text: &str) -> String {
     let is_invisible = |c: char| {
-        model::is_terminal_control(c)
+        files::is_terminal_control(c)
             || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{206f}')
             || c == '\u{feff}'
     };

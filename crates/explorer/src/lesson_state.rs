@@ -7,7 +7,7 @@ use crate::model_store::LoadedScene;
 use crate::query::Query;
 use crate::request::DEFAULT_SIZE;
 use crate::words::{Language, sentence};
-use model::import::percent_encode;
+use import::percent_encode;
 
 /// The version of the keys.
 const VERSION: &str = "1";

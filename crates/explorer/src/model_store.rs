@@ -3,8 +3,8 @@
 use crate::ExplorerError;
 use crate::lesson_state::style_flag;
 use crate::triangle_survey::WorldTriangles;
+use import::MemoryFolder;
 use model::ModelInstance;
-use model::import::MemoryFolder;
 use pipeline::scene::file::StyleFile;
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, Scene, SceneFile, Textures};

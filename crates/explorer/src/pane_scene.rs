@@ -4,10 +4,11 @@
 use crate::ExplorerError;
 use crate::triangle_survey::Containment;
 use camera::{Basis, ViewProjection, frame_parallel};
-use drawing::{Overlay, PointLabel, palette};
+use drawing::{Overlay, PointLabel};
 use glam::DVec2;
 use homog::{Affine, Point, World};
 use model::{Material, Mesh, Model, ModelInstance, Node, Primitive, Topology};
+use page::palette;
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, Scene};
 use projection::{Convention, Orthographic};

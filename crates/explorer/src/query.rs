@@ -1,7 +1,7 @@
 //! Query strings: pairs of keys and values, percent-encoded.
 
 use crate::ExplorerError;
-use model::import::percent_decode;
+use import::percent_decode;
 
 /// The longest query that is read, in bytes.
 const MAX_QUERY_BYTES: usize = 16 * 1024;
@@ -66,7 +66,7 @@ fn decode(text: &str) -> Result<String, ExplorerError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::import::percent_encode;
+    use import::percent_encode;
 
     #[test]
     fn pairs_are_decoded_and_taken_once() {

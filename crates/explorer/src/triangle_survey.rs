@@ -209,7 +209,7 @@ impl Survey {
 mod tests {
     use super::*;
     use homog::Affine;
-    use model::import::MemoryFolder;
+    use import::MemoryFolder;
     use std::fmt::Write as _;
     use std::sync::Arc;
 
@@ -236,7 +236,7 @@ mod tests {
         }
         let mut folder = MemoryFolder::default();
         assert!(folder.insert("grid.obj", obj.into_bytes()));
-        let model = model::import::load_from_memory(&folder, "grid.obj", &Default::default());
+        let model = import::load_from_memory(&folder, "grid.obj", &Default::default());
         ModelInstance { model: Arc::new(model.expect("a model")), model_to_world: Affine::IDENTITY }
     }
 

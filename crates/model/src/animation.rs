@@ -4,7 +4,7 @@
 //! time.
 
 mod curve;
-pub(crate) mod object_model;
+pub mod object_model;
 mod pose;
 
 pub use curve::{AnimationCurve, Interpolation};

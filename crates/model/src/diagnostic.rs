@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The importer's warnings ([`Model::warnings`](crate::Model::warnings)), the reason that a file
-//! could not be loaded ([`ImportError`](crate::ImportError)) and the list of a check are made of
+//! could not be loaded ([`ImportError`](import::ImportError)) and the list of a check are made of
 //! these. Severities and, where it has one, codes are those of the Khronos glTF validator.
 //!
 //! Locations in glTF are JSON pointers (RFC 6901): the path of keys and indices from the root of
@@ -14,7 +14,7 @@
 //! `line 12, column 5` of a text and `byte 84` of a binary file; a part of an archive is named
 //! before: `3D/3dmodel.model: line 3, column 7`.
 
-use crate::visible_text::visible_text;
+use files::visible_text;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -38,7 +38,7 @@ pub mod codes {
     pub const INVALID_DATA: &str = "INVALID_DATA";
     /// Data that the file refers to is absent, or in an encoding that is not supported.
     pub const MISSING_DATA: &str = "MISSING_DATA";
-    /// The file declares more of something than the [limits](crate::Limits) allow.
+    /// The file declares more of something than the [limits](import::Limits) allow.
     pub const LIMIT_EXCEEDED: &str = "LIMIT_EXCEEDED";
     /// The options ask for a scene, a variant or a scalar attribute that the file does not have.
     pub const NO_SUCH_ITEM: &str = "NO_SUCH_ITEM";
@@ -97,8 +97,32 @@ impl Severity {
 }
 
 impl Diagnostic {
+    /// A diagnostic without a remedy.
+    #[must_use]
+    pub fn new(
+        severity: Severity,
+        code: &'static str,
+        location: impl Into<String>,
+        message: impl Into<String>,
+    ) -> Self {
+        Self { severity, code, location: location.into(), message: message.into(), help: None }
+    }
+
+    /// The diagnostic with another severity.
+    #[must_use]
+    pub fn with_severity(self, severity: Severity) -> Self {
+        Self { severity, ..self }
+    }
+
+    /// The diagnostic with another code.
+    #[must_use]
+    pub fn with_code(self, code: &'static str) -> Self {
+        Self { code, ..self }
+    }
+
     /// An error at a location, with the remedy that `help` names.
-    pub(crate) fn error(
+    #[must_use]
+    pub fn error(
         code: &'static str,
         location: &str,
         message: impl Into<String>,
@@ -111,6 +135,56 @@ impl Diagnostic {
             message: message.into(),
             help: Some(help.to_owned()),
         }
+    }
+
+    /// The file breaks a rule of the specification.
+    #[must_use]
+    pub fn invalid(pointer: &str, message: impl Into<String>) -> Self {
+        Self::error(codes::INVALID_DATA, pointer, message.into(), "export the file again")
+    }
+
+    /// An index is out of range; `what` names the collection in the singular.
+    #[must_use]
+    pub fn unresolved_index(pointer: &str, what: &str, index: usize, count: usize) -> Self {
+        let message = match count {
+            0 => format!("there is no {what} {index}: the file has none"),
+            1 => format!("there is no {what} {index}: the file has only {what} 0"),
+            _ => format!("there is no {what} {index}: the file has {what}s 0 to {}", count - 1),
+        };
+        Self::invalid(pointer, message)
+    }
+
+    /// The file declares too much; `limit` is the name of a field of the importer's `Limits`.
+    #[must_use]
+    pub fn limit_exceeded(pointer: &str, what: &str, limit: &str, allowed: u64) -> Self {
+        let message = format!("{what}, more than the limit of {allowed}");
+        let help = Self::raise_limit_help(limit);
+        Self::error(codes::LIMIT_EXCEEDED, pointer, message, &help)
+    }
+
+    /// The remedy for an exceeded limit: its name and its flag on the command line.
+    #[must_use]
+    pub fn raise_limit_help(limit: &str) -> String {
+        let flag = limit.replace('_', "-");
+        format!("raise the limit `{limit}` (--max-{flag}) if you trust the file")
+    }
+
+    /// Data is absent, or in an encoding that is not supported.
+    #[must_use]
+    pub fn missing_data(pointer: &str, message: &str) -> Self {
+        Self::error(
+            codes::MISSING_DATA,
+            pointer,
+            message.to_owned(),
+            "export the file uncompressed",
+        )
+    }
+
+    /// Whether the fault is in the content of the file and not around it (a missing file, a limit).
+    /// Only then may part of the picture be left out with a warning.
+    #[must_use]
+    pub fn is_downgradable(&self) -> bool {
+        matches!(self.code, codes::INVALID_DATA | codes::MISSING_DATA)
     }
 
     /// Location, message and help in one line, without severity and code: for messages that begin

@@ -1,15 +1,22 @@
-//! Models: files read into plain arrays, with every index checked and every default decided.
+//! Models: plain arrays with every index checked and every default decided.
 //!
-//! [`load`] reads a file into a [`Model`]; [`import::check_file`] validates one, glTF as the
-//! Khronos glTF validator does. A model is posed by [`Model::apply_animation`], and its vertices
-//! are deformed by [`Model::skin_primitive`].
+//! A [`Model`] is read from a file by the crate `import`, or made by a program. It is posed by
+//! [`Model::apply_animation`], and its vertices are deformed by [`Model::skin_primitive`]. Nothing
+//! here reads a file or decodes an image.
+//!
+//! | module | subject |
+//! | --- | --- |
+//! | `model`, `scene_graph`, `mesh` | meshes, their primitives and the nodes that show them |
+//! | `material`, `texture`, `light`, `camera` | what surfaces are made of, and what lights them |
+//! | `animation`, `skinning` | keyframes, morph targets, skins |
+//! | `animation::object_model` | what animations may change, by JSON pointers |
+//! | `model_instance` | models placed in a world |
+//! | `diagnostic` | statements about a location of a file |
 
 mod animation;
 mod camera;
-mod check;
 mod colormap;
 mod diagnostic;
-pub mod import;
 mod length_unit;
 mod light;
 mod material;
@@ -21,17 +28,14 @@ mod skinning;
 mod texture;
 mod timings;
 mod up_axis;
-mod visible_text;
 
 pub use animation::{
     Animation, AnimationChannel, AnimationCurve, AnimationTarget, Interpolation, NodeProperty,
-    ObjectProperty,
+    ObjectProperty, object_model,
 };
 pub use camera::{CameraProjection, ModelCamera};
-pub use check::{CheckReport, check_bytes, check_file};
 pub use colormap::Colormap;
 pub use diagnostic::{Diagnostic, Severity, codes};
-pub use import::{FileFormat, ImportError, ImportOptions, Limits, ScalarColors, load, load_bytes};
 pub use length_unit::LengthUnit;
 pub use light::{LightKind, PunctualLight};
 pub use material::{
@@ -52,7 +56,6 @@ pub use texture::{
 };
 pub use timings::Timings;
 pub use up_axis::UpAxis;
-pub use visible_text::{is_terminal_control, visible_path, visible_text};
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

@@ -182,3 +182,26 @@ pub enum AlphaMode {
     /// Alpha is the coverage with which the surface is blended over what is behind it.
     Blend,
 }
+
+impl Material {
+    /// The material of models in formats without materials: light gray, matte and double-sided.
+    ///
+    /// The default of glTF is a metal, which mirrors whatever is around it. Both sides are drawn,
+    /// as many files in these formats have triangles of either winding.
+    #[must_use]
+    pub fn plain() -> Self {
+        Self {
+            base_color: [0.6, 0.6, 0.6, 1.0],
+            metallic: 0.0,
+            roughness: 0.6,
+            double_sided: true,
+            ..Self::default()
+        }
+    }
+
+    /// The material of surfaces with colors of scalars: white, matte, shown from both sides.
+    #[must_use]
+    pub fn white() -> Self {
+        Self { base_color: [1.0; 4], ..Self::plain() }
+    }
+}

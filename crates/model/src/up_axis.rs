@@ -42,7 +42,7 @@ impl Model {
     ///
     /// Parents instead of changed roots, as animations may set the transforms of those. The new
     /// nodes come last, so that all others keep their indices.
-    pub(crate) fn rotate_roots(&mut self, up: UpAxis) {
+    pub fn rotate_roots(&mut self, up: UpAxis) {
         self.up_axis = up;
         if up == UpAxis::Y {
             return;

@@ -46,15 +46,19 @@ pub mod sequence;
 
 pub use cancel::CancelToken;
 pub use drawing;
+pub use files::{AtomicFile, OutputError, write_file};
 pub use homog::PixelRect;
-pub use model::{self, Timings, import};
+pub use import;
+pub use model;
+pub use model::Timings;
+pub use picture::{self, Channel, Picture, PngRows, encode_png};
 pub use render::{
     MAX_IMAGE_SIDE, PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError,
     draw_lines, dxf_options, render,
 };
 pub use scene::options;
 pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
-pub use shade::{self, AtomicFile, Channel, OutputError, Picture, PngRows, encode_png, write_file};
+pub use shade::{self, FrameChannel};
 #[cfg(feature = "sheets")]
 pub use sheet;
 
@@ -70,12 +74,12 @@ mod tests {
     fn everything_can_go_to_another_thread() {
         fn assert_send_sync<T: Send + Sync + 'static>() {}
         assert_send_sync::<(crate::Origin, crate::SceneFile, crate::Scene)>();
-        assert_send_sync::<(shade::Picture, model::Timings, crate::CancelToken)>();
+        assert_send_sync::<(picture::Picture, model::Timings, crate::CancelToken)>();
         assert_send_sync::<(crate::Renderer, crate::sequence::Sequence)>();
         assert_send_sync::<crate::explain::Explanation>();
         assert_send_sync::<(drawing::Page, drawing::LineDrawing, sheet::Sheet)>();
         assert_send_sync::<(crate::SceneError, crate::ResolveError, crate::RenderError)>();
-        assert_send_sync::<(shade::OutputError, model::import::ImportError)>();
-        assert_send_sync::<model::import::ImportOptions>();
+        assert_send_sync::<(files::OutputError, import::ImportError)>();
+        assert_send_sync::<import::ImportOptions>();
     }
 }

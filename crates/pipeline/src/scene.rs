@@ -99,7 +99,7 @@ pub use suggest::closest_name;
 use camera::ViewProjection;
 use drawing::{LineStyle, Overlay};
 use homog::{PixelRect, Plane, Point, World};
-use model::import::ImportError;
+use import::ImportError;
 use model::{Colormap, ModelInstance};
 use raster::Samples;
 use shade::{Backdrop, Environment, Light, ToneMapper};
@@ -335,7 +335,7 @@ pub enum ResolveError {
 
 /// Why a scene file cannot be read; one that is missing is reported as a missing model is.
 fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
-    let path = model::visible_path(path);
+    let path = files::visible_path(path);
     match cause.kind() {
         std::io::ErrorKind::NotFound => format!("{path}: the file does not exist; check the name"),
         _ => format!("cannot read {path}: {cause}"),

@@ -65,7 +65,7 @@ impl NativeDrawing {
 
     /// The page as a PDF file.
     fn pdf<'py>(&self, py: Python<'py>) -> Bound<'py, pyo3::types::PyBytes> {
-        let bytes = py.detach(|| drawing::to_pdf(std::slice::from_ref(&self.page)));
+        let bytes = py.detach(|| page::to_pdf(std::slice::from_ref(&self.page)));
         pyo3::types::PyBytes::new(py, &bytes)
     }
 

@@ -6,8 +6,8 @@
 //!  panics ───────────────┘
 //! ```
 
+use import::ImportError;
 use model::codes;
-use model::import::ImportError;
 use pipeline::drawing::DrawError;
 use pipeline::{RenderError, ResolveError, SceneError};
 use pyo3::prelude::*;

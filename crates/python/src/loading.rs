@@ -7,7 +7,7 @@ use crate::keywords::{Keywords, not_a};
 use crate::subject::Subject;
 use glam::DMat4;
 use homog::Affine;
-use model::import::{ImportOptions, Limits, NameOrIndex, load, load_bytes};
+use import::{ImportOptions, Limits, NameOrIndex, load, load_bytes};
 use model::{Model, ModelInstance};
 use pipeline::Origin;
 use pipeline::scene::file::Choice;

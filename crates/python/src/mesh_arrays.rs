@@ -9,7 +9,7 @@ use crate::mesh_colors::{read_colors, read_texture};
 use crate::mesh_material::read_material;
 use crate::subject::Subject;
 use homog::Affine;
-use model::import::{ImportOptions, Limits, MeshArrays, MeshNode, load_arrays};
+use import::{ImportOptions, Limits, MeshArrays, MeshNode, load_arrays};
 use pipeline::Origin;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};

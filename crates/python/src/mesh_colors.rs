@@ -4,8 +4,8 @@
 use crate::arrays::{self, Numbers};
 use crate::failure::Failure;
 use crate::keywords::Keywords;
+use import::{Limits, decode_image};
 use model::Image;
-use model::import::{Limits, decode_image};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 

@@ -6,7 +6,7 @@
 use crate::failure::Failure;
 use crate::keywords::{Keywords, not_a};
 use crate::mesh_colors::linear_colors;
-use model::import::PhongMaterial;
+use import::PhongMaterial;
 use model::{AlphaMode, Material};
 use pipeline::scene::file::Color;
 use pyo3::prelude::*;

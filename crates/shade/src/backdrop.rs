@@ -13,8 +13,8 @@ mod image;
 pub use gradient::Gradient;
 pub use image::{BackdropImage, ImageFit};
 
-use crate::Picture;
 use crate::color::SrgbEncoder;
+use picture::Picture;
 
 /// A background behind the models.
 #[derive(Clone, PartialEq, Debug)]

@@ -11,6 +11,7 @@ mod draw;
 mod environment;
 mod environment_background;
 mod fragment_lanes;
+mod frame_channel;
 mod ground_occlusion;
 mod kernel_part;
 mod lanes;
@@ -18,8 +19,6 @@ mod light;
 mod light_shadow;
 mod material_inputs;
 mod material_textures;
-mod output;
-mod picture;
 mod procedural_sky;
 mod shading;
 mod shading_style;
@@ -39,15 +38,11 @@ pub use attributes::{NORMAL, POSITION, UV, Vertex};
 pub use backdrop::{Backdrop, BackdropImage, Gradient, ImageFit};
 pub use draw::{Draw, DrawKind, DrawList, Tangents};
 pub use environment::Environment;
+pub use frame_channel::FrameChannel;
 pub use ground_occlusion::{GroundGrid, GroundOcclusion, HeightSlab};
 pub use light::Light;
 pub use light_shadow::LightShadow;
 pub use material_textures::{MaterialTexture, MaterialTextures};
-pub use output::{
-    AtomicFile, OutputError, PngRows, create_partial_file, encode_png, forget_partial_file,
-    register_partial_file, remove_partial_files, write_file,
-};
-pub use picture::{Channel, Picture};
 pub use procedural_sky::PreethamSky;
 pub use shading::Shading;
 pub use shading_style::{ShadingStyle, StyledShading};

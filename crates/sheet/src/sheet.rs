@@ -66,10 +66,9 @@ use crate::assembly::AssemblyPages;
 use annotation::{AnnotationLayer, Extent};
 use camera::NamedView;
 use composition::ComposedDrawing;
-use drawing::palette::{BLACK, WHITE};
 use drawing::{
-    DimensionFault, DrawError, FaceFill, Group, HiddenLines, Ink, IsoLineGroup, Layer, LineStyle,
-    LineWidths, Overlay, Page, Pen, Placement, Polyline, Warning, missing_glyph_warning,
+    DimensionFault, DrawError, FaceFill, HiddenLines, LineStyle, LineWidths, Overlay, Page,
+    Placement, Warning, missing_glyph_warning,
 };
 pub use frame_zones::SheetFrame;
 use glam::DVec2;
@@ -78,6 +77,8 @@ use length_format::LengthFormat;
 pub use length_format::{DecimalMark, DimensionUnit, NumberFormat};
 pub use measure::{Dimension, DimensionSide, LengthDirection, Measure};
 use model::{ModelInstance, model_names};
+use page::palette::{BLACK, WHITE};
+use page::{Group, Ink, IsoLineGroup, Layer, Pen, Polyline};
 use projection::SheetAngle;
 pub use sheet_fill::{ScaleLimit, SheetFill};
 use surface_cache::SurfaceCache;

@@ -2,14 +2,10 @@
 
 use crate::{glb, promises};
 use homog::Affine;
-use model::Model;
-use model::ModelInstance;
-use model::import::{
-    ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, check_bytes, load_bytes,
-};
-use pipeline::scene::file::{
-    CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile,
-};
+use model::{Model, ModelInstance};
+use import::{ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, load_bytes};
+use gltf_check::check_bytes;
+use pipeline::scene::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};
 use pipeline::{Origin, Scene, render};
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -8,23 +8,19 @@ use crate::metadata::{Metadata, short_name};
 /// Crates that only one part of the code may name, so that they can be replaced, and the paths of
 /// that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
-    ("gltf", &["crates/model/src/import"]),
+    ("gltf", &["crates/import/src"]),
     ("ron", &["crates/pipeline/src/scene"]),
     (
         "serde",
         &[
             "crates/pipeline/src/scene",
-            "crates/model/src/import/gltf/located_json.rs",
+            "crates/import/src/gltf/located_json.rs",
             "crates/alberti/src/batch",
         ],
     ),
     (
         "tiny_skia",
-        &[
-            "crates/drawing/src/canvas",
-            "crates/drawing/src/lib.rs",
-            "crates/raster/examples/pixmap.rs",
-        ],
+        &["crates/page/src/canvas", "crates/page/src/lib.rs", "crates/raster/examples/pixmap.rs"],
     ),
     ("clap", &["crates/alberti/src"]),
 ];
@@ -34,7 +30,7 @@ const NAMED_BY: &[(&str, &[&str])] = &[
 ///
 /// No stage depends on another one, `model` knows no scene, and `shade`, `drawing` and `sheet` do not
 /// know the pipeline that uses them.
-const LAYERS: &[(&str, Option<&[&str]>)] = &[
+pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("homog", None),
     ("camera", Some(&["homog"])),
     ("projection", Some(&["homog"])),
@@ -42,8 +38,13 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("clip", Some(&["homog"])),
     ("viewport", Some(&["homog"])),
     ("raster", Some(&["homog"])),
-    ("model", Some(&["homog", "raster"])),
-    ("shade", Some(&["homog", "camera", "raster", "model"])),
+    ("files", Some(&[])),
+    ("picture", Some(&["files"])),
+    ("page", Some(&["homog", "picture"])),
+    ("model", Some(&["homog", "raster", "files"])),
+    ("import", Some(&["homog", "files", "model"])),
+    ("gltf-check", Some(&["model", "import"])),
+    ("shade", Some(&["homog", "camera", "raster", "picture", "model"])),
     ("drawing", None),
     ("sheet", None),
     ("pipeline", None),
@@ -158,7 +159,7 @@ mod tests {
             places("crates/pipeline/src/scene/file.rs"),
             ["crates/pipeline/src/scene/file.rs:2"]
         );
-        assert_eq!(places("crates/model/src/import/mesh.rs"), [""; 0]);
+        assert_eq!(places("crates/import/src/mesh.rs"), [""; 0]);
     }
 
     #[test]

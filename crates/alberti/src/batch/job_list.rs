@@ -14,7 +14,7 @@ use super::output_names::{OutputNames, same_output_fault};
 use super::picture_name::PictureName;
 use super::render_flags::FlagTable;
 use crate::CliError;
-use model::{visible_path, visible_text};
+use files::{visible_path, visible_text};
 use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};

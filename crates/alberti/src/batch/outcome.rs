@@ -5,7 +5,7 @@ use super::pool::JobPolicy;
 use super::report::{FAILED, JobRecord};
 use super::worker_process::WorkerEnd;
 use crate::CliError;
-use model::visible_text;
+use files::visible_text;
 
 /// The outcome of a step of a run.
 pub(super) type Outcome = Result<(), RunStop>;

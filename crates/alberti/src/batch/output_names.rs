@@ -32,7 +32,7 @@ fn same_file_name(output: &str) -> String {
 /// What is wrong with two lines of one output.
 pub(super) fn same_output_fault(lines: [u64; 2], output: &str) -> String {
     let [first, second] = lines;
-    let output = model::visible_text(output);
+    let output = files::visible_text(output);
     format!(
         "lines {first} and {second} have the same output {output}\n  = help: give each picture an \
          output of its own"

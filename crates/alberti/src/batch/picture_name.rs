@@ -6,7 +6,7 @@
 //! ```
 
 use crate::template::NameTemplate;
-use model::visible_text;
+use files::visible_text;
 use sha2::{Digest, Sha256};
 use std::path::{Component, Path};
 

@@ -16,7 +16,7 @@ use super::report::{DONE, JobRecord, ReportWriter};
 use super::tar_output::TarOutput;
 use super::worker_process::{WorkerEnd, WorkerProcess};
 use crate::CliError;
-use pipeline::shade::register_partial_file;
+use files::register_partial_file;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};

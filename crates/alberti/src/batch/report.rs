@@ -15,7 +15,7 @@
 use super::Shard;
 use super::left_over::remove_left_over;
 use crate::CliError;
-use model::visible_path;
+use files::visible_path;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};

@@ -5,7 +5,7 @@
 
 use super::report::{DONE, FAILED, REPORTS_FOLDER, run_number};
 use crate::CliError;
-use model::visible_path;
+use files::visible_path;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read as _};

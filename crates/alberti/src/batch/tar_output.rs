@@ -10,7 +10,7 @@
 use super::report::{JobRecord, REPORTS_FOLDER, ReportWriter, write_error};
 use super::tar_format::{append_file, finish_archive};
 use crate::CliError;
-use pipeline::shade::{create_partial_file, forget_partial_file};
+use files::{create_partial_file, forget_partial_file};
 use std::fs::File;
 use std::io::{BufWriter, ErrorKind};
 use std::path::{Path, PathBuf};

@@ -9,7 +9,7 @@ use super::tar_output::sample_name;
 use crate::CliError;
 use crate::content_digest::{ContentDigest, parse_sha256};
 use crate::messages::print_text;
-use model::visible_text;
+use files::visible_text;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, ErrorKind};

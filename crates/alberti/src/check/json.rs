@@ -13,7 +13,8 @@
 //! others.
 
 use super::CheckResult;
-use model::{CheckReport, Diagnostic};
+use gltf_check::CheckReport;
+use model::Diagnostic;
 use pipeline::SceneError;
 use pipeline::scene::Lint;
 use serde_json::{Value, json};

@@ -6,8 +6,8 @@
 use crate::CliError;
 use crate::referenced_files::referenced_files;
 use crate::render::is_scene_file;
-use model::import::Limits;
-use model::visible_path;
+use files::visible_path;
+use import::Limits;
 use pipeline::scene::parse_scene;
 use std::collections::BTreeMap;
 use std::fs::File;

@@ -1,7 +1,7 @@
 //! Requests: the first line and the headers of HTTP/1.1, read within limits and checked.
 
 use super::response::Response;
-use model::import::percent_decode;
+use import::percent_decode;
 use std::io::Read;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};

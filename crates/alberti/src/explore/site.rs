@@ -9,7 +9,7 @@ use super::token::strip_token;
 use crate::CliError;
 use crate::render::is_scene_file;
 use explorer::{Explorer, ExplorerError};
-use model::import::percent_encode;
+use import::percent_encode;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;

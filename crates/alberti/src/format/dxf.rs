@@ -1,7 +1,8 @@
 //! DXF output: the flag for its arcs, and what the format leaves out.
 
 use super::OutputFormat;
-use drawing::{DxfOptions, Page, Warning};
+use drawing::{Page, Warning};
+use page::DxfOptions;
 
 /// Arguments of DXF output.
 #[derive(Debug, clap::Args)]

@@ -22,7 +22,7 @@ use super::scenes::{cameras_json, lights_json, meshes_json, nodes_json, scenes_j
 use crate::args::InfoArgs;
 use crate::model_state::ModelStateArgs;
 use homog::Bounds;
-use model::import::{ExtensionUse, extension_use};
+use import::{ExtensionUse, extension_use};
 use model::{
     Animation, AnimationChannel, AnimationTarget, Interpolation, Model, NodeProperty, Primitive,
     Skin, Topology, UvTransform, UvTransformPart,

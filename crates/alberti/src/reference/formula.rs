@@ -5,7 +5,7 @@
 
 use super::text::wrap_paragraphs;
 use super::{ReferenceEntry, ReferenceFormat, ReferenceSection};
-use drawing::escape_markup;
+use page::escape_markup;
 use pipeline::formulas::Formula;
 
 /// The entry of a formula: name, formula and meaning, sources, and the command that shows it.

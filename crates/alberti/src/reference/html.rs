@@ -4,7 +4,7 @@
 //! value, such as `list of Model`.
 
 use super::{ReferenceEntry, ReferenceSection};
-use drawing::escape_markup;
+use page::escape_markup;
 
 /// The style sheet of the page, for light and dark color schemes.
 const PAGE_STYLE: &str = "\

@@ -9,7 +9,7 @@ use crate::format::OutputFormat;
 use crate::scene_overrides::SceneOverrideArgs;
 use crate::template::NameTemplate;
 use clap::ValueEnum;
-use model::visible_path;
+use files::visible_path;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

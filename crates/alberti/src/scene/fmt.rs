@@ -1,7 +1,7 @@
 //! `alberti scene fmt`: formats scene files.
 
 use crate::{CliError, print_stdout, print_text};
-use model::visible_path;
+use files::visible_path;
 use pipeline::scene::format_source;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};

@@ -14,7 +14,8 @@
 
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_text};
-use model::{Model, Topology, visible_path};
+use files::visible_path;
+use model::{Model, Topology};
 use pipeline::scene::file::NonNegative;
 use pipeline::scene::{ResolveOptions, format_source};
 use pipeline::{Origin, ResolveError, Scene};

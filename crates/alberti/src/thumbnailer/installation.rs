@@ -164,7 +164,7 @@ fn update_database(folder: &Path) -> Result<String, CliError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::FileFormat;
+    use import::FileFormat;
 
     #[test]
     fn every_extension_and_every_type_is_in_the_mime_types() {

@@ -5,10 +5,10 @@
 //! product of the images of x and z.
 
 use super::{AXES, LETTER_HEIGHT, PicturePlane, overlay_layer};
-use crate::palette::BROWN;
-use crate::{Group, Label, Layer, LineType, Polyline, TextAlign};
 use glam::{DVec2, DVec3};
 use homog::Vector;
+use page::palette::BROWN;
+use page::{Group, Label, Layer, LineType, Polyline, TextAlign};
 
 /// The radius of the ring around a vanishing point, in millimeters.
 const RING_RADIUS: f64 = 0.8;

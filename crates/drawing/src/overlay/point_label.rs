@@ -10,12 +10,14 @@
 //! Labels are over the models, also where these hide the point.
 
 use super::{LETTER_HEIGHT, LINE_WIDTH, PicturePlane, overlay_layer};
-use crate::page::{Group, Ink, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline, to_millimeters};
-use crate::stroke_font::missing_glyphs;
-use crate::{Label, Overlay, Subject, TextAlign, Warning};
+use crate::{Overlay, Subject, Warning};
 use camera::ViewProjection;
 use glam::{DVec2, DVec3};
 use homog::{Point, World};
+use page::{
+    Group, Ink, Label, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline, TextAlign, missing_glyphs,
+    to_millimeters,
+};
 
 /// The distance between a leader line and the text, in heights of letters.
 const LEADER_GAP: f64 = 0.3;

@@ -11,11 +11,11 @@
 //! so any projection can be shown: an oblique one is a sheared box, one without an eye has no rays.
 
 use super::{LETTER_HEIGHT, PicturePlane, overlay_layer};
-use crate::palette::BLUE;
-use crate::{Group, Label, Layer, TextAlign};
 use camera::ViewProjection;
 use glam::DVec2;
 use homog::{HPoint, Point, World};
+use page::palette::BLUE;
+use page::{Group, Label, Layer, TextAlign};
 use projection::{Convention, ViewVolume};
 
 impl PicturePlane {

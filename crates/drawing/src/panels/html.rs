@@ -5,8 +5,8 @@
 //! window.
 
 use super::{Page, Panel, Panels};
-use crate::markup::escape_markup;
 use glam::DVec2;
+use page::escape_markup;
 use std::fmt::Write as _;
 
 /// The style sheet of the page: figures wrap as the window is wide.

@@ -30,16 +30,17 @@ pub enum ObjectProperty {
 }
 
 /// A row of a property table: pointer, number of components, bounds and access to the numbers.
-pub(crate) struct PropertyRow<T> {
+#[derive(Debug)]
+pub struct PropertyRow<T> {
     /// JSON pointer into the object, without the leading slash.
-    pub(crate) path: &'static str,
+    pub path: &'static str,
     /// Number of components.
-    pub(crate) component_count: usize,
+    pub component_count: usize,
     /// The least and the greatest value.
-    pub(crate) bounds: [f32; 2],
+    pub bounds: [f32; 2],
     /// Access to the numbers; `None` where the object lacks the extension or texture they belong
     /// to.
-    pub(crate) numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
+    pub numbers_mut: fn(&mut T) -> Option<&mut [f32]>,
 }
 
 /// A row of a property table; the order of the arguments is that of the figure above.
@@ -70,7 +71,7 @@ fn single_number(number: &mut f32) -> Option<&mut [f32]> {
 
 /// Animatable properties of materials.
 #[rustfmt::skip]
-pub(crate) static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
+pub static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
     property_row("pbrMetallicRoughness/baseColorFactor", 4, UNIT_RANGE, |m| Some(&mut m.base_color)),
     property_row("pbrMetallicRoughness/metallicFactor", 1, UNIT_RANGE, |m| single_number(&mut m.metallic)),
     property_row("pbrMetallicRoughness/roughnessFactor", 1, UNIT_RANGE, |m| single_number(&mut m.roughness)),
@@ -108,7 +109,7 @@ pub(crate) static MATERIAL_PROPERTIES: [PropertyRow<Material>; 30] = [
 
 /// Animatable properties of lights.
 #[rustfmt::skip]
-pub(crate) static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
+pub static LIGHT_PROPERTIES: [PropertyRow<PunctualLight>; 5] = [
     property_row("color", 3, UNIT_RANGE, |light| Some(&mut light.color)),
     property_row("intensity", 1, NON_NEGATIVE, |light| single_number(&mut light.intensity)),
     property_row("range", 1, STRICTLY_POSITIVE, |light| match &mut light.kind {
@@ -212,14 +213,14 @@ fn set_clamped<T>(
 
 impl Material {
     /// Sets a property, clamped to its bounds.
-    pub(crate) fn set_property(&mut self, row_index: usize, value: &[f64]) {
+    pub fn set_property(&mut self, row_index: usize, value: &[f64]) {
         set_clamped(&MATERIAL_PROPERTIES, row_index, self, value);
         self.update_derived();
     }
 
     /// Recomputes fields that follow from others: emitted radiance, valid indices of refraction,
     /// and the metallic-roughness approximation of specular-glossiness.
-    pub(crate) fn update_derived(&mut self) {
+    pub fn update_derived(&mut self) {
         self.emissive = self.emission.scaled_color();
         if self.extensions.ior > 0.0 {
             self.extensions.ior = self.extensions.ior.max(1.0);
@@ -233,7 +234,7 @@ impl Material {
 
 impl PunctualLight {
     /// Sets a property, clamped to its bounds.
-    pub(crate) fn set_property(&mut self, row_index: usize, value: &[f64]) {
+    pub fn set_property(&mut self, row_index: usize, value: &[f64]) {
         set_clamped(&LIGHT_PROPERTIES, row_index, self, value);
         self.order_cone_angles();
     }
@@ -242,7 +243,7 @@ impl PunctualLight {
     ///
     /// Shading divides by the difference of their cosines. Both corrections are far below the
     /// resolution of a picture.
-    pub(crate) fn order_cone_angles(&mut self) {
+    pub fn order_cone_angles(&mut self) {
         if let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
             &mut self.kind
         {
@@ -257,7 +258,7 @@ impl CameraProjection {
     ///
     /// The change is made on a copy and validated as a whole, because validity depends on two
     /// numbers: near must remain less than far.
-    pub(crate) fn set_property(&mut self, row_index: usize, value: f64) {
+    pub fn set_property(&mut self, row_index: usize, value: f64) {
         let mut changed = *self;
         match (&mut changed, row_index) {
             (Self::Perspective { fov_y, .. }, 0) => *fov_y = value,
@@ -278,7 +279,7 @@ impl CameraProjection {
     }
 
     /// Whether the property belongs to this type of projection.
-    pub(crate) fn has_property(&self, field: ObjectProperty) -> bool {
+    pub fn has_property(&self, field: ObjectProperty) -> bool {
         match (self, field) {
             (Self::Perspective { .. }, ObjectProperty::Camera(row_index)) => row_index < 4,
             (Self::Orthographic { .. }, ObjectProperty::Camera(row_index)) => row_index >= 4,

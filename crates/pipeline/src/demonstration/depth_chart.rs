@@ -10,10 +10,9 @@
 
 use super::depth_table::{DepthRow, DepthTable};
 use super::number_format::format_short;
-use drawing::{
-    Axis, AxisMark, Chart, Curve, Group, Ink, Label, Layer, Page, Pen, Spacing, TextAlign,
-};
+use drawing::{Axis, AxisMark, Chart, Curve, Page, Spacing};
 use glam::DVec2;
+use page::{Group, Ink, Label, Layer, Pen, TextAlign};
 use projection::DepthFormat;
 
 /// The color of text and axes.
@@ -219,7 +218,7 @@ fn table_layer(cells: &[[String; 5]]) -> Layer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drawing::to_millimeters;
+    use page::to_millimeters;
     use projection::Convention;
 
     /// The drawn curve is the formula, F(D − N)/((F − N)D), to the micrometre of the page.

@@ -16,11 +16,10 @@ use super::DemonstrationError;
 use super::number_format::format_short;
 use camera::Camera;
 use clip::{Volume, clip_convex, clip_segment};
-use drawing::{
-    Cap, Group, Ink, Join, Label, Layer, LineType, Page, Panel, Panels, Pen, Polyline, TextAlign,
-};
+use drawing::{Page, Panel, Panels};
 use glam::DVec2;
 use homog::{Clip, HPoint, Ndc, Point, Projective, Vector, World};
+use page::{Cap, Group, Ink, Join, Label, Layer, LineType, Pen, Polyline, TextAlign};
 use projection::{Convention, Fov, Perspective};
 
 /// The color of boards ahead of the eye.
@@ -297,7 +296,7 @@ fn with_thin_pen(mut layer: Layer) -> Layer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drawing::to_millimeters;
+    use page::to_millimeters;
 
     fn stroke_heights(panel: &Panel, layer: &str) -> Vec<f64> {
         let found = panel.page.layers.iter().filter(|found| found.id == layer);

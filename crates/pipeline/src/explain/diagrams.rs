@@ -20,7 +20,7 @@ use super::{Explanation, ItemValue};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use homog::HPoint;
-use shade::Picture;
+use picture::Picture;
 
 /// Width and height of a volume diagram in SVG user units; the page scales it to the column.
 const SIZE: [f64; 2] = [300.0, 220.0];

@@ -7,7 +7,7 @@ use super::diagrams::draw_diagrams;
 use super::plain_text::format_number;
 use super::transform_chain::TransformChain;
 use super::{Explanation, ExplanationEntry, ItemValue, Step};
-use shade::Picture;
+use picture::Picture;
 
 impl Explanation {
     /// Formats the explanation as an HTML page. `chain` is the chain it was made with; `picture`,

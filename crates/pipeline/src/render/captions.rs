@@ -2,13 +2,12 @@
 
 use crate::Picture;
 use crate::scene::{ImageSpec, Scene};
-use drawing::{
-    Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, Warning, draw_layers_over, label_warnings,
-    missing_glyph_warning, palette::ink_on_paper,
-};
+use drawing::{Warning, label_warnings, missing_glyph_warning};
 use glam::DVec2;
 use homog::PixelRect;
-use shade::Channel;
+use page::palette::ink_on_paper;
+use page::{Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, draw_layers_over};
+use picture::Channel;
 use shade::color::SrgbEncoder;
 
 /// The height of capitals, and the room at each end of the text, as parts of the strip's height.

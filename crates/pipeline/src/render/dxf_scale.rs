@@ -8,10 +8,11 @@
 //! plate is the plate. Others are shortened as the projection says; the file is not enlarged by that.
 
 use crate::Scene;
-use drawing::{DxfOptions, MILLIMETERS_PER_PIXEL, Page};
+use drawing::Page;
 use glam::DVec2;
 use homog::Point;
 use model::LengthUnit;
+use page::{DxfOptions, DxfUnit, MILLIMETERS_PER_PIXEL};
 
 /// The coordinates of a page of [`draw_lines`](super::draw_lines()) in a DXF file.
 #[must_use]
@@ -22,7 +23,7 @@ pub fn dxf_options(scene: &Scene, page: &Page) -> DxfOptions {
         return on_paper;
     };
     DxfOptions {
-        unit: common_unit(scene),
+        unit: common_unit(scene).map(dxf_unit),
         units_per_millimeter: 1.0 / (pixels_per_unit * MILLIMETERS_PER_PIXEL),
         origin,
         ..on_paper
@@ -45,4 +46,15 @@ fn common_unit(scene: &Scene) -> Option<LengthUnit> {
     let mut units = scene.models.iter().map(|placed| placed.model.length_unit);
     let first = units.next().unwrap_or_default();
     units.all(|unit| unit == first).then_some(first)
+}
+
+const fn dxf_unit(unit: LengthUnit) -> DxfUnit {
+    match unit {
+        LengthUnit::Micrometer => DxfUnit::Micrometer,
+        LengthUnit::Millimeter => DxfUnit::Millimeter,
+        LengthUnit::Centimeter => DxfUnit::Centimeter,
+        LengthUnit::Meter => DxfUnit::Meter,
+        LengthUnit::Inch => DxfUnit::Inch,
+        LengthUnit::Foot => DxfUnit::Foot,
+    }
 }

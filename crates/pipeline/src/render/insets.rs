@@ -12,7 +12,7 @@
 use crate::Picture;
 use crate::scene::{Inset, Scene};
 use homog::PixelRect;
-use shade::Channel;
+use picture::Channel;
 
 impl Scene {
     /// Whether every pixel of the picture is certainly opaque: the scene's background and those of

@@ -12,13 +12,13 @@ use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
 use crate::Picture;
 use crate::scene::{ImageSpec, Inset, Scene, Style};
-use drawing::{
-    DrawError, DrawOptions, Group, Ink, Join, Layer, LineStyle, LineWidths, MILLIMETERS_PER_PIXEL,
-    Overlay, Page, Pen, PlacedImage, Polyline, Warning, to_micrometers,
-};
+use drawing::{DrawError, DrawOptions, LineStyle, LineWidths, Overlay, Page, Warning};
 use glam::DVec2;
 use homog::PixelRect;
 use model::Timings;
+use page::{
+    Group, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Pen, PlacedImage, Polyline, to_micrometers,
+};
 use shade::Backdrop;
 
 /// The longest side in pixels of a backdrop embedded in a vector page.

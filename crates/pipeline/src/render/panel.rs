@@ -5,8 +5,9 @@
 
 use super::{RenderContext, RenderError, Renderer, Textures, draw_lines};
 use crate::{Picture, Scene, Timings};
-use drawing::{MILLIMETERS_PER_PIXEL, Page, Panel, PlacedImage, to_micrometers};
+use drawing::{Page, Panel};
 use glam::DVec2;
+use page::{MILLIMETERS_PER_PIXEL, PlacedImage, to_micrometers};
 
 /// Pixels of a raster picture along each pixel of its panel, for sharp prints.
 const PICTURE_SCALE: u32 = 2;

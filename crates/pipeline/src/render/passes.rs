@@ -33,7 +33,7 @@ use geometry::{Hit, SceneGeometry};
 use homog::PixelRect;
 use model::Timings;
 use raster::{Fragment, Opacity, Samples, Surface};
-use shade::Channel;
+use shade::FrameChannel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`
 /// threads, whose number does not change them.

@@ -18,7 +18,7 @@ use super::transmission_framebuffer::{compute_whole_occlusion, render_framebuffe
 use crate::scene::Scene;
 use model::Model;
 use raster::{Fragment, Fragments, Frame, Surface, TranslucentColors};
-use shade::Channel;
+use shade::FrameChannel;
 use std::sync::{Mutex, PoisonError};
 
 /// One pixel of a picture and the fragments behind it.

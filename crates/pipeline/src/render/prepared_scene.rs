@@ -22,10 +22,11 @@ use super::transmission_framebuffer::{
 };
 use crate::Picture;
 use crate::scene::Inset;
-use drawing::{Layer, Page, Warning, draw_layers_over};
+use drawing::{Page, Warning};
 use homog::PixelRect;
+use page::{Layer, draw_layers_over};
 use raster::Surface;
-use shade::{AmbientOcclusion, Channel, TransmissionFramebuffer};
+use shade::{AmbientOcclusion, FrameChannel, TransmissionFramebuffer};
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
 ///
@@ -70,7 +71,7 @@ enum OnlyColor {
 
 impl OnlyColor {
     /// Takes the pixels of a further region into account, up to the first that differs.
-    fn add_pixels<C: Channel>(&mut self, picture: &Picture<C>) {
+    fn add_pixels<C: FrameChannel>(&mut self, picture: &Picture<C>) {
         if *self == Self::Several {
             return;
         }
@@ -149,7 +150,7 @@ impl<'a> PreparedScene<'a> {
     /// # Errors
     /// If the region is empty, too large or outside the picture, if the scene has too many
     /// primitives, or the context was cancelled.
-    pub fn render_region<C: Channel>(
+    pub fn render_region<C: FrameChannel>(
         &mut self,
         region: PixelRect,
         picture: &mut Picture<C>,
@@ -177,7 +178,7 @@ impl<'a> PreparedScene<'a> {
     }
 
     /// Renders a region without the insets: lines, or surfaces with the layers over them.
-    fn render_below_insets<C: Channel>(
+    fn render_below_insets<C: FrameChannel>(
         &mut self,
         region: PixelRect,
         picture: &mut Picture<C>,
@@ -193,7 +194,7 @@ impl<'a> PreparedScene<'a> {
     }
 
     /// Renders the surfaces of a region, one image tile after the other.
-    fn render_surfaces<C: Channel>(
+    fn render_surfaces<C: FrameChannel>(
         &mut self,
         region: PixelRect,
         picture: &mut Picture<C>,
@@ -253,7 +254,7 @@ impl<'a> PreparedScene<'a> {
 
     /// Renders the part of an image tile that a region needs: vertex processing and primitive
     /// assembly into a visibility buffer, then shading of its visible fragments.
-    fn render_tile<C: Channel>(
+    fn render_tile<C: FrameChannel>(
         &mut self,
         region: TileRegion,
         pixels: &mut [[C; 4]],

@@ -12,7 +12,7 @@ use crate::Picture;
 use drawing::Warning;
 use homog::PixelRect;
 use raster::Frame;
-use shade::{Channel, Draw, DrawList, Vertex};
+use shade::{Draw, DrawList, FrameChannel, Vertex};
 
 /// Renders whole pictures: surfaces or lines, outlines, overlays and insets.
 ///
@@ -49,7 +49,7 @@ impl Renderer {
     /// # Errors
     /// If the picture's size is out of range, the scene has too many primitives, or the context was
     /// cancelled.
-    pub fn render<C: Channel>(
+    pub fn render<C: FrameChannel>(
         &mut self,
         context: &RenderContext<'_>,
         picture: &mut Picture<C>,

@@ -9,7 +9,8 @@ use super::RenderError;
 use super::prepared_scene::PreparedScene;
 use crate::Picture;
 use homog::PixelRect;
-use shade::{Channel, encode_png};
+use picture::encode_png;
+use shade::FrameChannel;
 use std::io::{self, Write};
 
 /// The bytes of pixels that a band holds at most, for pictures of reasonable width.
@@ -59,7 +60,7 @@ impl PreparedScene<'_> {
     }
 
     /// Writes the bands of a file with channels of this type.
-    fn write_bands<C: Channel>(
+    fn write_bands<C: FrameChannel>(
         &mut self,
         out: &mut dyn Write,
         region: PixelRect,
@@ -90,7 +91,7 @@ impl PreparedScene<'_> {
 
     /// Whether all bands are opaque. Over an opaque background all are; else they are rendered up
     /// to the first translucent pixel.
-    fn bands_are_opaque<C: Channel>(
+    fn bands_are_opaque<C: FrameChannel>(
         &mut self,
         bands: impl Iterator<Item = PixelRect>,
     ) -> Result<bool, RenderError> {

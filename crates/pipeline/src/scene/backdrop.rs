@@ -12,10 +12,8 @@ use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile, StyleFile};
 use super::surrounding_light::read_image_bytes;
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError};
-use model::import::decode_image;
-use shade::Backdrop;
-use shade::BackdropImage;
-use shade::Gradient;
+use import::decode_image;
+use shade::{Backdrop, BackdropImage, Gradient};
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@ use super::source_text::SourceText;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use core::fmt;
 use core::ops::Range;
-use model::visible_text;
+use files::visible_text;
 
 /// Lines of more bytes are not quoted.
 #[cfg(feature = "terminal")]

@@ -16,12 +16,11 @@ use super::shared_scale::share_scale_of_viewports;
 use super::syntax::PathStep::{Field, Index};
 use super::{Origin, ResolveError, Scene, SceneError};
 use camera::ViewProjection;
-use drawing::Ink;
 use glam::{DMat4, DVec4};
 use homog::PixelRect;
 use homog::{Bounds, Point, Projective};
-use model::ModelInstance;
-use model::world_points;
+use model::{ModelInstance, world_points};
+use page::Ink;
 
 /// The most viewports of a scene.
 const MAX_VIEWPORTS: usize = 256;

@@ -7,8 +7,9 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::{CameraAxes, NamedView};
-use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
+use drawing::{EdgeSelection, FaceFill, HiddenLines, SilhouetteMethod};
 use model::{Colormap, LengthUnit, UpAxis};
+use page::{Cap, Join};
 use projection::{PixelCenters, PrincipalView, SheetAngle};
 use shade::{ImageFit, ToneMapping};
 use sheet::{DecimalMark, DimensionUnit, ExplosionAxis, SheetFrame, TitleBlockLanguage};

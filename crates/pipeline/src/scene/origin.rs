@@ -8,7 +8,7 @@ use super::parse::strip_byte_order_mark;
 use super::source_text::SourceText;
 use super::syntax::PathStep;
 use super::{ResolveError, SceneError, SceneErrors, SceneFile};
-use model::import::MemoryFolder;
+use import::MemoryFolder;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 

@@ -5,9 +5,10 @@ use super::number::{Finite, Positive};
 use super::syntax::PathStep::{Field, Index};
 use super::view_projection::resolve_view_projection;
 use super::{ImageSpec, Origin, SceneError};
-use drawing::{Overlay, PointLabel, palette::ink_on_paper};
+use drawing::{Overlay, PointLabel};
 use glam::DVec2;
 use model::ModelInstance;
+use page::palette::ink_on_paper;
 use shade::color::SrgbEncoder;
 
 /// The offset of labels in pixels, without and with a leader line: up and to the right.
@@ -58,7 +59,7 @@ pub(super) fn resolve_overlays(
 }
 
 /// Dark or light ink, to be read on a background.
-fn contrasting_ink(background: [f32; 4]) -> drawing::Ink {
+fn contrasting_ink(background: [f32; 4]) -> page::Ink {
     let [r, g, b, alpha] = SrgbEncoder::shared().encode_pixel(background);
     ink_on_paper((alpha == 255).then_some([r, g, b]))
 }

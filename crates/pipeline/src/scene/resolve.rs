@@ -29,15 +29,14 @@ use super::{
 use camera::ViewProjection;
 use drawing::Overlay;
 use homog::{Bounds, Plane, Point, World};
-use model::ModelInstance;
-use model::world_points;
+use model::{ModelInstance, world_points};
 use raster::Samples;
 use shade::{Backdrop, Environment, Light, ToneMapper, ToneMapping};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Every mistake of a scene file that has been parsed, in the order of the file. Errors in the
-/// models' own files are not among them: [`check_file`](model::import::check_file) reports those.
+/// models' own files are not among them: [`check_file`](gltf_check::check_file) reports those.
 /// If a model cannot be loaded, what depends on the models is not validated.
 #[must_use]
 pub fn validate_scene(

@@ -2,7 +2,7 @@
 
 use super::syntax::PathStep::Field;
 use super::{Origin, SceneError, SceneFile};
-use model::import::ImportOptions;
+use import::ImportOptions;
 
 /// The most pixels that a scene may ask for by itself: 16,384 x 16,384.
 const MAX_PIXELS: u64 = 1 << 28;

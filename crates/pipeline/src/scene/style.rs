@@ -4,7 +4,8 @@ use super::file::{LinesFile, StyleFile, WidthFile};
 use super::number::{CreaseAngle, Positive};
 use super::syntax::PathStep::{self, Field};
 use super::{Origin, SceneError, SceneFile, Style};
-use drawing::{IsoLineGroup, LineStyle, LineWidths};
+use drawing::{LineStyle, LineWidths};
+use page::IsoLineGroup;
 
 /// The style of a scene.
 pub(super) fn resolve_style(origin: &Origin, file: &SceneFile) -> Result<Style, SceneError> {

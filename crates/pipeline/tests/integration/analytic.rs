@@ -4,8 +4,8 @@ mod glass;
 mod refraction;
 
 use base64::Engine;
+use import::{ImportOptions, load_bytes};
 use model::ModelInstance;
-use model::import::{ImportOptions, load_bytes};
 use pipeline::scene::file::{
     DEFAULT_PADDING, EnvironmentFile, FromFile, SceneFile, ShadowsFile, StyleFile, Triple, ViewFile,
 };

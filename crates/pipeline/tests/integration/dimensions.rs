@@ -3,7 +3,7 @@
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 use homog::{Point, World};
-use model::import::MemoryFolder;
+use import::MemoryFolder;
 use pipeline::scene::{ResolveOptions, SceneError, SheetContent, parse_scene, resolve_sheet};
 use pipeline::{Origin, Scene};
 use sheet::{Dimension, Measure, Sheet};

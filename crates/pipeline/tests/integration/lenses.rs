@@ -2,7 +2,7 @@
 //! that what is written by hand is read back.
 
 use glam::DMat4;
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{Model, ModelInstance};
 use pipeline::scene::{format_source, parse_scene};
 use pipeline::{Origin, Scene};

@@ -1,7 +1,7 @@
 //! How often the files of models are read.
 
+use import::MemoryFolder;
 use model::Timings;
-use model::import::MemoryFolder;
 use pipeline::scene::{ResolveOptions, parse_scene, validate_scene};
 use pipeline::{Origin, Scene};
 

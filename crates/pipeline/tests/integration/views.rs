@@ -3,7 +3,7 @@
 
 use glam::DVec2;
 use homog::Point;
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{Model, ModelInstance};
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, ResolveError, Scene};

@@ -12,8 +12,8 @@ use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
 use super::dimension::{ARROW_LENGTH, EXTENSION_GAP, EXTENSION_OVERHANG, TEXT_GAP, arrowhead};
 use super::dimension_board::{Candidate, DimensionBoard};
 use super::measure::{ViewDimension, ViewMeasure};
-use drawing::{Label, TextAlign};
 use glam::DVec2;
+use page::{Label, TextAlign};
 
 /// The least radius of the arc in heights of letters, the step to the next, and their number.
 const RADII: (f64, f64, u32) = (4.0, 1.1, 60);

@@ -11,10 +11,9 @@
 //!
 //! They are made before the view has a place, since the place depends on their extent.
 
-use drawing::{
-    Group, Ink, Label, Layer, Pen, Polyline, SheetLabelFault, TextAlign, to_millimeters,
-};
+use drawing::SheetLabelFault;
 use glam::DVec2;
+use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign, to_millimeters};
 
 /// The least distance of lines from texts, in millimeters.
 const LINE_CLEARANCE: f64 = 0.7;
@@ -319,14 +318,14 @@ impl AnnotationLayer {
     ];
 
     /// The empty layer, with the pens of a line group and letters of a height.
-    pub(super) fn to_layer(self, group: drawing::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
-        let butt = |width| Pen { cap: drawing::Cap::Butt, ..Pen::solid(width, ink) };
+    pub(super) fn to_layer(self, group: page::IsoLineGroup, letters: f64, ink: Ink) -> Layer {
+        let butt = |width| Pen { cap: page::Cap::Butt, ..Pen::solid(width, ink) };
         let chain = || {
-            drawing::LineType::LongDashedDotted.to_pen(
+            page::LineType::LongDashedDotted.to_pen(
                 group.narrow_width(),
                 ink,
-                drawing::Cap::Butt,
-                drawing::Join::Miter,
+                page::Cap::Butt,
+                page::Join::Miter,
             )
         };
         let lettering = || Pen::solid(letters * 0.1, ink);

@@ -17,8 +17,8 @@ use super::sheet_view::SheetView;
 use super::visible_spots::VisibleSpot;
 use super::{Sheet, rectangle_from_size};
 use crate::assembly::PartsListItem;
-use drawing::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
+use page::{Group, Ink, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
 /// From the view or its balloons to the frame, in millimeters: beyond the centering marks.
@@ -155,7 +155,7 @@ impl AssemblyLayout {
     ) -> ([Layer; 2], Vec<&'a PartsListItem>) {
         let spots: Vec<DVec2> = targets.iter().map(|target| target.spot).collect();
         let centers = self.choose_places(&spots);
-        let pen = Pen { cap: drawing::Cap::Butt, ..Pen::solid(width, ink) };
+        let pen = Pen { cap: page::Cap::Butt, ..Pen::solid(width, ink) };
         let mut lines = Layer::new("balloons", "balloons", pen);
         let lettering = Pen::solid(self.letters * 0.1, ink);
         let mut numbers = Layer::new("balloon-numbers", "balloons: numbers", lettering);

@@ -13,8 +13,8 @@ use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText};
 use super::dimension::{ARROW_LENGTH, TEXT_GAP, arrowhead};
 use super::dimension_board::{Candidate, DimensionBoard};
 use super::measure::{ViewDimension, ViewMeasure};
-use drawing::{Label, TextAlign};
 use glam::DVec2;
+use page::{Label, TextAlign};
 
 /// The directions that are tried, in degrees from the right, upward: none of them along an axis,
 /// where center lines are.

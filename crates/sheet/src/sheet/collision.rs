@@ -4,8 +4,8 @@
 //! apart if along the normal of one of their sides they are (Gottschalk 1996).
 
 use super::annotation::{AnnotationShape, AnnotationText};
-use drawing::Label;
 use glam::DVec2;
+use page::Label;
 
 /// Overlaps up to this, in millimeters, are contacts.
 const CONTACT: f64 = 1e-6;
@@ -14,9 +14,9 @@ const CONTACT: f64 = 1e-6;
 pub(super) fn text_outline(text: &AnnotationText, margin: f64) -> [DVec2; 4] {
     let width = Label::new(&text.text, DVec2::ZERO, text.height).width();
     let part = match text.align {
-        drawing::TextAlign::Start => 0.0,
-        drawing::TextAlign::Middle => 0.5,
-        drawing::TextAlign::End => 1.0,
+        page::TextAlign::Start => 0.0,
+        page::TextAlign::Middle => 0.5,
+        page::TextAlign::End => 1.0,
     };
     let (along, up) = (text.direction, DVec2::new(text.direction.y, -text.direction.x));
     let start = text.anchor - along * (width * part + margin) - up * margin;

@@ -15,8 +15,8 @@
 
 use super::annotation::{AnnotationLayer, AnnotationShape, AnnotationText, ViewAnnotations};
 use super::length_format::LengthFormat;
-use drawing::{Label, TextAlign};
 use glam::DVec2;
+use page::{Label, TextAlign};
 use viewport::DrawingScale;
 
 /// From the outline to the dimension line.

@@ -5,8 +5,8 @@
 use super::annotation::{Extent, overlap};
 use super::frame_zones::{SheetFrame, ZONE_BORDER};
 use super::rectangle_from_size;
-use drawing::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
 use glam::DVec2;
+use page::{Cap, Group, Ink, Join, Layer, Pen, Polyline};
 use viewport::{Paper, Rectangle};
 
 /// The left margin in millimeters.

@@ -11,8 +11,8 @@
 
 use super::frame::{area_within_frame, rectangle_outline};
 use super::rectangle_from_size;
-use drawing::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
+use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{Paper, Rectangle};
 
 /// The border around the drawing area of a sheet.

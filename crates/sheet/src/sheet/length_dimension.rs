@@ -18,8 +18,8 @@ use super::dimension::{
 };
 use super::dimension_board::{Candidate, DimensionBoard};
 use super::measure::{ViewDimension, ViewMeasure};
-use drawing::{Label, TextAlign};
 use glam::DVec2;
+use page::{Label, TextAlign};
 
 /// From one dimension line to the next, in heights of letters.
 const ROW_DISTANCE: f64 = 2.2;

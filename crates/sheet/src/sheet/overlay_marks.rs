@@ -222,7 +222,7 @@ impl LabelBoard {
         point: DVec2,
         text: &str,
     ) -> impl Iterator<Item = (AnnotationText, Option<[DVec2; 2]>)> {
-        let width = drawing::Label::new(text, DVec2::ZERO, self.letters).width();
+        let width = page::Label::new(text, DVec2::ZERO, self.letters).width();
         let half = DVec2::new(width, self.letters) * 0.5;
         let step = STEP * self.letters;
         let mut middles = Vec::new();

@@ -21,14 +21,15 @@ use crate::assembly::{
     exploded_models, gather_parts, part_model,
 };
 use camera::NamedView;
-use drawing::palette::{BLACK, WHITE};
 use drawing::{
-    Aabb, AssemblyWarning, Cap, EdgeSegment, HiddenLines, Ink, Join, Layer, LineDrawing, LineStyle,
-    LineType, Page, PlacedImage, Placement, Warning, WeldedSurface, missing_glyphs,
+    Aabb, AssemblyWarning, EdgeSegment, HiddenLines, LineDrawing, LineStyle, Page, Placement,
+    Warning, WeldedSurface,
 };
 use glam::{DVec2, DVec3};
 use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
+use page::palette::{BLACK, WHITE};
+use page::{Cap, Ink, Join, Layer, LineType, PlacedImage, missing_glyphs};
 use viewport::DrawingScale;
 
 /// The parts list stands on the page of the assembly if it takes no more than this part of the

@@ -15,8 +15,8 @@ use super::frame::rectangle_outline;
 use super::{Sheet, rectangle_from_size};
 use crate::assembly::{PartsList, PartsListItem};
 use core::ops::Range;
-use drawing::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
+use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::Rectangle;
 
 /// The height of rows as a multiple of that of letters.

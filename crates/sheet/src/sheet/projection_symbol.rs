@@ -7,8 +7,8 @@
 //!                    ╲│                            │╱
 //! ```
 
-use drawing::Polyline;
 use glam::DVec2;
+use page::Polyline;
 use projection::SheetAngle;
 
 /// The number of sides of the polygon that approximates a circle.

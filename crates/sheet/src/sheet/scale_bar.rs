@@ -11,8 +11,8 @@
 //! printed along with the drawing scales with it.
 
 use super::{Sheet, rectangle_from_size};
-use drawing::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
+use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use viewport::{DrawingScale, Rectangle};
 
 /// The longest bar in millimeters of paper.

@@ -17,9 +17,9 @@ use super::annotation::{
 use super::composition::Break;
 use super::sheet_view::SheetView;
 use super::view_mark::{MarkSettings, add_end_letter};
-use drawing::TextAlign;
 use glam::DVec2;
 use homog::{Plane, Vector, World};
+use page::TextAlign;
 use viewport::DrawingScale;
 
 /// Directions whose sine or cosine differs by no more than this are parallel or perpendicular.

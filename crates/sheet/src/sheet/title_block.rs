@@ -16,8 +16,8 @@ use super::projection_symbol::projection_symbol;
 use super::title_block_fields::{TitleBlockField, title_block_fields};
 use super::title_block_language::{FieldName, TitleBlockLanguage};
 use super::{Sheet, rectangle_from_size};
-use drawing::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use glam::DVec2;
+use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline};
 use viewport::{DrawingScale, Rectangle};
 
 /// The width of the block where the paper is wide enough, in millimeters.

@@ -20,9 +20,9 @@ mod path_data;
 use super::Sheet;
 use super::title_block_fields::TitleBlockText;
 use core::fmt;
-use drawing::TextAlign;
 use glam::DVec2;
 use markup::{Element, Event, MarkupReader};
+use page::TextAlign;
 use path_data::{parse_numbers, parse_path};
 
 /// The width of lines without `stroke-width`, in millimeters.

@@ -355,5 +355,5 @@ pub(super) fn extent_of_rectangle(area: Rectangle) -> Extent {
 
 /// The nearest point of the grid of micrometers, in millimeters.
 pub(super) fn snap_to_grid(point: DVec2) -> DVec2 {
-    drawing::to_millimeters(drawing::to_micrometers(point))
+    page::to_millimeters(page::to_micrometers(point))
 }

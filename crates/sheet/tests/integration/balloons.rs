@@ -1,8 +1,9 @@
 //! A lint of the pages of assemblies: balloons are apart, their numbers within, nothing over them.
 
 use super::lint::{Extent, layer_extent};
-use drawing::{GroupContent, Layer, Page, Polyline, to_millimeters};
+use drawing::Page;
 use glam::DVec2;
+use page::{GroupContent, Layer, Polyline, to_millimeters};
 
 /// The circle around the corners of a polygon: its center and radius.
 fn circle_of(line: &Polyline) -> (DVec2, f64) {

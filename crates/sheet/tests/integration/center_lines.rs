@@ -6,7 +6,7 @@ use super::lint::{faults, layer_extent};
 use drawing::FeaturePicker;
 use glam::{DVec2, DVec3};
 use homog::{Affine, Point, World};
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{ModelInstance, Primitive};
 use projection::SheetAngle;
 use sheet::Sheet;

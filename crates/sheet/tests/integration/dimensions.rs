@@ -4,9 +4,10 @@ use super::boxes::{box_model, sheet};
 use super::formats::{read_dxf, read_pdf, read_svg};
 use super::lint::faults;
 use camera::NamedView;
-use drawing::{DimensionFault, Label, Page, Polyline, Warning, WorldCircle};
+use drawing::{DimensionFault, Page, Warning, WorldCircle};
 use glam::{DVec2, DVec3};
 use homog::{Point, Vector, World};
+use page::{Label, Polyline};
 use projection::SheetAngle;
 use sheet::{Dimension, DimensionUnit, LengthDirection, Measure, Sheet};
 use viewport::{DrawingScale, Paper};
@@ -75,10 +76,10 @@ fn page_of(dimension: Dimension, (scale, unit): (f64, DimensionUnit)) -> Page {
 fn are_strokes_of(lines: &[Vec<DVec2>], text: &str, (height, along): (f64, DVec2)) -> bool {
     let label = Label::new(text, DVec2::new(500.0, 300.0), height).with_direction(along);
     let strokes: Vec<Polyline> = label.strokes();
-    let first = drawing::to_millimeters(strokes[0].points[0]);
+    let first = page::to_millimeters(strokes[0].points[0]);
     let moved = lines[0][0] - first;
     let expected = strokes.iter().map(|line| -> Vec<DVec2> {
-        line.points.iter().map(|&point| drawing::to_millimeters(point) + moved).collect()
+        line.points.iter().map(|&point| page::to_millimeters(point) + moved).collect()
     });
     let near = |a: &[DVec2], b: &[DVec2]| {
         a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.distance(*b) < 0.004)

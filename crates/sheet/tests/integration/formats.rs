@@ -1,7 +1,8 @@
 //! Readers of what sheets are written as: the lines and texts of one layer in SVG, PDF and DXF.
 
-use drawing::{DxfOptions, Page, to_pdf};
+use drawing::Page;
 use glam::DVec2;
+use page::{DxfOptions, to_pdf};
 
 /// The straight lines of a layer in millimeters of paper, y down, and its texts.
 #[derive(Debug, Default)]

@@ -1,7 +1,8 @@
 //! A lint of sheets: no text touches another text or a line, and all of it lies within the frame.
 
-use drawing::{Group, GroupContent, Page, Polyline, to_millimeters};
+use drawing::Page;
 use glam::DVec2;
+use page::{Group, GroupContent, Polyline, to_millimeters};
 
 /// A rectangle by its least and its greatest corner.
 pub type Extent = [DVec2; 2];

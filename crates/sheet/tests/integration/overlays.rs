@@ -2,9 +2,10 @@
 
 use super::boxes::{Random, box_model, sheet};
 use super::lint::faults;
-use drawing::{Group, GroupContent, Overlay, Page, PointLabel, SheetLabelFault, Warning};
+use drawing::{Overlay, Page, PointLabel, SheetLabelFault, Warning};
 use glam::{DVec2, DVec3};
 use homog::Point;
+use page::{Group, GroupContent};
 use projection::SheetAngle;
 use sheet::Sheet;
 use viewport::{DrawingScale, Paper};

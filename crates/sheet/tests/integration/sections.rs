@@ -5,8 +5,8 @@ use super::lint::{faults, layer_extent};
 use drawing::Warning;
 use glam::{DVec2, DVec3};
 use homog::{Affine, Bounds};
+use import::{ImportOptions, load};
 use model::ModelInstance;
-use model::import::{ImportOptions, load};
 use projection::SheetAngle;
 use sheet::Sheet;
 use std::path::Path;
@@ -137,9 +137,9 @@ fn shafts_and_bolts_are_neither_cut_nor_hatched() {
     // What is whole stands out of what is cut: all of the shaft is seen from the front.
     let sheet = Sheet { uncut: vec![3], ..a3(SheetAngle::First) };
     let page = sheet.draw(&models, &[cut], 1).unwrap();
-    let shaft = |layer: &drawing::Layer| -> f64 {
+    let shaft = |layer: &page::Layer| -> f64 {
         let own = layer.groups.iter().filter(|group| group.title == "shaft");
-        own.flat_map(|group| &group.strokes).map(drawing::Polyline::length).sum()
+        own.flat_map(|group| &group.strokes).map(page::Polyline::length).sum()
     };
     let of_view = page.layers.iter().filter(|layer| layer.id.starts_with("front-visible"));
     assert!(of_view.map(shaft).sum::<f64>() > 0.0);

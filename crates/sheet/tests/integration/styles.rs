@@ -73,7 +73,7 @@ fn exploded_parts_keep_their_hatchings() {
         let pages = sheet.draw_pages(&model, &[], 1).unwrap();
         let id = format!("{prefix}-visible-hatching");
         let layer = pages[1].layers.iter().find(|layer| layer.id == id).expect("hatching");
-        let rises = |group: &drawing::Group| {
+        let rises = |group: &page::Group| {
             let [a, b] = [group.strokes[0].points[0], group.strokes[0].points[1]];
             (b[0] > a[0]) == (b[1] < a[1])
         };

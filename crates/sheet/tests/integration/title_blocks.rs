@@ -2,8 +2,9 @@
 
 use super::boxes::{PAPERS, box_model, sheet};
 use super::lint::{faults, layer_extent};
-use drawing::{GroupContent, Page, Warning};
+use drawing::{Page, Warning};
 use glam::{DVec2, DVec3};
+use page::GroupContent;
 use projection::SheetAngle;
 use sheet::{
     DecimalMark, DimensionUnit, NumberFormat, Sheet, SheetFrame, TitleBlockLanguage,
@@ -129,7 +130,7 @@ fn lengths_have_the_form_that_is_asked_for() {
         let page = own.draw(&model, &[], 1).unwrap();
         assert_eq!(faults(&page), [""; 0]);
         let layer = page.layers.iter().find(|layer| layer.id == "dimensions-text").unwrap();
-        let text = |group: &drawing::Group| match &group.content {
+        let text = |group: &page::Group| match &group.content {
             GroupContent::Text(line) => line.text.clone(),
             _ => String::new(),
         };

@@ -4,10 +4,11 @@
 use super::boxes::{Random, box_model, has_view, plane, sheet};
 use super::lint::{Extent, faults, layer_extent};
 use camera::NamedView;
-use drawing::{GroupContent, HiddenLines, Page, Polyline, Warning, to_millimeters};
+use drawing::{HiddenLines, Page, Warning};
 use glam::{DVec2, DVec3};
 use homog::{Affine, Point, Vector, World};
 use model::ModelInstance;
+use page::{GroupContent, Polyline, to_millimeters};
 use projection::SheetAngle;
 use sheet::{Sheet, SheetError, ViewPlace, ViewRequest, ViewSide};
 use viewport::{DrawingScale, Paper};

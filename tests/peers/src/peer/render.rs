@@ -9,10 +9,10 @@ use super::Peer;
 use crate::scene::{AMBIENT, Part, SIZE, Scene, TOWARDS_LIGHT, Texture};
 use camera::ViewProjection;
 use homog::Affine;
-use model::ModelInstance;
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{
-    Image, Material, Mesh, MipmapMode, Model, Primitive, Sampler, Texture as Used, TextureInfo,
+    Image, Material, Mesh, MipmapMode, Model, ModelInstance, Primitive, Sampler, Texture as Used,
+    TextureInfo,
 };
 use pipeline::scene::ImageSpec;
 use pipeline::{Picture, RenderContext, Renderer, Textures};

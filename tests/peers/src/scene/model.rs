@@ -3,7 +3,7 @@
 use super::{Lens, Part, Scene, Texture, Vertex, aspect};
 use camera::{NamedView, Slopes, frame_perspective};
 use homog::{Normal, Point, World};
-use model::import::{ImportOptions, load};
+use import::{ImportOptions, load};
 use model::{Image, Model, Primitive, SkinnedPrimitive, Topology};
 use projection::{Fov, Perspective};
 use std::path::{Path, PathBuf};

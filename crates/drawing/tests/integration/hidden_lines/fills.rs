@@ -2,12 +2,10 @@
 
 use super::stage::*;
 use drawing::EdgeClass::Hatching;
-use drawing::{
-    DrawOptions, FaceFill, LineDrawing, LineStyle, MILLIMETERS_PER_PIXEL, Page, Polyline, draw,
-    to_millimeters,
-};
+use drawing::{DrawOptions, FaceFill, LineDrawing, LineStyle, Page, draw};
 use homog::{Normal, Plane, Point};
 use model::{Material, Model, Primitive};
+use page::{MILLIMETERS_PER_PIXEL, Polyline, to_millimeters};
 use std::collections::BTreeMap;
 
 /// A model in which each primitive has a material of its own, of these colors.

@@ -99,7 +99,7 @@ fn scanned_surfaces_have_no_speckles() {
             for line in layer.groups.iter().flat_map(|group| &group.strokes) {
                 // Alone, or with others that it is connected with.
                 let ends = [line.points[0], line.points[line.points.len() - 1]];
-                let meets = |other: &drawing::Polyline| {
+                let meets = |other: &page::Polyline| {
                     other != line && ends.iter().any(|end| other.points.contains(end))
                 };
                 let mut groups = page.layers.iter().flat_map(|layer| &layer.groups);
@@ -130,11 +130,11 @@ fn edges_between_materials_are_drawn_in_all_styles_with_features() {
         let lines: Vec<f64> = between
             .flat_map(|layer| &layer.groups)
             .flat_map(|group| &group.strokes)
-            .map(drawing::Polyline::length)
+            .map(page::Polyline::length)
             .collect();
         // 100 pixels at 96 to the inch.
         assert_eq!(lines.len(), 1);
-        assert!((lines[0] - 100.0 * drawing::MILLIMETERS_PER_PIXEL).abs() < 2e-3, "{lines:?}");
+        assert!((lines[0] - 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 2e-3, "{lines:?}");
     }
 }
 
@@ -152,15 +152,15 @@ fn the_silhouette_style_draws_the_outline_alone() {
         let drawing = draw_front(build_model(boxes()), &style.to_draw_options());
         let page = drawing.to_page(&style, "", None);
         let strokes = page.layers.iter().flat_map(|layer| &layer.groups).flat_map(|g| &g.strokes);
-        strokes.map(drawing::Polyline::length).sum()
+        strokes.map(page::Polyline::length).sum()
     };
     let length = length_in(LineStyle::SILHOUETTE);
     // The square of side 4, of which the third box covers 2 on the right and adds 1 + 2 + 1.
-    let expected = (16.0 - 2.0 + 4.0) * 100.0 * drawing::MILLIMETERS_PER_PIXEL;
+    let expected = (16.0 - 2.0 + 4.0) * 100.0 * page::MILLIMETERS_PER_PIXEL;
     assert!((length - expected).abs() < 0.01, "{length} {expected}");
     // The small box, and the sides of the third before the large one.
     let within = length_in(LineStyle::CONTOURS) - expected;
-    assert!((within - 8.0 * 100.0 * drawing::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
+    assert!((within - 8.0 * 100.0 * page::MILLIMETERS_PER_PIXEL).abs() < 0.01, "{within}");
 }
 
 /// A ball of radius 2 whose poles lie obliquely, from shared vertices.

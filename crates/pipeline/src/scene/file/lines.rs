@@ -3,7 +3,8 @@
 use crate::scene::color::Color;
 use crate::scene::number::{CreaseAngle, HandDrawn, HatchSpacing, Percent, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
-use drawing::{Cap, EdgeSelection, FaceFill, HiddenLines, Join, SilhouetteMethod};
+use drawing::{EdgeSelection, FaceFill, HiddenLines, SilhouetteMethod};
+use page::{Cap, Join};
 
 scene_struct! {
     /// The style of a line drawing.

@@ -2,7 +2,8 @@
 
 use crate::scene::number::Finite;
 use crate::scene::schema::scene_struct;
-use model::{Colormap, ScalarColors};
+use import::ScalarColors;
+use model::Colormap;
 
 scene_struct! {
     /// Colors of a model by a scalar attribute of its vertices, in place of its materials. Surfaces

@@ -2,8 +2,8 @@
 
 use base64::Engine;
 use homog::PixelRect;
+use import::{ImportOptions, load_bytes};
 use model::ModelInstance;
-use model::import::{ImportOptions, load_bytes};
 use pipeline::render::{Pass, PassBuffer, render_passes};
 use pipeline::scene::parse_scene;
 use pipeline::{Origin, Scene, Timings};

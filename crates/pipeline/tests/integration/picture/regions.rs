@@ -6,7 +6,7 @@ use homog::PixelRect;
 use pipeline::render::{BitDepth, rows_per_band};
 use pipeline::scene::file::OverlayFile;
 use pipeline::scene::{ResolveOptions, parse_scene};
-use pipeline::{Channel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
+use pipeline::{FrameChannel, Origin, Picture, RenderContext, Renderer, Scene, Textures, render};
 use std::path::Path;
 
 /// Scenes with thin lines, layers, an environment behind everything, overlays, letters and line
@@ -14,7 +14,7 @@ use std::path::Path;
 const SCENES: [&str; 7] =
     ["floor", "panes", "primitives", "finishes", "two_point", "technical", "view_volume"];
 
-fn render_region<C: Channel>(scene: &Scene, region: PixelRect) -> Picture<C> {
+fn render_region<C: FrameChannel>(scene: &Scene, region: PixelRect) -> Picture<C> {
     let textures = Textures::for_scene(scene);
     let (mut renderer, mut picture) = (Renderer::default(), Picture::default());
     let mut prepared = renderer.prepare(&RenderContext::new(scene, &textures, 2)).expect("a scene");
@@ -22,7 +22,7 @@ fn render_region<C: Channel>(scene: &Scene, region: PixelRect) -> Picture<C> {
     picture
 }
 
-fn assert_same_as_part<C: Channel + std::fmt::Debug>(
+fn assert_same_as_part<C: FrameChannel + std::fmt::Debug>(
     whole: &Picture<C>,
     part: &Picture<C>,
     at: PixelRect,

@@ -3,8 +3,8 @@
 use super::{FieldValues, TitleBlockTemplate};
 use crate::sheet::projection_symbol::projection_symbol;
 use crate::sheet::{Sheet, rectangle_from_size};
-use drawing::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use glam::DVec2;
+use page::{Cap, Group, Ink, Join, Label, Layer, Pen, Polyline, TextAlign};
 use std::collections::BTreeMap;
 use viewport::{DrawingScale, Rectangle};
 

@@ -1,0 +1,106 @@
+//! Output files, written atomically: to a temporary file beside the target, which is then renamed.
+//!
+//! A run that fails leaves the old file as it was, and no reader ever sees half a file.
+
+use crate::partial_files::{self, forget_partial_file};
+use crate::visible_path;
+use std::fs::File;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The error of an output file that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {cause}{}", visible_path(path), self.remedy())]
+pub struct OutputError {
+    /// The target file.
+    pub path: PathBuf,
+    /// The error of the operating system.
+    pub cause: std::io::Error,
+}
+
+impl OutputError {
+    /// A line of help where the folder is missing.
+    fn remedy(&self) -> String {
+        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        match folder {
+            Some(folder) if self.cause.kind() == ErrorKind::NotFound => {
+                format!("\n  = help: create the folder `{}` first", visible_path(folder))
+            }
+            _ => String::new(),
+        }
+    }
+}
+
+/// Writes a file atomically: whole or not at all.
+///
+/// # Errors
+/// If the file cannot be written; an older file is then unchanged.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let mut file = AtomicFile::create(path)?;
+    file.write_all(bytes).map_err(|cause| OutputError { path: path.to_owned(), cause })?;
+    file.finish()
+}
+
+/// A temporary file beside its target, which it replaces when it is finished. It is removed if it
+/// is dropped before that.
+#[derive(Debug)]
+pub struct AtomicFile {
+    /// The file that is replaced when the temporary one is finished.
+    target_path: PathBuf,
+    /// The temporary file: the target's name with the process id and `.part`.
+    partial_path: PathBuf,
+    file: File,
+    /// Whether it was renamed, and must not be removed any more.
+    is_finished: bool,
+}
+
+impl AtomicFile {
+    /// Creates the temporary file for a target; removes those of processes that have died.
+    ///
+    /// # Errors
+    /// If no file can be created in the target's folder.
+    pub fn create(target: &Path) -> Result<Self, OutputError> {
+        let target_path = target.to_owned();
+        match partial_files::create(target) {
+            Ok((partial_path, file)) => {
+                Ok(Self { target_path, partial_path, file, is_finished: false })
+            }
+            Err(cause) => Err(OutputError { path: target_path, cause }),
+        }
+    }
+
+    /// Flushes the file to the disk and renames it to the target.
+    ///
+    /// # Errors
+    /// If it cannot be renamed; an older file is then unchanged.
+    pub fn finish(mut self) -> Result<(), OutputError> {
+        // On the disk before the name: a crash leaves the old file or the new one, whole.
+        let renamed = self
+            .file
+            .sync_all()
+            .and_then(|()| std::fs::rename(&self.partial_path, &self.target_path));
+        self.is_finished = renamed.is_ok();
+        if self.is_finished {
+            forget_partial_file(&self.partial_path);
+        }
+        renamed.map_err(|cause| OutputError { path: self.target_path.clone(), cause })
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for AtomicFile {
+    fn drop(&mut self) {
+        if !self.is_finished {
+            partial_files::remove(&self.partial_path);
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Output files that are written whole or not at all, and names of files and objects that are safe to
+//! print.
+//!
+//! ```
+//! use files::{visible_text, write_file};
+//!
+//! let path = std::env::temp_dir().join(format!("alberti-files-{}.txt", std::process::id()));
+//! write_file(&path, b"whole")?;
+//! assert_eq!(std::fs::read(&path).unwrap(), b"whole");
+//! # std::fs::remove_file(&path).unwrap();
+//! assert_eq!(visible_text("roof\u{1b}[2J"), "roof\\u{1b}[2J");
+//! # Ok::<(), files::OutputError>(())
+//! ```
+//!
+//! | module | subject |
+//! | --- | --- |
+//! | `atomic_file` | a temporary file beside its target, which it replaces when it is complete |
+//! | `partial_files` | temporary files of this process and of dead ones, removed on signals |
+//! | `visible_text` | characters that a terminal would obey, written by their codes |
+
+mod atomic_file;
+mod partial_files;
+mod visible_text;
+
+pub use atomic_file::{AtomicFile, OutputError, write_file};
+pub use partial_files::{
+    create_partial_file, forget_partial_file, register_partial_file, remove_partial_files,
+};
+pub use visible_text::{is_terminal_control, visible_path, visible_text};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

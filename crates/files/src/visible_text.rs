@@ -1,0 +1,57 @@
+//! Names in messages: characters that a terminal would obey are written by their codes.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+/// Whether a terminal may obey a character rather than show it: controls (C0, DEL and C1), line and
+/// paragraph separators, and those that change the direction of writing.
+#[must_use]
+pub fn is_terminal_control(character: char) -> bool {
+    character.is_control() || matches!(character, '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text for a line of a message, in which controls are written as in Rust: `\n`, `\u{1b}`.
+///
+/// Files of strangers name nodes, keys and other files; none of these may move the cursor, color the
+/// screen or start a new line.
+///
+/// ```
+/// assert_eq!(files::visible_text("roof"), "roof");
+/// assert_eq!(files::visible_text("a\nb\u{1b}[2J\u{202e}"), "a\\nb\\u{1b}[2J\\u{202e}");
+/// ```
+#[must_use]
+pub fn visible_text(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_terminal_control) {
+        return Cow::Borrowed(text);
+    }
+    let mut visible = String::with_capacity(text.len() + 8);
+    for character in text.chars() {
+        match character {
+            '\n' | '\r' | '\t' => visible.extend(character.escape_default()),
+            control if is_terminal_control(control) => visible.extend(control.escape_unicode()),
+            plain => visible.push(plain),
+        }
+    }
+    Cow::Owned(visible)
+}
+
+/// A path for a line of a message, as [`visible_text`] writes it.
+#[must_use]
+pub fn visible_path(path: impl AsRef<Path>) -> String {
+    visible_text(&path.as_ref().to_string_lossy()).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_is_written_by_its_code() {
+        let hostile = "\0\u{7}\u{8}\t\r\n\u{1b}\u{7f}\u{9b}\u{2028}\u{202a}\u{2069}";
+        let expected =
+            "\\u{0}\\u{7}\\u{8}\\t\\r\\n\\u{1b}\\u{7f}\\u{9b}\\u{2028}\\u{202a}\\u{2069}";
+        assert_eq!(visible_text(hostile), expected);
+        let plain = "Haus 2 \\n ä 屋顶 \u{200d} 🏠";
+        assert!(matches!(visible_text(plain), Cow::Borrowed(same) if same == plain));
+    }
+}

@@ -1,0 +1,49 @@
+//! Validation: every violation of the glTF specification in a file, not only the first fatal one.
+//! Of other formats, the diagnostics of the loader.
+//!
+//! Loading stops at the first error that prevents drawing. Validation goes on: it compares the JSON
+//! with the schema, resolves every reference, reads every accessor element, and finally loads the
+//! file, so that its report includes the diagnostics of the loader.
+//!
+//! ```text
+//!  bytes ─glb─► JSON ─schema_walk, by the tables of schema─► references
+//!        ─nodes, meshes, skins, animations─► rules for elements ─data─► diagnostics
+//!  loader ─load_outcome─► diagnostics
+//! ```
+//!
+//! It works on the raw JSON, in which members may be missing or of any type. The rules are those of
+//! glTF 2.0, under the codes and severities of the Khronos glTF validator. The
+//! [limits](import::Limits) hold as for loading: time and memory are bounded by the size of the
+//! files, not by the sizes they declare.
+
+mod accessors;
+mod animations;
+mod check;
+mod codes;
+mod data;
+mod diagnostics;
+mod document;
+mod document_rules;
+mod elements;
+mod formats;
+mod glb;
+mod images;
+mod layout;
+mod load_outcome;
+mod materials;
+mod meshes;
+mod nodes;
+mod report;
+mod schema;
+mod schema_walk;
+mod skins;
+mod store;
+mod uris;
+mod usage;
+
+pub use check::{check_bytes, check_file};
+pub use report::CheckReport;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

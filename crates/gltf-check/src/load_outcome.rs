@@ -1,0 +1,60 @@
+//! Diagnostics of the loader, without those that the validation has reported already.
+
+use super::codes;
+use super::diagnostics::Diagnostics;
+use model::{Diagnostic, Model, Severity, codes as load};
+
+/// Adds the warnings or the error of the loader; returns the error.
+///
+/// A warning at a location that already has a diagnostic of the validation is dropped: both are
+/// about the same defect, and that of the validation has the specific code.
+pub(super) fn add_load_outcome(
+    loaded: Result<Model, Diagnostic>,
+    diagnostics: &Diagnostics,
+) -> Option<Diagnostic> {
+    let model = match loaded {
+        Ok(model) => model,
+        Err(fault) => {
+            add_refusal(&fault, diagnostics);
+            return Some(fault);
+        }
+    };
+    for warning in &model.warnings {
+        if diagnostics.has_at_or_below(Severity::Warning, &warning.location) {
+            continue;
+        }
+        let is_extension = warning.location.starts_with("/extensions");
+        let code = match warning.code {
+            load::MISLEADING_NAME => &codes::MISLEADING_NAME,
+            _ if is_extension => &codes::NOT_SHOWN,
+            _ => &codes::LEFT_OUT,
+        };
+        let help = warning.help.as_deref().unwrap_or(code.remedy);
+        diagnostics.add_with_help(code, &warning.location, &warning.message, help);
+    }
+    None
+}
+
+/// Adds the loader's error by the validator's codes, unless an error at or below the same location
+/// explains it already.
+fn add_refusal(fault: &Diagnostic, diagnostics: &Diagnostics) {
+    let is_known = diagnostics.has_at_or_below(Severity::Error, &fault.location);
+    let has_errors = diagnostics.has_errors();
+    let code = match fault.code {
+        load::UNSUPPORTED_REQUIRED_EXTENSION => &codes::UNSUPPORTED_REQUIRED_EXTENSION,
+        load::LIMIT_EXCEEDED => &codes::LIMIT_EXCEEDED,
+        load::NOT_GLTF if has_errors => return,
+        load::NOT_GLTF => &codes::NOT_GLTF,
+        load::UNKNOWN_FORMAT => &codes::UNKNOWN_FORMAT,
+        _ if is_known || fault.location.is_empty() && has_errors => return,
+        load::IO_ERROR | load::FORBIDDEN_PATH => &codes::IO_ERROR,
+        load::UNSUPPORTED_VERSION => &codes::UNSUPPORTED_VERSION,
+        _ => &codes::NOT_LOADED,
+    };
+    diagnostics.add_with_help(
+        code,
+        &fault.location,
+        &fault.message,
+        fault.help.as_deref().unwrap_or_default(),
+    );
+}

@@ -1,0 +1,53 @@
+//! The report of a validation.
+
+use model::{Diagnostic, Severity};
+use std::path::PathBuf;
+
+/// The diagnostics of a file, and whether it can be drawn in spite of them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub struct CheckReport {
+    /// The file that was checked.
+    pub file: PathBuf,
+    /// The diagnostics, the worst severity first, and those of one severity in the order of the
+    /// checks. Of each severity only the first few hundred are listed; the counts below include
+    /// all.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The number of errors: broken rules of the specification, or missing data.
+    pub errors: usize,
+    /// The number of warnings: other viewers may show it differently, or something is omitted here.
+    pub warnings: usize,
+    /// The number of notes: nothing is wrong, but something could be improved.
+    pub notes: usize,
+    /// Why the file cannot be loaded; `None` if it can, as many files with errors can.
+    pub load_error: Option<Diagnostic>,
+}
+
+impl CheckReport {
+    /// The number of diagnostics that are counted but not listed.
+    #[must_use]
+    pub fn omitted_count(&self) -> usize {
+        (self.errors + self.warnings + self.notes).saturating_sub(self.diagnostics.len())
+    }
+
+    /// The counts as a phrase: `2 errors, 1 warning, no notes; it can be drawn`.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let count = |number: usize, severity: Severity| match number {
+            0 => format!("no {}s", severity.name()),
+            1 => format!("1 {}", severity.name()),
+            _ => format!("{number} {}s", severity.name()),
+        };
+        let counts = [
+            count(self.errors, Severity::Error),
+            count(self.warnings, Severity::Warning),
+            count(self.notes, Severity::Info),
+        ];
+        let outcome = match &self.load_error {
+            None => "it can be drawn".to_owned(),
+            Some(fault) if fault.location.is_empty() => "it cannot be drawn".to_owned(),
+            Some(fault) => format!("it cannot be drawn because of {}", fault.location),
+        };
+        format!("{}; {outcome}", counts.join(", "))
+    }
+}

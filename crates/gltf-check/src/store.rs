@@ -1,0 +1,329 @@
+//! Buffer data: buffers are read once, and buffer views are resolved in them.
+//!
+//! A [`BufferStore`] lends slices and never copies a buffer. Every request is answered with `None`
+//! if any byte of it is missing, and the checks skip such data: the missing bytes have a diagnostic
+//! of their own already.
+
+use super::codes;
+use super::document::{
+    CheckedDocument, array_items, extension_object, index_member, integer_member, string_member,
+};
+use super::elements::AccessorElements;
+use super::layout::{AccessorLayout, ComponentType};
+use super::uris;
+use import::CompressedView;
+use import::MemoryBudget;
+use import::UriResolver;
+use serde_json::Value;
+use std::cell::{Cell, OnceCell};
+
+/// The buffers of a document, its decompressed buffer views, and the budget for reading them.
+///
+/// Time and memory are bounded in two ways. Reading a URI is limited by the resolver; decoding and
+/// visiting elements is charged to `budget`, which is proportional to the bytes that the files
+/// really have.
+pub(super) struct BufferStore<'a> {
+    document: &'a CheckedDocument<'a>,
+    resolver: &'a UriResolver<'a>,
+    /// The bytes of each buffer; `None` if they cannot be read.
+    buffers: Vec<Option<BufferBytes<'a>>>,
+    /// The buffer views decompressed by meshopt, each on first use.
+    decompressed: Vec<OnceCell<Option<Vec<u8>>>>,
+    /// The budget of bytes that may be read or decoded, in proportion to the size of the files.
+    budget: MemoryBudget<'a>,
+    /// Whether the budget has been exceeded: nothing more is read then.
+    exhausted: Cell<bool>,
+}
+
+/// The bytes of a buffer.
+///
+/// The binary chunk is borrowed from the GLB, which is in memory as a whole.
+enum BufferBytes<'a> {
+    /// The binary chunk of a GLB.
+    Chunk(&'a [u8]),
+    /// The content of a file, or of a decoded data URI.
+    Read(Vec<u8>),
+}
+
+impl<'a> BufferStore<'a> {
+    /// Reads all buffers; `chunk` is the binary chunk of a GLB.
+    ///
+    /// Errors are reported, and leave a buffer without bytes. Buffer views are decompressed later,
+    /// on first use, because a view without a user need not be valid.
+    pub(super) fn load_buffers(
+        document: &'a CheckedDocument<'a>,
+        resolver: &'a UriResolver<'a>,
+        chunk: Option<&'a [u8]>,
+        is_binary: bool,
+    ) -> Self {
+        let unpacked = document.root_array("bufferViews").iter().map(|_| OnceCell::new()).collect();
+        let mut store = Self {
+            document,
+            resolver,
+            buffers: Vec::new(),
+            decompressed: unpacked,
+            budget: MemoryBudget::new(resolver.limits),
+            exhausted: Cell::new(false),
+        };
+        for (at, buffer) in document.root_array("buffers").iter().enumerate() {
+            let bytes = store.load_buffer(at, buffer, chunk, is_binary);
+            store.buffers.push(bytes);
+        }
+        store
+    }
+
+    /// Reads one buffer from its URI or the binary chunk.
+    ///
+    /// The binary chunk is the first buffer without a URI; it may be up to three bytes longer than
+    /// the buffer, for padding.
+    ///
+    /// The declared `byteLength` may be less than the data, but not greater: a short buffer gives
+    /// `BUFFER_BYTE_LENGTH_MISMATCH`, and the bytes it has remain in use.
+    fn load_buffer(
+        &self,
+        at: usize,
+        buffer: &Value,
+        chunk: Option<&'a [u8]>,
+        is_binary: bool,
+    ) -> Option<BufferBytes<'a>> {
+        let diagnostics = self.document.diagnostics;
+        let length = integer_member(buffer, "byteLength");
+        let Some(uri) = string_member(buffer, "uri") else {
+            let has_no_uri = buffer.is_object() && buffer.get("uri").is_none();
+            let chunk = chunk.filter(|_| at == 0 && has_no_uri);
+            // A buffer without data may be the fallback buffer of EXT_meshopt_compression.
+            if chunk.is_none() && is_binary && has_no_uri && at == 0 {
+                let message = "the buffer refers to the binary chunk, but there is none";
+                diagnostics.add(
+                    &codes::BUFFER_MISSING_GLB_DATA,
+                    format_args!("/buffers/{at}"),
+                    message,
+                );
+            }
+            let (chunk, length) = (chunk?, length?);
+            self.check_length(at, chunk.len(), length);
+            if chunk.len() as u64 > length.saturating_add(3) {
+                let more = chunk.len() as u64 - length;
+                let message =
+                    format_args!("the binary chunk is {more} bytes larger than the buffer");
+                diagnostics.add(
+                    &codes::BUFFER_GLB_CHUNK_TOO_BIG,
+                    format_args!("/buffers/{at}"),
+                    message,
+                );
+            }
+            return Some(BufferBytes::Chunk(chunk));
+        };
+        let pointer = format!("/buffers/{at}/uri");
+        uris::check_buffer_uri(uri, &pointer, is_binary, diagnostics);
+        let bytes = uris::read_uri(self.resolver, uri, &pointer, diagnostics)?;
+        if let Some(length) = length {
+            self.check_length(at, bytes.len(), length);
+        }
+        Some(BufferBytes::Read(bytes))
+    }
+
+    /// Reports data that is shorter than the declared `byteLength`, both in bytes.
+    fn check_length(&self, at: usize, available: usize, length: u64) {
+        if (available as u64) < length {
+            let message =
+                format_args!("byteLength is {length}, but the data has {available} bytes");
+            let pointer = format_args!("/buffers/{at}/byteLength");
+            self.document.diagnostics.add(&codes::BUFFER_BYTE_LENGTH_MISMATCH, pointer, message);
+        }
+    }
+
+    /// Charges bytes to the budget; returns whether they may be read.
+    ///
+    /// The first time the budget is exceeded, that is reported; after that nothing is read, so that
+    /// a hostile file cannot prolong the validation.
+    ///
+    /// The first refusal is final even if a smaller request would still fit: otherwise the report
+    /// would depend on the order of the accessors.
+    pub(super) fn charge_budget(&self, pointer: &str, bytes: u64) -> bool {
+        if self.exhausted.get() {
+            return false;
+        }
+        let charged = self.budget.charge_bytes(pointer, bytes, self.resolver.total_bytes());
+        if let Err(fault) = &charged {
+            self.exhausted.set(true);
+            let message = format_args!("{}; data from here on is not validated", fault.message);
+            let diagnostics = self.document.diagnostics;
+            diagnostics.add_with_help(
+                &codes::LIMIT_EXCEEDED,
+                pointer,
+                message,
+                fault.help.as_deref().unwrap_or_default(),
+            );
+        }
+        charged.is_ok()
+    }
+
+    /// All bytes of a buffer; `None` if it does not exist or could not be read.
+    fn buffer_bytes(&self, buffer: usize) -> Option<&[u8]> {
+        match self.buffers.get(buffer)?.as_ref()? {
+            BufferBytes::Chunk(bytes) => Some(bytes),
+            BufferBytes::Read(bytes) => Some(bytes),
+        }
+    }
+
+    /// The bytes of a buffer view, if all of them are present.
+    ///
+    /// A view compressed by EXT_meshopt_compression or KHR_meshopt_compression is decompressed on
+    /// first use, and stored. Its own `buffer` is then only a fallback for readers without the
+    /// extension, which may have no data at all.
+    pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
+        let json = self.document.root_array("bufferViews").get(view)?;
+        let packed = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
+        if packed.iter().any(|name| extension_object(json, name).is_some()) {
+            return self
+                .decompressed
+                .get(view)?
+                .get_or_init(|| self.decompress_view(view, json))
+                .as_deref();
+        }
+        let offset =
+            if json.get("byteOffset").is_some() { integer_member(json, "byteOffset")? } else { 0 };
+        self.buffer_range(
+            index_member(json, "buffer")?,
+            offset,
+            integer_member(json, "byteLength")?,
+        )
+    }
+
+    /// The range of a buffer that starts at `offset`; `None` if it is not completely inside.
+    ///
+    /// Both values come from the file, and may be larger than the address space of a 32-bit
+    /// machine.
+    fn buffer_range(&self, buffer: usize, offset: u64, length: u64) -> Option<&[u8]> {
+        let start = usize::try_from(offset).ok()?;
+        self.buffer_bytes(buffer)?.get(start..)?.get(..usize::try_from(length).ok()?)
+    }
+
+    /// Decompresses a meshopt buffer view; `None` if the stream is invalid or the budget is
+    /// exceeded.
+    ///
+    /// Errors of the stream are reported by the loader, which uses the same decoder. The
+    /// decompressed length is declared in the file, and is therefore charged before anything is
+    /// allocated.
+    fn decompress_view(&self, view: usize, json: &Value) -> Option<Vec<u8>> {
+        let pointer = format!("/bufferViews/{view}");
+        let packed = CompressedView::from_json(json, &pointer).ok()??;
+        let stream = self.buffer_range(packed.buffer, packed.offset, packed.length)?;
+        self.charge_budget(&pointer, packed.decompressed_length())
+            .then(|| packed.decompress(stream).ok())?
+    }
+
+    /// The elements of an accessor, if all of their bytes are present.
+    ///
+    /// A missing part has been reported elsewhere; the data is then skipped, so that no diagnostic
+    /// is a consequence of another. The layers of an accessor are resolved in this order:
+    ///
+    /// ```text
+    ///  buffer view   count elements at its stride, or zeros without a view
+    ///  sparse        some of them replaced: indices and values, tightly packed
+    /// ```
+    ///
+    /// The last packed element needs no padding after it, which matters for matrices of small
+    /// components.
+    pub(super) fn accessor_elements(
+        &self,
+        accessor: &Value,
+        layout: AccessorLayout,
+    ) -> Option<AccessorElements<'_>> {
+        let base = match layout.buffer_view {
+            Some(view) => {
+                let stride = self.view_stride(view).unwrap_or(layout.packed_stride());
+                let start = usize::try_from(layout.byte_offset).ok()?;
+                let length = usize::try_from(layout.byte_length(stride)).ok()?;
+                let bytes = self.view_bytes(view)?.get(start..)?.get(..length)?;
+                Some((bytes, Some(stride).filter(|&stride| stride >= layout.element_size())?))
+            }
+            None if accessor.get("bufferView").is_some() => return None,
+            None => None,
+        };
+        let Some(sparse) = accessor.get("sparse") else {
+            return Some(AccessorElements::new(layout, base, Vec::new(), &[]));
+        };
+        let indices = self.sparse_indices(sparse)?;
+        let values = sparse.get("values")?;
+        let offset = usize::try_from(integer_member(values, "byteOffset").unwrap_or(0)).ok()?;
+        let length = indices.len().checked_mul(layout.packed_stride())?;
+        let length = length.saturating_sub(layout.packed_stride() - layout.element_size());
+        let values =
+            self.view_bytes(index_member(values, "bufferView")?)?.get(offset..)?.get(..length)?;
+        Some(AccessorElements::new(layout, base, indices, values))
+    }
+
+    /// The indices of a sparse accessor, if all of their bytes are present (glTF 2.0 §3.6.2.3).
+    ///
+    /// They are converted to 32 bits, whatever their component type; the conversion is charged to
+    /// the budget, as the count is only a declaration.
+    pub(super) fn sparse_indices(&self, sparse: &Value) -> Option<Vec<u32>> {
+        let json = sparse.get("indices")?;
+        let component = ComponentType::from_gl_constant(integer_member(json, "componentType")?)?;
+        let offset = usize::try_from(integer_member(json, "byteOffset").unwrap_or(0)).ok()?;
+        let count = usize::try_from(integer_member(sparse, "count")?).ok()?;
+        let length = count.checked_mul(component.byte_size())?;
+        let bytes =
+            self.view_bytes(index_member(json, "bufferView")?)?.get(offset..)?.get(..length)?;
+        let pointer = "/accessors";
+        self.charge_budget(pointer, 4 * count as u64).then_some(())?;
+        Some(
+            bytes
+                .chunks_exact(component.byte_size())
+                .map(|c| component.read_number(c) as u32)
+                .collect(),
+        )
+    }
+
+    /// The `byteStride` that a buffer view declares, in bytes; `None` for tightly packed elements.
+    pub(super) fn view_stride(&self, view: usize) -> Option<usize> {
+        index_member(self.document.root_array("bufferViews").get(view)?, "byteStride")
+    }
+}
+
+/// Validates all buffer views (glTF 2.0 §5.11).
+pub(super) fn check_buffer_views(document: &CheckedDocument<'_>) {
+    for (at, view) in document.root_array("bufferViews").iter().enumerate() {
+        check_buffer_view(document, at, view);
+    }
+}
+
+/// Validates one buffer view: its range, and its stride.
+///
+/// The stride is a multiple of four, not set for indices, and not greater than the view. The range
+/// is compared with the declared length of the buffer, not with its data, so that a truncated file
+/// gives one diagnostic at the buffer and none at each of its views.
+fn check_buffer_view(document: &CheckedDocument<'_>, at: usize, view: &Value) {
+    let diagnostics = document.diagnostics;
+    let offset = integer_member(view, "byteOffset").unwrap_or(0);
+    let length = integer_member(view, "byteLength");
+    let buffer =
+        index_member(view, "buffer").and_then(|at| array_items(document.root, "buffers").get(at));
+    let available = buffer.and_then(|buffer| integer_member(buffer, "byteLength"));
+    if let (Some(length), Some(available)) = (length, available)
+        && (offset.saturating_add(length) > available || offset >= available && offset > 0)
+    {
+        let member = if offset >= available { "byteOffset" } else { "byteLength" };
+        let message = format_args!(
+            "{length} bytes from offset {offset} exceed the buffer of {available} bytes"
+        );
+        let pointer = format_args!("/bufferViews/{at}/{member}");
+        diagnostics.add(&codes::BUFFER_VIEW_TOO_LONG, pointer, message);
+    }
+    let Some(stride) = integer_member(view, "byteStride") else { return };
+    let pointer = format!("/bufferViews/{at}/byteStride");
+    if !stride.is_multiple_of(4) {
+        let message = format_args!("{stride} is not a multiple of 4");
+        diagnostics.add(&codes::VALUE_MULTIPLE_OF, &pointer, message);
+    }
+    if integer_member(view, "target") == Some(34_963) {
+        let message = "a buffer view of indices must not have byteStride";
+        diagnostics.add(&codes::BUFFER_VIEW_INVALID_BYTE_STRIDE, &pointer, message);
+    }
+    if let Some(length) = length.filter(|&length| stride > length) {
+        let message = format_args!("byteStride {stride} exceeds the buffer view of {length} bytes");
+        diagnostics.add(&codes::BUFFER_VIEW_TOO_BIG_BYTE_STRIDE, &pointer, message);
+    }
+}

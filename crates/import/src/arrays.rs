@@ -1,0 +1,313 @@
+//! Meshes from memory: arrays of vertices and polygons become a [`Model`], as those of files do.
+//!
+//! They go the way of PLY files: polygons are cut into triangles, normals follow from the crease
+//! angle where there are none, and faces with colors of their own split the vertices between them.
+
+use super::ImportOptions;
+use super::memory_budget::MemoryBudget;
+use super::ply::{self, Contents};
+use super::warnings::ImportWarnings;
+use crate::load::{check_scene_limits, surface_without_area};
+use homog::{Affine, Model as ModelSpace};
+use model::{
+    AlphaMode, Diagnostic, Image, ImageInfo, Material, Mesh, Model, Node, Sampler, Texture,
+    TextureInfo, codes,
+};
+
+/// A mesh as arrays: vertices, polygons and what they look like.
+///
+/// ```
+/// use import::{MeshArrays, MeshNode, load_arrays};
+/// let square = MeshArrays {
+///     positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+///     lengths: vec![4],
+///     corners: vec![0, 1, 2, 3],
+///     ..MeshArrays::default()
+/// };
+/// let model = load_arrays("square", vec![square], &[MeshNode::default()], &Default::default())?;
+/// assert_eq!(model.meshes[0].primitives[0].item_count(), 2);
+/// # Ok::<(), model::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct MeshArrays {
+    /// The name, if it has one.
+    pub name: Option<String>,
+    /// Positions of the vertices, all finite.
+    pub positions: Vec<[f32; 3]>,
+    /// The number of corners of each polygon, at least 3.
+    pub lengths: Vec<u32>,
+    /// Vertices of the corners of all polygons, counter-clockwise seen from outside.
+    pub corners: Vec<u32>,
+    /// Vertices of the ends of lines, two for each. Without polygons and lines the vertices are a
+    /// cloud of points.
+    pub line_ends: Vec<u32>,
+    /// Normals of the vertices, of any length; without them the crease angle decides.
+    pub normals: Option<Vec<[f32; 3]>>,
+    /// Texture coordinates of the vertices with (0, 0) at the upper left.
+    pub uvs: Option<Vec<[f32; 2]>>,
+    /// Linear colors of the vertices.
+    pub vertex_colors: Option<Vec<[f32; 4]>>,
+    /// Linear colors of the polygons, where the vertices have none.
+    pub face_colors: Option<Vec<[f32; 4]>>,
+    /// The image of the texture, which multiplies the base color; colors do not count then.
+    pub image: Option<Image>,
+    /// The material; `None` for that of formats without materials.
+    pub material: Option<Material>,
+}
+
+/// A place of a mesh in the model.
+#[derive(Clone, PartialEq, Debug)]
+pub struct MeshNode {
+    /// The name, if it has one.
+    pub name: Option<String>,
+    /// The index of the mesh.
+    pub mesh: usize,
+    /// From the mesh's coordinates to the model's.
+    pub to_model: Affine<ModelSpace, ModelSpace>,
+}
+
+impl Default for MeshNode {
+    /// The first mesh, where its coordinates say.
+    fn default() -> Self {
+        Self { name: None, mesh: 0, to_model: Affine::IDENTITY }
+    }
+}
+
+/// Makes a model of meshes in memory; `nodes` says where each of them is shown.
+///
+/// Of the options, limits, up axis, unit and crease angle count.
+///
+/// # Errors
+/// A limit is exceeded; arrays of different lengths; an index out of range; a position that is not
+/// finite. Locations begin with the index of the mesh or node: `/meshes/0/corners/7`.
+pub fn load_arrays(
+    name: &str,
+    meshes: Vec<MeshArrays>,
+    nodes: &[MeshNode],
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let mut model = Model { name: name.to_owned(), ..Model::default() };
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let (budget, mut images) = (MemoryBudget::new(&options.limits), Vec::new());
+    for (index, mut mesh) in meshes.into_iter().enumerate() {
+        let location = format!("/meshes/{index}");
+        mesh.check_arrays(&location)?;
+        let image = mesh.image.take().filter(|_| mesh.uvs.is_some());
+        let texture = image.is_some().then_some(images.len());
+        if image.is_some() {
+            images.push(image);
+            model.textures.push(Texture { image: texture, sampler: Sampler::default() });
+            model.image_infos.push(ImageInfo::default());
+        }
+        let materials = vec![mesh.to_material(texture)];
+        let (name, contents) = mesh.into_contents();
+        let bytes = ply::array_bytes(&contents);
+        budget.charge_bytes(&location, bytes, bytes)?;
+        let carrier = Model { materials, ..Model::default() };
+        let built = ply::build_primitives(contents, &carrier, options, &mut warnings);
+        let mut primitives: Vec<_> = built.into_iter().filter(|p| p.item_count() > 0).collect();
+        primitives.iter_mut().for_each(|primitive| primitive.material = Some(index));
+        model.materials.extend(carrier.materials);
+        model.meshes.push(Mesh { name, primitives, ..Mesh::default() });
+    }
+    model.images = images.into();
+    add_nodes(&mut model, nodes)?;
+    model.warnings = warnings.into_list();
+    model.length_unit = options.length_unit.unwrap_or_default();
+    model.rotate_roots(options.up.unwrap_or_default());
+    check_scene_limits(&model, &options.limits)?;
+    model.warnings.extend(surface_without_area(&model));
+    Ok(model)
+}
+
+/// Adds the nodes, all of them roots.
+fn add_nodes(model: &mut Model, nodes: &[MeshNode]) -> Result<(), Diagnostic> {
+    for (index, MeshNode { name, mesh, to_model }) in nodes.iter().enumerate() {
+        let location = format!("/nodes/{index}");
+        if *mesh >= model.meshes.len() {
+            let count = model.meshes.len();
+            return Err(Diagnostic::unresolved_index(&location, "mesh", *mesh, count));
+        }
+        if !to_model.is_finite() {
+            return Err(wrong_arrays(&location, "its transform is not finite".to_owned()));
+        }
+        model.roots.push(model.nodes.len());
+        model.nodes.push(Node {
+            name: name.clone(),
+            to_parent: *to_model,
+            trs: None,
+            to_model: *to_model,
+            mesh: Some(*mesh),
+            ..Node::default()
+        });
+    }
+    Ok(())
+}
+
+/// The error of arrays that do not fit together.
+fn wrong_arrays(location: &str, message: String) -> Diagnostic {
+    Diagnostic::error(codes::INVALID_DATA, location, message, "correct the arrays")
+}
+
+impl MeshArrays {
+    /// Checks lengths, indices and positions.
+    fn check_arrays(&self, location: &str) -> Result<(), Diagnostic> {
+        let (vertices, faces) = (self.positions.len(), self.lengths.len());
+        let lengths = [
+            ("normals", self.normals.as_ref().map(Vec::len), vertices),
+            ("uvs", self.uvs.as_ref().map(Vec::len), vertices),
+            ("vertex_colors", self.vertex_colors.as_ref().map(Vec::len), vertices),
+            ("face_colors", self.face_colors.as_ref().map(Vec::len), faces),
+        ];
+        for (array, found, expected) in lengths {
+            if let Some(found) = found.filter(|found| *found != expected) {
+                let message = format!("it has {found} entries, and there are {expected}");
+                return Err(wrong_arrays(&format!("{location}/{array}"), message));
+            }
+        }
+        let most = u32::MAX as usize;
+        if vertices.max(self.corners.len()).max(self.line_ends.len()) >= most {
+            let what = format!("it has {vertices} vertices and {} corners", self.corners.len());
+            let message = format!("{what}, more than {most}");
+            return Err(wrong_arrays(location, message));
+        }
+        let finite = |position: &[f32; 3]| position.iter().all(|x| x.is_finite());
+        if let Some(at) = self.positions.iter().position(|position| !finite(position)) {
+            let location = format!("{location}/positions/{at}");
+            return Err(wrong_arrays(&location, "it is not finite".to_owned()));
+        }
+        let indices = [("corners", &self.corners), ("line_ends", &self.line_ends)];
+        for (array, indices) in indices {
+            if let Some(at) = indices.iter().position(|&vertex| vertex as usize >= vertices) {
+                let location = format!("{location}/{array}/{at}");
+                let index = indices[at] as usize;
+                return Err(Diagnostic::unresolved_index(&location, "vertex", index, vertices));
+            }
+        }
+        let corners: u64 = self.lengths.iter().map(|&length| u64::from(length)).sum();
+        let is_polygon = |&length: &u32| length >= 3;
+        if corners != self.corners.len() as u64 || !self.lengths.iter().all(is_polygon) {
+            let message = format!("they are not those of {} corners", self.corners.len());
+            return Err(wrong_arrays(&format!("{location}/lengths"), message));
+        }
+        if !self.line_ends.len().is_multiple_of(2) {
+            let message = "a line has two ends".to_owned();
+            return Err(wrong_arrays(&format!("{location}/line_ends"), message));
+        }
+        Ok(())
+    }
+
+    /// The material, with the texture of this index.
+    fn to_material(&self, texture: Option<usize>) -> Material {
+        let colors = self.vertex_colors.as_ref().or(self.face_colors.as_ref());
+        let colors = colors.filter(|_| texture.is_none());
+        let mut material = self.material.clone().unwrap_or_else(|| {
+            let has_own = texture.is_some() || colors.is_some();
+            let base_color = if has_own { [1.0; 4] } else { Material::plain().base_color };
+            Material { base_color, ..Material::plain() }
+        });
+        if self.material.is_none() && colors.is_some_and(|all| all.iter().any(|c| c[3] < 1.0)) {
+            material.alpha_mode = AlphaMode::Blend;
+        }
+        material.base_color_texture = texture.map(|texture| TextureInfo {
+            texture,
+            uv_set: 0,
+            uv_matrix: TextureInfo::IDENTITY_UV,
+        });
+        material
+    }
+
+    /// The name, and the arrays as those of a PLY file.
+    fn into_contents(self) -> (Option<String>, Contents) {
+        let vertices = ply::Vertices {
+            positions: self.positions,
+            normals: self.normals,
+            uvs: self.uvs,
+            colors: self.vertex_colors,
+            scalars: None,
+        };
+        let faces = ply::Faces {
+            lengths: self.lengths,
+            corners: self.corners,
+            colors: self.face_colors,
+            ..ply::Faces::default()
+        };
+        let strips = ply::Faces::default();
+        (self.name, Contents { vertices, faces, strips, edges: self.line_ends })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> MeshArrays {
+        MeshArrays {
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+            lengths: vec![3, 3],
+            corners: vec![0, 1, 2, 0, 2, 3],
+            ..MeshArrays::default()
+        }
+    }
+
+    fn load(mesh: MeshArrays) -> Result<Model, Diagnostic> {
+        load_arrays("mesh", vec![mesh], &[MeshNode::default()], &ImportOptions::default())
+    }
+
+    #[test]
+    fn meshes_keep_their_order_and_have_materials_of_their_own() {
+        let image = Image { width: 1, height: 1, rgba: vec![[1, 2, 3, 255]] };
+        let textured = MeshArrays { image: Some(image), uvs: Some(vec![[0.0; 2]; 4]), ..square() };
+        let colored = MeshArrays { face_colors: Some(vec![[0.5; 4]; 2]), ..square() };
+        let to_model = Affine::translation(homog::Vector::new(1.0, 2.0, 3.0));
+        let nodes = [
+            MeshNode { mesh: 2, to_model, name: Some("c".into()) },
+            MeshNode { mesh: 1, ..MeshNode::default() },
+        ];
+        let options = ImportOptions::default();
+        let model = load_arrays("m", vec![square(), colored, textured], &nodes, &options)
+            .expect("good meshes");
+        assert_eq!(model.materials.len(), 3);
+        assert_eq!(model.materials[0], Material::plain());
+        assert_eq!(model.materials[1].alpha_mode, AlphaMode::Blend);
+        assert_eq!(model.materials[2].base_color_texture.map(|texture| texture.texture), Some(0));
+        let shown: Vec<_> = model.scene_primitives().map(|(_, p)| p.material).collect();
+        assert_eq!(shown, [Some(2), Some(1)]);
+        assert_eq!(model.meshes[1].primitives[0].colors.as_ref().map(Vec::len), Some(4));
+    }
+
+    #[test]
+    fn a_cloud_of_points_and_lines() {
+        let cloud = MeshArrays { positions: vec![[0.0; 3]; 5], ..MeshArrays::default() };
+        let lines = MeshArrays { line_ends: vec![0, 1], ..cloud.clone() };
+        for (mesh, count) in [(cloud, 5), (lines, 1)] {
+            let model = load(mesh).expect("a good mesh");
+            assert_eq!(model.meshes[0].primitives[0].item_count(), count);
+        }
+    }
+
+    #[test]
+    fn arrays_that_do_not_fit_are_refused_with_their_place() {
+        let nan = vec![[0.0; 3], [f32::NAN; 3], [0.0; 3], [0.0; 3]];
+        let table = [
+            (MeshArrays { corners: vec![0, 1, 4, 0, 2, 3], ..square() }, "/meshes/0/corners/2"),
+            (MeshArrays { normals: Some(vec![[0.0; 3]; 3]), ..square() }, "/meshes/0/normals"),
+            (MeshArrays { face_colors: Some(vec![]), ..square() }, "/meshes/0/face_colors"),
+            (MeshArrays { positions: nan, ..square() }, "/meshes/0/positions/1"),
+            (MeshArrays { lengths: vec![3, 0, 3], ..square() }, "/meshes/0/lengths"),
+            (MeshArrays { lengths: vec![6, 3], ..square() }, "/meshes/0/lengths"),
+            (MeshArrays { line_ends: vec![0], ..square() }, "/meshes/0/line_ends"),
+        ];
+        for (mesh, location) in table {
+            assert_eq!(load(mesh).expect_err("wrong arrays").location, location);
+        }
+    }
+
+    #[test]
+    fn limits_hold() {
+        let mut options = ImportOptions::default();
+        options.limits.array_bytes = 100;
+        let refused = load_arrays("m", vec![square()], &[], &options).expect_err("too large");
+        assert_eq!(refused.code, codes::LIMIT_EXCEEDED);
+    }
+}

@@ -1,0 +1,21 @@
+//! Import errors: the diagnostic that stopped loading, and constructors for the common kinds.
+
+use files::visible_path;
+use model::Diagnostic;
+use std::path::PathBuf;
+
+/// A file could not be loaded.
+///
+/// Displayed as `cube.gltf: /buffers/0/uri: the file "cube0.bin" does not exist; put it beside the
+/// glTF file`.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{}: {}", visible_path(file), diagnostic.sentence())]
+#[non_exhaustive]
+pub struct ImportError {
+    /// The file that was to be loaded.
+    pub file: PathBuf,
+    /// The error that stopped loading; its [`code`](Diagnostic::code) is one of [`codes`](model::codes).
+    ///
+    /// Boxed, so that a `Result` with this error stays small.
+    pub diagnostic: Box<Diagnostic>,
+}

@@ -1,0 +1,198 @@
+//! File formats of models: which one a file is in, by its content first and by its name only where
+//! the content does not say.
+
+use super::stl;
+use super::text::decode_text;
+use model::{Diagnostic, codes};
+use std::path::Path;
+
+/// A file format of models.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum FileFormat {
+    /// glTF 2.0, as JSON or in the binary container (GLB).
+    Gltf,
+    /// STL (stereolithography), ASCII or binary.
+    Stl,
+    /// Wavefront OBJ, with its material library (MTL).
+    Obj,
+    /// PLY (polygon file format, Stanford triangle format), ASCII or binary.
+    Ply,
+    /// 3MF (3D Manufacturing Format): a zip archive.
+    ThreeMf,
+}
+
+/// The bytes at the beginning of a file that tell text formats apart.
+///
+/// Comments before the first statement of an OBJ file are seldom longer.
+const PREFIX_BYTES: usize = 16 << 10;
+
+impl FileFormat {
+    /// All formats.
+    pub const ALL: [Self; 5] = [Self::Gltf, Self::Stl, Self::Obj, Self::Ply, Self::ThreeMf];
+
+    /// The name of the format: `glTF`, `STL`, `OBJ`, `PLY` or `3MF`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Gltf => "glTF",
+            Self::Stl => "STL",
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::ThreeMf => "3MF",
+        }
+    }
+
+    /// File extensions of the format, in lower case and without the dot.
+    #[must_use]
+    pub const fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Gltf => &["gltf", "glb"],
+            Self::Stl => &["stl"],
+            Self::Obj => &["obj"],
+            Self::Ply => &["ply"],
+            Self::ThreeMf => &["3mf"],
+        }
+    }
+
+    /// The format that a file's extension stands for; upper and lower case are the same.
+    #[must_use]
+    pub fn from_extension(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|format| format.extensions().contains(&extension.as_str()))
+    }
+
+    /// The format that the content of a file shows; `None` if it shows none of them for certain.
+    ///
+    /// The time does not grow with the file.
+    #[must_use]
+    pub fn from_content(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"glTF") {
+            return Some(Self::Gltf);
+        }
+        if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
+            return Some(Self::ThreeMf);
+        }
+        let text = decode_text(bytes.get(..PREFIX_BYTES).unwrap_or(bytes));
+        let trimmed = text.trim_ascii_start();
+        if trimmed.first() == Some(&b'{') {
+            Some(Self::Gltf)
+        } else if trimmed.starts_with(b"ply") && trimmed.get(3).is_some_and(u8::is_ascii_whitespace)
+        {
+            Some(Self::Ply)
+        } else if stl::is_stl(bytes, &text) {
+            Some(Self::Stl)
+        } else {
+            begins_with_obj_statement(trimmed).then_some(Self::Obj)
+        }
+    }
+
+    /// Whether content of this format is that, even in a file as long as a binary STL file.
+    pub(super) fn precedes_binary_stl(self) -> bool {
+        matches!(self, Self::Gltf | Self::ThreeMf | Self::Ply)
+    }
+
+    /// The format of a file, by its content, else by its name.
+    ///
+    /// # Errors
+    /// [`UNKNOWN_FORMAT`](codes::UNKNOWN_FORMAT) if neither says.
+    pub fn recognize(path: &Path, bytes: &[u8]) -> Result<Self, Diagnostic> {
+        let named = Self::from_extension(path);
+        Self::from_content(bytes).or(named).ok_or_else(|| unknown_format(bytes))
+    }
+}
+
+/// Whether the first line that is neither blank nor a comment is a statement of an OBJ file, with
+/// something to state.
+fn begins_with_obj_statement(text: &[u8]) -> bool {
+    const STATEMENTS: [&[u8]; 16] = [
+        b"v", b"vn", b"vt", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"mtllib", b"usemtl",
+        b"usemap", b"cstype", b"maplib",
+    ];
+    let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
+    let statement = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"));
+    let mut words = statement.into_iter().flat_map(|line| line.split(u8::is_ascii_whitespace));
+    let is_statement = words.next().is_some_and(|keyword| STATEMENTS.contains(&keyword));
+    is_statement && words.next().is_some() && !text.contains(&0)
+}
+
+/// Formats that are not read: how they begin, what they are called, and what to do.
+const FOREIGN_FORMATS: [(&[u8], &str, &str); 7] = [
+    (b"Kaydara FBX Binary", "an FBX file", "export it as .glb from the program that made it"),
+    (b"; FBX", "an FBX file", "export it as .glb from the program that made it"),
+    (b"ISO-10303-21", "a STEP file", "convert it, for instance by gmsh part.step -2 -o part.stl"),
+    (b"PXR-USDC", "a USD file", "export it as .glb from the program that made it"),
+    (b"#usda", "a USD file", "export it as .glb from the program that made it"),
+    (b"BLENDER", "a Blender file", "export it as .glb from Blender"),
+    (b"<?xml", "an XML file (COLLADA, AMF, X3D …)", "export it as .glb or .3mf"),
+];
+
+/// The error for a file whose format neither its content nor its name says.
+fn unknown_format(bytes: &[u8]) -> Diagnostic {
+    let known = FOREIGN_FORMATS.iter().find(|(start, ..)| bytes.starts_with(start));
+    let (message, help) = match known {
+        Some((_, name, help)) => (format!("this is {name}, which is not read"), *help),
+        None if bytes.is_empty() => ("the file is empty".to_owned(), GIVE_A_MODEL),
+        None => ("this is no model of a known format".to_owned(), GIVE_A_MODEL),
+    };
+    Diagnostic::error(codes::UNKNOWN_FORMAT, "", message, help)
+}
+
+/// The remedy for a file of an unknown format.
+const GIVE_A_MODEL: &str = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn binary_stl(header: &[u8], triangles: u32) -> Vec<u8> {
+        let mut file = header.to_vec();
+        file.resize(80, 0);
+        file.extend(triangles.to_le_bytes());
+        file.resize(84 + 50 * triangles as usize, 0);
+        file
+    }
+
+    #[test]
+    fn content_decides() {
+        let utf_16: Vec<u8> =
+            "\u{FEFF}v 1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let table: [(&[u8], Option<FileFormat>); 16] = [
+            (b"glTF\x02\0\0\0", Some(FileFormat::Gltf)),
+            (b"\xEF\xBB\xBF \n{\"asset\": {}}", Some(FileFormat::Gltf)),
+            (b"PK\x03\x04\x14", Some(FileFormat::ThreeMf)),
+            (b"ply\r\nformat ascii 1.0\r\n", Some(FileFormat::Ply)),
+            (b"plywood", None),
+            (b"solid cube\nfacet normal 0 0 1\n", Some(FileFormat::Stl)),
+            (b"  SOLID\rENDSOLID\r", Some(FileFormat::Stl)),
+            (b"solid advice about nothing", None),
+            (&binary_stl(b"exported by a program", 2), Some(FileFormat::Stl)),
+            (&binary_stl(b"solid facet", 2), Some(FileFormat::Stl)),
+            (b"# made by hand\n\nmtllib a.mtl\n", Some(FileFormat::Obj)),
+            (b"\xEF\xBB\xBFv 1 2 3", Some(FileFormat::Obj)),
+            (&utf_16, Some(FileFormat::Obj)),
+            (b"vertex", None),
+            (b"g", None),
+            (b"", None),
+        ];
+        for (bytes, format) in table {
+            let start = String::from_utf8_lossy(&bytes[..bytes.len().min(30)]);
+            assert_eq!(FileFormat::from_content(bytes), format, "{start}");
+        }
+    }
+
+    #[test]
+    fn the_name_decides_where_the_content_does_not_say() {
+        let of = |name: &str, bytes: &[u8]| {
+            FileFormat::recognize(Path::new(name), bytes).map_err(|error| error.sentence())
+        };
+        assert_eq!(of("a.STL", b""), Ok(FileFormat::Stl));
+        assert_eq!(of("a.stl", b"v 1 2 3\n"), Ok(FileFormat::Obj));
+        assert_eq!(of("a.obj", b"# nothing else"), Ok(FileFormat::Obj));
+        let message = of("a.step", b"ISO-10303-21;\nHEADER;").unwrap_err();
+        assert!(
+            message.starts_with("this is a STEP file, which is not read; convert"),
+            "{message}"
+        );
+        assert!(of("a", b"\0\0").unwrap_err().contains("known format"));
+    }
+}

@@ -1,0 +1,234 @@
+//! Vertex attributes: the formats each may have, and reading of those that are optional.
+//!
+//! The formats listed here are wider than those of core glTF: files use quantized formats without
+//! declaring KHR_mesh_quantization, and their meaning is unambiguous. The validator reports them.
+
+use super::accessor::AccessorReader;
+use super::draco::DracoData;
+use super::elements::ResolvedAccessor;
+use crate::warnings::ImportWarnings;
+use gltf::json::accessor::ComponentType::{self, F32, I8, I16, U8, U16, U32};
+use gltf::json::accessor::Type;
+use model::Diagnostic;
+use std::ops::Range;
+
+/// Element and component types that an attribute or the values of an animation may have, including
+/// those of KHR_mesh_quantization.
+///
+/// Whether integers are normalized is not restricted: the accessor says so, and conversion follows
+/// it.
+pub(super) struct AllowedFormats {
+    /// glTF's `type`.
+    element_types: &'static [Type],
+    /// glTF's `componentType`.
+    component_types: &'static [ComponentType],
+}
+
+/// Primitive indices, and vertices of edges.
+pub(super) const INDICES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Scalar], component_types: &[U8, U16, U32] };
+/// Positions; the integers are those of KHR_mesh_quantization.
+pub(super) const POSITION: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, U8, I16, U16] };
+/// Normals; the signed integers are those of KHR_mesh_quantization.
+pub(super) const NORMAL: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32, I8, I16] };
+/// Tangents with the handedness of the bitangent in w.
+pub(super) const TANGENT: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, I16] };
+/// Texture coordinates, also beyond [0, 1].
+pub(super) const TEXCOORD: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec2], component_types: &[F32, I8, U8, I16, U16] };
+/// Vertex colors, linear RGB with or without alpha.
+pub(super) const COLOR: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3, Type::Vec4], component_types: &[F32, U8, U16] };
+/// Scalars of a custom attribute, such as `_TEMPERATURE`.
+pub(super) const CUSTOM_SCALAR: AllowedFormats = AllowedFormats {
+    element_types: &[Type::Scalar],
+    component_types: &[F32, I8, U8, I16, U16, U32],
+};
+/// Joint indices, four a vertex.
+pub(super) const JOINTS: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[U8, U16] };
+/// Joint weights, four a vertex; integers are normalized.
+pub(super) const WEIGHTS: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, U8, U16] };
+/// Keyframe values of translations and scales.
+pub(super) const TRANSLATION_OR_SCALE: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], component_types: &[F32] };
+/// Keyframe values of rotations: quaternions, x, y, z, w.
+pub(super) const ROTATION: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec4], component_types: &[F32, I8, U8, I16, U16] };
+/// Keyframe values of single numbers, and of morph weights.
+pub(super) const SCALAR_VALUES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Scalar], component_types: &[F32, I8, U8, I16, U16] };
+/// Keyframe values of pairs, such as texture offsets.
+pub(super) const VEC2_VALUES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec2], ..SCALAR_VALUES };
+/// Keyframe values of triples, such as colors.
+pub(super) const VEC3_VALUES: AllowedFormats =
+    AllowedFormats { element_types: &[Type::Vec3], ..SCALAR_VALUES };
+
+impl AllowedFormats {
+    /// Checks that an accessor has one of the formats.
+    ///
+    /// # Errors
+    /// The message lists the allowed types by the names and numbers of the JSON, as a reader of the
+    /// file sees them.
+    pub(super) fn check_elements(
+        &self,
+        elements: &ResolvedAccessor<'_>,
+        pointer: &str,
+    ) -> Result<(), Diagnostic> {
+        if self.element_types.contains(&elements.element_type)
+            && self.component_types.contains(&elements.component_type)
+        {
+            return Ok(());
+        }
+        let shapes: Vec<&str> = self.element_types.iter().map(|&shape| type_name(shape)).collect();
+        let components: Vec<String> =
+            self.component_types.iter().map(|c| c.as_gl_enum().to_string()).collect();
+        let message = format!(
+            "must be {} of component type {}, not {} of {}",
+            shapes.join(" or "),
+            components.join(" or "),
+            type_name(elements.element_type),
+            elements.component_type.as_gl_enum()
+        );
+        Err(Diagnostic::invalid(pointer, message))
+    }
+}
+
+/// The name of an element type in JSON.
+fn type_name(shape: Type) -> &'static str {
+    match shape {
+        Type::Scalar => "SCALAR",
+        Type::Vec2 => "VEC2",
+        Type::Vec3 => "VEC3",
+        Type::Vec4 => "VEC4",
+        Type::Mat2 => "MAT2",
+        Type::Mat3 => "MAT3",
+        Type::Mat4 => "MAT4",
+    }
+}
+
+/// The range of a primitive's vertices that its indices use.
+///
+/// Arrays that are read have `used.len()` elements: index 0 is the vertex `used.start` of the file.
+pub(super) struct VertexRange {
+    /// Number of vertices in the file.
+    pub(super) vertices: usize,
+    /// The vertices between the lowest and the highest index.
+    pub(super) used: Range<usize>,
+}
+
+/// Reader of the attributes of one primitive.
+pub(super) struct AttributeReader<'a, 'w> {
+    pub(super) source: &'a AccessorReader<'a>,
+    pub(super) range: VertexRange,
+    /// Decoded attributes of a Draco-compressed primitive. An accessor without bytes then means
+    /// that the attribute is absent, not that it is zero.
+    pub(super) draco: Option<&'a DracoData>,
+    pub(super) warnings: &'w mut ImportWarnings,
+}
+
+impl AttributeReader<'_, '_> {
+    /// Reads an optional attribute: one that is invalid is left out with a warning.
+    ///
+    /// Only the range of vertices that the indices use is converted.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files; faults in the content are warnings.
+    pub(super) fn read_attribute<T>(
+        &mut self,
+        accessor: Option<usize>,
+        pointer: &str,
+        format: &AllowedFormats,
+        read: impl Fn(&AccessorReader<'_>, ResolvedAccessor<'_>) -> Result<Vec<T>, Diagnostic>,
+    ) -> Result<Option<Vec<T>>, Diagnostic> {
+        let Some(accessor) = accessor else { return Ok(None) };
+        let is_absent = |decoded: &DracoData| {
+            !decoded.has_accessor(accessor) && self.source.has_no_data(accessor)
+        };
+        if self.draco.is_some_and(is_absent) {
+            return Ok(None);
+        }
+        let checked = self.source.resolve_accessor(accessor, pointer).and_then(|elements| {
+            format.check_elements(&elements, pointer)?;
+            let elements = match self.draco {
+                Some(decoded) => decoded.attach_data(elements),
+                None => elements,
+            };
+            let VertexRange { vertices, used } = &self.range;
+            if elements.count == *vertices {
+                return read(self.source, elements.slice_range(used.clone()));
+            }
+            let message = format!("{} values for {vertices} vertices", elements.count);
+            Err(Diagnostic::invalid(pointer, message))
+        });
+        match checked {
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                let name = pointer.rsplit('/').next().unwrap_or(pointer);
+                self.warnings.downgrade(&diagnostic, &format!("the attribute {name} is left out"));
+                Ok(None)
+            }
+            values => values.map(Some),
+        }
+    }
+
+    /// Reads a set of texture coordinates; those that are not finite become 0.
+    ///
+    /// A single NaN would otherwise spread over the triangle and its mip level selection.
+    /// Coordinates beyond [0, 1] are valid: the sampler wraps them.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files.
+    pub(super) fn read_texcoords(
+        &mut self,
+        accessor: Option<usize>,
+        pointer: &str,
+    ) -> Result<Option<Vec<[f32; 2]>>, Diagnostic> {
+        let read =
+            self.read_attribute(accessor, pointer, &TEXCOORD, |source, e| source.read_floats(&e))?;
+        let Some(mut uvs) = read else { return Ok(None) };
+        let is_nonfinite = |uv: &[f32; 2]| !(uv[0].is_finite() && uv[1].is_finite());
+        let mut nonfinite = 0;
+        for uv in uvs.iter_mut().filter(|uv| is_nonfinite(uv)) {
+            *uv = [0.0; 2];
+            nonfinite += 1;
+        }
+        if nonfinite > 0 {
+            let message = format!("coordinates are no numbers; they are 0 (vertices: {nonfinite})");
+            self.warnings.push_warning(pointer, message);
+        }
+        Ok(Some(uvs))
+    }
+
+    /// Reads colors of three or four components as four, each clamped to [0, 1].
+    ///
+    /// Three components are opaque. Only the morph targets of colors may be negative, so that
+    /// clamping here loses nothing.
+    ///
+    /// # Errors
+    /// Exceeded limits and unreadable files.
+    pub(super) fn read_colors(
+        &mut self,
+        accessor: Option<usize>,
+        pointer: &str,
+    ) -> Result<Option<Vec<[f32; 4]>>, Diagnostic> {
+        self.read_attribute(accessor, pointer, &COLOR, |source, mut elements| {
+            // Integers are normalized even without `normalized`: integer colors have no other
+            // meaning, and some exporters omit the flag.
+            elements.normalized = true;
+            let mut colors: Vec<[f32; 4]> = source.read_floats(&elements)?;
+            for color in &mut colors {
+                if elements.element_type == Type::Vec3 {
+                    color[3] = 1.0;
+                }
+                // The comparison is false for NaN, which becomes 0.
+                *color = color.map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
+            }
+            Ok(colors)
+        })
+    }
+}

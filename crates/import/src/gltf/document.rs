@@ -1,0 +1,343 @@
+//! JSON parsing: from bytes to the `gltf` crate's JSON types, by way of `serde_json::Value`.
+//!
+//! The types alone reject valid files (an integer written as `1.0`, a scene without nodes, an
+//! animation channel without a target) and accept invalid ones (an index of 2³² becomes 0). Both
+//! are corrected on the value, before the types see it. Nesting depth and number of values are
+//! limited before any value is built.
+//!
+//! ```text
+//!  bytes ─limits─► Value ─normalize─► Value ─┬─ transforms in f64
+//!                                           ├─ members without a type
+//!                                           └─ gltf::json::Root
+//! ```
+
+use super::json_repair;
+use super::node_transform::NodeTransform;
+use super::untyped_members::UntypedMembers;
+use crate::limits::Limits;
+use crate::warnings::ImportWarnings;
+use gltf::json::Root;
+use model::{Diagnostic, codes};
+use serde_json::{Map, Number, Value};
+
+/// The parsed JSON of a file.
+///
+/// Parsing is complete before any buffer is read: a file that is not glTF costs only its JSON.
+#[derive(Debug)]
+pub(super) struct GltfDocument {
+    /// Everything but the transforms of the nodes, as in the file: indices in it have not been
+    /// checked.
+    pub(super) root: Root,
+    /// Local transforms of the nodes, finite. The `gltf` crate would round them to single
+    /// precision.
+    pub(super) node_transforms: Vec<NodeTransform>,
+    /// Members that the JSON types do not have.
+    pub(super) untyped: UntypedMembers,
+}
+
+impl GltfDocument {
+    /// Parses and normalizes the JSON; reading leniently, members of wrong types are left out.
+    ///
+    /// The steps depend on each other: untyped members are collected before channels without a
+    /// target node are dropped, because animation pointers are among them.
+    ///
+    /// # Errors
+    /// The text is not JSON, exceeds a limit, has an unsupported version, or has a member of a
+    /// wrong type.
+    pub(super) fn parse_json(
+        text: &[u8],
+        limits: &Limits,
+        warnings: &mut ImportWarnings,
+    ) -> Result<Self, Diagnostic> {
+        check_json_limits(text, limits)?;
+        let mut value: Value =
+            serde_json::from_slice(text).map_err(|error| syntax_error(&error))?;
+        check_gltf_version(&value, warnings)?;
+        normalize_value(&mut value);
+        insert_missing_scene_nodes(&mut value);
+        let untyped = UntypedMembers::collect_from(&value);
+        drop_untargeted_channels(&mut value);
+        let placements = NodeTransform::take_transforms(&mut value, warnings)?;
+        let root = json_repair::deserialize_document(&mut value, text.len(), warnings)?;
+        Ok(Self { root, node_transforms: placements, untyped })
+    }
+}
+
+/// Counts nesting and values against the limits without building anything.
+///
+/// Text outside of strings is scanned for brackets and commas; that is exact for well-formed JSON,
+/// and an upper bound is all that is needed for the rest. `serde_json` itself stops at a depth of
+/// 128, whatever the limit says.
+///
+/// # Errors
+/// [`LIMIT_EXCEEDED`](model::codes::LIMIT_EXCEEDED) for `json_depth` or `json_values`.
+///
+/// An object counts as ten values, which is about its cost in memory next to a number. The time is
+/// linear in the text, and strings are skipped in blocks.
+pub fn check_json_limits(text: &[u8], limits: &Limits) -> Result<(), Diagnostic> {
+    let (mut depth, mut values) = (0usize, 1usize);
+    let mut at = 0;
+    while let Some(&byte) = text.get(at) {
+        at += 1;
+        match byte {
+            b'"' => at = end_of_string(text, at),
+            b'[' | b'{' => {
+                depth += 1;
+                values += if byte == b'{' { 10 } else { 1 };
+                if depth > limits.json_depth.min(127) {
+                    let what = format!("brackets are nested {depth} deep at byte {at}");
+                    return Err(Diagnostic::limit_exceeded(
+                        "",
+                        &what,
+                        "json_depth",
+                        limits.json_depth as u64,
+                    ));
+                }
+            }
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            b',' => values += 1,
+            _ => {}
+        }
+    }
+    if values > limits.json_values {
+        let what = format!("the JSON has {values} values");
+        return Err(Diagnostic::limit_exceeded(
+            "",
+            &what,
+            "json_values",
+            limits.json_values as u64,
+        ));
+    }
+    Ok(())
+}
+
+/// The position after the quote that ends the string which `at` is in.
+///
+/// A backslash skips the character after it, which may be a quote. An unterminated string ends with
+/// the text; the JSON parser then reports it.
+fn end_of_string(text: &[u8], mut at: usize) -> usize {
+    loop {
+        // Data URIs are megabytes without a quote: whole blocks are skipped.
+        while let Some(block) = text.get(at..at + 32) {
+            if block.iter().fold(false, |found, &b| found | (b == b'"') | (b == b'\\')) {
+                break;
+            }
+            at += 32;
+        }
+        match text.get(at) {
+            None => return text.len(),
+            Some(b'"') => return at + 1,
+            Some(b'\\') => at += 2,
+            Some(_) => at += 1,
+        }
+    }
+}
+
+/// Checks `asset.version` and `asset.minVersion`; only glTF 2.x is read.
+///
+/// A newer minor version is accepted, as the specification demands, unless `minVersion` says that
+/// the file needs it; reading leniently that is only a warning.
+///
+/// It runs before the types are applied, because a glTF 1.0 file would otherwise fail with a
+/// message about some member.
+fn check_gltf_version(value: &Value, warnings: &mut ImportWarnings) -> Result<(), Diagnostic> {
+    let asset = &value["asset"];
+    let Some(version) = asset["version"].as_str() else {
+        let message = "the version of glTF is missing";
+        let help = "check that this is a glTF file; a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}";
+        return Err(Diagnostic::error(
+            codes::UNSUPPORTED_VERSION,
+            "/asset/version",
+            message.to_owned(),
+            help,
+        ));
+    };
+    let unknown = |key: &str, version: &str| {
+        Diagnostic::error(
+            codes::UNSUPPORTED_VERSION,
+            &format!("/asset/{key}"),
+            format!("the file is glTF {version} and only glTF 2.0 is read"),
+            "convert it to glTF 2.0",
+        )
+    };
+    if version.split('.').next() != Some("2") {
+        return Err(unknown("version", version));
+    }
+    match asset["minVersion"].as_str() {
+        Some(minimum) if minimum != "2.0" => {
+            warnings.downgrade_if_lenient(unknown("minVersion", minimum), "it is read as glTF 2.0")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Members whose numbers may exceed 32 bits.
+///
+/// Buffers may exceed 4 GiB; indices, which the `gltf` crate stores in 32 bits, may not.
+const WIDE_MEMBERS: [&str; 3] = ["byteLength", "byteOffset", "count"];
+
+/// Writes integers as integers wherever the file has `1.0`, and removes `extras`.
+///
+/// `extras` hold data of applications. They may be large and of any shape, and nothing here uses
+/// them.
+fn normalize_value(value: &mut Value) {
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(normalize_value),
+        Value::Object(members) => normalize_members(members),
+        Value::Number(number) => *number = normalize_number(number, false),
+        _ => {}
+    }
+}
+
+/// Normalizes the members of an object; names decide which integers may exceed 32 bits.
+fn normalize_members(members: &mut Map<String, Value>) {
+    members.remove("extras");
+    for (key, value) in members {
+        match value {
+            Value::Number(number) => {
+                *number = normalize_number(number, WIDE_MEMBERS.contains(&key.as_str()));
+            }
+            _ => normalize_value(value),
+        }
+    }
+}
+
+/// An integral number as an integer if it fits, else as floating point: the types then reject it as
+/// an index instead of taking its lowest 32 bits.
+///
+/// `1.0` is a valid integer in JSON schema, and some exporters write all numbers with a fraction.
+fn normalize_number(number: &Number, wide: bool) -> Number {
+    let limit = if wide { u64::MAX } else { u64::from(u32::MAX) };
+    match (number.as_u64(), number.as_f64()) {
+        (Some(integer), _) if integer <= limit => number.clone(),
+        (Some(_), Some(float)) => Number::from_f64(float).unwrap_or_else(|| number.clone()),
+        (None, Some(float)) if float >= 0.0 && float <= limit as f64 && float % 1.0 == 0.0 => {
+            Number::from(float as u64)
+        }
+        _ => number.clone(),
+    }
+}
+
+/// Adds an empty `nodes` to scenes without: the specification makes it optional, the type does not.
+fn insert_missing_scene_nodes(value: &mut Value) {
+    for scene in objects_in(value, "scenes") {
+        scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+    }
+}
+
+/// Removes animation channels without a target node: they are to be ignored (glTF 2.0 §3.11), or
+/// belong to KHR_animation_pointer.
+fn drop_untargeted_channels(value: &mut Value) {
+    for animation in objects_in(value, "animations") {
+        if let Some(Value::Array(channels)) = animation.get_mut("channels") {
+            channels.retain(|c| c["target"].is_null() || !c["target"]["node"].is_null());
+        }
+    }
+}
+
+/// The objects of an array at the top level of the document.
+fn objects_in<'a>(
+    value: &'a mut Value,
+    key: &str,
+) -> impl Iterator<Item = &'a mut Map<String, Value>> {
+    let items = value.get_mut(key).and_then(Value::as_array_mut);
+    items.into_iter().flatten().filter_map(Value::as_object_mut)
+}
+
+/// The error for text that is not JSON.
+fn syntax_error(error: &serde_json::Error) -> Diagnostic {
+    let message = format!("the JSON is not well formed: {error}");
+    Diagnostic::error(codes::NOT_GLTF, "", message, "correct it there or export the file again")
+}
+
+/// The error for a member of the wrong type, with the JSON pointer to it.
+///
+/// The phrase of the `gltf` crate for an index is replaced by a plainer one.
+pub(super) fn type_error(pointer: &str, message: &str) -> Diagnostic {
+    Diagnostic::invalid(pointer, message.replace("index into child of root", "an index"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(members: &str) -> Result<GltfDocument, Diagnostic> {
+        let text = format!(r#"{{"asset": {{"version": "2.0"}}{members}}}"#);
+        GltfDocument::parse_json(
+            text.as_bytes(),
+            &Limits::default(),
+            &mut ImportWarnings::default(),
+        )
+    }
+
+    #[test]
+    fn valid_oddities_are_read() {
+        let document = parse(
+            r#", "scene": 0.0, "scenes": [{}], "buffers": [{"byteLength": 12.0}],
+               "animations": [{"samplers": [], "channels": [{"sampler": 0, "target": {"path": "pointer"}}]}]"#,
+        )
+        .unwrap();
+        assert_eq!(document.root.scene.unwrap().value(), 0);
+        assert_eq!(document.root.buffers[0].byte_length.0, 12);
+        assert!(document.root.animations[0].channels.is_empty());
+    }
+
+    #[test]
+    fn faults_have_a_pointer() {
+        for (members, pointer, message) in [
+            (r#", "nodes": 3"#, "/nodes", "invalid type: integer `3`, expected a sequence"),
+            (
+                r#", "nodes": [{"mesh": "x"}]"#,
+                "/nodes/0/mesh",
+                "invalid type: string \"x\", expected an index",
+            ),
+            (
+                r#", "scene": 4294967296"#,
+                "/scene",
+                "invalid type: floating point `4294967296.0`, expected an index",
+            ),
+            (r#", "meshes": [{}]"#, "/meshes/0", "missing field `primitives`"),
+        ] {
+            let diagnostic = parse(members).unwrap_err();
+            assert_eq!((&*diagnostic.location, &*diagnostic.message), (pointer, message));
+        }
+    }
+
+    #[test]
+    fn versions() {
+        let message = |asset: &str| {
+            let text = format!("{{{asset}}}");
+            let document = GltfDocument::parse_json(
+                text.as_bytes(),
+                &Limits::default(),
+                &mut ImportWarnings::default(),
+            );
+            document.err().map(|diagnostic| diagnostic.message)
+        };
+        assert_eq!(message(r#""asset": {"version": "2.1"}"#), None);
+        assert_eq!(
+            message(r#""asset": {"version": "1.0"}"#).unwrap(),
+            "the file is glTF 1.0 and only glTF 2.0 is read"
+        );
+        assert_eq!(
+            message(r#""asset": {"version": "2.1", "minVersion": "2.1"}"#).unwrap(),
+            "the file is glTF 2.1 and only glTF 2.0 is read"
+        );
+        assert_eq!(message("").unwrap(), "the version of glTF is missing");
+    }
+
+    #[test]
+    fn depth_and_size_are_bounded() {
+        let deep = format!(r#", "extras": {}"#, "[".repeat(100_000));
+        let diagnostic = parse(&deep).unwrap_err();
+        assert_eq!(diagnostic.code, codes::LIMIT_EXCEEDED);
+        assert!(diagnostic.sentence().contains("json_depth"), "{diagnostic}");
+        let text = br#"{"asset": {"version": "2.0"}, "extras": "[[[[[[[\"[[[["}"#;
+        let limits = Limits { json_depth: 2, json_values: 24, ..Limits::default() };
+        let parse =
+            |text: &[u8]| GltfDocument::parse_json(text, &limits, &mut ImportWarnings::default());
+        assert!(parse(text).is_ok(), "brackets in strings do not count");
+        let fault = parse(b"[{},{},{}]").unwrap_err();
+        assert!(fault.sentence().contains("json_values"), "{diagnostic}");
+    }
+}

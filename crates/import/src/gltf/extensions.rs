@@ -1,0 +1,175 @@
+//! Extension support: the extensions that are drawn, ignored or refused.
+//!
+//! To add a material extension (KHR_materials_…), follow "How to add" in ARCHITECTURE.md; others
+//! are read in the module of their object (nodes in `scene_graph`). Then change the row in the
+//! table, which is what the program prints about a file's extensions.
+
+use crate::warnings::ImportWarnings;
+use gltf::json::Root;
+use model::{Diagnostic, codes};
+use std::collections::BTreeSet;
+
+/// Support for an extension.
+///
+/// The texts complete warnings, and are shown to users.
+enum ExtensionSupport {
+    /// It is fully supported.
+    Full,
+    /// It does not affect the picture.
+    Harmless,
+    /// It is drawn with the limitation that the text names.
+    Partly(&'static str),
+    /// It is ignored; the text names what is missing then.
+    Without(&'static str),
+    /// Files that require it are refused; the text gives the reason.
+    None(&'static str),
+}
+
+use ExtensionSupport::{Full, Harmless, None as Never, Partly, Without};
+
+/// Draco is an optional feature of this crate, on by default.
+const DRACO_SUPPORT: ExtensionSupport =
+    if cfg!(feature = "draco") { Full } else { Never("data compressed by Draco is not read") };
+
+/// Basis Universal is an optional feature of this crate, on by default.
+const BASISU_SUPPORT: ExtensionSupport =
+    if cfg!(feature = "basisu") { Full } else { Never("KTX2 images are not read") };
+
+/// WebP is an optional feature of this crate, on by default.
+const WEBP_SUPPORT: ExtensionSupport =
+    if cfg!(feature = "webp") { Full } else { Never("WebP images are not read") };
+
+/// All known extensions, sorted by name.
+///
+/// An extension that is not listed is ignored if a file merely uses it, without a warning, and
+/// refused if a file requires it.
+const KNOWN_EXTENSIONS: [(&str, ExtensionSupport); 36] = [
+    ("CESIUM_primitive_outline", Partly("the outlines are drawn in line drawings alone")),
+    ("EXT_mesh_features", Harmless),
+    ("EXT_mesh_gpu_instancing", Full),
+    ("EXT_mesh_manifold", Harmless),
+    ("EXT_mesh_primitive_edge_visibility", Partly("the edges are drawn in line drawings alone")),
+    ("EXT_meshopt_compression", Full),
+    ("EXT_structural_metadata", Harmless),
+    ("EXT_texture_webp", WEBP_SUPPORT),
+    ("KHR_animation_pointer", Full),
+    ("KHR_draco_mesh_compression", DRACO_SUPPORT),
+    ("KHR_lights_punctual", Full),
+    (
+        "KHR_materials_anisotropy",
+        Partly("under an environment approximate: reflections are bent, but not stretched"),
+    ),
+    ("KHR_materials_clearcoat", Full),
+    ("KHR_materials_diffuse_transmission", Without("light through surfaces is not shown")),
+    ("KHR_materials_dispersion", Full),
+    ("KHR_materials_emissive_strength", Full),
+    ("KHR_materials_ior", Full),
+    ("KHR_materials_iridescence", Full),
+    ("KHR_materials_pbrSpecularGlossiness", Full),
+    ("KHR_materials_sheen", Full),
+    ("KHR_materials_specular", Full),
+    (
+        "KHR_materials_transmission",
+        Partly("thick or rough glass shows the opaque surfaces of the picture behind it alone"),
+    ),
+    ("KHR_materials_unlit", Full),
+    ("KHR_materials_variants", Full),
+    ("KHR_materials_volume", Full),
+    ("KHR_mesh_quantization", Full),
+    ("KHR_meshopt_compression", Full),
+    ("KHR_node_visibility", Without("hidden nodes are shown")),
+    ("KHR_texture_basisu", BASISU_SUPPORT),
+    ("KHR_texture_transform", Full),
+    ("KHR_xmp", Harmless),
+    ("KHR_xmp_json_ld", Harmless),
+    ("MSFT_lod", Without("the finest level is shown")),
+    ("MSFT_packing_normalRoughnessMetallic", Harmless),
+    ("MSFT_packing_occlusionRoughnessMetallic", Harmless),
+    ("MSFT_texture_dds", Never("DDS images are not read")),
+];
+
+/// Checks `extensionsRequired`: unsupported ones are an error, or a warning when reading leniently.
+/// Warns of extensions that are ignored or supported in part.
+///
+/// Each extension is reported once, at its first mention.
+///
+/// # Errors
+/// [`UNSUPPORTED_REQUIRED_EXTENSION`](codes::UNSUPPORTED_REQUIRED_EXTENSION), with the reason.
+pub(super) fn check_extensions(
+    root: &Root,
+    warnings: &mut ImportWarnings,
+) -> Result<(), Diagnostic> {
+    for (at, name) in root.extensions_required.iter().enumerate() {
+        let reason = match find_support(name) {
+            Some(Never(reason)) => *reason,
+            Some(_) => continue,
+            None => "it is not known here",
+        };
+        let diagnostic = Diagnostic::error(
+            codes::UNSUPPORTED_REQUIRED_EXTENSION,
+            &format!("/extensionsRequired/{at}"),
+            format!("the file requires the extension {name}: {reason}"),
+            "export the file without it, or load what can be loaded with --lenient",
+        );
+        warnings.downgrade_if_lenient(diagnostic, "it is ignored")?;
+    }
+    let mut reported = BTreeSet::new();
+    for (list, names) in [
+        ("extensionsUsed", &root.extensions_used),
+        ("extensionsRequired", &root.extensions_required),
+    ] {
+        for (at, name) in names.iter().enumerate() {
+            if let (Some(Partly(reason) | Without(reason) | Never(reason)), true) =
+                (find_support(name), reported.insert(name))
+            {
+                warnings.push_warning(&format!("/{list}/{at}"), format!("{name}: {reason}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Effect of an extension on the picture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ExtensionUse {
+    /// It is drawn.
+    Drawn,
+    /// It does not affect the picture.
+    Harmless,
+    /// It is drawn with the limitation that the text names.
+    Partly(&'static str),
+    /// It is ignored; the text names what is missing then.
+    Without(&'static str),
+    /// Files that require it are refused; the text gives the reason.
+    Refused(&'static str),
+    /// It is not known; files that require it are refused.
+    Unknown,
+}
+
+/// Effect of the extension with this name.
+#[must_use]
+pub fn extension_use(name: &str) -> ExtensionUse {
+    match find_support(name) {
+        Some(Full) => ExtensionUse::Drawn,
+        Some(Harmless) => ExtensionUse::Harmless,
+        Some(Partly(how)) => ExtensionUse::Partly(how),
+        Some(Without(what)) => ExtensionUse::Without(what),
+        Some(Never(why)) => ExtensionUse::Refused(why),
+        None => ExtensionUse::Unknown,
+    }
+}
+
+/// Looks up an extension in the table; `None` if it is unknown.
+fn find_support(name: &str) -> Option<&'static ExtensionSupport> {
+    KNOWN_EXTENSIONS.iter().find(|known| known.0 == name).map(|known| &known.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_sorted_and_without_doubles() {
+        assert!(KNOWN_EXTENSIONS.windows(2).all(|pair| pair[0].0 < pair[1].0));
+    }
+}

@@ -1,0 +1,144 @@
+//! GPU instancing (EXT_mesh_gpu_instancing): meshes that one node draws many times.
+//!
+//! Translation, rotation and scale of the instances are accessors with one element for each;
+//! missing ones are the identity's. They are composed as T · R · S and apply before the node's own
+//! transform.
+
+use super::accessor::AccessorReader;
+use super::attribute::{AllowedFormats, ROTATION, TRANSLATION_OR_SCALE};
+use crate::warnings::ImportWarnings;
+use homog::{Affine, Model as ModelSpace, Vector};
+use model::{Diagnostic, Node};
+use serde_json::{Map, Value};
+
+/// The extension's name, as in `extensionsUsed`.
+const EXTENSION: &str = "EXT_mesh_gpu_instancing";
+
+/// Transform of an instance relative to its node.
+type InstanceTransform = Affine<ModelSpace, ModelSpace>;
+
+/// Reads the instance transforms of all nodes. Where they are invalid the mesh is drawn once, at
+/// its node.
+///
+/// The extension is ignored on a node with a skin, whose vertices follow the joints and not the
+/// node. Single instances whose transform is not finite are dropped.
+///
+/// # Errors
+/// Exceeded limits and unreadable files; faults in the content are warnings.
+pub(super) fn import_instances(
+    source: &AccessorReader<'_>,
+    nodes: &mut [Node],
+    warnings: &mut ImportWarnings,
+) -> Result<(), Diagnostic> {
+    for (at, node) in nodes.iter_mut().enumerate() {
+        let json = source.root.nodes.get(at).and_then(|json| json.extensions.as_ref());
+        let Some(extension) = json.and_then(|extensions| extensions.others.get(EXTENSION)) else {
+            continue;
+        };
+        let pointer = format!("/nodes/{at}/extensions/{EXTENSION}");
+        if node.skin.is_some() || node.mesh.is_none() {
+            let message =
+                "only a mesh without skin can be shown many times; the places are not used";
+            warnings.push_warning(&pointer, message);
+            continue;
+        }
+        let read = match extension.get("attributes").and_then(Value::as_object) {
+            Some(attributes) => {
+                instance_transforms(source, attributes, &format!("{pointer}/attributes"))
+            }
+            None => Err(Diagnostic::invalid(&pointer, "the member `attributes` is missing")),
+        };
+        let all = match read {
+            Err(diagnostic) if diagnostic.is_downgradable() => {
+                warnings.downgrade(&diagnostic, "the mesh is shown once");
+                continue;
+            }
+            transforms => transforms?,
+        };
+        let count = all.len();
+        let is_visible = |transform: &InstanceTransform| transform.then(node.to_model).is_finite();
+        let transforms: Vec<InstanceTransform> =
+            all.into_iter().flatten().filter(is_visible).collect();
+        if transforms.len() < count {
+            let dropped = count - transforms.len();
+            let message =
+                format!("places are no finite ones; they are left out (places: {dropped})");
+            warnings.push_warning(&pointer, message);
+        }
+        node.instance_transforms = Some(transforms);
+    }
+    Ok(())
+}
+
+/// Composes the transforms from translation, rotation and scale; `None` for those that are invalid.
+///
+/// An invalid transform has a quaternion of length 0, or numbers that are not finite.
+///
+/// # Errors
+/// An attribute is invalid, the counts differ, or the memory budget is spent.
+fn instance_transforms(
+    source: &AccessorReader<'_>,
+    attributes: &Map<String, Value>,
+    pointer: &str,
+) -> Result<Vec<Option<InstanceTransform>>, Diagnostic> {
+    let reader = InstanceAttributes { source, attributes, pointer };
+    let translations = reader.read_attribute::<3>("TRANSLATION", &TRANSLATION_OR_SCALE)?;
+    let rotations = reader.read_attribute::<4>("ROTATION", &ROTATION)?;
+    let scales = reader.read_attribute::<3>("SCALE", &TRANSLATION_OR_SCALE)?;
+    let counts = [
+        translations.as_ref().map(Vec::len),
+        rotations.as_ref().map(Vec::len),
+        scales.as_ref().map(Vec::len),
+    ];
+    let mut counts = counts.into_iter().flatten();
+    let count = counts.next().unwrap_or(0);
+    if counts.any(|other| other != count) {
+        return Err(Diagnostic::invalid(pointer, "the attributes have not equally many elements"));
+    }
+    source.buffers.charge_bytes(
+        pointer,
+        (count as u64).saturating_mul(size_of::<Option<InstanceTransform>>() as u64),
+    )?;
+    let transform = |at: usize| {
+        let translation =
+            translations.as_ref().map_or([0.0; 3], |translations| translations[at]).map(f64::from);
+        let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |rotations| rotations[at]);
+        let [x, y, z] = scales.as_ref().map_or([1.0; 3], |scales| scales[at]).map(f64::from);
+        let rotation = Affine::<ModelSpace, ModelSpace>::from_quaternion(rotation.map(f64::from))?;
+        let transform = InstanceTransform::scale(x, y, z)
+            .then(rotation)
+            .then(Affine::translation(Vector::from(translation)));
+        transform.is_finite().then_some(transform)
+    };
+    Ok((0..count).map(transform).collect())
+}
+
+/// Reader of the attributes of the instances of one node.
+struct InstanceAttributes<'a> {
+    source: &'a AccessorReader<'a>,
+    /// Accessor indices by attribute name.
+    attributes: &'a Map<String, Value>,
+    /// JSON pointer to the attributes.
+    pointer: &'a str,
+}
+
+impl InstanceAttributes<'_> {
+    /// An attribute, if the file has it.
+    ///
+    /// # Errors
+    /// The member is not an index, or the accessor is invalid or of another format.
+    fn read_attribute<const N: usize>(
+        &self,
+        name: &str,
+        format: &AllowedFormats,
+    ) -> Result<Option<Vec<[f32; N]>>, Diagnostic> {
+        let Some(value) = self.attributes.get(name) else { return Ok(None) };
+        let pointer = format!("{}/{name}", self.pointer);
+        let accessor =
+            value.as_u64().ok_or_else(|| Diagnostic::invalid(&pointer, "an index is due"))?;
+        let accessor = usize::try_from(accessor).unwrap_or(usize::MAX);
+        let elements = self.source.resolve_accessor(accessor, &pointer)?;
+        format.check_elements(&elements, &pointer)?;
+        self.source.read_floats(&elements).map(Some)
+    }
+}

@@ -1,0 +1,198 @@
+//! Punctual lights (KHR_lights_punctual), their parameters checked; an invalid one is left out with
+//! a warning.
+//!
+//! The extension stores lights in the document's root, and each node refers to one. Defaults are
+//! its own: white, intensity 1, infinite range, cone angles 0 and π/4.
+
+use crate::warnings::ImportWarnings;
+use gltf::json::Root;
+use model::{Diagnostic, LightKind, Node, PunctualLight};
+use serde_json::{Map, Value};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// The extension's name, in the root and in nodes.
+const EXTENSION: &str = "KHR_lights_punctual";
+
+/// Reads all lights of a file and attaches them to nodes.
+///
+/// An invalid light remains in the list as a black one, so that the indices of all others are
+/// unchanged, and no node refers to it.
+pub(super) fn import_lights(
+    root: &Root,
+    nodes: &mut [Node],
+    warnings: &mut ImportWarnings,
+) -> Vec<PunctualLight> {
+    let extension =
+        root.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
+    let json = extension.and_then(|extension| extension.get("lights")).and_then(Value::as_array);
+    let mut is_valid = Vec::new();
+    let mut lights = Vec::new();
+    for (at, json) in json.into_iter().flatten().enumerate() {
+        let parsed = parse_light(json, &format!("/extensions/{EXTENSION}/lights/{at}"), warnings);
+        is_valid.push(parsed.is_ok());
+        lights.push(parsed.unwrap_or_else(|diagnostic| {
+            warnings.downgrade(&diagnostic, "the light is left out");
+            PunctualLight {
+                name: None,
+                color: [0.0; 3],
+                intensity: 0.0,
+                kind: LightKind::Directional,
+            }
+        }));
+    }
+    attach_lights(root, nodes, &is_valid, warnings);
+    lights
+}
+
+/// Sets the lights of nodes.
+///
+/// A node without the extension is unchanged; an index out of range is a warning.
+fn attach_lights(
+    root: &Root,
+    nodes: &mut [Node],
+    is_valid: &[bool],
+    warnings: &mut ImportWarnings,
+) {
+    for (at, node) in nodes.iter_mut().enumerate() {
+        let json = root.nodes.get(at).and_then(|json| json.extensions.as_ref());
+        let Some(extension) = json.and_then(|extensions| extensions.others.get(EXTENSION)) else {
+            continue;
+        };
+        let light = extension.get("light").and_then(Value::as_u64);
+        let light = light.map_or(usize::MAX, |light| light as usize);
+        if light < is_valid.len() {
+            node.light = Some(light).filter(|&light| is_valid[light]);
+        } else {
+            let pointer = format!("/nodes/{at}/extensions/{EXTENSION}/light");
+            let diagnostic = Diagnostic::unresolved_index(&pointer, "light", light, is_valid.len());
+            warnings.downgrade(&diagnostic, "the node carries none");
+        }
+    }
+}
+
+/// Reads and checks a light; numbers out of bounds are clamped with a warning.
+///
+/// # Errors
+/// The light is not an object, or its type is unknown: without a type the numbers have no meaning.
+fn parse_light(
+    json: &Value,
+    pointer: &str,
+    warnings: &mut ImportWarnings,
+) -> Result<PunctualLight, Diagnostic> {
+    let Some(json) = json.as_object() else {
+        return Err(Diagnostic::invalid(pointer, "an object is due"));
+    };
+    let mut numbers = LightNumbers { json, pointer, warnings };
+    let intensity = numbers.read_number("intensity", 1.0, [0.0, f32::MAX]);
+    // Without `range` the light has an infinite one.
+    let range = numbers.read_number("range", f32::INFINITY, [f32::MIN_POSITIVE, f32::INFINITY]);
+    let kind = match json.get("type").and_then(Value::as_str) {
+        Some("directional") => LightKind::Directional,
+        Some("point") => LightKind::Point { range },
+        Some("spot") => {
+            let none = Map::new();
+            let cone = json.get("spot").and_then(Value::as_object);
+            let pointer = &format!("{pointer}/spot");
+            let mut numbers =
+                LightNumbers { json: cone.unwrap_or(&none), pointer, warnings: numbers.warnings };
+            let inner = numbers.read_number("innerConeAngle", 0.0, [0.0, FRAC_PI_2]);
+            let outer = numbers.read_number("outerConeAngle", FRAC_PI_4, [0.0, FRAC_PI_2]);
+            if inner >= outer {
+                let message = "innerConeAngle is not less than outerConeAngle; it is a little less";
+                numbers.warnings.push_warning(pointer, message);
+            }
+            LightKind::Spot { range, inner_cone_angle: inner, outer_cone_angle: outer }
+        }
+        _ => {
+            let message = "the type is not one of directional, point and spot";
+            return Err(Diagnostic::invalid(&format!("{pointer}/type"), message));
+        }
+    };
+    let color = json.get("color").and_then(Value::as_array);
+    let channel = |at: usize| color.and_then(|color| color.get(at)?.as_f64()).unwrap_or(1.0);
+    let mut light = PunctualLight {
+        name: json.get("name").and_then(Value::as_str).map(str::to_owned),
+        color: [0, 1, 2].map(|at| (channel(at) as f32).clamp(0.0, 1.0)),
+        intensity,
+        kind,
+    };
+    light.order_cone_angles();
+    Ok(light)
+}
+
+/// Reader of the numbers in a JSON object.
+///
+/// It serves the light itself, and its `spot` object with a pointer of its own.
+struct LightNumbers<'a, 'w> {
+    json: &'a Map<String, Value>,
+    /// JSON pointer to the object.
+    pointer: &'a str,
+    warnings: &'w mut ImportWarnings,
+}
+
+impl LightNumbers<'_, '_> {
+    /// A number clamped to bounds; `default` if it is absent.
+    ///
+    /// A member that is not a number is replaced by the default, with a warning.
+    fn read_number(&mut self, member: &str, default: f32, [min, max]: [f32; 2]) -> f32 {
+        let Some(value) = self.json.get(member) else { return default };
+        let given = value.as_f64().map(|x| x as f32);
+        match given {
+            Some(given) if (min..=max).contains(&given) => given,
+            _ => {
+                let clamped = given.map_or(default, |given| given.clamp(min, max));
+                let message = format!("{value} is no number in [{min}, {max}]; it is {clamped}");
+                self.warnings.push_warning(&format!("{}/{member}", self.pointer), message);
+                clamped
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn parsed(json: &Value) -> (Result<PunctualLight, String>, usize) {
+        let mut warnings = ImportWarnings::default();
+        let light =
+            parse_light(json, "/l", &mut warnings).map_err(|diagnostic| diagnostic.location);
+        (light, warnings.into_list().len())
+    }
+
+    #[test]
+    fn defaults_are_those_of_the_extension() {
+        let (sun, warnings) = parsed(&json!({"type": "directional", "name": "sun"}));
+        let white = PunctualLight {
+            name: Some("sun".to_owned()),
+            color: [1.0; 3],
+            intensity: 1.0,
+            kind: LightKind::Directional,
+        };
+        assert_eq!((sun, warnings), (Ok(white), 0));
+        let (spot, _) = parsed(&json!({"type": "spot", "spot": {}, "intensity": 5, "range": 2}));
+        let kind =
+            LightKind::Spot { range: 2.0, inner_cone_angle: 0.0, outer_cone_angle: FRAC_PI_4 };
+        assert_eq!(spot.map(|spot| (spot.kind, spot.intensity)), Ok((kind, 5.0)));
+        let (point, _) = parsed(&json!({"type": "point", "color": [0.5, 0, 1]}));
+        let kind = LightKind::Point { range: f32::INFINITY };
+        assert_eq!(point.map(|point| (point.kind, point.color)), Ok((kind, [0.5, 0.0, 1.0])));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_mended_or_left_out() {
+        assert_eq!(parsed(&json!({"type": "laser"})).0, Err("/l/type".to_owned()));
+        assert_eq!(parsed(&json!(7)).0, Err("/l".to_owned()));
+        let (point, warnings) = parsed(&json!({"type": "point", "range": 0, "intensity": -1}));
+        assert_eq!((point.unwrap().intensity, warnings), (0.0, 2));
+        let angles = json!({"innerConeAngle": 1, "outerConeAngle": 0.5});
+        let (spot, warnings) = parsed(&json!({"type": "spot", "spot": angles}));
+        let LightKind::Spot { inner_cone_angle: inner, outer_cone_angle: outer, .. } =
+            spot.unwrap().kind
+        else {
+            panic!("no spot")
+        };
+        assert!(inner < outer && outer == 0.5 && warnings == 1, "{inner} {outer} {warnings}");
+    }
+}

@@ -1,0 +1,400 @@
+//! Materials: factors and textures, including those of the KHR_materials extensions.
+//!
+//! Numbers of extensions are found by the table of [animatable
+//! properties](model::object_model), which has their JSON pointers and bounds; textures
+//! by the table of [`TextureSlot`]s.
+//!
+//! ```text
+//!  core members ──────────────────────────► Material
+//!  extensions ──┬─ textures by slot ──────► MaterialExtensions
+//!               └─ numbers by pointer ────► clamped to their bounds
+//! ```
+//!
+//! A material is never refused: it only affects the appearance, and a value out of range has an
+//! obvious replacement.
+
+use crate::warnings::ImportWarnings;
+use gltf::json::Root;
+use gltf::json::material::AlphaMode as JsonAlphaMode;
+use gltf::json::validation::Checked;
+use model::object_model::{MATERIAL_PROPERTIES, PropertyRow};
+use model::{
+    AlphaMode, Diagnostic, Material, Model, NormalTexture, OcclusionTexture, TextureInfo,
+    TextureSlot, UvTransform,
+};
+use serde_json::{Map, Value};
+
+/// Reads all materials of a file. Faults in them are warnings.
+pub(super) fn import_materials(root: &Root, warnings: &mut ImportWarnings) -> Vec<Material> {
+    (0..root.materials.len())
+        .map(|at| MaterialReader { root, at, warnings: &mut *warnings }.read_material())
+        .collect()
+}
+
+/// The texture transform (KHR_texture_transform) in a slot; `None` if the file gives none.
+///
+/// The default is the identity: offset 0, rotation 0, scale 1. The rotation is in radians,
+/// counter-clockwise around the origin of the texture coordinates.
+pub(super) fn texture_transform(
+    root: &Root,
+    material: usize,
+    slot: TextureSlot,
+) -> Option<UvTransform> {
+    let json = JsonTextureInfo::from_slot(root, material, slot)?.transform?;
+    let rotation = json.get("rotation").and_then(Value::as_f64).unwrap_or(0.0);
+    Some(UvTransform {
+        material,
+        slot,
+        offset: json.get("offset").and_then(float_array).unwrap_or([0.0; 2]),
+        rotation: rotation as f32,
+        scale: json.get("scale").and_then(float_array).unwrap_or([1.0; 2]),
+    })
+}
+
+/// Reader of one material.
+///
+/// JSON pointers for warnings are composed on demand, as valid materials need none.
+struct MaterialReader<'a, 'w> {
+    root: &'a Root,
+    /// Index of the material.
+    at: usize,
+    warnings: &'w mut ImportWarnings,
+}
+
+impl<'a> MaterialReader<'a, '_> {
+    /// Reads core properties first, then the extensions.
+    ///
+    /// Factors out of range are clamped with a warning. Textures of specular-glossiness replace
+    /// those of the metallic-roughness workflow, which files have beside it for readers without the
+    /// extension.
+    ///
+    /// Fields that depend on several others are derived at the end, by `update_derived`, which
+    /// animations call as well.
+    fn read_material(mut self) -> Material {
+        let json = &self.root.materials[self.at];
+        let pbr = &json.pbr_metallic_roughness;
+        let mut material = Material {
+            name: json.name.clone(),
+            base_color: self
+                .clamp_unit("pbrMetallicRoughness/baseColorFactor", pbr.base_color_factor.0),
+            base_color_texture: self.read_texture(TextureSlot::BaseColor),
+            metallic: self
+                .clamp_unit("pbrMetallicRoughness/metallicFactor", [pbr.metallic_factor.0])[0],
+            roughness: self
+                .clamp_unit("pbrMetallicRoughness/roughnessFactor", [pbr.roughness_factor.0])[0],
+            metallic_roughness_texture: self.read_texture(TextureSlot::MetallicRoughness),
+            normal_texture: self.read_normal_texture(TextureSlot::Normal),
+            emissive_texture: self.read_texture(TextureSlot::Emissive),
+            alpha_mode: self.read_alpha_mode(),
+            double_sided: json.double_sided,
+            unlit: self.extension_object("KHR_materials_unlit").is_some(),
+            ..Material::default()
+        };
+        material.emission.color = self.clamp_unit("emissiveFactor", json.emissive_factor.0);
+        if let (Some(texture), Some(json)) =
+            (self.read_texture(TextureSlot::Occlusion), &json.occlusion_texture)
+        {
+            let strength = self.clamp_unit("occlusionTexture/strength", [json.strength.0])[0];
+            material.occlusion_texture = Some(OcclusionTexture { texture, strength });
+        }
+        self.read_extensions(&mut material);
+        material.update_derived();
+        material
+    }
+
+    /// The object of an extension, if the material has it.
+    fn extension_object(&self, name: &str) -> Option<&'a Map<String, Value>> {
+        let extensions = self.root.materials[self.at].extensions.as_ref()?;
+        extensions.others.get(name)?.as_object()
+    }
+
+    /// JSON pointer to a member of the material.
+    fn member_pointer(&self, member: &str) -> String {
+        format!("/materials/{}/{member}", self.at)
+    }
+
+    /// Clamps factors to [0, 1], with a warning.
+    fn clamp_unit<const N: usize>(&mut self, member: &str, factors: [f32; N]) -> [f32; N] {
+        let mut inside = factors;
+        self.clamp_numbers(member, &mut inside, [0.0, 1.0]);
+        inside
+    }
+
+    /// Clamps numbers to bounds, with a warning; what is not a number becomes the minimum.
+    ///
+    /// The comparison is written so that NaN fails it.
+    ///
+    /// The warning lists the numbers before and after the correction. A maximum of `f32::MAX`
+    /// stands for no maximum.
+    fn clamp_numbers(&mut self, member: &str, numbers: &mut [f32], [min, max]: [f32; 2]) {
+        let given = numbers.to_vec();
+        for number in &mut *numbers {
+            *number = if *number > min { number.min(max) } else { min };
+        }
+        if given != numbers {
+            let range = match max {
+                f32::MAX => format!("not at least {min}"),
+                _ => format!("not in [{min}, {max}]"),
+            };
+            let message = format!("{given:?} is {range}; it is {numbers:?}");
+            self.warnings.push_warning(&self.member_pointer(member), message);
+        }
+    }
+
+    /// The alpha mode with its cutoff (0.5 by default); an unknown one is opaque, with a warning.
+    ///
+    /// The cutoff is not clamped: above 1 nothing is visible, which is valid (glTF 2.0 §3.9.4).
+    fn read_alpha_mode(&mut self) -> AlphaMode {
+        let json = &self.root.materials[self.at];
+        match json.alpha_mode {
+            Checked::Valid(JsonAlphaMode::Opaque) => AlphaMode::Opaque,
+            Checked::Valid(JsonAlphaMode::Blend) => AlphaMode::Blend,
+            Checked::Valid(JsonAlphaMode::Mask) => {
+                AlphaMode::Mask { cutoff: json.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0) }
+            }
+            Checked::Invalid => {
+                let message = "the alpha mode is not one of OPAQUE, MASK and BLEND; it is OPAQUE";
+                self.warnings.push_warning(&self.member_pointer("alphaMode"), message);
+                AlphaMode::Opaque
+            }
+        }
+    }
+
+    /// Reads the extensions: first the records with their textures, then the numbers by their
+    /// table.
+    ///
+    /// The table of animatable properties lists each number of each extension with its bounds, so
+    /// that no number is handled here by name. A value of a wrong type or length leaves the default
+    /// in effect, with a warning.
+    fn read_extensions(&mut self, material: &mut Material) {
+        self.create_extensions(material);
+        for PropertyRow { path, bounds, numbers_mut: numbers, .. } in &MATERIAL_PROPERTIES {
+            let Some((name, member)) =
+                path.strip_prefix("extensions/").and_then(|path| path.split_once('/'))
+            else {
+                continue;
+            };
+            // The scale of the coat's normals is read with their texture.
+            let json = self.extension_object(name).and_then(|extension| extension.get(member));
+            let (Some(json), Some(numbers)) = (json, numbers(material)) else { continue };
+            let given: Option<Vec<f32>> = match json {
+                Value::Number(number) => number.as_f64().map(|x| vec![x as f32]),
+                Value::Array(all) => all.iter().map(|x| x.as_f64().map(|x| x as f32)).collect(),
+                _ => None,
+            };
+            match given.filter(|given| given.len() == numbers.len()) {
+                Some(given) => {
+                    numbers.copy_from_slice(&given);
+                    self.clamp_numbers(path, numbers, *bounds);
+                }
+                None => {
+                    let expected = match numbers.len() {
+                        1 => "a number is due".to_owned(),
+                        several => format!("{several} numbers are due"),
+                    };
+                    self.warnings.push_warning(
+                        &self.member_pointer(path),
+                        format!("{expected}; the usual is used"),
+                    );
+                }
+            }
+        }
+    }
+
+    /// Creates the record of each extension that is present, with its textures and default numbers.
+    ///
+    /// A record exists if the extension's object does, even an empty one: KHR_materials_clearcoat
+    /// without members, for instance, is a coating of factor 0. With specular-glossiness the base
+    /// color factor is reset first, because the core factor next to it belongs to the fallback.
+    fn create_extensions(&mut self, material: &mut Material) {
+        use TextureSlot as Slot;
+        let extensions = &mut material.extensions;
+        extensions.specular =
+            self.extension_object("KHR_materials_specular").map(|_| Box::default());
+        extensions.transmission =
+            self.extension_object("KHR_materials_transmission").map(|_| Box::default());
+        extensions.specular_glossiness =
+            self.extension_object("KHR_materials_pbrSpecularGlossiness").map(|_| Box::default());
+        extensions.clearcoat =
+            self.extension_object("KHR_materials_clearcoat").map(|_| Box::default());
+        extensions.sheen = self.extension_object("KHR_materials_sheen").map(|_| Box::default());
+        extensions.volume = self.extension_object("KHR_materials_volume").map(|_| Box::default());
+        extensions.iridescence =
+            self.extension_object("KHR_materials_iridescence").map(|_| Box::default());
+        extensions.anisotropy =
+            self.extension_object("KHR_materials_anisotropy").map(|_| Box::default());
+        if let Some(specular) = &mut extensions.specular {
+            specular.texture = self.read_texture(Slot::Specular);
+            specular.color_texture = self.read_texture(Slot::SpecularColor);
+        }
+        if let Some(spec_gloss) = &mut extensions.specular_glossiness {
+            spec_gloss.texture = self.read_texture(Slot::SpecularGlossiness);
+            (material.base_color, material.base_color_texture) =
+                ([1.0; 4], self.read_texture(Slot::Diffuse));
+        }
+        if let Some(clearcoat) = &mut extensions.clearcoat {
+            clearcoat.texture = self.read_texture(Slot::Clearcoat);
+            clearcoat.roughness_texture = self.read_texture(Slot::ClearcoatRoughness);
+            clearcoat.normal_texture = self.read_normal_texture(Slot::ClearcoatNormal);
+        }
+        if let Some(sheen) = &mut extensions.sheen {
+            sheen.color_texture = self.read_texture(Slot::SheenColor);
+            sheen.roughness_texture = self.read_texture(Slot::SheenRoughness);
+        }
+        if let Some(transmission) = &mut extensions.transmission {
+            transmission.texture = self.read_texture(Slot::Transmission);
+        }
+        if let Some(volume) = &mut extensions.volume {
+            volume.thickness_texture = self.read_texture(Slot::Thickness);
+        }
+        if let Some(iridescence) = &mut extensions.iridescence {
+            iridescence.texture = self.read_texture(Slot::Iridescence);
+            iridescence.thickness_texture = self.read_texture(Slot::IridescenceThickness);
+        }
+        if let Some(anisotropy) = &mut extensions.anisotropy {
+            anisotropy.texture = self.read_texture(Slot::Anisotropy);
+        }
+    }
+
+    /// The normal map in a slot, with the scale of its x and y components.
+    ///
+    /// The scale may be negative, which inverts the relief; one that is not finite is replaced by
+    /// 1.
+    fn read_normal_texture(&mut self, slot: TextureSlot) -> Option<NormalTexture> {
+        let texture = self.read_texture(slot)?;
+        let scale = JsonTextureInfo::from_slot(self.root, self.at, slot)?.scale;
+        let scale = if scale.is_finite() { scale } else { 1.0 };
+        Some(NormalTexture { texture, scale })
+    }
+
+    /// The texture in a slot; a reference to a texture that does not exist is a warning.
+    ///
+    /// The `texCoord` of KHR_texture_transform, if present, overrides that of the texture
+    /// reference.
+    fn read_texture(&mut self, slot: TextureSlot) -> Option<TextureInfo> {
+        let JsonTextureInfo { texture, uv_set, transform, .. } =
+            JsonTextureInfo::from_slot(self.root, self.at, slot)?;
+        if texture >= self.root.textures.len() {
+            let pointer = self.member_pointer(&format!("{}/index", slot.json_path()));
+            let diagnostic = Diagnostic::unresolved_index(
+                &pointer,
+                "texture",
+                texture,
+                self.root.textures.len(),
+            );
+            self.warnings.downgrade(&diagnostic, "the surface is shown without it");
+            return None;
+        }
+        let other_set = transform.and_then(|t| t.get("texCoord")).and_then(Value::as_u64);
+        let transform = texture_transform(self.root, self.at, slot);
+        Some(TextureInfo {
+            texture,
+            uv_set: other_set.map_or(uv_set, |set| set as usize),
+            uv_matrix: transform
+                .map_or(TextureInfo::IDENTITY_UV, |transform| transform.to_matrix()),
+        })
+    }
+}
+
+/// A texture reference as in the file.
+struct JsonTextureInfo<'a> {
+    /// Index of the texture, `usize::MAX` if the file has none or a negative one.
+    texture: usize,
+    /// Set of texture coordinates: `n` of `TEXCOORD_n`.
+    uv_set: usize,
+    /// Scale of a normal map's x and y components; 1 for other textures.
+    scale: f32,
+    /// The object of KHR_texture_transform.
+    transform: Option<&'a Value>,
+}
+
+impl<'a> JsonTextureInfo<'a> {
+    /// The reference in a slot of a material; its texture may not exist.
+    ///
+    /// The core types of the `gltf` crate differ for normal, occlusion and other textures, so that
+    /// each has a branch; extensions are read from raw JSON by the path of the slot.
+    fn from_slot(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
+        let json = root.materials.get(material)?;
+        let pbr = &json.pbr_metallic_roughness;
+        let info = match slot {
+            TextureSlot::BaseColor => pbr.base_color_texture.as_ref(),
+            TextureSlot::MetallicRoughness => pbr.metallic_roughness_texture.as_ref(),
+            TextureSlot::Emissive => json.emissive_texture.as_ref(),
+            TextureSlot::Normal => {
+                let json = json.normal_texture.as_ref()?;
+                let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
+                let extensions_json = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = extensions_json
+                    .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM));
+                return Some(Self { texture, uv_set, scale: json.scale, transform });
+            }
+            TextureSlot::Occlusion => {
+                let json = json.occlusion_texture.as_ref()?;
+                let (texture, uv_set) = (json.index.value(), json.tex_coord as usize);
+                let extensions_json = json.extensions.as_ref().map(|extensions| &extensions.others);
+                let transform = extensions_json
+                    .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM));
+                return Some(Self { texture, uv_set, scale: 1.0, transform });
+            }
+            _ => return Self::from_extension(root, material, slot),
+        };
+        let info = info?;
+        let extensions_json = info.extensions.as_ref().map(|extensions| &extensions.others);
+        Some(Self {
+            texture: info.index.value(),
+            uv_set: info.tex_coord as usize,
+            scale: 1.0,
+            transform: extensions_json
+                .and_then(|extensions_json| extensions_json.get(TEXTURE_TRANSFORM)),
+        })
+    }
+
+    /// The reference in a slot of an extension.
+    ///
+    /// A member that is not an object of the expected form becomes a reference to a texture that
+    /// does not exist, for which the caller adds a warning.
+    fn from_extension(root: &'a Root, material: usize, slot: TextureSlot) -> Option<Self> {
+        let (name, member) = slot.json_path().strip_prefix("extensions/")?.split_once('/')?;
+        let json = root.materials[material].extensions.as_ref()?.others.get(name)?.get(member)?;
+        let index = |name: &str| json.get(name).and_then(Value::as_u64).map(|at| at as usize);
+        Some(Self {
+            texture: index("index").unwrap_or(usize::MAX),
+            uv_set: index("texCoord").unwrap_or(0),
+            scale: json.get("scale").and_then(Value::as_f64).map_or(1.0, |scale| scale as f32),
+            transform: json.get("extensions").and_then(|all| all.get(TEXTURE_TRANSFORM)),
+        })
+    }
+}
+
+/// Extension with the affine transform of texture coordinates; it may occur in any texture
+/// reference.
+const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
+
+/// Warns of primitives that lack the texture coordinates which their material uses.
+///
+/// It runs when both materials and meshes are complete. Only the first missing set of a primitive
+/// is reported; a primitive without items is skipped, because nothing of it is drawn.
+pub(super) fn warn_of_missing_texcoords(model: &Model, warnings: &mut ImportWarnings) {
+    for (at, mesh) in model.meshes.iter().enumerate() {
+        for (primitive_index, primitive) in mesh.primitives.iter().enumerate() {
+            let material = primitive.material.map(|material| &model.materials[material]);
+            let mut textures_used = material.into_iter().flat_map(Material::visible_textures);
+            let missing = textures_used
+                .find(|(_, textures_used)| textures_used.uv_set >= primitive.uvs.len());
+            if let Some((_, TextureInfo { uv_set, .. })) =
+                missing.filter(|_| primitive.item_count() > 0)
+            {
+                let message = format!("its texture needs TEXCOORD_{uv_set}; it is shown without");
+                warnings
+                    .push_warning(&format!("/meshes/{at}/primitives/{primitive_index}"), message);
+            }
+        }
+    }
+}
+
+/// An array of exactly `N` numbers, rounded to single precision; `None` for anything else.
+fn float_array<const N: usize>(value: &Value) -> Option<[f32; N]> {
+    let numbers: Option<Vec<f32>> =
+        value.as_array()?.iter().map(|item| item.as_f64().map(|x| x as f32)).collect();
+    numbers?.try_into().ok()
+}

@@ -1,0 +1,129 @@
+//! Active scene and material variants (KHR_materials_variants).
+//!
+//! Variants are named in the document's root; each primitive maps some of them to materials.
+//! Choosing a variant replaces the material of every primitive that maps it, once, when the file is
+//! loaded.
+
+use crate::NameOrIndex;
+use crate::warnings::ImportWarnings;
+use gltf::json::{Root, mesh};
+use model::{Diagnostic, Mesh, VariantMaterial};
+use serde_json::Value;
+
+/// The active scene: the requested one, else the default scene, else the first.
+///
+/// The index is 0 for a file without scenes, whose root nodes are drawn then.
+///
+/// # Errors
+/// The requested scene does not exist; the default scene does not exist, unless reading leniently.
+pub(super) fn select_scene(
+    root: &Root,
+    selector: Option<&NameOrIndex>,
+    warnings: &mut ImportWarnings,
+) -> Result<usize, Diagnostic> {
+    if let Some(selector) = selector {
+        let names: Vec<_> = root.scenes.iter().map(|scene| scene.name.as_deref()).collect();
+        return selector.find_among(&names, "scene", "/scenes");
+    }
+    match root.scene.map(|scene| scene.value()) {
+        Some(scene) if scene >= root.scenes.len() => {
+            let diagnostic =
+                Diagnostic::unresolved_index("/scene", "scene", scene, root.scenes.len());
+            warnings.downgrade_if_lenient(diagnostic, "the first scene is shown").map(|()| 0)
+        }
+        scene => Ok(scene.unwrap_or(0)),
+    }
+}
+
+/// The extension's name, in the root and in primitives.
+const VARIANTS_EXTENSION: &str = "KHR_materials_variants";
+
+/// Names of the variants of a file.
+///
+/// A variant without a name has an empty one: variants are identified by index.
+pub(super) fn variant_names(root: &Root) -> Vec<String> {
+    let extension =
+        root.extensions.as_ref().and_then(|extensions| extensions.others.get(VARIANTS_EXTENSION));
+    let list = extension.and_then(|extension| extension.get("variants")?.as_array());
+    let name = |json: &Value| json.get("name").and_then(Value::as_str).unwrap_or("").to_owned();
+    list.into_iter().flatten().map(name).collect()
+}
+
+/// Index of the requested variant.
+///
+/// # Errors
+/// The name is unknown or the index out of range; the error lists the names that exist.
+pub(super) fn select_variant(
+    names: &[String],
+    selector: &NameOrIndex,
+) -> Result<usize, Diagnostic> {
+    let names: Vec<_> = names.iter().map(|name| Some(name.as_str())).collect();
+    selector.find_among(&names, "variant", &format!("/extensions/{VARIANTS_EXTENSION}/variants"))
+}
+
+/// Materials of a primitive in the variants. References to nothing are left out with a warning.
+///
+/// One mapping assigns a material to several variants; the result has an entry for each pair.
+pub(super) fn variant_materials(
+    root: &Root,
+    json: &mesh::Primitive,
+    pointer: &str,
+    variants: usize,
+    warnings: &mut ImportWarnings,
+) -> Vec<VariantMaterial> {
+    let extension = json.extensions.as_ref().and_then(|all| all.others.get(VARIANTS_EXTENSION));
+    let mappings = extension.and_then(|extension| extension.get("mappings")?.as_array());
+    let mut assignments = Vec::new();
+    for (position, mapping) in mappings.into_iter().flatten().enumerate() {
+        let pointer = format!("{pointer}/extensions/{VARIANTS_EXTENSION}/mappings/{position}");
+        let index =
+            |json: Option<&Value>| json.and_then(Value::as_u64).map(|position| position as usize);
+        let material = index(mapping.get("material")).unwrap_or(usize::MAX);
+        let listed = mapping.get("variants").and_then(Value::as_array).into_iter().flatten();
+        let diagnostic = if material < root.materials.len() {
+            let numbers = listed.map(|json| index(Some(json)).unwrap_or(usize::MAX));
+            let (known, unknown): (Vec<_>, Vec<_>) =
+                numbers.partition(|&position| position < variants);
+            assignments.extend(known.iter().map(|&variant| VariantMaterial { variant, material }));
+            let pointer = format!("{pointer}/variants");
+            unknown.first().map(|&position| {
+                Diagnostic::unresolved_index(&pointer, "variant", position, variants)
+            })
+        } else {
+            let pointer = format!("{pointer}/material");
+            Some(Diagnostic::unresolved_index(&pointer, "material", material, root.materials.len()))
+        };
+        if let Some(diagnostic) = diagnostic {
+            warnings.downgrade(&diagnostic, "it is left out");
+        }
+    }
+    assignments
+}
+
+/// Material of a primitive in a variant, if the variant changes it.
+///
+/// It serves the prediction of images, before primitives are imported, and discards warnings: the
+/// import adds them.
+pub(super) fn variant_material(
+    root: &Root,
+    json: &mesh::Primitive,
+    variant: usize,
+) -> Option<usize> {
+    let all = variant_materials(root, json, "", variant + 1, &mut ImportWarnings::default());
+    all.iter()
+        .find(|assignments| assignments.variant == variant)
+        .map(|assignments| assignments.material)
+}
+
+/// Replaces the materials of primitives by those of a variant, where it changes them.
+///
+/// The time is linear in the number of primitives and their mappings.
+pub(super) fn apply_variant(meshes: &mut [Mesh], variant: usize) {
+    for primitive in meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        if let Some(assignments) =
+            primitive.material_variants.iter().find(|assignments| assignments.variant == variant)
+        {
+            primitive.material = Some(assignments.material);
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! Loading: the format is recognized, its reader makes the model, and the options complete it.
+
+use crate::uri_resolver::UriResolver;
+use crate::{
+    FileFormat, ImportError, Limits, MemoryFolder, NameOrIndex, ScalarColors, gltf, obj, ply, stl,
+    threemf, uri_resolver,
+};
+use glam::DVec3;
+use model::{Diagnostic, LengthUnit, Model, Severity, Timings, Topology, UpAxis, codes};
+use std::path::{Path, PathBuf};
+
+/// Options for loading a file.
+#[derive(Clone, Debug, Default)]
+pub struct ImportOptions {
+    /// The largest sizes that are accepted.
+    pub limits: Limits,
+    /// The folder below which all referenced files must be. Default: the folder of the file itself.
+    pub root: Option<PathBuf>,
+    /// Further folders that may hold referenced files: `..` and symbolic links may lead there.
+    /// Default: none.
+    pub allow_outside: Vec<PathBuf>,
+    /// Whether broken, missing or unknown data is left out with a warning instead of an error, as
+    /// long as something else is left to load. Limits hold all the same. Default: no.
+    pub lenient: bool,
+    /// The active scene. Default: the file's default scene, else its first.
+    pub scene: Option<NameOrIndex>,
+    /// The active material variant (KHR_materials_variants). Default: none.
+    pub variant: Option<NameOrIndex>,
+    /// The colors of vertices by a scalar attribute. Default: the colors and materials of the file.
+    pub scalars: Option<ScalarColors>,
+    /// Whether images are decoded. Default: those that are visible.
+    pub images: ImageLoading,
+    /// The axis that points up in the file. Default: what the format says: z for STL and 3MF, y for
+    /// the others.
+    pub up: Option<UpAxis>,
+    /// The unit of the file's coordinates. Default: what the file declares, else the convention of
+    /// its format; see [`LengthUnit`].
+    pub length_unit: Option<LengthUnit>,
+    /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
+    /// degrees, where a file has no normals. Default: 30.
+    pub crease_angle: Option<f64>,
+    /// Stopwatch for the stages of loading. Default: none.
+    pub timings: Timings,
+}
+
+/// Treatment of a file's images.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum ImageLoading {
+    /// Images that visible surfaces use are decoded; no other is read.
+    #[default]
+    Decode,
+    /// No image is decoded, but the headers of all are read.
+    Headers,
+}
+
+/// The crease angle where the options name none, in degrees.
+const DEFAULT_CREASE_ANGLE: f64 = 30.0;
+
+impl ImportOptions {
+    /// The crease angle in degrees, in [0, 180].
+    pub(crate) fn crease_degrees(&self) -> f64 {
+        let angle = self.crease_angle.filter(|angle| angle.is_finite());
+        angle.unwrap_or(DEFAULT_CREASE_ANGLE).clamp(0.0, 180.0)
+    }
+}
+
+/// Loads a model; its content decides which [format](FileFormat) it is, and its name only where
+/// the content does not say.
+///
+/// Faults that leave something to draw do not stop it: they are in [`Model::warnings`]. A file
+/// without anything to draw loads as well.
+///
+/// ```no_run
+/// use import::{ImportOptions, load};
+/// let model = load("chair.glb".as_ref(), &ImportOptions::default())?;
+/// let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+/// println!("{} triangles", primitives.map(|primitive| primitive.item_count()).sum::<usize>());
+/// for warning in &model.warnings {
+///     println!("{warning}");
+/// }
+/// # Ok::<(), import::ImportError>(())
+/// ```
+///
+/// # Errors
+/// The file, or one it refers to, cannot be read or is forbidden; is of no known format or breaks
+/// its rules; requires an unsupported extension; exceeds a limit; has no such scene, variant or
+/// scalar attribute as the options ask for.
+pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
+    let read = || uri_resolver::read_file(path, &options.limits, "");
+    let load_bytes = || {
+        let bytes = options.timings.measure("read", read)?;
+        let resolver = UriResolver::new(path, bytes.len(), options)?;
+        import_model(path, &bytes, &resolver, options)
+    };
+    let loaded = match stl::import_binary_file(path, options) {
+        Some(imported) => {
+            imported.and_then(|model| complete_model(model, path, FileFormat::Stl, options))
+        }
+        None => load_bytes(),
+    };
+    loaded.map_err(|diagnostic| ImportError {
+        file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
+}
+
+/// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
+///
+/// Without a [root](ImportOptions::root) the file must be self-contained: no other file is read.
+/// With one, relative URIs are resolved against that folder.
+///
+/// # Errors
+/// As for [`load`].
+pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Model, ImportError> {
+    let path = Path::new(name);
+    let loaded = UriResolver::in_memory(bytes.len(), options)
+        .and_then(|resolver| import_model(path, bytes, &resolver, options));
+    loaded.map_err(|diagnostic| ImportError {
+        file: path.to_owned(),
+        diagnostic: Box::new(diagnostic),
+    })
+}
+
+/// Loads a model from a file of a folder in memory, as [`load`] does from one of the disk.
+///
+/// Relative URIs are resolved within the folder; neither [`root`](ImportOptions::root) nor
+/// [`allow_outside`](ImportOptions::allow_outside) matters, and no file of the disk is read.
+///
+/// ```
+/// use import::{MemoryFolder, load_from_memory};
+/// let mut folder = MemoryFolder::default();
+/// folder.insert("triangle.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec());
+/// let model = load_from_memory(&folder, "triangle.obj", &Default::default())?;
+/// assert_eq!(model.meshes[0].primitives[0].indices.len(), 3);
+/// # Ok::<(), import::ImportError>(())
+/// ```
+///
+/// # Errors
+/// There is no such file in the folder; else as for [`load`].
+pub fn load_from_memory(
+    folder: &MemoryFolder,
+    path: &str,
+    options: &ImportOptions,
+) -> Result<Model, ImportError> {
+    let import = || {
+        let missing = || uri_resolver::missing_file("", path);
+        let bytes = folder.file(path).ok_or_else(missing)?;
+        let resolver = UriResolver::in_memory_folder(folder, path, bytes.len(), options);
+        uri_resolver::check_file_size(bytes.len(), &options.limits)?;
+        import_model(Path::new(path), bytes, &resolver, options)
+    };
+    import().map_err(|diagnostic| ImportError {
+        file: PathBuf::from(path),
+        diagnostic: Box::new(diagnostic),
+    })
+}
+
+/// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
+///
+/// # Errors
+/// As for [`load`].
+pub fn import_model(
+    path: &Path,
+    bytes: &[u8],
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let format = FileFormat::recognize(path, bytes)?;
+    let import = match format {
+        FileFormat::Gltf => gltf::import_gltf,
+        FileFormat::Stl => stl::import_stl,
+        FileFormat::Obj => obj::import_obj,
+        FileFormat::Ply => ply::import_ply,
+        FileFormat::ThreeMf => threemf::import_threemf,
+    };
+    complete_model(import(path, bytes, resolver, options)?, path, format, options)
+}
+
+/// Completes a model as its reader left it, with the up axis and unit of its file: the options
+/// replace these, and the model is turned upright.
+fn complete_model(
+    mut model: Model,
+    path: &Path,
+    format: FileFormat,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    model.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    model.length_unit = options.length_unit.unwrap_or(model.length_unit);
+    if let Some(colors) = &options.scalars {
+        if !matches!(format, FileFormat::Gltf | FileFormat::Ply) {
+            return Err(colors.unsupported_in(format));
+        }
+        let active = colors.find_among(&model.scalar_attributes, "")?;
+        model.active_scalar_attribute = Some(active);
+    }
+    model.rotate_roots(options.up.unwrap_or(model.up_axis));
+    if format != FileFormat::Gltf {
+        check_scene_limits(&model, &options.limits)?;
+        model.warnings.extend(surface_without_area(&model));
+    }
+    model.warnings.extend(misleading_name(path, format));
+    Ok(model)
+}
+
+/// The note about a file whose name stands for another format than it is in.
+fn misleading_name(path: &Path, format: FileFormat) -> Option<Diagnostic> {
+    let named = FileFormat::from_extension(path).filter(|named| *named != format)?;
+    let message = format!("the name says {}, but this is {}", named.name(), format.name());
+    let help = format!("rename it to end in .{}", format.extensions().last()?);
+    let fault = Diagnostic::error(codes::MISLEADING_NAME, "", message, &help);
+    Some(fault.with_severity(Severity::Info))
+}
+
+/// The warning about a model none of whose triangles has an area: there is nothing to see.
+pub(crate) fn surface_without_area(model: &Model) -> Option<Diagnostic> {
+    let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut triangles = primitives
+        .filter(|primitive| primitive.topology == Topology::Triangles)
+        .flat_map(|primitive| {
+            let corners = primitive.indices.as_chunks::<3>().0.iter();
+            corners.map(|corners| corners.map(|vertex| primitive.positions[vertex as usize]))
+        })
+        .peekable();
+    triangles.peek()?;
+    let has_area = |[a, b, c]: [[f32; 3]; 3]| {
+        let [a, b, c] = [a, b, c].map(|corner| DVec3::from(corner.map(f64::from)));
+        (b - a).cross(c - a).length_squared() > 0.0
+    };
+    let help = "export the model again";
+    let fault =
+        || Diagnostic::error(codes::LEFT_OUT, "", "no triangle of the file has an area", help);
+    (!triangles.any(has_area)).then(|| fault().with_severity(Severity::Warning))
+}
+
+/// Checks the numbers of nodes and of items that the scene shows.
+pub(crate) fn check_scene_limits(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
+    let nodes = model.nodes.len();
+    if nodes > limits.nodes {
+        let what = format!("the model has {nodes} nodes");
+        return Err(Diagnostic::limit_exceeded("", &what, "nodes", limits.nodes as u64));
+    }
+    gltf::check_scene_items(model, limits)
+}

@@ -1,0 +1,53 @@
+//! Memory budget for the arrays that a file declares: the defense against decompression bombs.
+//!
+//! Two bounds apply: an absolute one, and one relative to the bytes that have been read. The second
+//! catches small files that declare much: an ordinary model's arrays are at most a few times as
+//! large as its files, even when compressed. Charges are made before an array is allocated and
+//! never refunded, as the arrays live as long as the model.
+
+use super::limits::Limits;
+use model::{Diagnostic, codes};
+use std::cell::Cell;
+
+/// Bytes that arrays may take however small the files are.
+const FREE_ARRAY_BYTES: u64 = 16 << 20;
+
+/// Running total of array bytes; see [`Limits::array_bytes`] and [`Limits::array_growth`].
+#[derive(Debug)]
+pub struct MemoryBudget<'a> {
+    /// The absolute and the relative limit.
+    limits: &'a Limits,
+    /// Bytes charged so far, of all arrays; saturating.
+    allocated: Cell<u64>,
+}
+
+impl<'a> MemoryBudget<'a> {
+    /// A budget of which nothing has been spent.
+    #[must_use]
+    pub fn new(limits: &'a Limits) -> Self {
+        Self { limits, allocated: Cell::new(0) }
+    }
+
+    /// Counts an array before it is allocated.
+    ///
+    /// `pointer` is the location that declares its length, `files` the bytes of all files read so
+    /// far.
+    ///
+    /// # Errors
+    /// [`codes::LIMIT_EXCEEDED`] if the arrays exceed a limit.
+    pub fn charge_bytes(&self, pointer: &str, bytes: u64, files: u64) -> Result<(), Diagnostic> {
+        let made = self.allocated.get().saturating_add(bytes);
+        self.allocated.set(made);
+        let what = format!("the arrays take {made} bytes up to here");
+        let Limits { array_bytes, array_growth, .. } = *self.limits;
+        if made > array_bytes {
+            return Err(Diagnostic::limit_exceeded(pointer, &what, "array_bytes", array_bytes));
+        }
+        if made.saturating_sub(FREE_ARRAY_BYTES) > files.saturating_mul(array_growth) {
+            let message = format!("{what}, more than {array_growth} times the files");
+            let help = Diagnostic::raise_limit_help("array_growth");
+            return Err(Diagnostic::error(codes::LIMIT_EXCEEDED, pointer, message, &help));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,240 @@
+//! The OBJ importer: Wavefront's text format of polygons, with its material libraries (MTL).
+//!
+//! ```text
+//!  text ──parser──► vertices, elements ──parts──► triangles ──primitives──► meshes ─scene─► Model
+//!   └─ mtllib ──mtl──► statements ──material, textures─────────────────────────────────────┘
+//! ```
+//!
+//! Read are polygons of any number of corners, lines and points; positions, texture coordinates,
+//! normals and vertex colors; objects, groups, smoothing groups, materials and their textures.
+//! Free-form curves and surfaces, and statements that are not known, are named in a warning.
+//!
+//! A file without any element is a cloud of points. Normals that a file does not give follow from
+//! its smoothing groups if it has some, and from the crease angle if not. Up is y and the unit is
+//! not known, by convention.
+//!
+//! The crate `tobj` was not taken: it cuts polygons as fans, wrong where they are concave, knows
+//! neither smoothing groups nor locations of faults, and reads no UTF-16.
+
+mod elements;
+mod fault_counts;
+mod material;
+mod mtl;
+mod parser;
+mod parts;
+mod phong;
+mod primitives;
+mod scene;
+mod statements;
+mod textures;
+mod vertex_sharing;
+
+pub use phong::PhongMaterial;
+
+use super::ImportOptions;
+use super::memory_budget::MemoryBudget;
+use super::text::{Token, decode_text};
+use super::uri_resolver::UriResolver;
+use super::warnings::ImportWarnings;
+use model::{Diagnostic, LengthUnit, Material, Mesh, Model, Node, Primitive, UpAxis};
+use mtl::MtlMaterial;
+use parser::ObjFile;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use textures::TextureTable;
+
+/// Material libraries that are looked for; a file names one, or one for each object.
+const MAX_LIBRARIES: usize = 1024;
+/// Bytes that the arrays of a corner take at most: references, triangle, vertex with attributes,
+/// and what the computation of normals needs.
+const BYTES_PER_CORNER: u64 = 140;
+
+/// Imports an OBJ file whose bytes have been read.
+pub(super) fn import_obj(
+    _path: &Path,
+    bytes: &[u8],
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let timings = &options.timings;
+    let text = decode_text(bytes);
+    let file = timings.measure("parse", || parser::parse_obj(&text, &mut warnings))?;
+    check_sizes(&file, resolver)?;
+    let (names, groups) = (file.material_names.clone(), file.groups.clone());
+    let libraries = read_libraries(&file.libraries, resolver, &mut warnings);
+    let crease_angle = options.crease_degrees();
+    let build = || primitives::build_primitives(file, &text, crease_angle, &mut warnings);
+    let primitives = timings.measure("geometry", build)?;
+    let mut model =
+        Model { up_axis: UpAxis::Y, length_unit: LengthUnit::Meter, ..Model::default() };
+    scene::build_scene(&mut model, &groups, primitives);
+    build_materials(&mut model, &names, &libraries, resolver, options, &mut warnings);
+    model.warnings = warnings.into_list();
+    Ok(model)
+}
+
+/// Checks what the elements will take against the limits.
+fn check_sizes(file: &ObjFile<'_>, resolver: &UriResolver<'_>) -> Result<(), Diagnostic> {
+    let limits = resolver.limits;
+    let nodes = 2 * file.groups.len();
+    if nodes > limits.nodes {
+        let what = format!("there are {} objects and groups", file.groups.len());
+        return Err(Diagnostic::limit_exceeded("", &what, "nodes", limits.nodes as u64));
+    }
+    let corners = file.elements.corners.len() as u64 * BYTES_PER_CORNER;
+    let group = 2 * size_of::<Node>() + size_of::<Mesh>() + size_of::<Primitive>();
+    let groups = (file.groups.len() * group) as u64;
+    let materials = (file.material_names.len() * size_of::<Material>()) as u64;
+    let budget = MemoryBudget::new(limits);
+    budget.charge_bytes("", corners + groups + materials, resolver.total_bytes())
+}
+
+/// A material library that could be read.
+struct Library {
+    /// Its name in the OBJ file.
+    name: String,
+    /// Its text in UTF-8.
+    text: Vec<u8>,
+}
+
+/// Reads the material libraries. Those that are missing cost a warning each.
+///
+/// `mtllib` takes one name, which may contain spaces, or several.
+fn read_libraries(
+    statements: &[Token<'_>],
+    resolver: &UriResolver<'_>,
+    warnings: &mut ImportWarnings,
+) -> Vec<Library> {
+    let (mut libraries, mut seen, mut tried) = (Vec::new(), BTreeSet::new(), 0);
+    for token in statements.iter().filter(|token| !token.bytes.is_empty()) {
+        if !seen.insert(token.bytes) || tried >= MAX_LIBRARIES {
+            continue;
+        }
+        tried += 1;
+        let words = token.tokens().map(Token::to_text);
+        let is_one = words.clone().nth(1).is_none();
+        match read_library(token.to_text(), resolver) {
+            Ok(library) => libraries.push(library),
+            Err(fault) if is_one => warnings.downgrade(&fault, "its materials are plain"),
+            Err(_) => {
+                for name in words.take(MAX_LIBRARIES - tried) {
+                    tried += 1;
+                    match read_library(name, resolver) {
+                        Ok(library) => libraries.push(library),
+                        Err(fault) => warnings.downgrade(&fault, "its materials are plain"),
+                    }
+                }
+            }
+        }
+    }
+    if tried >= MAX_LIBRARIES {
+        warnings.push_warning("", format!("of material libraries only {MAX_LIBRARIES} are read"));
+    }
+    libraries
+}
+
+/// Reads one library.
+fn read_library(name: String, resolver: &UriResolver<'_>) -> Result<Library, Diagnostic> {
+    let bytes = resolver.read_uri(&name, &format!("mtllib {}", shorten(&name)))?;
+    let text = decode_text(&bytes).into_owned();
+    Ok(Library { name, text })
+}
+
+/// Gives the model the materials that its primitives have, in the order in which elements first use
+/// them, and the images of their textures.
+fn build_materials(
+    model: &mut Model,
+    names: &[&[u8]],
+    libraries: &[Library],
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
+    warnings: &mut ImportWarnings,
+) {
+    // The first library that defines a name counts, and in it the last definition.
+    let mut defined: BTreeMap<&[u8], (usize, MtlMaterial<'_>)> = BTreeMap::new();
+    for (at, library) in libraries.iter().enumerate() {
+        for material in mtl::parse_mtl(&library.text, &shorten(&library.name), warnings) {
+            let is_earlier = |other: &(usize, _)| other.0 < at;
+            if !defined.get(material.name).is_some_and(is_earlier) {
+                defined.insert(material.name, (at, material));
+            }
+        }
+    }
+    let mut textures = TextureTable::default();
+    let mut undefined = Vec::new();
+    for &name in names {
+        let material = match defined.get(name) {
+            Some((library, material)) => {
+                textures.folder = folder_of(&libraries[*library].name);
+                material::to_material(material, &mut textures, warnings)
+            }
+            None => {
+                undefined.push(name);
+                Material { name: scene::to_name(name), ..Material::plain() }
+            }
+        };
+        model.materials.push(material);
+    }
+    report_undefined(&undefined, warnings);
+    let mut has_plain = false;
+    let plain = names.len();
+    for primitive in model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        has_plain |= primitive.material.is_none();
+        primitive.material = primitive.material.or(Some(plain));
+    }
+    model.materials.extend(has_plain.then(Material::plain));
+    report_missing_uvs(model, warnings);
+    textures.load_images(model, resolver, options, warnings);
+}
+
+/// A name from a file as messages quote it: its beginning, if it is very long.
+fn shorten(name: &str) -> String {
+    const LENGTH: usize = 80;
+    let mut short: String = name.chars().take(LENGTH).collect();
+    if short.len() < name.len() {
+        short.push('…');
+    }
+    short
+}
+
+/// The folder of a path, with the slash at its end; empty if it has none, and for data URIs.
+fn folder_of(path: &str) -> String {
+    let path = if path.starts_with("data:") { "" } else { path };
+    path.rfind(['/', '\\']).map_or_else(String::new, |slash| path[..=slash].to_owned())
+}
+
+/// A warning that names materials without definition.
+fn report_undefined(names: &[&[u8]], warnings: &mut ImportWarnings) {
+    const NAMED: usize = 8;
+    if names.is_empty() {
+        return;
+    }
+    let quoted = names.iter().take(NAMED).map(|name| {
+        let name: String = String::from_utf8_lossy(name).chars().take(64).collect();
+        format!("{name:?}")
+    });
+    let mut list = quoted.collect::<Vec<_>>().join(", ");
+    if names.len() > NAMED {
+        list.push_str(&format!(" and {} more", names.len() - NAMED));
+    }
+    let message = format!("no material library defines {list}: the surfaces are plain");
+    warnings.push_warning("", message);
+}
+
+/// A warning about surfaces with textures but without texture coordinates.
+fn report_missing_uvs(model: &Model, warnings: &mut ImportWarnings) {
+    let primitives = model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let has_textures = |material: usize| model.materials[material].all_textures().next().is_some();
+    let bare = primitives.filter(|at| at.uvs.is_empty() && at.material.is_some_and(has_textures));
+    let count = bare.count();
+    if count > 0 {
+        let message = format!(
+            "{count} surfaces have textures, but no texture coordinates: drawn without them"
+        );
+        warnings.push_warning("", message);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,114 @@
+//! Counts of faults that leave the shape of a model as it is: each kind is reported once, with the
+//! place of the first.
+
+use super::elements::NONE;
+use crate::text::LineCounter;
+use crate::warnings::ImportWarnings;
+use std::collections::BTreeMap;
+
+/// Different statements that warnings name.
+const MAX_NAMED_STATEMENTS: usize = 16;
+
+/// Number of occurrences of each kind of fault.
+#[derive(Default)]
+pub(super) struct FaultCounts<'a> {
+    /// Elements with too few vertices.
+    pub(super) short_elements: Occurrences,
+    /// References to texture coordinates that do not exist.
+    pub(super) missing_uvs: Occurrences,
+    /// References to normals that do not exist.
+    pub(super) missing_normals: Occurrences,
+    /// Texture coordinates that are not numbers.
+    pub(super) broken_uvs: Occurrences,
+    /// Statements that are not read, by name.
+    statements: BTreeMap<&'a [u8], Occurrences>,
+    /// Statements beyond [`MAX_NAMED_STATEMENTS`].
+    further_statements: Occurrences,
+}
+
+/// Number of occurrences and offset of the first; 0 if it has no place.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Occurrences {
+    count: usize,
+    first: usize,
+}
+
+impl Occurrences {
+    /// Counts one occurrence.
+    pub(super) fn count_at(&mut self, offset: usize) {
+        if self.count == 0 {
+            self.first = offset;
+        }
+        self.count += 1;
+    }
+
+    /// Counts an attribute that does not exist, and returns the index that stands for none.
+    pub(super) fn count_none(&mut self, offset: usize) -> u32 {
+        self.count_at(offset);
+        NONE
+    }
+}
+
+impl<'a> FaultCounts<'a> {
+    /// Counts a statement that is not read.
+    pub(super) fn count_statement(&mut self, name: &'a [u8], offset: usize) {
+        if self.statements.len() < MAX_NAMED_STATEMENTS || self.statements.contains_key(name) {
+            self.statements.entry(name).or_default().count_at(offset);
+        } else {
+            self.further_statements.count_at(offset);
+        }
+    }
+
+    /// One warning for each kind, in the order of the file.
+    pub(super) fn report(&self, lines: &mut LineCounter<'_>, warnings: &mut ImportWarnings) {
+        let kinds = [
+            (
+                self.short_elements,
+                "an element with too few vertices is left out",
+                "elements with too few vertices are left out",
+            ),
+            (
+                self.missing_uvs,
+                "a reference to texture coordinates that do not exist",
+                "references to texture coordinates that do not exist",
+            ),
+            (
+                self.missing_normals,
+                "a reference to a normal that does not exist: it is computed",
+                "references to normals that do not exist: they are computed",
+            ),
+            (
+                self.broken_uvs,
+                "a texture coordinate that is not a number is 0",
+                "texture coordinates that are not numbers are 0",
+            ),
+            (
+                self.further_statements,
+                "one more statement is not read",
+                "more statements are not read",
+            ),
+        ];
+        let told = kinds.map(|(fault, one, many)| match fault.count {
+            1 => (fault, one.to_owned()),
+            count => (fault, format!("{count} {many}")),
+        });
+        let mut told = told.to_vec();
+        for (name, fault) in &self.statements {
+            let name: String = String::from_utf8_lossy(name).chars().take(32).collect();
+            let message = match fault.count {
+                1 => format!("a statement {name:?} is not read"),
+                count => format!("{count} statements {name:?} are not read"),
+            };
+            told.push((*fault, message));
+        }
+        told.retain(|(fault, _)| fault.count > 0);
+        told.sort_by_key(|(fault, _)| fault.first);
+        for (fault, message) in told {
+            let location = match fault.first {
+                0 => String::new(),
+                first => lines.locate(first),
+            };
+            warnings.push_warning(&location, message);
+        }
+    }
+}

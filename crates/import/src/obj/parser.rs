@@ -1,0 +1,382 @@
+//! Parser of OBJ files: statements become vertex data, elements and names.
+//!
+//! Source: Alias|Wavefront, *Object Files (.obj)*, Appendix B1 of the Advanced Visualizer manual;
+//! vertex colors are an extension of ZBrush and MeshLab.
+
+use super::elements::{Corner, ElementState, Elements, NONE};
+use super::fault_counts::FaultCounts;
+use super::parts::FLAT_GROUP;
+use super::statements::StatementReader;
+use crate::text::{LineCounter, Token, parse_f32, parse_integer};
+use crate::warnings::ImportWarnings;
+use model::{Diagnostic, Topology, codes};
+use std::collections::BTreeMap;
+
+/// Statements without effect on the picture of a polygon mesh.
+const IGNORED: [&[u8]; 6] =
+    [b"lod", b"shadow_obj", b"trace_obj", b"c_interp", b"d_interp", b"bevel"];
+
+/// The content of an OBJ file. Names are parts of its text.
+#[derive(Debug, Default)]
+pub(super) struct ObjFile<'a> {
+    /// Positions; not finite where the statement is broken.
+    pub(super) positions: Vec<[f32; 3]>,
+    /// Vertex colors as the file has them, NaN for what it has not; shorter than `positions` if the
+    /// last ones have none.
+    pub(super) colors: Vec<[f32; 4]>,
+    /// Texture coordinates, with v pointing up.
+    pub(super) uvs: Vec<[f32; 2]>,
+    /// Normals of any length.
+    pub(super) normals: Vec<[f32; 3]>,
+    /// Points, lines and polygons.
+    pub(super) elements: Elements,
+    /// Objects and groups that have elements, in their order.
+    pub(super) groups: Vec<GroupName<'a>>,
+    /// Materials that elements have, in their order.
+    pub(super) material_names: Vec<&'a [u8]>,
+    /// Material libraries.
+    pub(super) libraries: Vec<Token<'a>>,
+    /// Vertices that are not three finite numbers: index and offset.
+    pub(super) broken_positions: Vec<(u32, usize)>,
+    /// Whether the file has smoothing groups.
+    pub(super) has_smoothing: bool,
+}
+
+/// Names of the object and the group of elements; empty for none.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
+pub(super) struct GroupName<'a> {
+    /// The object, by `o`.
+    pub(super) object: &'a [u8],
+    /// The groups, by `g`: several are one name.
+    pub(super) group: &'a [u8],
+}
+
+/// Parses an OBJ file in UTF-8.
+///
+/// # Errors
+/// An element refers to a vertex that does not exist; it is left out when reading leniently.
+pub(super) fn parse_obj<'a>(
+    text: &'a [u8],
+    warnings: &mut ImportWarnings,
+) -> Result<ObjFile<'a>, Diagnostic> {
+    if text.len() > u32::MAX as usize {
+        let what = format!("the file has {} bytes", text.len());
+        return Err(Diagnostic::limit_exceeded("", &what, "file_bytes", u64::from(u32::MAX)));
+    }
+    let mut parser = ObjParser::new(text, warnings);
+    while let Some(keyword) = parser.reader.next_statement() {
+        parser.read_statement(keyword)?;
+    }
+    parser.finish()
+}
+
+/// The parser with what holds at the current statement.
+struct ObjParser<'a, 'w> {
+    reader: StatementReader<'a>,
+    lines: LineCounter<'a>,
+    warnings: &'w mut ImportWarnings,
+    file: ObjFile<'a>,
+    /// Object and group of the next element.
+    name: GroupName<'a>,
+    /// Its index, once an element has needed it.
+    group: Option<u32>,
+    /// Material of the next element.
+    material: Option<u32>,
+    /// Smoothing group of the next element.
+    smoothing: u32,
+    group_indices: BTreeMap<GroupName<'a>, u32>,
+    material_indices: BTreeMap<&'a [u8], u32>,
+    /// Whether there has been an element, broken or not.
+    has_elements: bool,
+    /// References to vertices that have not been defined yet: element, offset and index.
+    forward: Vec<(usize, usize, u32)>,
+    faults: FaultCounts<'a>,
+}
+
+impl<'a, 'w> ObjParser<'a, 'w> {
+    /// A parser at the beginning of a text.
+    fn new(text: &'a [u8], warnings: &'w mut ImportWarnings) -> Self {
+        Self {
+            reader: StatementReader::new(text),
+            lines: LineCounter::new(text),
+            warnings,
+            file: ObjFile::default(),
+            name: GroupName::default(),
+            group: None,
+            material: None,
+            smoothing: 0,
+            group_indices: BTreeMap::new(),
+            material_indices: BTreeMap::new(),
+            has_elements: false,
+            forward: Vec::new(),
+            faults: FaultCounts::default(),
+        }
+    }
+
+    /// Reads the arguments of a statement.
+    fn read_statement(&mut self, keyword: Token<'a>) -> Result<(), Diagnostic> {
+        match keyword.bytes {
+            b"v" => self.read_position(keyword.offset),
+            b"vt" => self.read_uv(keyword.offset),
+            b"vn" => {
+                let [x, y, z, ..] = self.read_numbers::<3>().0;
+                self.file.normals.push([x, y, z]);
+            }
+            b"f" | b"fo" => self.read_element(keyword.offset, Topology::Triangles)?,
+            b"l" => self.read_element(keyword.offset, Topology::Lines)?,
+            b"p" => self.read_element(keyword.offset, Topology::Points)?,
+            b"o" => self.set_name(|name, text| *name = GroupName { object: text, group: b"" }),
+            b"g" => self.set_name(|name, text| {
+                name.group = if text == b"default" { b"" } else { text };
+            }),
+            b"usemtl" => self.set_material(),
+            b"s" => self.set_smoothing(),
+            b"mtllib" => self.file.libraries.push(self.reader.rest_of_line()),
+            name if IGNORED.contains(&name) => {}
+            name => self.faults.count_statement(name, keyword.offset),
+        }
+        Ok(())
+    }
+
+    /// Up to `N` numbers of the statement and how many there were; those that are missing or broken
+    /// are NaN.
+    #[inline]
+    fn read_numbers<const N: usize>(&mut self) -> ([f32; N], usize) {
+        let (mut numbers, mut count) = ([f32::NAN; N], 0);
+        while count < N
+            && let Some(token) = self.reader.next_argument()
+        {
+            numbers[count] = parse_f32(token.bytes).unwrap_or(f32::NAN);
+            count += 1;
+        }
+        (numbers, count)
+    }
+
+    /// `v x y z`, with a weight, or with a color of three or four components.
+    ///
+    /// The weight belongs to rational curves and leaves points where they are.
+    fn read_position(&mut self, offset: usize) {
+        let (numbers, count) = self.read_numbers::<7>();
+        let [x, y, z, r, g, b, a] = numbers;
+        let index = self.file.positions.len();
+        if !(x.is_finite() && y.is_finite() && z.is_finite()) {
+            self.file.broken_positions.push((index as u32, offset));
+        }
+        self.file.positions.push([x, y, z]);
+        if count >= 6 {
+            self.file.colors.resize(index, [f32::NAN; 4]);
+            self.file.colors.push([r, g, b, a]);
+        }
+    }
+
+    /// `vt u v w`; v is 0 if there is none, w is for textures in space.
+    fn read_uv(&mut self, offset: usize) {
+        let ([u, v], count) = self.read_numbers::<2>();
+        let uv = [u, if count < 2 { 0.0 } else { v }];
+        if !(uv[0].is_finite() && uv[1].is_finite()) {
+            self.faults.broken_uvs.count_at(offset);
+        }
+        self.file.uvs.push(uv.map(|x| if x.is_finite() { x } else { 0.0 }));
+    }
+
+    /// Changes the name of the next elements to the rest of the line.
+    fn set_name(&mut self, change: impl FnOnce(&mut GroupName<'a>, &'a [u8])) {
+        let text = self.reader.rest_of_line().bytes;
+        change(&mut self.name, text);
+        self.group = None;
+    }
+
+    /// `usemtl name`; without a name the default material.
+    fn set_material(&mut self) {
+        let name = self.reader.rest_of_line().bytes;
+        self.material = (!name.is_empty()).then(|| {
+            let next = self.file.material_names.len() as u32;
+            *self.material_indices.entry(name).or_insert_with(|| {
+                self.file.material_names.push(name);
+                next
+            })
+        });
+    }
+
+    /// `s 1`, `s off` or `s 0`.
+    fn set_smoothing(&mut self) {
+        self.file.has_smoothing = true;
+        let group = self.reader.next_argument().map(|token| match token.bytes {
+            b"on" => 1,
+            bytes => parse_integer(bytes)
+                .map_or(0, |group| group.rem_euclid(i64::from(FLAT_GROUP)) as u32),
+        });
+        self.smoothing = group.unwrap_or(0);
+    }
+
+    /// The state of the next element.
+    fn element_state(&mut self, topology: Topology) -> ElementState {
+        let group = *self.group.get_or_insert_with(|| {
+            let next = self.file.groups.len() as u32;
+            *self.group_indices.entry(self.name).or_insert_with(|| {
+                self.file.groups.push(self.name);
+                next
+            })
+        });
+        ElementState { topology, group, material: self.material, smoothing: self.smoothing }
+    }
+
+    /// `f`, `l` or `p`: an element of references to vertices.
+    fn read_element(&mut self, offset: usize, topology: Topology) -> Result<(), Diagnostic> {
+        self.has_elements = true;
+        let start = self.file.elements.corners.len();
+        let pending = self.forward.len();
+        while let Some(token) = self.reader.next_argument() {
+            match self.read_corner(token) {
+                Ok(corner) => self.file.elements.corners.push(corner),
+                Err(message) => {
+                    self.file.elements.corners.truncate(start);
+                    self.forward.truncate(pending);
+                    return self.leave_out(token.offset, message);
+                }
+            }
+        }
+        let count = self.file.elements.corners.len() - start;
+        if count < topology.vertices_per_item() {
+            self.file.elements.corners.truncate(start);
+            self.forward.truncate(pending);
+            self.faults.short_elements.count_at(offset);
+            return Ok(());
+        }
+        let state = self.element_state(topology);
+        self.file.elements.finish_element(state);
+        Ok(())
+    }
+
+    /// Reports an element that cannot be read; it is an error unless reading leniently.
+    fn leave_out(&mut self, offset: usize, message: String) -> Result<(), Diagnostic> {
+        let location = self.lines.locate(offset);
+        let help = "export the file again, or load it with --lenient";
+        let fault = Diagnostic::error(codes::INVALID_DATA, &location, message, help);
+        self.warnings.downgrade_if_lenient(fault, "the element is left out")
+    }
+
+    /// A reference to a vertex: `p`, `p/t`, `p//n` or `p/t/n`.
+    #[inline]
+    fn read_corner(&mut self, token: Token<'a>) -> Result<Corner, String> {
+        let mut rest = token.bytes;
+        let position = take_integer(&mut rest).ok_or_else(|| not_a_reference(token))?;
+        let count = self.file.positions.len();
+        let position = match resolve_index(position, count) {
+            Some(index) if (index as usize) < count => index,
+            Some(index) => {
+                self.forward.push((self.file.elements.ends.len(), token.offset, index));
+                index
+            }
+            None => return Err(missing_vertex(&position.to_string(), count)),
+        };
+        let (mut uv, mut normal) = (NONE, NONE);
+        if let [b'/', after @ ..] = rest {
+            rest = after;
+            if let Some(reference) = take_integer(&mut rest) {
+                let index = resolve_index(reference, self.file.uvs.len());
+                uv = index.unwrap_or_else(|| self.faults.missing_uvs.count_none(token.offset));
+            }
+            if let [b'/', after @ ..] = rest {
+                rest = after;
+                if let Some(reference) = take_integer(&mut rest) {
+                    let index = resolve_index(reference, self.file.normals.len());
+                    normal = index
+                        .unwrap_or_else(|| self.faults.missing_normals.count_none(token.offset));
+                }
+            }
+        }
+        if rest.is_empty() {
+            Ok(Corner { position, uv, normal })
+        } else {
+            Err(not_a_reference(token))
+        }
+    }
+
+    /// Checks references ahead, and reports what was counted.
+    fn finish(mut self) -> Result<ObjFile<'a>, Diagnostic> {
+        let count = self.file.positions.len();
+        for (element, offset, index) in std::mem::take(&mut self.forward) {
+            if index as usize >= count {
+                self.leave_out(offset, missing_vertex(&(u64::from(index) + 1).to_string(), count))?;
+                // Marked for the builder, which leaves such elements out.
+                let start = self.file.elements.corner_range(element).start;
+                self.file.elements.corners[start].position = NONE;
+            }
+        }
+        if !self.has_elements {
+            self.make_points();
+        }
+        self.clear_missing_attributes();
+        self.faults.report(&mut self.lines, self.warnings);
+        Ok(self.file)
+    }
+
+    /// Makes a point of every vertex: a file without elements is a cloud of points.
+    fn make_points(&mut self) {
+        let is_finite = |position: &[f32; 3]| position.iter().all(|x| x.is_finite());
+        for at in 0..self.file.positions.len() {
+            if is_finite(&self.file.positions[at]) {
+                let corner = Corner { position: at as u32, uv: NONE, normal: NONE };
+                self.file.elements.corners.push(corner);
+                let state = self.element_state(Topology::Points);
+                self.file.elements.finish_element(state);
+            }
+        }
+    }
+
+    /// Removes references to texture coordinates and normals that do not exist.
+    fn clear_missing_attributes(&mut self) {
+        let Self { file, faults, .. } = self;
+        let (uvs, normals) = (file.uvs.len() as u32, file.normals.len() as u32);
+        for corner in &mut file.elements.corners {
+            if corner.uv >= uvs && corner.uv != NONE {
+                corner.uv = faults.missing_uvs.count_none(0);
+            }
+            if corner.normal >= normals && corner.normal != NONE {
+                corner.normal = faults.missing_normals.count_none(0);
+            }
+        }
+    }
+}
+
+/// Takes a whole number with an optional sign from the beginning of some bytes; `None` if there is
+/// none or it has more than 18 digits.
+#[inline]
+fn take_integer(rest: &mut &[u8]) -> Option<i64> {
+    let is_negative = rest.first() == Some(&b'-');
+    let signed = is_negative || rest.first() == Some(&b'+');
+    let digits = &rest[usize::from(signed)..];
+    let (mut value, mut length) = (0_i64, 0);
+    while let Some(digit) =
+        digits.get(length).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d <= 9)
+    {
+        value = value.wrapping_mul(10).wrapping_add(i64::from(digit));
+        length += 1;
+    }
+    if length == 0 || length > 18 {
+        return None;
+    }
+    *rest = &digits[length..];
+    Some(if is_negative { -value } else { value })
+}
+
+/// The index from 0 of a reference: from 1, or from −1 for the last of `count`. `None` if there can
+/// be no such item; one that is not less than `count` may come later.
+#[inline]
+fn resolve_index(reference: i64, count: usize) -> Option<u32> {
+    let index = if reference > 0 { reference - 1 } else { count as i64 + reference };
+    let is_relative_and_zero = reference == 0;
+    u32::try_from(index).ok().filter(|index| *index != NONE && !is_relative_and_zero)
+}
+
+/// The message for a reference to a vertex that does not exist.
+fn missing_vertex(reference: &str, count: usize) -> String {
+    format!("there is no vertex {reference} among {count}")
+}
+
+/// The message for a word that is no reference.
+fn not_a_reference(token: Token<'_>) -> String {
+    let word: String = token.to_text().chars().take(32).collect();
+    format!("{word:?} is not a reference to a vertex such as 1, 1/2, 1//3 or 1/2/3")
+}

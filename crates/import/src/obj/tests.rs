@@ -1,0 +1,37 @@
+//! Files as they are written by hand and by programs, read through the public interface.
+
+mod materials;
+mod shapes;
+
+use crate::{ImportError, ImportOptions, load_bytes};
+use model::{Model, Primitive, Topology};
+
+/// Reads an OBJ file in memory.
+fn read(text: impl AsRef<[u8]>) -> Result<Model, ImportError> {
+    load_bytes("test.obj", text.as_ref(), &ImportOptions::default())
+}
+
+/// Reads an OBJ file in memory leniently.
+fn read_leniently(text: &str) -> Model {
+    let options = ImportOptions { lenient: true, ..ImportOptions::default() };
+    load_bytes("test.obj", text.as_bytes(), &options).unwrap()
+}
+
+/// The primitives of a model, in order.
+fn primitives(model: &Model) -> Vec<&Primitive> {
+    model.meshes.iter().flat_map(|mesh| &mesh.primitives).collect()
+}
+
+/// Number of triangles.
+fn triangle_count(model: &Model) -> usize {
+    let is_surface = |primitive: &&&Primitive| primitive.topology == Topology::Triangles;
+    primitives(model).iter().filter(is_surface).map(|primitive| primitive.item_count()).sum()
+}
+
+/// Warnings as text, one a line.
+fn warnings(model: &Model) -> String {
+    model.warnings.iter().map(|warning| format!("{}\n", warning.sentence())).collect()
+}
+
+/// The corners of a unit square in the plane z = 0.
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";

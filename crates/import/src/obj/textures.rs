@@ -1,0 +1,314 @@
+//! Textures of MTL libraries: which image files the materials need, and images that are made of
+//! several, as a material here has one texture where MTL has two.
+
+use super::mtl::MtlTexture;
+use super::shorten;
+use crate::ImportOptions;
+use crate::texture_images::{TextureImage, store_images};
+use crate::uri_resolver::UriResolver;
+use crate::warnings::ImportWarnings;
+use model::{Diagnostic, Image, ImageInfo, Model, Sampler, Texture, TextureInfo, WrapMode};
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Image files that are looked for.
+const MAX_IMAGES: usize = 4096;
+
+/// Images and textures that the materials so far need.
+#[derive(Debug, Default)]
+pub(super) struct TextureTable<'a> {
+    /// Folder of the current library, with a slash at its end; empty for that of the OBJ file.
+    pub(super) folder: String,
+    /// Images: files, and what is made of several.
+    images: Vec<ImageSource<'a>>,
+    files: BTreeMap<(String, &'a [u8]), usize>,
+    textures: Vec<Texture>,
+    texture_indices: BTreeMap<(usize, bool), usize>,
+    /// Images that may turn out to be height maps.
+    bump_maps: BTreeSet<usize>,
+}
+
+/// Where an image comes from.
+#[derive(Clone, Debug)]
+enum ImageSource<'a> {
+    /// A file, by its folder and name.
+    File { folder: String, name: &'a [u8] },
+    /// Color of one image, opacity of another.
+    Opacity { color: Option<usize>, opacity: usize, channel: Option<u8> },
+    /// Roughness as green, metalness as blue; white where there is none.
+    MetallicRoughness { roughness: Option<usize>, metallic: Option<usize> },
+}
+
+impl<'a> TextureTable<'a> {
+    /// The texture of a file.
+    pub(super) fn use_file(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
+        let image = self.file_image(mtl);
+        self.texture_of(image, mtl)
+    }
+
+    /// The texture of a bump map, which is read if it is a normal map.
+    pub(super) fn use_bump_map(&mut self, mtl: &MtlTexture<'a>) -> TextureInfo {
+        let image = self.file_image(mtl);
+        self.bump_maps.insert(image);
+        self.texture_of(image, mtl)
+    }
+
+    /// The texture of color and opacity; the options of the color's count, if there is one.
+    ///
+    /// A file that is both is used as it is, with its own alpha.
+    pub(super) fn base_color(
+        &mut self,
+        color: Option<&MtlTexture<'a>>,
+        opacity: Option<&MtlTexture<'a>>,
+    ) -> Option<TextureInfo> {
+        let options = color.or(opacity)?;
+        let color = color.map(|texture| self.file_image(texture));
+        let image = match (color, opacity) {
+            (Some(color), None) => color,
+            (color, Some(texture)) => {
+                let opacity = self.file_image(texture);
+                let channel = texture.channel;
+                if color == Some(opacity) && matches!(channel, None | Some(b'm' | b'M')) {
+                    opacity
+                } else {
+                    self.push_image(ImageSource::Opacity { color, opacity, channel })
+                }
+            }
+            (None, None) => return None,
+        };
+        Some(self.texture_of(image, options))
+    }
+
+    /// The texture of roughness and metalness; the options of the roughness count, if there is one.
+    pub(super) fn metallic_roughness(
+        &mut self,
+        roughness: Option<&MtlTexture<'a>>,
+        metallic: Option<&MtlTexture<'a>>,
+    ) -> Option<TextureInfo> {
+        let options = roughness.or(metallic)?;
+        let roughness = roughness.map(|texture| self.file_image(texture));
+        let metallic = metallic.map(|texture| self.file_image(texture));
+        let image = self.push_image(ImageSource::MetallicRoughness { roughness, metallic });
+        Some(self.texture_of(image, options))
+    }
+
+    /// Index of the image of a file.
+    fn file_image(&mut self, mtl: &MtlTexture<'a>) -> usize {
+        let key = (self.folder.clone(), mtl.file.bytes);
+        if let Some(image) = self.files.get(&key) {
+            return *image;
+        }
+        let image = self.push_image(ImageSource::File { folder: key.0.clone(), name: key.1 });
+        self.files.insert(key, image);
+        image
+    }
+
+    /// Appends an image.
+    fn push_image(&mut self, image: ImageSource<'a>) -> usize {
+        self.images.push(image);
+        self.images.len() - 1
+    }
+
+    /// A reference to an image with the options of a statement.
+    ///
+    /// With v up, coordinates are scaled and then moved; here v is down.
+    fn texture_of(&mut self, image: usize, mtl: &MtlTexture<'a>) -> TextureInfo {
+        let textures = &mut self.textures;
+        let texture = *self.texture_indices.entry((image, mtl.is_clamped)).or_insert_with(|| {
+            let wrap = if mtl.is_clamped { WrapMode::ClampToEdge } else { WrapMode::Repeat };
+            let sampler = Sampler { wrap_u: wrap, wrap_v: wrap, ..Sampler::default() };
+            textures.push(Texture { image: Some(image), sampler });
+            textures.len() - 1
+        });
+        let ([u, v], [width, height]) = (mtl.offset, mtl.scale);
+        let uv_matrix = [[width, 0.0, u], [0.0, height, 1.0 - height - v]];
+        let is_finite = uv_matrix.as_flattened().iter().all(|x: &f32| x.is_finite());
+        let uv_matrix = if is_finite { uv_matrix } else { TextureInfo::IDENTITY_UV };
+        TextureInfo { texture, uv_set: 0, uv_matrix }
+    }
+
+    /// Reads and decodes the files, makes the images that need several, and gives all to the model.
+    pub(super) fn load_images(
+        self,
+        model: &mut Model,
+        resolver: &UriResolver<'_>,
+        options: &ImportOptions,
+        warnings: &mut ImportWarnings,
+    ) {
+        let Self { images, textures, bump_maps, .. } = self;
+        // Files first, in an order of their own.
+        let mut file_indices = vec![None; images.len()];
+        let mut files = Vec::new();
+        for (image, source) in images.iter().enumerate() {
+            if let ImageSource::File { folder, name } = source {
+                file_indices[image] = Some(files.len());
+                files.push(if files.len() < MAX_IMAGES {
+                    read_image(folder, name, resolver, warnings)
+                } else {
+                    unread_image(name)
+                });
+            }
+        }
+        store_images(model, files, options, warnings);
+        model.textures = textures;
+        if file_indices.iter().any(Option::is_none) {
+            combine_all(model, &images, &file_indices, options.limits.image_texels);
+        }
+        remove_height_maps(model, &bump_maps, warnings);
+    }
+}
+
+/// Makes the images that need several, and brings all into the order of the table.
+fn combine_all(
+    model: &mut Model,
+    images: &[ImageSource<'_>],
+    file_indices: &[Option<usize>],
+    texels: u64,
+) {
+    let (decoded, infos) = (model.images.clone(), std::mem::take(&mut model.image_infos));
+    let file = |image: usize| decoded[file_indices[image]?].as_ref();
+    let mut limit = TexelLimit { left: texels };
+    let combine = |(at, source): (usize, &ImageSource<'_>)| match source {
+        ImageSource::File { .. } => file(at).cloned(),
+        ImageSource::Opacity { color, opacity: other, channel } => {
+            let color = color.and_then(file);
+            let Some(other) = file(*other) else { return color.cloned() };
+            let has_alpha = other.rgba.iter().any(|texel| texel[3] < 255);
+            let alpha = |texel| opacity(texel, *channel, has_alpha);
+            limit.allows(color.unwrap_or(other)).then(|| match color {
+                Some(color) => combine_images(color, Some(other), |[r, g, b, _], beside| {
+                    [r, g, b, beside.map_or(255, alpha)]
+                }),
+                None => combine_images(other, None, |own, _| [255, 255, 255, alpha(own)]),
+            })
+        }
+        ImageSource::MetallicRoughness { roughness, metallic } => {
+            let (roughness, metallic) = (roughness.and_then(file), metallic.and_then(file));
+            let like = roughness.or(metallic)?;
+            limit.allows(like).then(|| {
+                combine_images(like, metallic, |own, beside| {
+                    let green = if roughness.is_some() { own[1] } else { 255 };
+                    [255, green, beside.map_or(255, |texel| texel[0]), 255]
+                })
+            })
+        }
+    };
+    let all: Vec<Option<Image>> = images.iter().enumerate().map(combine).collect();
+    let info = |at: &Option<usize>| at.map_or_else(ImageInfo::default, |at| infos[at].clone());
+    model.image_infos = file_indices.iter().map(info).collect();
+    model.images = Arc::from(all);
+}
+
+/// Reads the file of an image: below the library's folder, else below that of the OBJ file, else
+/// beside it by its last name alone, as many libraries have paths of the computer they were made
+/// on.
+fn read_image<'a>(
+    folder: &str,
+    name: &[u8],
+    resolver: &UriResolver<'_>,
+    warnings: &mut ImportWarnings,
+) -> TextureImage<'a> {
+    let name = String::from_utf8_lossy(name).into_owned();
+    let location = format!("texture {}", shorten(&name));
+    let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let first = resolver.read_uri(&format!("{folder}{name}"), &location);
+    let bytes = first.or_else(|error| {
+        let again = |uri: &str| resolver.read_uri(uri, &location);
+        let found = if folder.is_empty() { None } else { again(&name).ok() };
+        let found = found.or_else(|| {
+            let bytes = if last == name { None } else { again(last).ok() }?;
+            let message = format!("it is not where the library says: {last:?} is read instead");
+            warnings.push_warning(&location, message);
+            Some(bytes)
+        });
+        found.ok_or(error)
+    });
+    let name = if name.starts_with("data:") { "data:".to_owned() } else { name };
+    TextureImage { name, location, bytes: Some(bytes.map(Cow::Owned)) }
+}
+
+/// An image beyond the number of those that are read.
+fn unread_image<'a>(name: &[u8]) -> TextureImage<'a> {
+    let name = String::from_utf8_lossy(name).into_owned();
+    let location = format!("texture {}", shorten(&name));
+    let message = format!("of image files only {MAX_IMAGES} are read");
+    let bytes = Err(Diagnostic::missing_data(&location, &message));
+    TextureImage { name, location, bytes: Some(bytes) }
+}
+
+/// Texels of images that are made of others.
+struct TexelLimit {
+    left: u64,
+}
+
+impl TexelLimit {
+    /// Whether an image of this size may be made.
+    fn allows(&mut self, image: &Image) -> bool {
+        let left = self.left.checked_sub(u64::from(image.width) * u64::from(image.height));
+        self.left = left.unwrap_or(0);
+        left.is_some()
+    }
+}
+
+/// An image of the size of `like`, of the texel of another at the same place, and its own.
+fn combine_images(
+    like: &Image,
+    other: Option<&Image>,
+    combine: impl Fn([u8; 4], Option<[u8; 4]>) -> [u8; 4],
+) -> Image {
+    let (width, height) = (like.width, like.height);
+    let mut rgba = Vec::with_capacity(like.rgba.len());
+    for (at, &own) in (0u64..).zip(&like.rgba) {
+        let (x, y) = (at % u64::from(width), at / u64::from(width));
+        let beside = other.and_then(|other| {
+            let (of_x, of_y) = (u64::from(other.width), u64::from(other.height));
+            let (x, y) = (x * of_x / u64::from(width), y * of_y / u64::from(height));
+            other.rgba.get((y * of_x + x) as usize).copied()
+        });
+        rgba.push(combine(own, beside));
+    }
+    Image { width, height, rgba }
+}
+
+/// The opacity of a texel: its alpha if the image has any, else its luminance; or the channel that
+/// `-imfchan` names.
+fn opacity([r, g, b, a]: [u8; 4], channel: Option<u8>, has_alpha: bool) -> u8 {
+    // Rec. 709 in 256ths.
+    let luminance = (54 * u32::from(r) + 183 * u32::from(g) + 19 * u32::from(b)) / 256;
+    match channel.map(|channel| channel.to_ascii_lowercase()) {
+        Some(b'r') => r,
+        Some(b'g') => g,
+        Some(b'b') => b,
+        Some(b'm') => a,
+        None if has_alpha => a,
+        _ => luminance as u8,
+    }
+}
+
+/// Leaves out bump maps that are gray: heights need a scale, which no library gives.
+///
+/// A colored one is a normal map, which many programs write under this name.
+fn remove_height_maps(
+    model: &mut Model,
+    bump_maps: &BTreeSet<usize>,
+    warnings: &mut ImportWarnings,
+) {
+    let is_gray = |image: &Image| image.rgba.iter().all(|[r, g, b, _]| r == g && g == b);
+    let is_height_map =
+        |image: &usize| model.images.get(*image).is_some_and(|at| at.as_ref().is_some_and(is_gray));
+    let height_maps: BTreeSet<usize> = bump_maps.iter().copied().filter(is_height_map).collect();
+    for &image in &height_maps {
+        let name = model.image_infos[image].uri.as_deref().unwrap_or_default();
+        let location = format!("texture {}", shorten(name));
+        warnings
+            .push_warning(&location, "this bump map is a height map: only normal maps are read");
+    }
+    for material in &mut model.materials {
+        let textures = &model.textures;
+        material.normal_texture = material.normal_texture.filter(|normal| {
+            let image = textures[normal.texture.texture].image;
+            !image.is_some_and(|image| height_maps.contains(&image))
+        });
+    }
+}

@@ -1,0 +1,259 @@
+//! The body of a PLY file: numbers one after the other, as text or in binary.
+//!
+//! Every number is read as `f64`, which holds each value of each type exactly.
+
+use super::header::{Encoding, PlyElement, ScalarType};
+use crate::text::{LineCounter, TextScanner, Token, parse_f64};
+use model::Diagnostic;
+use std::cell::RefCell;
+
+/// Reads the numbers of a body in their order.
+pub(super) struct Body<'a> {
+    /// The whole file, for locations.
+    bytes: &'a [u8],
+    /// Where the next number begins.
+    at: usize,
+    encoding: Encoding,
+    /// Goes on from one fault to the next.
+    lines: RefCell<LineCounter<'a>>,
+    /// Whether each record of a text begins a line; the rest of a line is then ignored.
+    has_lines: bool,
+    /// The place of the first record with more numbers than the header declares, and how many there
+    /// are.
+    longer: Option<(String, usize)>,
+}
+
+impl<'a> Body<'a> {
+    /// The body that begins at an offset of the file.
+    pub(super) fn new(bytes: &'a [u8], at: usize, encoding: Encoding) -> Self {
+        let lines = RefCell::new(LineCounter::new(bytes));
+        let at = at.min(bytes.len());
+        Self { bytes, at, encoding, lines, has_lines: false, longer: None }
+    }
+
+    /// The body of a file with this many records: if a text has as many lines, each is one.
+    pub(super) fn with_records(mut self, count: u64) -> Self {
+        if self.encoding == Encoding::Ascii {
+            let lines = self.bytes[self.at..].split(|byte| *byte == b'\n' || *byte == b'\r');
+            let used = lines.filter(|line| !line.iter().all(u8::is_ascii_whitespace));
+            self.has_lines = used.count() as u64 >= count;
+        }
+        self
+    }
+
+    /// Ends a record: passes over what else is on its line, as other readers do.
+    pub(super) fn end_record(&mut self) {
+        if !self.has_lines {
+            return;
+        }
+        let rest = &self.bytes[self.at..];
+        let end = rest.iter().position(|byte| *byte == b'\n' || *byte == b'\r');
+        let end = end.unwrap_or(rest.len());
+        let mut words = rest[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        // A word is an error, as anywhere.
+        if words.clone().any(|word| parse_f64(word).is_none()) {
+            return;
+        }
+        if words.next().is_some() {
+            let place = match self.longer.take() {
+                Some((place, count)) => (place, count + 1),
+                None => (self.location(), 1),
+            };
+            self.longer = Some(place);
+        }
+        self.at += end;
+    }
+
+    /// The warning about records that are longer than the header declares.
+    pub(super) fn longer_records(&self) -> Option<(&str, String)> {
+        let (place, count) = self.longer.as_ref()?;
+        let message = match count {
+            1 => "a record has more numbers than the header declares; the others are left out"
+                .to_owned(),
+            _ => format!(
+                "{count} records from here on have more numbers than the header declares; the others are left out"
+            ),
+        };
+        Some((place, message))
+    }
+
+    /// The number of records that the file can hold at most from here, for reserving memory.
+    pub(super) fn plausible_records(&self, element: &PlyElement) -> usize {
+        let left = self.bytes.len() - self.at;
+        let possible = left / element.min_record_bytes(self.encoding).max(1) + 1;
+        usize::try_from(element.count).unwrap_or(usize::MAX).min(possible)
+    }
+
+    /// The next number.
+    ///
+    /// # Errors
+    /// The file ends, or what follows is no number.
+    pub(super) fn next_number(&mut self, scalar: ScalarType) -> Result<f64, Diagnostic> {
+        if self.encoding == Encoding::Ascii {
+            return self.next_decimal();
+        }
+        let size = scalar.size();
+        let Some(slice) = self.bytes.get(self.at..self.at + size) else {
+            return Err(self.fault("the file ends in the middle of its data"));
+        };
+        let mut value = [0; 8];
+        value[..size].copy_from_slice(slice);
+        if self.encoding == Encoding::BigEndian {
+            value[..size].reverse();
+        }
+        self.at += size;
+        Ok(to_number(u64::from_le_bytes(value), scalar))
+    }
+
+    /// The length of a list, checked against the bytes that are left.
+    ///
+    /// # Errors
+    /// The length is negative, not whole, or more than the rest of the file can hold.
+    pub(super) fn next_list_length(
+        &mut self,
+        length: ScalarType,
+        value: ScalarType,
+    ) -> Result<usize, Diagnostic> {
+        let number = self.next_number(length)?;
+        let least = if self.encoding == Encoding::Ascii { 2 } else { value.size() };
+        // The last number of a text needs no separator.
+        let possible = (self.bytes.len() - self.at + 1) / least;
+        if number >= 0.0 && number <= possible as f64 && number.fract() == 0.0 {
+            return Ok(number as usize);
+        }
+        let message = if number >= 0.0 && number.fract() == 0.0 {
+            format!("a list of {number} numbers begins here, and the file does not have as many")
+        } else {
+            format!("the length of a list is {number} here, and must be a whole number")
+        };
+        Err(self.fault(&message))
+    }
+
+    /// Skips the records of an element that nothing is known about.
+    ///
+    /// # Errors
+    /// The file ends before its last record.
+    pub(super) fn skip_element(&mut self, element: &PlyElement) -> Result<(), Diagnostic> {
+        if element.properties.is_empty() {
+            return Ok(());
+        }
+        for _ in 0..element.count {
+            for property in &element.properties {
+                let count = match property.list_length {
+                    Some(length) => self.next_list_length(length, property.scalar)?,
+                    None => 1,
+                };
+                self.skip_numbers(count, property.scalar)?;
+            }
+            self.end_record();
+        }
+        Ok(())
+    }
+
+    /// Skips numbers.
+    ///
+    /// # Errors
+    /// The file ends before.
+    pub(super) fn skip_numbers(
+        &mut self,
+        count: usize,
+        scalar: ScalarType,
+    ) -> Result<(), Diagnostic> {
+        for _ in 0..count {
+            self.next_number(scalar)?;
+        }
+        Ok(())
+    }
+
+    /// The next number of a text, after any white space.
+    fn next_decimal(&mut self) -> Result<f64, Diagnostic> {
+        let mut scanner = TextScanner::new(&self.bytes[self.at..]);
+        let Some(Token { bytes: token, offset }) = scanner.next_token() else {
+            self.at = self.bytes.len();
+            return Err(self.fault("the file ends in the middle of its data"));
+        };
+        self.at += offset;
+        match parse_f64(token) {
+            Some(number) => {
+                self.at += token.len();
+                Ok(number)
+            }
+            None => {
+                let word: String = String::from_utf8_lossy(token).chars().take(32).collect();
+                Err(self.fault(&format!("{word:?} is no number")))
+            }
+        }
+    }
+
+    /// An error at the place that has been reached.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn fault(&self, message: &str) -> Diagnostic {
+        Diagnostic::invalid(&self.location(), message)
+    }
+
+    /// The place that has been reached: line and column of a text, otherwise the byte.
+    pub(super) fn location(&self) -> String {
+        if self.encoding != Encoding::Ascii {
+            return format!("byte {}", self.at);
+        }
+        self.lines.borrow_mut().locate(self.at)
+    }
+}
+
+/// The number that the lowest bytes of a word hold.
+fn to_number(word: u64, scalar: ScalarType) -> f64 {
+    match scalar {
+        ScalarType::I8 => f64::from(word as i8),
+        ScalarType::U8 => f64::from(word as u8),
+        ScalarType::I16 => f64::from(word as i16),
+        ScalarType::U16 => f64::from(word as u16),
+        ScalarType::I32 => f64::from(word as i32),
+        ScalarType::U32 => f64::from(word as u32),
+        ScalarType::F32 => f64::from(f32::from_bits(word as u32)),
+        ScalarType::F64 => f64::from_bits(word),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_every_type_are_read_in_both_orders_of_bytes() {
+        let table: [(ScalarType, f64, &[u8]); 8] = [
+            (ScalarType::I8, -2.0, &[0xFE]),
+            (ScalarType::U8, 254.0, &[0xFE]),
+            (ScalarType::I16, -2.0, &[0xFE, 0xFF]),
+            (ScalarType::U16, 258.0, &[2, 1]),
+            (ScalarType::I32, -2.0, &[0xFE, 0xFF, 0xFF, 0xFF]),
+            (ScalarType::U32, 4_294_967_294.0, &[0xFE, 0xFF, 0xFF, 0xFF]),
+            (ScalarType::F32, 1.5, &[0, 0, 0xC0, 0x3F]),
+            (ScalarType::F64, -0.1, &(-0.1f64).to_le_bytes()),
+        ];
+        for (scalar, expected, bytes) in table {
+            let little = Body::new(bytes, 0, Encoding::LittleEndian).next_number(scalar);
+            assert_eq!(little, Ok(expected));
+            let reversed: Vec<u8> = bytes.iter().rev().copied().collect();
+            let big = Body::new(&reversed, 0, Encoding::BigEndian).next_number(scalar);
+            assert_eq!(big, Ok(expected));
+        }
+    }
+
+    #[test]
+    fn lengths_of_lists_are_bounded_by_the_file() {
+        let mut body = Body::new(&[255, 255, 255, 127, 0], 0, Encoding::LittleEndian);
+        let message = body.next_list_length(ScalarType::I32, ScalarType::U8).unwrap_err();
+        assert!(message.sentence().starts_with("byte 4: a list of 2147483647 numbers begins here"));
+        let mut body = Body::new(b"3 1 2 3", 0, Encoding::Ascii);
+        assert_eq!(body.next_list_length(ScalarType::U8, ScalarType::U8), Ok(3));
+    }
+
+    #[test]
+    fn a_fault_of_a_text_has_line_and_column() {
+        let mut body = Body::new(b"1\r\n2  x", 0, Encoding::Ascii);
+        body.skip_numbers(2, ScalarType::U8).unwrap();
+        let message = body.next_number(ScalarType::U8).unwrap_err().sentence();
+        assert!(message.starts_with("line 2, column 4: \"x\" is no number"), "{message}");
+    }
+}

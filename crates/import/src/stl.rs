@@ -1,0 +1,181 @@
+//! The STL importer: ASCII and binary files of triangles become a [`Model`].
+//!
+//! ```text
+//!  bytes ─┬─ binary ─┬─► facets ──VertexWelder──► vertices ──CreaseNormals──► Mesh per solid
+//!         └─ ascii ──┘
+//! ```
+//!
+//! Both forms begin with `solid` in many files; the length tells them apart. By convention z points
+//! up and lengths are millimeters. The normals of the file are not read: they are those of the flat
+//! faces, and often 0 or wrong.
+//!
+//! Triangles without area are kept, because they close the surface; those with a corner at no
+//! finite place are left out with a warning.
+
+mod ascii;
+mod binary;
+mod facet_color;
+mod solid;
+
+use super::ImportOptions;
+use super::file_format::FileFormat;
+use super::memory_budget::MemoryBudget;
+use super::text::decode_text;
+use super::uri_resolver::UriResolver;
+use super::warnings::ImportWarnings;
+use binary::BinaryFile;
+use model::{Diagnostic, LengthUnit, Material, Mesh, Model, Node, UpAxis, codes};
+use solid::Solid;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+/// Imports an STL file whose bytes have been read.
+///
+/// Each solid with triangles becomes a node with a mesh. All have the same material; colors of
+/// facets are vertex colors.
+///
+/// # Errors
+/// The file is cut off or breaks the form that it is in, or a limit is exceeded.
+pub(super) fn import_stl(
+    _path: &Path,
+    bytes: &[u8],
+    resolver: &UriResolver<'_>,
+    options: &ImportOptions,
+) -> Result<Model, Diagnostic> {
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let limits = resolver.limits;
+    let budget = MemoryBudget::new(limits);
+    let parse = || {
+        if has_binary_length(bytes) || !is_text(bytes) {
+            let Some((header, mut body)) = bytes.split_first_chunk() else {
+                return Err(binary::no_stl(bytes));
+            };
+            let body_bytes = body.len();
+            let file = BinaryFile { header: *header, body: &mut body, body_bytes };
+            binary::read_solid(file, &budget, &mut warnings).map(|solid| vec![solid])
+        } else {
+            // A facet takes no more memory than the fewest characters that it can be written in.
+            budget.charge_bytes("", 2 * bytes.len() as u64, resolver.total_bytes())?;
+            ascii::read_solids(&decode_text(bytes), limits, &mut warnings)
+        }
+    };
+    let solids = options.timings.measure("parse", parse)?;
+    let crease = options.crease_degrees();
+    let build = || build_model(solids, crease);
+    let mut model = options.timings.measure("geometry", build);
+    model.warnings = warnings.into_list();
+    Ok(model)
+}
+
+/// Imports a binary STL file of exactly the right length without holding all of it in memory;
+/// `None` if this is another file, or one that cannot be opened.
+///
+/// # Errors
+/// A limit is exceeded, or the file cannot be read to its end.
+pub(super) fn import_binary_file(
+    path: &Path,
+    options: &ImportOptions,
+) -> Option<Result<Model, Diagnostic>> {
+    // Opening a pipe would wait for somebody who writes to it.
+    let metadata = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
+    let mut body = File::open(path).ok()?;
+    let length = usize::try_from(metadata.len()).ok()?;
+    let mut header = [0; HEADER_BYTES];
+    body.read_exact(&mut header).ok()?;
+    let is_other = FileFormat::from_content(&header).is_some_and(FileFormat::precedes_binary_stl);
+    let is_allowed = metadata.len() <= options.limits.file_bytes;
+    if is_other || !is_allowed || binary_length(&header) != Some(length) {
+        return None;
+    }
+    let mut warnings = ImportWarnings::new(options.lenient);
+    let budget = MemoryBudget::new(&options.limits);
+    let file = BinaryFile { header, body: &mut body, body_bytes: length - HEADER_BYTES };
+    let parse = || binary::read_solid(file, &budget, &mut warnings);
+    Some(options.timings.measure("parse", parse).map(|solid| {
+        let build = || build_model(vec![solid], options.crease_degrees());
+        let model = options.timings.measure("geometry", build);
+        Model { warnings: warnings.into_list(), ..model }
+    }))
+}
+
+/// The model of some solids; those without triangles are left out.
+fn build_model(solids: Vec<Solid>, crease_degrees: f64) -> Model {
+    let mut model = Model {
+        materials: vec![Material::plain()],
+        length_unit: LengthUnit::Millimeter,
+        up_axis: UpAxis::Z,
+        ..Model::default()
+    };
+    for mut solid in solids.into_iter().filter(|solid| solid.triangle_count() > 0) {
+        let name = solid.name.take().filter(|name| !name.is_empty());
+        let primitive = solid.into_primitive(crease_degrees);
+        if primitive.colors.is_some() {
+            // They multiply the color of the material.
+            model.materials[0].base_color = [1.0; 4];
+        }
+        let at = model.nodes.len();
+        model.nodes.push(Node { name: name.clone(), mesh: Some(at), ..Node::default() });
+        model.roots.push(at);
+        model.meshes.push(Mesh { name, primitives: vec![primitive], ..Mesh::default() });
+    }
+    model
+}
+
+/// Bytes of a binary file before its triangles: a comment of 80, and the number of triangles.
+const HEADER_BYTES: usize = 84;
+/// Bytes of a triangle in a binary file: normal, three corners, attribute.
+const TRIANGLE_BYTES: usize = 50;
+/// The bytes that are searched for what only one of the two forms has.
+const PREFIX_BYTES: usize = 4 << 10;
+
+/// Whether the content of a file is certainly STL; `text` is its beginning as UTF-8.
+pub(super) fn is_stl(bytes: &[u8], text: &[u8]) -> bool {
+    has_binary_length(bytes) || starts_with(text.trim_ascii_start(), b"solid") && has_facets(text)
+}
+
+/// The number of triangles that a binary file declares; `None` if it is too short to.
+fn declared_triangles(bytes: &[u8]) -> Option<usize> {
+    let count = bytes.get(80..HEADER_BYTES)?.first_chunk()?;
+    usize::try_from(u32::from_le_bytes(*count)).ok()
+}
+
+/// Whether a file is exactly as long as a binary file of its number of triangles.
+///
+/// No text is: four letters stand for more than 500 million triangles.
+fn has_binary_length(bytes: &[u8]) -> bool {
+    binary_length(bytes) == Some(bytes.len())
+}
+
+/// The length of a binary file with this beginning; `None` if it is too short to tell.
+fn binary_length(bytes: &[u8]) -> Option<usize> {
+    declared_triangles(bytes)?.checked_mul(TRIANGLE_BYTES)?.checked_add(HEADER_BYTES)
+}
+
+/// Whether a file that is not of the right length for a binary one is text.
+fn is_text(bytes: &[u8]) -> bool {
+    let text = decode_text(bytes.get(..PREFIX_BYTES).unwrap_or(bytes));
+    let start = text.trim_ascii_start();
+    let begins = starts_with(start, b"solid") || starts_with(start, b"facet");
+    begins && (has_facets(&text) || !text.contains(&0))
+}
+
+/// Whether a text has a facet or the end of a solid.
+fn has_facets(text: &[u8]) -> bool {
+    let mut rests = (0..text.len()).map(|at| &text[at..]);
+    rests.any(|rest| starts_with(rest, b"facet") || starts_with(rest, b"endsolid"))
+}
+
+/// Whether a text starts with a word, in upper or lower case.
+fn starts_with(text: &[u8], word: &[u8]) -> bool {
+    text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+}
+
+/// The error for a file that ends too early; reading leniently, what there is is read.
+fn truncated(location: &str, message: String) -> Diagnostic {
+    let help = "the file is cut off: copy or export it again";
+    Diagnostic::error(codes::INVALID_DATA, location, message, help)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,126 @@
+//! Binary STL: 84 bytes, then 50 for each triangle, all numbers little-endian.
+//!
+//! ```text
+//!  0          80       84        96        108       120       132     134
+//!  ┌──────────┬────────┬─────────┬─────────┬─────────┬─────────┬───────┬───
+//!  │ comment  │ count  │ normal  │ corner  │ corner  │ corner  │ color │ …
+//!  └──────────┴────────┴─────────┴─────────┴─────────┴─────────┴───────┴───
+//! ```
+
+use super::facet_color::FacetColors;
+use super::solid::Solid;
+use super::{HEADER_BYTES, TRIANGLE_BYTES, declared_triangles, truncated};
+use crate::memory_budget::MemoryBudget;
+use crate::warnings::ImportWarnings;
+use model::{Diagnostic, codes};
+use std::io::Read;
+
+/// Bytes of the arrays for a triangle, at most: while normals are computed, without any vertex in
+/// common.
+const ARRAY_BYTES: u64 = 140;
+
+/// Bytes of triangles that are read at a time: 1,024 of them.
+const CHUNK_BYTES: usize = 1024 * TRIANGLE_BYTES;
+
+/// A binary file from which the header has been read.
+pub(super) struct BinaryFile<'a> {
+    /// The header: a comment and the number of triangles.
+    pub(super) header: [u8; HEADER_BYTES],
+    /// The bytes after it.
+    pub(super) body: &'a mut dyn Read,
+    /// The number of those bytes.
+    pub(super) body_bytes: usize,
+}
+
+/// Reads a binary file.
+///
+/// The number of triangles is that of the header, as far as the bytes go. Programs that cannot go
+/// back to write it leave 0; then it is as many as there are.
+///
+/// # Errors
+/// The file is too short for its triangles, too large for the budget, or cannot be read to its end.
+pub(super) fn read_solid(
+    file: BinaryFile<'_>,
+    budget: &MemoryBudget<'_>,
+    warnings: &mut ImportWarnings,
+) -> Result<Solid, Diagnostic> {
+    let BinaryFile { header, body, body_bytes } = file;
+    let count = count_triangles(&header, body_bytes, warnings)?;
+    budget.charge_bytes("", ARRAY_BYTES * count as u64, (HEADER_BYTES + body_bytes) as u64)?;
+    let mut solid = Solid::with_capacity(count);
+    let mut colors = FacetColors::from_header(&header[..80]);
+    let mut chunk = vec![0; CHUNK_BYTES.min(count * TRIANGLE_BYTES)];
+    let mut at = 0;
+    while at < count {
+        let bytes = chunk.len().min((count - at) * TRIANGLE_BYTES);
+        let chunk = &mut chunk[..bytes];
+        body.read_exact(chunk).map_err(|error| unreadable_body(at, &error))?;
+        for facet in chunk.as_chunks::<TRIANGLE_BYTES>().0 {
+            let triangle = solid.triangle_count();
+            let locate = || format!("byte {}", HEADER_BYTES + at * TRIANGLE_BYTES);
+            if solid.push_triangle(corners(facet), locate) {
+                colors.record(triangle, u16::from_le_bytes([facet[48], facet[49]]));
+            }
+            at += 1;
+        }
+    }
+    solid.colors = colors;
+    solid.warn_of_omissions(warnings);
+    Ok(solid)
+}
+
+/// The corners of a triangle: nine numbers after its normal.
+fn corners(facet: &[u8; TRIANGLE_BYTES]) -> [[f32; 3]; 3] {
+    let words = facet[12..48].as_chunks::<4>().0;
+    std::array::from_fn(|corner| {
+        std::array::from_fn(|axis| f32::from_le_bytes(words[3 * corner + axis]))
+    })
+}
+
+/// The error for a file that ends, or fails, while it is read.
+fn unreadable_body(triangle: usize, error: &std::io::Error) -> Diagnostic {
+    let location = format!("byte {}", HEADER_BYTES + triangle * TRIANGLE_BYTES);
+    let message = format!("the file cannot be read any further: {error}");
+    Diagnostic::error(codes::IO_ERROR, &location, message, "copy or export it again")
+}
+
+/// The number of triangles to read: what the header declares, compared with what there is.
+fn count_triangles(
+    header: &[u8; HEADER_BYTES],
+    length: usize,
+    warnings: &mut ImportWarnings,
+) -> Result<usize, Diagnostic> {
+    let declared = declared_triangles(header).unwrap_or(0);
+    let present = length / TRIANGLE_BYTES;
+    if declared > present {
+        let message = format!("the file declares {declared} triangles and has {present}");
+        let consequence = "those that are whole are read";
+        warnings.downgrade_if_lenient(truncated("byte 80", message), consequence)?;
+        return Ok(present);
+    }
+    if declared == 0 && present > 0 {
+        let message = format!("the file declares no triangles and has {present}; all are read");
+        warnings.push_warning("byte 80", message);
+        return Ok(present);
+    }
+    let end = declared * TRIANGLE_BYTES;
+    if length > end {
+        let message = format!(
+            "there is more after the last triangle; it is ignored (bytes: {})",
+            length - end
+        );
+        warnings.push_warning(&format!("byte {}", HEADER_BYTES + end), message);
+    }
+    Ok(declared)
+}
+
+/// The error for a file that is too short to be binary, and no text either.
+pub(super) fn no_stl(bytes: &[u8]) -> Diagnostic {
+    let message = match bytes.len() {
+        0 => "the file is empty".to_owned(),
+        length => {
+            format!("this is no STL file: it has {length} bytes and does not begin with solid")
+        }
+    };
+    Diagnostic::error(codes::INVALID_DATA, "", message, "give an STL file, or export it again")
+}

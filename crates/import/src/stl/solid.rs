@@ -1,0 +1,103 @@
+//! Solids: the triangles of one surface, over welded vertices.
+
+use super::facet_color::FacetColors;
+use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
+use crate::warnings::ImportWarnings;
+use model::Primitive;
+
+/// The most triangles that wait for their vertices.
+const WAITING_TRIANGLES: usize = 64;
+
+/// A solid of an STL file while it is read.
+#[derive(Debug, Default)]
+pub(super) struct Solid {
+    /// The name after `solid`, if the file is text.
+    pub(super) name: Option<String>,
+    /// Vertices of the triangles, but for those that wait.
+    triangles: Vec<[u32; 3]>,
+    /// Corners of the last triangles, which are welded together.
+    waiting: Vec<[f32; 3]>,
+    /// The vertices.
+    welder: VertexWelder,
+    /// Colors of the triangles, if the file has some.
+    pub(super) colors: FacetColors,
+    /// Number of triangles that were left out because of a corner at no finite place.
+    omitted: usize,
+    /// Location of the first of them.
+    first_omitted: Option<String>,
+}
+
+impl Solid {
+    /// A solid with room for a number of triangles. In a closed surface there are half as many
+    /// vertices.
+    pub(super) fn with_capacity(triangles: usize) -> Self {
+        Self {
+            triangles: Vec::with_capacity(triangles),
+            welder: VertexWelder::with_capacity(triangles / 2),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a triangle; returns false, and leaves it out, if a corner is at no finite place.
+    ///
+    /// `locate` makes the location of the triangle for the warning.
+    #[inline]
+    pub(super) fn push_triangle(
+        &mut self,
+        corners: [[f32; 3]; 3],
+        locate: impl FnOnce() -> String,
+    ) -> bool {
+        let is_finite = corners.as_flattened().iter().fold(true, |all, x| all & x.is_finite());
+        if is_finite {
+            self.waiting.extend(corners);
+            if self.waiting.len() >= 3 * WAITING_TRIANGLES {
+                self.weld_waiting();
+            }
+        } else {
+            self.omitted += 1;
+            self.first_omitted.get_or_insert_with(locate);
+        }
+        is_finite
+    }
+
+    /// The number of triangles.
+    pub(super) fn triangle_count(&self) -> usize {
+        self.triangles.len() + self.waiting.len() / 3
+    }
+
+    /// Gives the corners that wait their vertices.
+    fn weld_waiting(&mut self) {
+        let vertices = self.welder.weld_all(&self.waiting);
+        self.triangles.extend(vertices.as_chunks::<3>().0);
+        self.waiting.clear();
+    }
+
+    /// Warns of triangles that were left out.
+    pub(super) fn warn_of_omissions(&self, warnings: &mut ImportWarnings) {
+        if let Some(location) = &self.first_omitted {
+            let message = "triangles have corners at no finite place; they are left out";
+            warnings.push_warning(location, format!("{message} (triangles: {})", self.omitted));
+        }
+    }
+
+    /// The primitive, with normals by crease angle and the vertices of differing colors split.
+    pub(super) fn into_primitive(mut self, crease_degrees: f64) -> Primitive {
+        self.weld_waiting();
+        let mut positions = self.welder.into_positions();
+        let smoothing = Smoothing::CreaseAngle(crease_degrees);
+        let CreaseNormals { triangles, copies, normals } =
+            CreaseNormals::compute(&positions, self.triangles, smoothing);
+        for &vertex in &copies {
+            positions.push(positions[vertex as usize]);
+        }
+        let mut primitive = Primitive {
+            indices: triangles.into_flattened(),
+            positions,
+            normals: Some(normals),
+            material: Some(0),
+            ..Primitive::default()
+        };
+        self.colors.apply_to(&mut primitive);
+        primitive
+    }
+}

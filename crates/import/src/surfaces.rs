@@ -1,0 +1,131 @@
+//! Surfaces of mesh formats: triangles whose corners carry attributes become primitives, one for
+//! each material, with normals and vertices of their own.
+//!
+//! Normals that a file does not give follow from the crease angle over all triangles of the
+//! surface, so that a border between two colors is no crease.
+
+use super::corner_vertices::{CornerAttributes, CornerVertices};
+use super::normals::normalize_normals;
+use super::polygons::{CreaseNormals, Smoothing, VertexWelder};
+use model::{Primitive, Topology};
+use std::borrow::Cow;
+
+/// A surface as a file gives it.
+pub(super) struct Surface<'a> {
+    /// Positions of the vertices, all finite.
+    pub(super) positions: &'a [[f32; 3]],
+    /// Normals of the vertices, of any length, if the file has them.
+    pub(super) normals: Option<&'a [[f32; 3]]>,
+    /// Vertices of the triangles, all in range.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Material of each triangle, less than `material_count`; empty if there is one only.
+    pub(super) materials: Vec<u32>,
+    /// The number of materials.
+    pub(super) material_count: usize,
+    /// Whether corners have texture coordinates.
+    pub(super) has_uvs: bool,
+    /// Whether corners have colors.
+    pub(super) has_colors: bool,
+}
+
+/// Builds the primitives of a surface; `attributes_at` has the attributes of a triangle's corner,
+/// where there are any.
+///
+/// Each primitive's material is its number in the surface. Normals without a direction are counted
+/// in the second result.
+pub(super) fn build_primitives(
+    surface: Surface<'_>,
+    crease_angle: f64,
+    attributes_at: &dyn Fn(usize, usize) -> CornerAttributes,
+) -> (Vec<Primitive>, usize) {
+    let mut surface = surface;
+    let (positions, normals) = match surface.normals {
+        Some(normals) => (Cow::Borrowed(surface.positions), Cow::Borrowed(normals)),
+        None => {
+            let (positions, normals) =
+                compute_normals(surface.positions, &mut surface.triangles, crease_angle);
+            (Cow::Owned(positions), Cow::Owned(normals))
+        }
+    };
+    let has_attributes = surface.has_uvs || surface.has_colors;
+    let mut primitives = Vec::new();
+    if !has_attributes && surface.materials.is_empty() {
+        let indices = std::mem::take(&mut surface.triangles).into_flattened();
+        let (positions, normals) = (positions.into_owned(), normals.into_owned());
+        primitives.push(surface_primitive(indices, positions, normals));
+    } else {
+        let mut vertices = CornerVertices::new(positions.len());
+        for (material, members) in triangles_by_material(&surface) {
+            vertices.clear();
+            let mut indices = Vec::with_capacity(3 * members.len());
+            for &at in &members {
+                for (corner, &vertex) in surface.triangles[at as usize].iter().enumerate() {
+                    let attributes = match has_attributes {
+                        true => attributes_at(at as usize, corner),
+                        false => CornerAttributes::default(),
+                    };
+                    indices.push(vertices.vertex_at(vertex, attributes));
+                }
+            }
+            let (positions, normals) = (vertices.gather(&positions), vertices.gather(&normals));
+            let mut primitive = surface_primitive(indices, positions, normals);
+            primitive.material = Some(material);
+            let attributes = || vertices.attributes.iter();
+            primitive.uvs.extend(surface.has_uvs.then(|| attributes().map(|a| a.uv).collect()));
+            primitive.colors = surface.has_colors.then(|| attributes().map(|a| a.color).collect());
+            primitives.push(primitive);
+        }
+    }
+    let repaired = primitives.iter_mut().map(|primitive| normalize_normals(primitive).replaced);
+    let replaced = repaired.sum();
+    (primitives, replaced)
+}
+
+/// A primitive of the first material.
+fn surface_primitive(
+    indices: Vec<u32>,
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+) -> Primitive {
+    Primitive {
+        topology: Topology::Triangles,
+        indices,
+        positions,
+        normals: Some(normals),
+        material: Some(0),
+        ..Primitive::default()
+    }
+}
+
+/// Normals by crease angle: positions and normals of the vertices that the triangles then have.
+fn compute_normals(
+    positions: &[[f32; 3]],
+    triangles: &mut Vec<[u32; 3]>,
+    crease_angle: f64,
+) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+    let mut welder = VertexWelder::with_capacity(positions.len());
+    let vertex_of = welder.weld_all(positions);
+    let mut welded = welder.into_positions();
+    for corner in triangles.iter_mut().flatten() {
+        *corner = vertex_of[*corner as usize];
+    }
+    let smoothing = Smoothing::CreaseAngle(crease_angle);
+    let computed = CreaseNormals::compute(&welded, std::mem::take(triangles), smoothing);
+    *triangles = computed.triangles;
+    let copies: Vec<_> = computed.copies.iter().map(|&vertex| welded[vertex as usize]).collect();
+    welded.extend(copies);
+    (welded, computed.normals)
+}
+
+/// The triangles of each material that has any, both in their order.
+fn triangles_by_material(surface: &Surface<'_>) -> Vec<(usize, Vec<u32>)> {
+    let count = surface.triangles.len() as u32;
+    if surface.materials.is_empty() {
+        return vec![(0, (0..count).collect())];
+    }
+    let mut members: Vec<Vec<u32>> = vec![Vec::new(); surface.material_count];
+    for (at, &material) in surface.materials.iter().enumerate() {
+        members[material as usize].push(at as u32);
+    }
+    members.into_iter().enumerate().filter(|(_, members)| !members.is_empty()).collect()
+}

@@ -1,0 +1,203 @@
+//! Lines and tokens of a text, by their byte offsets, and lines and columns for messages.
+
+use super::decimal::simple_decimal;
+
+/// Reader of the lines or tokens of a text.
+///
+/// Lines end with LF, CR or both. Every byte up to the blank, except for line ends, is white space:
+/// exporters have been seen to write tabs, form feeds and NUL.
+#[derive(Clone, Debug)]
+pub(crate) struct TextScanner<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+/// A piece of a text: a line, or a run of bytes without white space.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Token<'a> {
+    /// The bytes; not empty, except for a line.
+    pub(crate) bytes: &'a [u8],
+    /// Offset of the first byte in the text.
+    pub(crate) offset: usize,
+}
+
+impl<'a> TextScanner<'a> {
+    /// A scanner at the beginning of a text in UTF-8.
+    pub(crate) const fn new(text: &'a [u8]) -> Self {
+        Self { text, at: 0 }
+    }
+
+    /// A scanner in the middle of a text.
+    pub(crate) const fn starting_at(text: &'a [u8], offset: usize) -> Self {
+        Self { text, at: offset }
+    }
+
+    /// Offset of the next byte.
+    pub(crate) const fn offset(&self) -> usize {
+        self.at
+    }
+
+    /// The rest of the current line, without its end; `None` at the end of the text.
+    ///
+    /// A carriage return and a line feed after it are one line end.
+    pub(crate) fn next_line(&mut self) -> Option<Token<'a>> {
+        let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let length =
+            rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len());
+        let offset = self.at;
+        let end = if rest[length..].starts_with(b"\r\n") { 2 } else { 1 };
+        self.at = (offset + length + end).min(self.text.len());
+        Some(Token { bytes: &rest[..length], offset })
+    }
+
+    /// Skips a token if it is next, in these letters; otherwise nothing.
+    #[inline]
+    pub(crate) fn skip_token(&mut self, token: &[u8]) -> bool {
+        let start = self.skip_space();
+        let rest = self.text.get(start..).unwrap_or_default();
+        let is_next = rest.starts_with(token) && rest.get(token.len()).is_some_and(|b| *b <= b' ');
+        if is_next {
+            self.at = start + token.len();
+        }
+        is_next
+    }
+
+    /// Reads a number of the usual form, faster than by its token; `None` for any other token,
+    /// which is still the next.
+    #[inline]
+    pub(crate) fn next_simple_number(&mut self) -> Option<f32> {
+        let start = self.skip_space();
+        let (number, length) = simple_decimal(self.text.get(start..)?)?;
+        self.at = start + length;
+        Some(number)
+    }
+
+    /// The offset of the next byte that is not white space.
+    #[inline]
+    fn skip_space(&self) -> usize {
+        let mut start = self.at;
+        while self.text.get(start).is_some_and(|byte| *byte <= b' ') {
+            start += 1;
+        }
+        start
+    }
+
+    /// The next token, on this line or a later one; `None` at the end of the text.
+    #[inline]
+    pub(crate) fn next_token(&mut self) -> Option<Token<'a>> {
+        let (text, mut start) = (self.text, self.at);
+        while *text.get(start)? <= b' ' {
+            start += 1;
+        }
+        let mut end = start + 1;
+        while text.get(end).is_some_and(|byte| *byte > b' ') {
+            end += 1;
+        }
+        self.at = end;
+        Some(Token { bytes: &text[start..end], offset: start })
+    }
+}
+
+impl<'a> Token<'a> {
+    /// The tokens of a line, with their offsets in the whole text.
+    pub(crate) fn tokens(self) -> impl Iterator<Item = Token<'a>> + Clone {
+        let mut scanner = TextScanner::new(self.bytes);
+        std::iter::from_fn(move || {
+            let Token { bytes, offset } = scanner.next_token()?;
+            Some(Token { bytes, offset: self.offset + offset })
+        })
+    }
+
+    /// The piece without white space at either end.
+    pub(crate) fn trim(self) -> Self {
+        let start = self.bytes.iter().position(|byte| *byte > b' ').unwrap_or(self.bytes.len());
+        let end = self.bytes.iter().rposition(|byte| *byte > b' ').map_or(start, |last| last + 1);
+        Self { bytes: &self.bytes[start..end], offset: self.offset + start }
+    }
+
+    /// Whether this is a keyword in lower case, in whatever case it is written.
+    pub(crate) fn is_keyword(self, keyword: &str) -> bool {
+        self.bytes.eq_ignore_ascii_case(keyword.as_bytes())
+    }
+
+    /// The piece as text; bytes that are not UTF-8 become U+FFFD.
+    pub(crate) fn to_text(self) -> String {
+        String::from_utf8_lossy(self.bytes).into_owned()
+    }
+}
+
+/// Counter of lines up to an offset, for the locations of messages.
+///
+/// It goes on from the last offset that it was asked for, so that many messages in the order of the
+/// text take a single pass.
+#[derive(Debug)]
+pub(crate) struct LineCounter<'a> {
+    text: &'a [u8],
+    at: usize,
+    line: usize,
+    line_start: usize,
+}
+
+impl<'a> LineCounter<'a> {
+    /// A counter for the text that offsets refer to.
+    pub(crate) const fn new(text: &'a [u8]) -> Self {
+        Self { text, at: 0, line: 1, line_start: 0 }
+    }
+
+    /// The location of an offset: `line 12, column 5`. Both count from 1, columns in bytes.
+    pub(crate) fn locate(&mut self, offset: usize) -> String {
+        if offset < self.at {
+            *self = Self::new(self.text);
+        }
+        let passed = self.text.get(self.at..offset).unwrap_or_default();
+        for (at, byte) in passed.iter().enumerate().map(|(at, byte)| (self.at + at, byte)) {
+            let ends_here = match byte {
+                b'\n' => true,
+                b'\r' => self.text.get(at + 1) != Some(&b'\n'),
+                _ => false,
+            };
+            if ends_here {
+                (self.line, self.line_start) = (self.line + 1, at + 1);
+            }
+        }
+        self.at += passed.len();
+        format!("line {}, column {}", self.line, offset - self.line_start + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_three_ways() {
+        let text = b"a b\r\n\rc \xE4\n\nd";
+        let mut scanner = TextScanner::new(text);
+        let lines: Vec<&[u8]> =
+            std::iter::from_fn(|| scanner.next_line()).map(|line| line.bytes).collect();
+        assert_eq!(lines, [&b"a b"[..], b"", b"c \xE4", b"", b"d"]);
+        assert_eq!(scanner.offset(), text.len());
+    }
+
+    #[test]
+    fn tokens_have_lines_and_columns() {
+        let text = b"one two\r\n\r  three\n\tfour";
+        let mut scanner = TextScanner::new(text);
+        let mut counter = LineCounter::new(text);
+        let mut found = Vec::new();
+        while let Some(token) = scanner.next_token() {
+            found.push((token.to_text(), counter.locate(token.offset)));
+        }
+        let expected = [
+            ("one", "line 1, column 1"),
+            ("two", "line 1, column 5"),
+            ("three", "line 3, column 3"),
+            ("four", "line 4, column 2"),
+        ];
+        assert_eq!(found, expected.map(|(word, place)| (word.to_owned(), place.to_owned())));
+        assert_eq!(counter.locate(4), "line 1, column 5", "backwards");
+        let line = TextScanner::new(b"  a  bc ").next_line().unwrap();
+        let offsets: Vec<usize> = line.tokens().map(|token| token.offset).collect();
+        assert_eq!((offsets, line.trim().bytes), (vec![2, 5], &b"a  bc"[..]));
+    }
+}

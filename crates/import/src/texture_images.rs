@@ -1,0 +1,75 @@
+//! Images of mesh formats: files beside the mesh, or entries of its archive, decoded as those of
+//! glTF are.
+//!
+//! A broken image costs a warning, never the model.
+
+use super::ImageLoading;
+use super::ImportOptions;
+use super::image_decoder::{self, EncodedImage};
+use super::parallel_decoding::decode_images;
+use super::warnings::ImportWarnings;
+use model::{Diagnostic, Image, ImageHeader, ImageInfo, Model};
+use std::borrow::Cow;
+
+/// The consequence that all warnings about images have.
+const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
+
+/// An image that a material names.
+pub(super) struct TextureImage<'a> {
+    /// Its name in the file that refers to it.
+    pub(super) name: String,
+    /// Where that file refers to it, for messages.
+    pub(super) location: String,
+    /// The encoded bytes, or the reason why there are none; `None` if nothing visible needs it.
+    pub(super) bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
+}
+
+/// Decodes images and stores them in the model, each at its index.
+pub(super) fn store_images<'a>(
+    model: &mut Model,
+    files: Vec<TextureImage<'a>>,
+    options: &ImportOptions,
+    warnings: &mut ImportWarnings,
+) {
+    let mut texels_left = options.limits.image_texels;
+    let mut encoded = Vec::new();
+    let mut locations = Vec::new();
+    for (index, file) in files.into_iter().enumerate() {
+        let TextureImage { name, location, bytes } = file;
+        let mut info = ImageInfo { name: None, uri: Some(name), header: None };
+        let check = |bytes: Cow<'a, [u8]>| {
+            let size = image_decoder::image_size(&bytes)
+                .map_err(|problem| Diagnostic::invalid(&location, problem))?;
+            let limits = &options.limits;
+            super::gltf::check_image_size(size.0, size.1, &mut texels_left, limits, &location)?;
+            Ok((bytes, size))
+        };
+        match bytes.map(|bytes| bytes.and_then(check)) {
+            None => {}
+            Some(Ok((bytes, size))) => {
+                let format = image_decoder::format_name(&bytes);
+                let (width, height) = size;
+                info.header = Some(ImageHeader { format, width, height, bytes: bytes.len() });
+                encoded.push(EncodedImage { index, bytes, size });
+            }
+            Some(Err(diagnostic)) => warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE),
+        }
+        locations.push(location);
+        model.image_infos.push(info);
+    }
+    if options.images == ImageLoading::Headers {
+        encoded.clear();
+    }
+    let decoded = options.timings.measure("images", || decode_images(&encoded));
+    let mut images: Vec<Option<Image>> = vec![None; model.image_infos.len()];
+    for (image, decoded) in encoded.iter().zip(decoded) {
+        match decoded {
+            Ok(decoded) => images[image.index] = Some(decoded),
+            Err(message) => {
+                let diagnostic = Diagnostic::invalid(&locations[image.index], message);
+                warnings.downgrade(&diagnostic, SHOWN_WITHOUT_IMAGE);
+            }
+        }
+    }
+    model.images = images.into();
+}

@@ -1,0 +1,265 @@
+//! Assembly of 3MF: items and components become nodes, each of which may show an object's mesh.
+//!
+//! Components share objects, so that the number of nodes can grow exponentially with the size of
+//! the file: it is computed, and compared with the limits, before any node is made.
+
+use super::model_part::ObjectReference;
+use super::package::Package;
+use crate::limits::Limits;
+use crate::warnings::ImportWarnings;
+use homog::{Affine, Model as ModelSpace};
+use model::{Diagnostic, Model, Node};
+use std::collections::BTreeMap;
+
+/// The object of a placement that is left out.
+const REMOVED: usize = usize::MAX;
+
+/// An object at a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    /// Index of the object.
+    object: usize,
+    /// From its coordinates to those around it.
+    transform: Affine<ModelSpace, ModelSpace>,
+}
+
+/// The objects of all parts, and how they are put together.
+#[derive(Debug, Default)]
+pub(super) struct Assembly {
+    objects: Vec<AssemblyObject>,
+    /// For each part its objects by their ids.
+    by_id: Vec<BTreeMap<u32, u32>>,
+    /// The number of references to what is not shown.
+    hidden: usize,
+}
+
+/// An object without its mesh.
+#[derive(Debug, Default)]
+struct AssemblyObject {
+    name: Option<String>,
+    location: String,
+    is_shown: bool,
+    /// Index of its mesh in the model, if it has one.
+    mesh: Option<usize>,
+    components: Vec<Placement>,
+    /// Whether its components have been counted, or are being counted.
+    progress: Progress,
+    /// Nodes of the object and everything below it.
+    nodes: u64,
+    /// Levels of the tree of its nodes.
+    depth: usize,
+}
+
+/// The state of an object while components are counted.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+enum Progress {
+    #[default]
+    Unknown,
+    Begun,
+    Counted,
+}
+
+impl Assembly {
+    /// Adds an object; its index. Of two with the same part and id the first is referred to.
+    pub(super) fn push_object(&mut self, part: usize, object: &super::object::Object) -> usize {
+        let at = self.objects.len();
+        if self.by_id.len() <= part {
+            self.by_id.resize_with(part + 1, BTreeMap::new);
+        }
+        self.by_id[part].entry(object.id).or_insert(at as u32);
+        self.objects.push(AssemblyObject {
+            name: object.name.clone(),
+            location: object.location.clone(),
+            is_shown: object.is_shown,
+            ..AssemblyObject::default()
+        });
+        at
+    }
+
+    /// The objects that references in a part lead to; those that are not shown are left out.
+    ///
+    /// # Errors
+    /// There is no such object; reading leniently, the reference is left out.
+    pub(super) fn resolve(
+        &mut self,
+        references: &[ObjectReference],
+        part_of: impl Fn(&ObjectReference) -> Option<usize>,
+        warnings: &mut ImportWarnings,
+    ) -> Result<Vec<Placement>, Diagnostic> {
+        let mut placements = Vec::with_capacity(references.len());
+        for reference in references {
+            let object = part_of(reference)
+                .and_then(|part| self.by_id.get(part)?.get(&reference.id))
+                .map(|&object| object as usize);
+            match object {
+                Some(object) if self.objects[object].is_shown => {
+                    placements.push(Placement { object, transform: reference.transform });
+                }
+                Some(_) => self.hidden += 1,
+                None => {
+                    let place = reference.path.as_deref().map(|path| format!(" in {path:?}"));
+                    let message =
+                        format!("there is no object {}{}", reference.id, place.unwrap_or_default());
+                    let fault = Diagnostic::invalid(&reference.location, message);
+                    warnings.downgrade_if_lenient(fault, "it is left out")?;
+                }
+            }
+        }
+        Ok(placements)
+    }
+
+    /// Sets the components of an object.
+    pub(super) fn set_components(&mut self, object: usize, components: Vec<Placement>) {
+        self.objects[object].components = components;
+    }
+
+    /// Sets the mesh of an object.
+    pub(super) fn set_mesh(&mut self, object: usize, mesh: usize) {
+        self.objects[object].mesh = Some(mesh);
+    }
+
+    /// Whether an object is built, after [`Self::count_nodes`].
+    pub(super) fn is_built(&self, object: usize) -> bool {
+        self.objects[object].progress == Progress::Counted
+    }
+
+    /// All shown objects that are no components, for files that build nothing.
+    pub(super) fn top_objects(&self) -> Vec<Placement> {
+        let mut is_top: Vec<bool> = self.objects.iter().map(|object| object.is_shown).collect();
+        for component in self.objects.iter().flat_map(|object| &object.components) {
+            is_top[component.object] = false;
+        }
+        let tops = (0..is_top.len()).filter(|&at| is_top[at]);
+        tops.map(|object| Placement { object, transform: Affine::IDENTITY }).collect()
+    }
+
+    /// Counts the nodes that the items will have, before any of them is made.
+    ///
+    /// # Errors
+    /// An object contains itself (reading leniently, it is left out there), or the nodes are more
+    /// or deeper than the limits allow.
+    pub(super) fn count_nodes(
+        &mut self,
+        items: &[Placement],
+        package: &Package<'_>,
+        limits: &Limits,
+        warnings: &mut ImportWarnings,
+    ) -> Result<(), Diagnostic> {
+        let (mut nodes, mut depth) = (1, 0);
+        for item in items {
+            self.count_object(item.object, warnings)?;
+            nodes += self.objects[item.object].nodes;
+            depth = depth.max(self.objects[item.object].depth);
+            if nodes > limits.nodes as u64 {
+                let what = format!("the build has {nodes} nodes and more");
+                let limit = limits.nodes as u64;
+                return Err(Diagnostic::limit_exceeded("", &what, "nodes", limit));
+            }
+        }
+        if depth > limits.node_depth {
+            let what = format!("the components are {depth} levels deep");
+            let limit = limits.node_depth as u64;
+            return Err(Diagnostic::limit_exceeded("", &what, "node_depth", limit));
+        }
+        if self.hidden > 0 {
+            let count = self.hidden;
+            let message = format!("{count} objects of the type support or other are left out");
+            warnings.push_warning("", message);
+        }
+        package.charge_bytes("", nodes * size_of::<Node>() as u64)
+    }
+
+    /// Counts the nodes of an object and of its components, without recursion.
+    fn count_object(
+        &mut self,
+        object: usize,
+        warnings: &mut ImportWarnings,
+    ) -> Result<(), Diagnostic> {
+        let mut stack = Vec::new();
+        if self.objects[object].progress == Progress::Unknown {
+            self.objects[object].progress = Progress::Begun;
+            stack.push((object, 0));
+        }
+        while let Some((at, next)) = stack.pop() {
+            let Some(&component) = self.objects[at].components.get(next) else {
+                self.finish_count(at);
+                continue;
+            };
+            match self.objects[component.object].progress {
+                Progress::Counted => stack.push((at, next + 1)),
+                Progress::Unknown => {
+                    self.objects[component.object].progress = Progress::Begun;
+                    stack.push((at, next + 1));
+                    stack.push((component.object, 0));
+                }
+                Progress::Begun => {
+                    let location = &self.objects[at].location;
+                    let fault = Diagnostic::invalid(location, "the object contains itself");
+                    warnings.downgrade_if_lenient(fault, "it is left out there")?;
+                    self.objects[at].components[next].object = REMOVED;
+                    stack.push((at, next + 1));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The numbers of an object whose components have theirs.
+    fn finish_count(&mut self, at: usize) {
+        self.objects[at].components.retain(|component| component.object != REMOVED);
+        let components = self.objects[at].components.iter();
+        let (mut nodes, mut depth) = (1_u64, 0);
+        for component in components.map(|component| &self.objects[component.object]) {
+            nodes = nodes.saturating_add(component.nodes);
+            depth = depth.max(component.depth);
+        }
+        let object = &mut self.objects[at];
+        (object.nodes, object.depth) = (nodes, depth + 1);
+        object.progress = Progress::Counted;
+    }
+
+    /// Makes the nodes of the items; several get a common root.
+    ///
+    /// # Errors
+    /// A product of transforms overflows; reading leniently, the node is where its parent is.
+    pub(super) fn build_nodes(
+        &self,
+        items: &[Placement],
+        model: &mut Model,
+        warnings: &mut ImportWarnings,
+    ) -> Result<(), Diagnostic> {
+        model.roots.push(0);
+        let root = (items.len() != 1).then(|| {
+            model.nodes.push(Node::default());
+            0
+        });
+        let mut stack: Vec<_> = items.iter().rev().map(|&item| (item, root)).collect();
+        while let Some((placement, parent)) = stack.pop() {
+            let object = &self.objects[placement.object];
+            let around =
+                parent.map_or(Affine::IDENTITY, |parent: usize| model.nodes[parent].to_model);
+            let mut to_parent = placement.transform;
+            if !to_parent.then(around).is_finite() {
+                let message = "the product of the transforms down to here is too large for numbers";
+                let fault = Diagnostic::invalid(&object.location, message);
+                warnings.downgrade_if_lenient(fault, "it is shown where its parent is")?;
+                to_parent = Affine::IDENTITY;
+            }
+            let at = model.nodes.len();
+            if let Some(parent) = parent {
+                model.nodes[parent].children.push(at);
+            }
+            model.nodes.push(Node {
+                name: object.name.clone(),
+                to_parent,
+                trs: None,
+                to_model: to_parent.then(around),
+                parent,
+                mesh: object.mesh,
+                ..Node::default()
+            });
+            stack.extend(object.components.iter().rev().map(|&component| (component, Some(at))));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,109 @@
+//! Namespaces of 3MF: the core specification, its extensions, and which of them are read.
+
+use super::xml::Element;
+use crate::warnings::ImportWarnings;
+use model::{Diagnostic, codes};
+
+/// How far a namespace is read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Support {
+    /// Its elements are read.
+    Read,
+    /// Its elements say nothing about the picture.
+    Ignored,
+    /// Its elements are left out, with a warning.
+    LeftOut,
+    /// Without its elements nothing can be shown as it is meant.
+    Refused,
+}
+
+/// Namespaces by a part of their URI, the name in messages, and how far each is read.
+const EXTENSIONS: [(&str, &str, Support); 11] = [
+    ("3dmanufacturing/core/", "the core specification", Support::Read),
+    ("3dmanufacturing/2013/", "the core specification", Support::Read),
+    ("3dmanufacturing/material/", "materials and properties", Support::Read),
+    ("3dmanufacturing/production/", "production", Support::Read),
+    ("3dmanufacturing/trianglesets/", "triangle sets", Support::Ignored),
+    ("3dmanufacturing/slice/", "slices", Support::LeftOut),
+    ("3dmanufacturing/beamlattice/", "beam lattices", Support::LeftOut),
+    ("3dmanufacturing/displacement/", "displacement", Support::LeftOut),
+    ("3dmanufacturing/booleanoperations/", "Boolean operations", Support::LeftOut),
+    ("3dmanufacturing/volumetric/", "volumetric data", Support::LeftOut),
+    ("3dmanufacturing/securecontent/", "secure content (encryption)", Support::Refused),
+];
+
+/// The prefixes of a model part.
+#[derive(Debug, Default)]
+pub(super) struct Namespaces<'a> {
+    /// Each prefix with the URI it stands for.
+    prefixes: Vec<(&'a [u8], &'a [u8])>,
+}
+
+impl<'a> Namespaces<'a> {
+    /// The namespaces that the root element of a part declares.
+    pub(super) fn from_root(root: &Element<'a>) -> Self {
+        let declared = root.attributes().filter_map(|(prefix, local, uri)| match (prefix, local) {
+            (b"xmlns", prefix) => Some((prefix, uri)),
+            (b"", b"xmlns") => Some((&b""[..], uri)),
+            _ => None,
+        });
+        // A part has a handful; more would make each look-up slow.
+        Self { prefixes: declared.take(64).collect() }
+    }
+
+    /// The name of a prefix's namespace in messages, and how far it is read; an undeclared prefix
+    /// counts as read.
+    pub(super) fn support_of(&self, prefix: &[u8]) -> (&'static str, Support) {
+        let Some(uri) = self.prefixes.iter().find(|(p, _)| *p == prefix).map(|(_, uri)| *uri)
+        else {
+            return ("", Support::Read);
+        };
+        let uri = String::from_utf8_lossy(uri).to_ascii_lowercase();
+        let known = EXTENSIONS.iter().find(|(part, ..)| uri.contains(part));
+        known.map_or(("", Support::Ignored), |&(_, name, support)| (name, support))
+    }
+
+    /// Whether elements of a prefix are read.
+    pub(super) fn is_read(&self, element: &Element<'_>) -> bool {
+        // Most elements have no prefix, and every other is asked for here.
+        element.prefix().is_empty() || self.support_of(element.prefix()).1 == Support::Read
+    }
+
+    /// Checks the extensions that a part requires.
+    ///
+    /// # Errors
+    /// One is unknown, or encrypts the content; reading leniently, it is ignored.
+    pub(super) fn check_required(
+        &self,
+        root: &Element<'_>,
+        location: &str,
+        warnings: &mut ImportWarnings,
+    ) -> Result<(), Diagnostic> {
+        let required = root.text_attribute("requiredextensions").unwrap_or_default();
+        for prefix in required.split_ascii_whitespace().take(64) {
+            let (name, support) = self.support_of(prefix.as_bytes());
+            match support {
+                Support::Read | Support::Refused | Support::Ignored if name.is_empty() => {
+                    let message = format!("the required extension {prefix:?} is not known");
+                    let help = "export the file without it";
+                    let code = codes::UNSUPPORTED_REQUIRED_EXTENSION;
+                    let fault = Diagnostic::error(code, location, message, help);
+                    warnings.downgrade_if_lenient(fault, "it is ignored")?;
+                }
+                Support::Refused => {
+                    let message = format!("the file requires {name}, which is not read");
+                    let help = "export the file without it";
+                    let code = codes::UNSUPPORTED_REQUIRED_EXTENSION;
+                    let fault = Diagnostic::error(code, location, message, help);
+                    warnings.downgrade_if_lenient(fault, "it is ignored")?;
+                }
+                Support::LeftOut => {
+                    let message = format!("the file requires {name}, which are left out");
+                    warnings.push_warning(location, message);
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,137 @@
+//! The package of a 3MF file (Open Packaging Conventions): parts in a zip archive, and the
+//! relationship that says which of them is the model.
+
+use super::archive::{Archive, Entry};
+use super::xml::{Element, XmlReader};
+use crate::limits::Limits;
+use crate::memory_budget::MemoryBudget;
+use crate::percent_encoding::percent_decode;
+use crate::text::decode_text;
+use crate::warnings::ImportWarnings;
+use model::{Diagnostic, codes};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// The end of the type of the relationship to the model; what precedes it differs by the year.
+const MODEL_RELATIONSHIP: &str = "/3dmodel";
+
+/// The parts of a 3MF file.
+#[derive(Debug)]
+pub(super) struct Package<'a> {
+    archive: Archive<'a>,
+    /// Entries of the archive by their names in lower case: OPC compares them so.
+    parts: BTreeMap<String, usize>,
+    budget: MemoryBudget<'a>,
+}
+
+impl<'a> Package<'a> {
+    /// Opens the package in an archive.
+    ///
+    /// # Errors
+    /// The archive is broken, or two parts have the same name; reading leniently, the first counts.
+    pub(super) fn from_bytes(
+        bytes: &'a [u8],
+        limits: &'a Limits,
+        warnings: &mut ImportWarnings,
+    ) -> Result<Self, Diagnostic> {
+        let archive = Archive::from_bytes(bytes)?;
+        let mut parts = BTreeMap::new();
+        for (at, entry) in archive.entries.iter().enumerate() {
+            if !is_part_name(&entry.name) {
+                let message = "the name leads out of the archive; the entry is left out";
+                warnings.push_warning(&entry.name, message);
+            } else if *parts.entry(entry.name.to_ascii_lowercase()).or_insert(at) != at {
+                let fault = Diagnostic::invalid(&entry.name, "the archive has two such entries");
+                warnings.downgrade_if_lenient(fault, "the first is read")?;
+            }
+        }
+        Ok(Self { archive, parts, budget: MemoryBudget::new(limits) })
+    }
+
+    /// The entry of a part by its name, with or without `/` before it, escaped or not.
+    fn find_part(&self, name: &str) -> Option<&Entry> {
+        let name = name.trim_start_matches('/').to_ascii_lowercase();
+        let at = self.parts.get(&name).or_else(|| self.parts.get(&percent_decode(&name)?));
+        at.and_then(|&at| self.archive.entries.get(at))
+    }
+
+    /// The name of a part as the archive has it, if there is one.
+    pub(super) fn part_name(&self, name: &str) -> Option<&str> {
+        self.find_part(name).map(|entry| entry.name.as_str())
+    }
+
+    /// The content of a part; `location` is where the file refers to it.
+    ///
+    /// # Errors
+    /// There is no such part, or it cannot be read.
+    pub(super) fn read_part(
+        &self,
+        name: &str,
+        location: &str,
+    ) -> Result<Cow<'a, [u8]>, Diagnostic> {
+        let Some(entry) = self.find_part(name) else {
+            let message = format!("the archive has no entry {name:?}");
+            let help = "export the file again";
+            return Err(Diagnostic::error(codes::MISSING_DATA, location, message, help));
+        };
+        self.archive.read_entry(entry, &self.budget)
+    }
+
+    /// Counts memory that is made of the file beyond its parts.
+    ///
+    /// # Errors
+    /// There is more than the limits allow.
+    pub(super) fn charge_bytes(&self, location: &str, bytes: u64) -> Result<(), Diagnostic> {
+        self.budget.charge_bytes(location, bytes, self.archive.byte_count())
+    }
+
+    /// The name of the model part: the target of the package's relationship, or else the only part
+    /// that is called so.
+    ///
+    /// # Errors
+    /// There is none: the archive is not 3MF.
+    pub(super) fn model_part(&self, warnings: &mut ImportWarnings) -> Result<String, Diagnostic> {
+        const RELATIONSHIPS: &str = "_rels/.rels";
+        if self.part_name(RELATIONSHIPS).is_some() {
+            let content = self.read_part(RELATIONSHIPS, "")?;
+            match find_model_target(&decode_text(&content)) {
+                Ok(Some(target)) if self.part_name(&target).is_some() => return Ok(target),
+                Ok(_) => {}
+                Err(fault) => warnings.downgrade_if_lenient(fault, "it is left out")?,
+            }
+        }
+        let mut models = self.archive.entries.iter().map(|entry| entry.name.as_str()).filter(|n| {
+            let name = n.to_ascii_lowercase();
+            name == "3d/3dmodel.model" || name.ends_with(".model") && !name.contains("/objects/")
+        });
+        let Some(model) = models.next() else {
+            let message = "this zip archive is not 3MF: no relationship leads to a 3D model";
+            let help = "give a .gltf, .glb, .stl, .obj, .ply or .3mf file";
+            return Err(Diagnostic::error(codes::UNKNOWN_FORMAT, RELATIONSHIPS, message, help));
+        };
+        let message = format!("no relationship leads to a 3D model; {model} is taken for it");
+        warnings.push_warning(RELATIONSHIPS, message);
+        Ok(model.to_owned())
+    }
+}
+
+/// Whether a name stays within the archive: relative and without `..`.
+fn is_part_name(name: &str) -> bool {
+    !name.starts_with('/') && !name.contains([':', '\0']) && name.split('/').all(|s| s != "..")
+}
+
+/// The target of the first relationship to a model.
+fn find_model_target(text: &[u8]) -> Result<Option<String>, Diagnostic> {
+    let mut reader = XmlReader::new(text, "_rels/.rels");
+    let Some(_) = reader.next_child(0)? else { return Ok(None) };
+    let is_model = |element: &Element<'_>| {
+        let kind = element.attribute("Type").unwrap_or_default();
+        kind.to_ascii_lowercase().ends_with(MODEL_RELATIONSHIP.as_bytes())
+    };
+    while let Some(relationship) = reader.next_child(1)? {
+        if is_model(&relationship) {
+            return Ok(relationship.text_attribute("Target"));
+        }
+    }
+    Ok(None)
+}

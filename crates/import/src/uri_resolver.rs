@@ -1,0 +1,382 @@
+//! URI resolution within a sandbox of folders: which file a URI means, and whether it may be read.
+//!
+//! A model is untrusted input, and so are its URIs: they are relative paths below one folder, the
+//! root, and nothing else. No absolute path, no scheme but `data:`, no `..` above the root, no
+//! symbolic link that leads out of it, no device or pipe, no file larger than the limit. Everything
+//! is checked before a file is opened, and a path that would leave the root is refused without
+//! looking whether something exists there. The user may allow further folders
+//! ([`ImportOptions::allow_outside`]): then `..` and symbolic links may lead there too.
+
+use super::ImportOptions;
+use super::limits::Limits;
+use super::memory_folder::{MemoryFolder, normalize_path};
+use super::percent_encoding::{percent_decode, percent_decode_bytes};
+use base64::Engine;
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use model::{Diagnostic, codes};
+use std::cell::Cell;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Reads the files and data URIs that a file refers to.
+#[derive(Debug)]
+pub struct UriResolver<'a> {
+    /// Where files may be.
+    source: AssetSource<'a>,
+    /// The limits in effect.
+    pub limits: &'a Limits,
+    /// Whether a missing file is only a warning; see [`ImportOptions::lenient`].
+    pub(crate) lenient: bool,
+    /// Bytes that have been read so far.
+    bytes_read: Cell<u64>,
+}
+
+/// Where referenced files may be.
+#[derive(Debug)]
+enum AssetSource<'a> {
+    /// Nowhere: the file is in memory, without a folder.
+    Nowhere,
+    /// In folders of the disk.
+    Disk(AssetSandbox),
+    /// In a folder in memory, relative to the folder of the file within it.
+    Memory(&'a MemoryFolder, String),
+}
+
+/// The folders that referenced files may be in.
+///
+/// Paths are compared after both sides are canonical, so that neither `..` nor symbolic links
+/// matter.
+#[derive(Debug)]
+struct AssetSandbox {
+    /// The folder that relative paths begin at.
+    folder: PathBuf,
+    /// Folders, canonical; every file must be below one of them.
+    roots: Vec<PathBuf>,
+}
+
+impl<'a> UriResolver<'a> {
+    /// A resolver for the assets of `file`, in its own folder or in those that the options name.
+    ///
+    /// The file itself has been read already: its `length` counts against the limit.
+    ///
+    /// # Errors
+    /// The folder of the file, or one that the options name, does not exist.
+    pub fn new(file: &Path, length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
+        let parent = match file.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let folder = canonical_folder(parent)?;
+        let root = options.root.as_deref().map_or_else(|| Ok(folder.clone()), canonical_folder)?;
+        Self::with_sandbox(Some((folder, root)), length, options)
+    }
+
+    /// A resolver for a file in memory: its assets are below the root, or, without one, may not be
+    /// files.
+    ///
+    /// # Errors
+    /// A folder that the options name does not exist.
+    pub fn in_memory(length: usize, options: &'a ImportOptions) -> Result<Self, Diagnostic> {
+        let root = options.root.as_deref().map(canonical_folder).transpose()?;
+        Self::with_sandbox(root.map(|root| (root.clone(), root)), length, options)
+    }
+
+    /// A resolver for a file of a folder in memory: its assets are in the same folder.
+    pub(crate) fn in_memory_folder(
+        folder: &'a MemoryFolder,
+        path: &str,
+        length: usize,
+        options: &'a ImportOptions,
+    ) -> Self {
+        let base = path.rsplit_once('/').map_or("", |(base, _)| base).to_owned();
+        let ImportOptions { limits, lenient, .. } = options;
+        let (source, bytes_read) = (AssetSource::Memory(folder, base), Cell::new(length as u64));
+        Self { source, limits, lenient: *lenient, bytes_read }
+    }
+
+    /// A resolver for assets whose paths begin at a folder and stay below a root.
+    ///
+    /// # Errors
+    /// An allowed folder does not exist.
+    fn with_sandbox(
+        sandbox: Option<(PathBuf, PathBuf)>,
+        length: usize,
+        options: &'a ImportOptions,
+    ) -> Result<Self, Diagnostic> {
+        let ImportOptions { limits, lenient, allow_outside, .. } = options;
+        let further = allow_outside.iter().map(|folder| canonical_allowed_folder(folder));
+        let further: Vec<PathBuf> = further.collect::<Result<_, _>>()?;
+        let source = sandbox.map_or(AssetSource::Nowhere, |(folder, root)| {
+            let roots = std::iter::once(root).chain(further).collect();
+            AssetSource::Disk(AssetSandbox { folder, roots })
+        });
+        Ok(Self { source, limits, lenient: *lenient, bytes_read: Cell::new(length as u64) })
+    }
+
+    /// The bytes that a URI refers to; `pointer` is the location of the URI.
+    ///
+    /// # Errors
+    /// The file does not exist, is outside of the sandbox or too large; the data URI is malformed.
+    pub fn read_uri(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+        let bytes = match uri.split_once(':') {
+            Some((scheme, data)) if scheme.eq_ignore_ascii_case("data") => {
+                decode_data_uri(data, pointer)?
+            }
+            _ => self.read_asset(uri, pointer)?,
+        };
+        self.bytes_read.set(self.bytes_read.get().saturating_add(bytes.len() as u64));
+        if self.bytes_read.get() > self.limits.total_bytes {
+            let what = format!("{} bytes have been read up to here", self.bytes_read.get());
+            return Err(Diagnostic::limit_exceeded(
+                pointer,
+                &what,
+                "total_bytes",
+                self.limits.total_bytes,
+            ));
+        }
+        Ok(bytes)
+    }
+
+    /// Bytes of all files that have been read so far.
+    pub fn total_bytes(&self) -> u64 {
+        self.bytes_read.get()
+    }
+
+    /// The content of the file that a URI names: taken literally, else percent-decoded, else with
+    /// `\` read as `/`.
+    ///
+    /// Exporters disagree about escaping, and some write paths of Windows; the first candidate that
+    /// exists is taken. Each candidate is checked against the sandbox.
+    ///
+    /// # Errors
+    /// The path leaves the sandbox, has a scheme, no candidate exists, or the file is too large.
+    fn read_asset(&self, uri: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+        if uri.is_empty() {
+            return Err(Diagnostic::invalid(pointer, "the URI is empty"));
+        }
+        let decoded = percent_decode(uri);
+        let candidates =
+            [Some(uri.to_owned()), decoded.clone(), decoded.map(|d| d.replace('\\', "/"))];
+        for candidate in candidates.into_iter().flatten() {
+            if let Some(bytes) = self.read_candidate(&candidate, uri, pointer)? {
+                return Ok(bytes);
+            }
+        }
+        Err(match uri_scheme(uri) {
+            Some(scheme) => {
+                forbidden_path(pointer, &format!("the scheme {scheme:?} of {uri:?} is not read"))
+            }
+            None => missing_file(pointer, uri),
+        })
+    }
+
+    /// The content of the file of a relative path, or `None` if there is none.
+    ///
+    /// # Errors
+    /// The path leaves the sandbox, or the file is too large or not a regular one.
+    fn read_candidate(
+        &self,
+        path: &str,
+        uri: &str,
+        pointer: &str,
+    ) -> Result<Option<Vec<u8>>, Diagnostic> {
+        match &self.source {
+            AssetSource::Nowhere => {
+                let message = format!("the model is in memory and may not read the file {uri:?}");
+                Err(forbidden_path(pointer, &message))
+            }
+            AssetSource::Disk(sandbox) => {
+                let Ok(path) = sandbox.path_below_root(path, pointer)?.canonicalize() else {
+                    return Ok(None);
+                };
+                let path = sandbox.check_path(path, uri, pointer)?;
+                read_file(&path, self.limits, pointer).map(Some)
+            }
+            AssetSource::Memory(folder, base) => {
+                let outside = || {
+                    forbidden_path(pointer, &format!("{path:?} is outside of the model's folder"))
+                };
+                let path = normalize_path(base, path).ok_or_else(outside)?;
+                Ok(folder.file(&path).map(<[u8]>::to_vec))
+            }
+        }
+    }
+}
+
+impl AssetSandbox {
+    /// Whether a path is below one of the roots.
+    fn contains_path(&self, path: &Path) -> bool {
+        self.roots.iter().any(|root| path.starts_with(root))
+    }
+
+    /// Joins a relative path to the folder, if it stays below a root by its components alone.
+    ///
+    /// This is the first of two checks, made before the file system is asked anything: a file that
+    /// contains `../../secret` learns nothing, not even whether that file exists.
+    /// [`check_path`](Self::check_path) is the second, on the canonical path, and catches symbolic
+    /// links.
+    ///
+    /// With a single root the path never leaves it; with several, `..` must be able to cross from
+    /// one to another.
+    fn path_below_root(&self, name: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
+        let outside =
+            || Err(forbidden_path(pointer, &format!("{name:?} is outside of the model's folder")));
+        let has_drive_letter = cfg!(windows) && name.contains(':');
+        if name.starts_with(['/', '\\']) || name.contains('\0') || has_drive_letter {
+            return outside();
+        }
+        let (mut path, has_several_roots) = (self.folder.clone(), self.roots.len() > 1);
+        for part in Path::new(name).components() {
+            match part {
+                Component::Normal(part) => path.push(part),
+                Component::CurDir => {}
+                Component::ParentDir
+                    if (has_several_roots || path != self.roots[0]) && path.pop() => {}
+                _ => return outside(),
+            }
+        }
+        if self.contains_path(&path) { Ok(path) } else { outside() }
+    }
+
+    /// Checks that an existing canonical path is a regular file that no symbolic link has led
+    /// outside.
+    fn check_path(&self, path: PathBuf, uri: &str, pointer: &str) -> Result<PathBuf, Diagnostic> {
+        if !self.contains_path(&path) {
+            return Err(forbidden_path(
+                pointer,
+                &format!("{uri:?} leads out of the model's folder"),
+            ));
+        }
+        if !path.is_file() {
+            return Err(forbidden_path(pointer, &format!("{uri:?} is not a regular file")));
+        }
+        Ok(path)
+    }
+}
+
+/// Reads a whole regular file, but no more than the limit.
+///
+/// The size is checked before reading and the read is bounded as well: a file may grow in between,
+/// and special files report a size of 0. One byte more than the limit is read to detect the excess.
+///
+/// # Errors
+/// The file does not exist, may not be read, is not a regular file, or is too large.
+pub fn read_file(path: &Path, limits: &Limits, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+    let to_diagnostic = |error: std::io::Error| unreadable_file(pointer, path, &error);
+    let metadata = path.metadata().map_err(to_diagnostic)?;
+    if !metadata.is_file() {
+        let message =
+            if metadata.is_dir() { "this is a folder" } else { "this is not a regular file" };
+        return Err(Diagnostic::error(codes::IO_ERROR, pointer, message.to_owned(), "give a file"));
+    }
+    let allowed = limits.file_bytes;
+    let mut bytes = Vec::new();
+    if metadata.len() <= allowed {
+        // One spare byte: `read_to_end` then detects the end without a second allocation.
+        bytes.reserve_exact(usize::try_from(metadata.len()).unwrap_or(0).saturating_add(1));
+        let file = File::open(path).map_err(to_diagnostic)?;
+        file.take(allowed.saturating_add(1)).read_to_end(&mut bytes).map_err(to_diagnostic)?;
+    }
+    let length = metadata.len().max(bytes.len() as u64);
+    if length > allowed {
+        let what = format!("the file has {length} bytes");
+        return Err(Diagnostic::limit_exceeded(pointer, &what, "file_bytes", allowed));
+    }
+    Ok(bytes)
+}
+
+/// Canonical path of a folder that the user allows files to be in.
+fn canonical_allowed_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
+    folder.canonicalize().map_err(|error| {
+        let message =
+            format!("the folder {}, allowed for files, cannot be used: {error}", folder.display());
+        Diagnostic::error(codes::IO_ERROR, "", message, "name a folder that exists")
+    })
+}
+
+/// Canonical path of a folder that must exist.
+fn canonical_folder(folder: &Path) -> Result<PathBuf, Diagnostic> {
+    folder.canonicalize().map_err(|error| unreadable_file("", folder, &error))
+}
+
+/// The error for a file that cannot be opened or read.
+///
+/// The two common cases, a missing file and missing permissions, have messages and advice of their
+/// own.
+fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagnostic {
+    // An empty pointer stands for the glTF file, whose path precedes the message.
+    let name = if pointer.is_empty() { "the file".to_owned() } else { path.display().to_string() };
+    let (message, help) = match error.kind() {
+        std::io::ErrorKind::NotFound => (format!("{name} does not exist"), "check the name"),
+        std::io::ErrorKind::PermissionDenied => {
+            (format!("{name} may not be read"), "check its permissions")
+        }
+        _ => (format!("{name} cannot be read: {error}"), "check the file"),
+    };
+    Diagnostic::error(codes::IO_ERROR, pointer, message, help)
+}
+
+/// The error for a file that is not there.
+pub(crate) fn missing_file(pointer: &str, name: &str) -> Diagnostic {
+    let message = format!("the file {name:?} does not exist");
+    Diagnostic::error(codes::IO_ERROR, pointer, message, "put it beside the model")
+}
+
+/// Checks the size of a file that is in memory.
+///
+/// # Errors
+/// It is larger than the limit.
+pub(crate) fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic> {
+    let (length, allowed) = (length as u64, limits.file_bytes);
+    if length <= allowed {
+        return Ok(());
+    }
+    Err(Diagnostic::limit_exceeded(
+        "",
+        &format!("the file has {length} bytes"),
+        "file_bytes",
+        allowed,
+    ))
+}
+
+/// The error for a path outside of the sandbox.
+fn forbidden_path(pointer: &str, message: &str) -> Diagnostic {
+    let help = "copy the file beside the model and name it by a relative path, or allow its folder \
+                  with --allow-outside DIR";
+    Diagnostic::error(codes::FORBIDDEN_PATH, pointer, message.to_owned(), help)
+}
+
+/// The scheme of a URI (RFC 3986 §3.1), if it has one.
+fn uri_scheme(uri: &str) -> Option<&str> {
+    let (scheme, _) = uri.split_once(':')?;
+    let mut letters = scheme.chars();
+    let first = letters.next()?.is_ascii_alphabetic();
+    let rest = letters.all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c));
+    (first && rest).then_some(scheme)
+}
+
+/// Base64 with or without padding, with stray bits in the last digit.
+const LENIENT_BASE64: GeneralPurposeConfig = GeneralPurposeConfig::new()
+    .with_decode_allow_trailing_bits(true)
+    .with_decode_padding_mode(DecodePaddingMode::Indifferent);
+
+/// The data of a data URI (RFC 2397) whose scheme has been removed; both alphabets of base64 are
+/// read.
+fn decode_data_uri(data: &str, pointer: &str) -> Result<Vec<u8>, Diagnostic> {
+    let Some((kind, data)) = data.split_once(',') else {
+        return Err(Diagnostic::invalid(pointer, "the data URI has no comma before its data"));
+    };
+    if !kind.to_ascii_lowercase().ends_with(";base64") {
+        let message = "the data URI is neither base64 nor has it two digits after every %";
+        return percent_decode_bytes(data).ok_or_else(|| Diagnostic::invalid(pointer, message));
+    }
+    let standard = GeneralPurpose::new(&alphabet::STANDARD, LENIENT_BASE64).decode(data);
+    let bytes = standard.or_else(|error| {
+        GeneralPurpose::new(&alphabet::URL_SAFE, LENIENT_BASE64).decode(data).map_err(|_| error)
+    });
+    bytes.map_err(|error| {
+        Diagnostic::invalid(pointer, format!("the data URI is not base64: {error}"))
+    })
+}

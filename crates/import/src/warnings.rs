@@ -1,0 +1,88 @@
+//! The importer's list of warnings, bounded even if a file has millions of faults.
+//!
+//! Errors become warnings in two ways: some always do, because only the appearance suffers
+//! ([`ImportWarnings::downgrade`]); others only when reading leniently
+//! ([`ImportWarnings::downgrade_if_lenient`]). The message then ends with the consequence: what is
+//! left out, or what replaces it.
+
+use model::{Diagnostic, Severity, codes};
+
+/// Warnings beyond this number are counted but not stored.
+const MAX_WARNINGS: usize = 500;
+
+/// Collector of warnings while a file is read.
+#[derive(Default)]
+pub(super) struct ImportWarnings {
+    /// Whether errors are downgraded to warnings where something is left to load.
+    lenient: bool,
+    /// Stored warnings, in the order in which they were found.
+    list: Vec<Diagnostic>,
+    /// Number of warnings that were not stored.
+    omitted: usize,
+}
+
+impl ImportWarnings {
+    /// An empty list; `lenient` decides what [`Self::downgrade_if_lenient`] does.
+    pub(super) fn new(lenient: bool) -> Self {
+        Self { lenient, ..Self::default() }
+    }
+
+    /// Adds a warning about something that was replaced or corrected.
+    pub(super) fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
+        self.push(warning(codes::LEFT_OUT, pointer, message.into()));
+    }
+
+    /// Stores a warning, or counts it if the list is full.
+    fn push(&mut self, warning: Diagnostic) {
+        if self.list.len() < MAX_WARNINGS {
+            self.list.push(warning);
+        } else {
+            self.omitted += 1;
+        }
+    }
+
+    /// Adds an error as a warning; `consequence` says what is left out or replaced because of it.
+    pub(super) fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
+        self.push(warning(
+            diagnostic.code,
+            &diagnostic.location,
+            format!("{}; {consequence}", diagnostic.message),
+        ));
+    }
+
+    /// Adds an error as a warning if reading leniently, and returns it otherwise.
+    ///
+    /// Limits and the requested scene or variant are never waived: those errors are returned
+    /// always.
+    pub(super) fn downgrade_if_lenient(
+        &mut self,
+        diagnostic: Diagnostic,
+        consequence: &str,
+    ) -> Result<(), Diagnostic> {
+        if !self.lenient || matches!(diagnostic.code, codes::LIMIT_EXCEEDED | codes::NO_SUCH_ITEM) {
+            return Err(diagnostic);
+        }
+        self.downgrade(&diagnostic, consequence);
+        Ok(())
+    }
+
+    /// Moves the warnings of another list to the end of this one.
+    pub(super) fn append_warnings(&mut self, other: Self) {
+        let Self { list, omitted: left_out, .. } = other;
+        list.into_iter().for_each(|warning| self.push(warning));
+        self.omitted += left_out;
+    }
+
+    /// The stored warnings, and one that counts the others.
+    pub(super) fn into_list(mut self) -> Vec<Diagnostic> {
+        if self.omitted > 0 {
+            let message = format!("{} more warnings are not listed", self.omitted);
+            self.list.push(warning(codes::LEFT_OUT, "", message));
+        }
+        self.list
+    }
+}
+
+fn warning(code: &'static str, location: &str, message: String) -> Diagnostic {
+    Diagnostic::new(Severity::Warning, code, location, message)
+}

@@ -1,0 +1,56 @@
+//! Pages: lines, texts, hatchings and pictures in whole micrometers, and their writers.
+//!
+//! ```text
+//!   Page ─┬─ PlacedImage …                                  ┌─► SVG
+//!         └─ Layer (pen) ─── Group (object) ─── Polyline …  ├─► PDF, several pages
+//!                                                           ├─► DXF: layers, arcs, circles, texts
+//!                                                           └─► a picture, by tiny-skia
+//! ```
+//!
+//! | module | subject |
+//! | --- | --- |
+//! | `page` | the page, its layers, pens and polylines |
+//! | `svg`, `pdf`, `dxf`, `canvas` | the four formats |
+//! | `arcs` | arcs and circles recognized in polylines |
+//! | `line_type`, `dash_pattern` | line types and widths of ISO 128, dashes fitted to a line |
+//! | `label`, `stroke_font` | text as strokes of a pen: Latin, Greek, some Han |
+//! | `page_clip` | what is drawn in a rectangle, or beyond the border, is removed |
+//! | [`palette`] | the colors of inks |
+//!
+//! Nothing here knows models or views. Equal pages give equal bytes.
+
+mod arcs;
+mod canvas;
+mod dash_pattern;
+mod dxf;
+mod fixed_decimal;
+mod label;
+mod line_type;
+mod markup;
+mod page;
+mod page_clip;
+pub mod palette;
+mod pdf;
+mod stroke_font;
+mod svg;
+
+pub use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
+pub use canvas::{draw_layers_over, picture_to_pixmap, pixmap_to_picture};
+pub use dxf::{DxfOptions, DxfUnit};
+pub use label::{Label, TextAlign};
+pub use line_type::{IsoLineGroup, LineType};
+pub use markup::escape_markup;
+pub use page::{
+    Cap, Group, GroupContent, HatchArea, Ink, Join, Layer, MILLIMETERS_PER_PIXEL, Page, PagePoint,
+    Pen, PlacedImage, Polyline, TextLine, to_micrometers, to_millimeters,
+};
+pub use pdf::to_pdf;
+pub use stroke_font::missing_glyphs;
+
+/// The library that [`picture_to_pixmap`] hands pictures to.
+pub use tiny_skia;
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,134 @@
+//! Line types and widths of technical drawings: ISO 128-2:2020 (in 1996, parts 20 and 24).
+//!
+//! ```text
+//!  01.2  continuous wide      ━━━━━━━━━━━━━━━━━━━━━━   visible edges and outlines
+//!  01.1  continuous narrow    ──────────────────────   tangent edges, dimensions, hatching
+//!  02.1  dashed narrow        ─────  ─────  ─────  ─   hidden edges: dash 12 d, gap 3 d
+//!  04.1  chain narrow         ───────── · ───────── ·  axes: dash 24 d, gap 3 d, dot ½ d, gap 3 d
+//! ```
+//!
+//! Lengths are multiples of the line width d. Wide lines are twice as wide as narrow ones, and
+//! widths form a series with ratio √2, like paper sizes: a drawing reduced from A3 to A4 still has
+//! widths of the series.
+
+use super::page::{Cap, Ink, Join, Pen};
+
+/// The line widths of the series, in millimeters.
+const WIDTH_SERIES: [f64; 9] = [0.13, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0];
+
+/// A line group of ISO 128: a wide, a lettering and a narrow width, named by the wide one.
+///
+/// ```
+/// use page::IsoLineGroup;
+///
+/// let group = IsoLineGroup::from_wide_width(0.7).expect("a width of the series");
+/// let widths = [group.wide_width(), group.lettering_width(), group.narrow_width()];
+/// assert_eq!(widths, [0.7, 0.5, 0.35]);
+/// assert_eq!(IsoLineGroup::from_wide_width(0.6), None);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct IsoLineGroup {
+    /// The index of the wide width in the series, at least 2.
+    wide_index: usize,
+}
+
+impl IsoLineGroup {
+    /// 0.35 mm and 0.18 mm: small sheets.
+    pub const MM_0_35: Self = Self { wide_index: 3 };
+    /// 0.5 mm and 0.25 mm: the preferred group.
+    pub const MM_0_5: Self = Self { wide_index: 4 };
+    /// 0.7 mm and 0.35 mm: large sheets.
+    pub const MM_0_7: Self = Self { wide_index: 5 };
+
+    /// The group whose wide lines have this width in millimeters: 0.25, 0.35, 0.5, 0.7, 1, 1.4 or
+    /// 2. `None` for any other.
+    #[must_use]
+    pub fn from_wide_width(wide: f64) -> Option<Self> {
+        let found = WIDTH_SERIES.iter().position(|&width| (width - wide).abs() < 1e-9)?;
+        (found >= 2).then_some(Self { wide_index: found })
+    }
+
+    /// The width of wide lines in millimeters.
+    #[must_use]
+    pub fn wide_width(self) -> f64 {
+        WIDTH_SERIES[self.wide_index]
+    }
+
+    /// The stroke width of lettering in millimeters: between wide and narrow.
+    #[must_use]
+    pub fn lettering_width(self) -> f64 {
+        WIDTH_SERIES[self.wide_index - 1]
+    }
+
+    /// The width of narrow lines in millimeters.
+    #[must_use]
+    pub fn narrow_width(self) -> f64 {
+        WIDTH_SERIES[self.wide_index - 2]
+    }
+}
+
+/// A line type by its number in ISO 128.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LineType {
+    /// 01: without gaps.
+    Continuous,
+    /// 02: dashes.
+    Dashed,
+    /// 04: long dashes with a dot in between.
+    LongDashedDotted,
+    /// 05: long dashes with two dots in between.
+    LongDashedDoubleDotted,
+}
+
+impl LineType {
+    /// Alternating lengths of dashes and gaps in millimeters, for a line of this width; empty for a
+    /// continuous line.
+    #[must_use]
+    pub fn dash_pattern(self, width: f64) -> Vec<f64> {
+        let in_widths: &[f64] = match self {
+            Self::Continuous => &[],
+            Self::Dashed => &[12.0, 3.0],
+            Self::LongDashedDotted => &[24.0, 3.0, 0.5, 3.0],
+            Self::LongDashedDoubleDotted => &[24.0, 3.0, 0.5, 3.0, 0.5, 3.0],
+        };
+        in_widths.iter().map(|length| length * width).collect()
+    }
+
+    /// A pen of this type. Dashes get butt caps: round ones would make them longer than the pattern
+    /// says.
+    #[must_use]
+    pub fn to_pen(self, width: f64, ink: Ink, cap: Cap, join: Join) -> Pen {
+        let cap = if self == Self::Continuous { cap } else { Cap::Butt };
+        Pen { width, ink, dashes: self.dash_pattern(width), cap, join }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_those_of_the_standard() {
+        let of = |wide: f64| {
+            IsoLineGroup::from_wide_width(wide)
+                .map(|g| [g.wide_width(), g.lettering_width(), g.narrow_width()])
+        };
+        assert_eq!(of(0.25), Some([0.25, 0.18, 0.13]));
+        assert_eq!(of(0.5), Some([0.5, 0.35, 0.25]));
+        assert_eq!(of(0.7), Some([0.7, 0.5, 0.35]));
+        assert_eq!(of(2.0), Some([2.0, 1.4, 1.0]));
+        assert_eq!((of(0.18), of(0.4), of(f64::NAN)), (None, None, None));
+        // The ratio of the series is √2, up to rounding to widths of drawing pens.
+        for pair in WIDTH_SERIES.windows(2) {
+            assert!((pair[1] / pair[0] - core::f64::consts::SQRT_2).abs() < 0.05, "{pair:?}");
+        }
+    }
+
+    #[test]
+    fn dashes_are_twelve_widths_long() {
+        assert_eq!(LineType::Dashed.dash_pattern(0.25), [3.0, 0.75]);
+        assert_eq!(LineType::LongDashedDotted.dash_pattern(0.5), [12.0, 1.5, 0.25, 1.5]);
+        let pen = LineType::Dashed.to_pen(0.25, [0; 3], Cap::Round, Join::Round);
+        assert_eq!((pen.cap, pen.join), (Cap::Butt, Join::Round));
+    }
+}

@@ -1,0 +1,320 @@
+//! Page model: strokes and fills on paper, common to SVG, PDF, DXF and PNG.
+//!
+//! Coordinates are whole micrometers from the upper left corner, y down. Integers are the same in
+//! every format, and relative steps between them add up without error.
+//!
+//! ```text
+//!   Page ─┬─ PlacedImage …
+//!         └─ Layer (pen) ─── Group (object) ─┬─ strokes: Polyline …
+//!                                            ├─ fills:   Polyline …
+//!                                            └─ content: the strokes are lines, a text, a hatching
+//! ```
+
+use core::convert::Infallible;
+use glam::DVec2;
+use picture::Picture;
+
+/// The size of an image pixel on paper in millimeters: 96 to the inch, as in CSS.
+pub const MILLIMETERS_PER_PIXEL: f64 = MILLIMETERS_PER_INCH / 96.0;
+
+/// The length of an inch.
+pub(crate) const MILLIMETERS_PER_INCH: f64 = 25.4;
+
+/// A color of ink: sRGB, opaque.
+pub type Ink = [u8; 3];
+
+/// A point of the page in micrometers.
+pub type PagePoint = [i32; 2];
+
+/// A page and everything on it, in drawing order.
+///
+/// `W` is the type of its warnings, which belong to whoever made the drawing; without them it need
+/// not be named.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Page<W = Infallible> {
+    /// Width and height in millimeters.
+    pub size: DVec2,
+    /// The title of the document.
+    pub title: String,
+    /// The color of the paper; `None` for a transparent background.
+    pub paper: Option<Ink>,
+    /// Images on the paper, under the lines.
+    pub images: Vec<PlacedImage>,
+    /// Layers, each drawn over the ones before.
+    pub layers: Vec<Layer>,
+    /// Warnings of the drawings on the page, each once.
+    pub warnings: Vec<W>,
+}
+
+/// An image on a page.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PlacedImage {
+    /// An identifier: lower case, hyphens, unique on its page.
+    pub id: String,
+    /// The upper left corner in micrometers.
+    pub corner: PagePoint,
+    /// Width and height in micrometers, greater than 0.
+    pub size: PagePoint,
+    /// The pixels, stretched to this size.
+    pub picture: Picture,
+}
+
+/// Lines of one kind, drawn with one pen.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Layer {
+    /// An identifier: lower case, hyphens, unique on its page.
+    pub id: String,
+    /// A title for the reader.
+    pub title: String,
+    /// The pen of its lines.
+    pub pen: Pen,
+    /// Its lines, grouped by object.
+    pub groups: Vec<Group>,
+}
+
+/// The lines of a layer that belong to one object.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Group {
+    /// An identifier, unique in its layer; empty if the layer is not divided.
+    pub id: String,
+    /// The object's name.
+    pub title: String,
+    /// Lines.
+    pub strokes: Vec<Polyline>,
+    /// Areas filled with the pen's ink, such as arrowheads, by the even-odd rule.
+    pub fills: Vec<Polyline>,
+    /// The meaning of the strokes, for formats that have texts or hatches.
+    pub content: GroupContent,
+}
+
+/// The meaning of a group of strokes: all of them are one text, one hatch, or lines.
+///
+/// Every format can draw the strokes. DXF has texts and hatches, which programs edit as such.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub enum GroupContent {
+    /// Lines.
+    #[default]
+    Lines,
+    /// The letters of a text.
+    Text(TextLine),
+    /// The hatch lines of areas.
+    Hatching(Vec<HatchArea>),
+}
+
+/// A line of text on a page.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct TextLine {
+    /// The text.
+    pub text: String,
+    /// The start and the end of its baseline in micrometers.
+    pub baseline: [PagePoint; 2],
+    /// The height of capitals in micrometers.
+    pub height: i32,
+}
+
+/// An area with parallel lines at equal distances.
+#[derive(Clone, PartialEq, Debug)]
+pub struct HatchArea {
+    /// Closed lines around it and around its holes: the even-odd rule.
+    pub loops: Vec<Polyline>,
+    /// A point through which a line goes, or would go, in micrometers.
+    pub origin: PagePoint,
+    /// The unit vector along the lines, y down.
+    pub direction: DVec2,
+    /// The distance between two lines in millimeters.
+    pub spacing: f64,
+}
+
+impl GroupContent {
+    /// Moves what the strokes are along with them, in micrometers.
+    pub(crate) fn move_by(&mut self, by: PagePoint) {
+        let move_point = |point: &mut PagePoint| {
+            *point = [point[0].saturating_add(by[0]), point[1].saturating_add(by[1])];
+        };
+        match self {
+            Self::Lines => {}
+            Self::Text(line) => line.baseline.iter_mut().for_each(move_point),
+            Self::Hatching(areas) => {
+                for area in areas {
+                    area.loops.iter_mut().flat_map(|line| &mut line.points).for_each(move_point);
+                    move_point(&mut area.origin);
+                }
+            }
+        }
+    }
+}
+
+/// Points joined by straight lines.
+///
+/// ```
+/// use page::Polyline;
+/// use glam::DVec2;
+///
+/// let [a, b] = [DVec2::ZERO, DVec2::new(3.0, 4.0)];
+/// let line = Polyline::through_points(&[a, a, b], false).expect("two different points");
+/// assert_eq!((line.points.len(), line.length()), (2, 5.0));
+/// // Nearer than half a micrometer, points coincide on the grid.
+/// assert_eq!(Polyline::through_points(&[a, a + 1e-4], false), None);
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Polyline {
+    /// At least two points; neighbors differ.
+    pub points: Vec<PagePoint>,
+    /// Whether the last point is joined to the first, which is not repeated.
+    pub closed: bool,
+}
+
+/// The attributes with which lines are stroked.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Pen {
+    /// The line width in millimeters.
+    pub width: f64,
+    /// The color.
+    pub ink: Ink,
+    /// Alternating lengths of dashes and gaps in millimeters; empty for a continuous line. Each
+    /// polyline starts anew, with a pattern fitted to its length: [`Pen::fitted_dashes`].
+    pub dashes: Vec<f64>,
+    /// The ends of lines.
+    pub cap: Cap,
+    /// The corners of lines.
+    pub join: Join,
+}
+
+/// The shape of the ends of lines.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Cap {
+    /// Cut off at the end point.
+    Butt,
+    /// With a half disc around the end point.
+    #[default]
+    Round,
+    /// Extended by half a line width.
+    Square,
+}
+
+/// The shape of the corners of lines.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Join {
+    /// Outer sides extended to a point, up to a miter limit of 4.
+    Miter,
+    /// With a disc around the corner.
+    #[default]
+    Round,
+    /// The corner is cut off.
+    Bevel,
+}
+
+/// What the writers of formats read: a page without its warnings.
+#[derive(Clone, Copy)]
+pub(crate) struct PageContent<'a> {
+    pub(crate) size: DVec2,
+    pub(crate) title: &'a str,
+    pub(crate) paper: Option<Ink>,
+    pub(crate) images: &'a [PlacedImage],
+    pub(crate) layers: &'a [Layer],
+}
+
+impl<W> Page<W> {
+    /// An empty page; the size is in millimeters.
+    #[must_use]
+    pub fn new(size: DVec2, title: impl Into<String>, paper: Option<Ink>) -> Self {
+        let (images, layers, warnings) = (Vec::new(), Vec::new(), Vec::new());
+        Self { size, title: title.into(), paper, images, layers, warnings }
+    }
+
+    /// The page with its warnings as another type, such as that of a layer above.
+    #[must_use]
+    pub fn map_warnings<V>(self, map: impl FnMut(W) -> V) -> Page<V> {
+        let Self { size, title, paper, images, layers, warnings } = self;
+        let warnings = warnings.into_iter().map(map).collect();
+        Page { size, title, paper, images, layers, warnings }
+    }
+
+    /// What the writers of formats read.
+    pub(crate) fn content(&self) -> PageContent<'_> {
+        let Self { size, title, paper, images, layers, .. } = self;
+        PageContent { size: *size, title, paper: *paper, images, layers }
+    }
+}
+
+impl<W: Clone> Page<W> {
+    /// Puts the content of another page onto this one, with its upper left corner at `corner` in
+    /// millimeters.
+    ///
+    /// `prefix` begins the ids of images and layers, so that they stay unique.
+    pub fn paste_page(&mut self, other: &Self, corner: DVec2, prefix: &str) {
+        let by = to_micrometers(corner);
+        let moved = |point: PagePoint| [point[0] + by[0], point[1] + by[1]];
+        self.images.extend(other.images.iter().cloned().map(|pasted| PlacedImage {
+            id: format!("{prefix}{}", pasted.id),
+            corner: moved(pasted.corner),
+            ..pasted
+        }));
+        for layer in &other.layers {
+            let mut layer = layer.clone();
+            layer.id = format!("{prefix}{}", layer.id);
+            for group in &mut layer.groups {
+                let lines = group.strokes.iter_mut().chain(&mut group.fills);
+                lines.flat_map(|line| &mut line.points).for_each(|point| *point = moved(*point));
+                group.content.move_by(by);
+            }
+            self.layers.push(layer);
+        }
+        self.warnings.extend(other.warnings.iter().cloned());
+    }
+}
+
+impl Layer {
+    /// An empty layer.
+    #[must_use]
+    pub fn new(id: impl Into<String>, title: impl Into<String>, pen: Pen) -> Self {
+        Self { id: id.into(), title: title.into(), pen, groups: Vec::new() }
+    }
+}
+
+impl Pen {
+    /// A pen for continuous lines with round caps and joins.
+    #[must_use]
+    pub fn solid(width: f64, ink: Ink) -> Self {
+        Self { width, ink, dashes: Vec::new(), cap: Cap::Round, join: Join::Round }
+    }
+}
+
+impl Polyline {
+    /// The polyline through points given in millimeters, without points that repeat their neighbor
+    /// on the grid.
+    ///
+    /// `None` if fewer than two are left.
+    #[must_use]
+    pub fn through_points(millimeters: &[DVec2], closed: bool) -> Option<Self> {
+        let mut points: Vec<PagePoint> = millimeters.iter().copied().map(to_micrometers).collect();
+        points.dedup();
+        if closed && points.first() == points.last() {
+            points.pop();
+        }
+        (points.len() >= 2).then_some(Self { points, closed })
+    }
+
+    /// The length in millimeters.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let last = self.closed.then(|| [self.points[self.points.len() - 1], self.points[0]]);
+        let sides = self.points.windows(2).map(|pair| [pair[0], pair[1]]).chain(last);
+        sides.map(|[a, b]| (to_millimeters(a) - to_millimeters(b)).length()).sum()
+    }
+}
+
+/// The nearest point of the grid; saturates for points too far away for it.
+///
+/// Ties round away from zero. The grid reaches to ±2147 m, beyond any paper.
+#[must_use]
+pub fn to_micrometers(millimeters: DVec2) -> PagePoint {
+    // A float-to-int cast is exact for whole numbers and saturates.
+    (millimeters * 1000.0).to_array().map(|c| libm::round(c) as i32)
+}
+
+/// A point of the grid in millimeters.
+#[must_use]
+pub fn to_millimeters([x, y]: PagePoint) -> DVec2 {
+    DVec2::new(f64::from(x), f64::from(y)) / 1000.0
+}

@@ -1,0 +1,70 @@
+//! Pictures: sRGB pixels with straight alpha, as a render returns them and a PNG file holds them.
+
+use crate::{Channel, encode_png};
+use files::{OutputError, write_file};
+use std::path::Path;
+
+/// A picture of sRGB pixels with straight alpha, rows from the top, with 8 bits a channel (`u8`) or
+/// 16 (`u16`).
+#[derive(Clone, PartialEq, Eq, Default)]
+pub struct Picture<C = u8> {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// `width` × `height` pixels: red, green, blue, alpha.
+    pub pixels: Vec<[C; 4]>,
+}
+
+impl<C: Channel> Picture<C> {
+    /// The pixel in column `x` and row `y`, from the upper left corner; `None` outside.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> Option<[C; 4]> {
+        let is_inside = x < self.width && y < self.height;
+        is_inside.then(|| self.pixels[y as usize * self.width as usize + x as usize])
+    }
+
+    /// Resizes the picture for a new one: the pixels are unspecified. Memory is reused.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        (self.width, self.height) = (width, height);
+        let area = width as usize * height as usize;
+        if self.pixels.capacity() < area {
+            // Zeroed pages of the system are cheaper than writing zeros.
+            self.pixels = vec![[C::default(); 4]; area];
+        } else {
+            self.pixels.resize(area, [C::default(); 4]);
+        }
+    }
+
+    /// Whether every pixel is opaque.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        self.pixels.iter().all(|pixel| pixel[3] == C::FULL)
+    }
+
+    /// Encodes the picture as a PNG file with as many bits a channel as it has: RGB if it is
+    /// opaque, RGBA with straight alpha otherwise.
+    #[must_use]
+    pub fn to_png(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(self.pixels.len());
+        let (size, opaque) = ([self.width, self.height], self.is_opaque());
+        let written =
+            encode_png(&mut bytes, size, opaque, C::BITS, |rows| rows.write_pixels(&self.pixels));
+        debug_assert!(written.is_ok(), "a picture always has width x height pixels: {written:?}");
+        bytes
+    }
+
+    /// Writes the picture as a PNG file, atomically.
+    ///
+    /// # Errors
+    /// If the file cannot be written; an older file is then unchanged.
+    pub fn write_png(&self, path: &Path) -> Result<(), OutputError> {
+        write_file(path, &self.to_png())
+    }
+}
+
+impl<C> std::fmt::Debug for Picture<C> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Picture({} x {})", self.width, self.height)
+    }
+}

@@ -1,0 +1,44 @@
+//! Frames of the rasterizer drawn into pixels of 8 or 16 bits.
+
+use crate::color::{Srgb16Encoder, SrgbEncoder};
+use picture::Channel;
+use raster::{Frame, Surface};
+
+/// A channel that frames are drawn into: `u8` or `u16`.
+pub trait FrameChannel: Channel {
+    /// Draws a frame over `background` (linear, premultiplied by alpha) into pixels.
+    ///
+    /// As [`Frame::draw`], but compiled once for each depth, here: callers that are generic over
+    /// channels and surfaces would each have copies of it.
+    fn draw_frame(
+        frame: &Frame,
+        surface: &dyn Surface,
+        background: [f32; 4],
+        threads: usize,
+        pixels: &mut [[Self; 4]],
+    );
+}
+
+impl FrameChannel for u8 {
+    fn draw_frame(
+        frame: &Frame,
+        surface: &dyn Surface,
+        background: [f32; 4],
+        threads: usize,
+        pixels: &mut [[Self; 4]],
+    ) {
+        frame.draw(&surface, background, threads, pixels, SrgbEncoder::shared());
+    }
+}
+
+impl FrameChannel for u16 {
+    fn draw_frame(
+        frame: &Frame,
+        surface: &dyn Surface,
+        background: [f32; 4],
+        threads: usize,
+        pixels: &mut [[Self; 4]],
+    ) {
+        frame.draw(&surface, background, threads, pixels, Srgb16Encoder::shared());
+    }
+}

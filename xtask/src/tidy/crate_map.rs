@@ -1,0 +1,113 @@
+//! The map of the crates in `ARCHITECTURE.md`, drawn from what Cargo reads in the manifests, and how
+//! large a crate may become.
+
+use super::boundaries::LAYERS;
+use super::{Source, Violation};
+use crate::Outcome;
+use crate::metadata::{Metadata, short_name};
+use crate::workspace::{project_root, read_text};
+use std::collections::BTreeSet;
+
+const DOCUMENT: &str = "ARCHITECTURE.md";
+/// What stands before and after the map in the document.
+const BEFORE: &str =
+    "<!-- The crates: `cargo xtask tidy --bless` writes these lines. -->\n\n```text\n";
+const AFTER: &str = "```\n";
+
+/// Lines of sources, tests left out, past which a crate is cut in two.
+const MAX_CRATE_LINES: usize = 13_000;
+
+/// The map where it is not what the manifests say.
+pub fn outdated_map() -> Result<Vec<Violation>, String> {
+    let text = read_text(&project_root().join(DOCUMENT))?;
+    let is_current = with_map(&text, &crate_map(&Metadata::load()?))? == text;
+    let message = "the map of the crates is outdated: run `cargo xtask tidy --bless`";
+    Ok((!is_current).then(|| Violation::new(DOCUMENT, message)).into_iter().collect())
+}
+
+/// Writes the map into the document.
+pub fn write_map() -> Outcome {
+    let path = project_root().join(DOCUMENT);
+    let text = read_text(&path)?;
+    let current = with_map(&text, &crate_map(&Metadata::load()?))?;
+    std::fs::write(&path, current).map_err(|error| format!("{DOCUMENT}: {error}"))
+}
+
+fn with_map(text: &str, map: &str) -> Result<String, String> {
+    let missing = || format!("{DOCUMENT} has no place for the map of the crates");
+    let (head, rest) = text.split_once(BEFORE).ok_or_else(missing)?;
+    let (_, tail) = rest.split_once(AFTER).ok_or_else(missing)?;
+    Ok(format!("{head}{BEFORE}{map}{AFTER}{tail}"))
+}
+
+/// One line for each crate, from the bottom up: the crates below it that no other one of them
+/// already depends on.
+fn crate_map(metadata: &Metadata) -> String {
+    let width = LAYERS.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
+    let line = |name: &str| {
+        let below = direct_dependencies(metadata, name);
+        let is_implied = |dependency: &&str| {
+            below.iter().any(|other| all_below(metadata, other).contains(*dependency))
+        };
+        let shown: Vec<&str> = below.iter().copied().filter(|name| !is_implied(name)).collect();
+        format!("{name:width$}  {}", shown.join(", ")).trim_end().to_owned() + "\n"
+    };
+    LAYERS.iter().map(|(name, _)| line(name)).collect()
+}
+
+/// The crates of the map that a manifest names, in the order of the map.
+fn direct_dependencies<'a>(metadata: &'a Metadata, name: &str) -> Vec<&'a str> {
+    let Some(package) = metadata.package(name) else { return Vec::new() };
+    let names: BTreeSet<&str> =
+        package.dependencies.iter().map(|dependency| short_name(dependency)).collect();
+    LAYERS.iter().filter_map(|(name, _)| names.get(name).copied()).collect()
+}
+
+fn all_below<'a>(metadata: &'a Metadata, name: &str) -> BTreeSet<&'a str> {
+    let direct = direct_dependencies(metadata, name);
+    let further = direct.iter().flat_map(|below| all_below(metadata, below));
+    further.chain(direct.iter().copied()).collect()
+}
+
+/// Crates that have outgrown what one reader can hold in the head.
+pub fn crate_lengths(sources: &[Source]) -> Vec<Violation> {
+    let lines = |name: &str| {
+        let folder = format!("crates/{name}/src/");
+        let files = sources.iter().filter(|source| source.path.starts_with(&folder));
+        let code = files.filter(|source| !is_test_file(&source.path));
+        code.map(|source| source.text.lines().count()).sum::<usize>()
+    };
+    let too_long = |(name, _): &(&str, _)| {
+        let lines = lines(name);
+        (lines > MAX_CRATE_LINES).then(|| {
+            let message = format!("{lines} lines, where {MAX_CRATE_LINES} are allowed: cut it");
+            Violation::new(format!("crates/{name}"), message)
+        })
+    };
+    LAYERS.iter().filter_map(too_long).collect()
+}
+
+fn is_test_file(path: &str) -> bool {
+    path.ends_with("/tests.rs") || path.contains("/tests/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_takes_the_place_of_the_old_one() {
+        let text = format!("# A\n{BEFORE}old\n{AFTER}end\n");
+        assert_eq!(with_map(&text, "new\n"), Ok(format!("# A\n{BEFORE}new\n{AFTER}end\n")));
+        assert!(with_map("# A\n", "new\n").is_err());
+    }
+
+    #[test]
+    fn a_crate_above_the_limit_is_named_and_its_tests_do_not_count() {
+        let long = |path: &str| Source::new(path, "\n".repeat(MAX_CRATE_LINES));
+        let tests = [long("crates/clip/src/tests.rs"), long("crates/clip/src/lib.rs")];
+        assert_eq!(crate_lengths(&tests), []);
+        let code = [long("crates/clip/src/a.rs"), Source::new("crates/clip/src/lib.rs", "\n")];
+        assert_eq!(crate_lengths(&code).len(), 1);
+    }
+}
