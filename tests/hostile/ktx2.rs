@@ -9,10 +9,10 @@ const MUTANTS: usize = 2_000;
 
 /// ETC1S with alpha and with mip levels, UASTC plain and in Zstandard.
 const IMAGES: [&[u8]; 4] = [
-    include_bytes!("../../crates/import/tests/ktx2/etc1s.ktx2"),
-    include_bytes!("../../crates/import/tests/ktx2/etc1s_opaque_mips.ktx2"),
-    include_bytes!("../../crates/import/tests/ktx2/uastc.ktx2"),
-    include_bytes!("../../crates/import/tests/ktx2/uastc_zstd.ktx2"),
+    include_bytes!("../../crates/gltf-import/tests/ktx2/etc1s.ktx2"),
+    include_bytes!("../../crates/gltf-import/tests/ktx2/etc1s_opaque_mips.ktx2"),
+    include_bytes!("../../crates/gltf-import/tests/ktx2/uastc.ktx2"),
+    include_bytes!("../../crates/gltf-import/tests/ktx2/uastc_zstd.ktx2"),
 ];
 
 /// All cases about KTX2 images.

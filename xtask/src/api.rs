@@ -20,13 +20,14 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 18] = [
+const CRATES: [&str; 19] = [
     "camera",
     "clip",
     "drawing",
     "explorer",
     "files",
     "gltf-check",
+    "gltf-import",
     "homog",
     "import",
     "model",

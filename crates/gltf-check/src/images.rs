@@ -14,7 +14,7 @@ use super::document::{CheckedDocument, extension_object, index_member, string_me
 use super::store::BufferStore;
 use super::uris;
 use super::usage::{UsageMap, ViewUse};
-use import::UriResolver;
+use gltf_import::UriResolver;
 use serde_json::Value;
 use std::borrow::Cow;
 
@@ -173,7 +173,8 @@ impl ImageChecker<'_> {
             diagnostics.add(code, &self.pointer, message);
             return None;
         };
-        let problem = if import::is_decoded(kind) { import::image_size(bytes).err() } else { None };
+        let problem =
+            if gltf_import::is_decoded(kind) { gltf_import::image_size(bytes).err() } else { None };
         if let Some(problem) = problem {
             let is_cut = ["end of file", "EOF", "fill whole buffer", "end before", "exhausted"]
                 .iter()

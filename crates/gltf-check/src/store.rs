@@ -11,9 +11,9 @@ use super::document::{
 use super::elements::AccessorElements;
 use super::layout::{AccessorLayout, ComponentType};
 use super::uris;
-use import::CompressedView;
-use import::MemoryBudget;
-use import::UriResolver;
+use gltf_import::CompressedView;
+use gltf_import::MemoryBudget;
+use gltf_import::UriResolver;
 use serde_json::Value;
 use std::cell::{Cell, OnceCell};
 

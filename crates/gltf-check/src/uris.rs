@@ -2,7 +2,7 @@
 
 use super::codes;
 use super::diagnostics::Diagnostics;
-use import::UriResolver;
+use gltf_import::UriResolver;
 use model::{Diagnostic, codes as load};
 
 /// The media type of a data URI in lower case; `None` for another URI.

@@ -3,11 +3,11 @@
 //! They go the way of PLY files: polygons are cut into triangles, normals follow from the crease
 //! angle where there are none, and faces with colors of their own split the vertices between them.
 
-use super::ImportOptions;
-use super::memory_budget::MemoryBudget;
 use super::ply::{self, Contents};
-use super::warnings::ImportWarnings;
 use crate::load::{check_scene_limits, surface_without_area};
+use gltf_import::ImportOptions;
+use gltf_import::ImportWarnings;
+use gltf_import::MemoryBudget;
 use homog::{Affine, Model as ModelSpace};
 use model::{
     AlphaMode, Diagnostic, Image, ImageInfo, Material, Mesh, Model, Node, Sampler, Texture,

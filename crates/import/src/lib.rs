@@ -18,49 +18,31 @@
 //! | unknown format, other version | yes | yes |
 //! | exceeded limit | yes | yes |
 //!
-//! The modules here serve every format; `gltf`, `stl`, `obj`, `ply` and `threemf` read one each.
+//! glTF is read by the crate `gltf-import`, which has the guards; `stl`, `obj`, `ply` and `threemf`
+//! read one format each, and the other modules serve them.
 
 mod arrays;
 mod corner_vertices;
-mod error;
 mod file_format;
-mod gltf;
-mod image_decoder;
-mod limits;
 mod load;
-mod memory_budget;
-mod memory_folder;
-mod name_or_index;
-mod normals;
 mod obj;
-mod parallel_decoding;
-mod percent_encoding;
 mod ply;
 mod polygons;
-mod scalars;
-mod srgb;
 mod stl;
 mod surfaces;
 mod text;
-mod texture_images;
 mod threemf;
-mod uri_resolver;
-mod warnings;
 
-pub use self::gltf::{CompressedView, ExtensionUse, check_json_limits, extension_use};
 pub use arrays::{MeshArrays, MeshNode, load_arrays};
-pub use error::ImportError;
 pub use file_format::FileFormat;
-pub use image_decoder::{decode_bounded as decode_image, image_size, is_decoded};
-pub use limits::Limits;
-pub use load::{ImageLoading, ImportOptions, import_model, load, load_bytes, load_from_memory};
-pub use memory_budget::MemoryBudget;
-pub use memory_folder::MemoryFolder;
-pub use name_or_index::NameOrIndex;
+pub use load::{import_model, load, load_bytes, load_from_memory};
 pub use obj::PhongMaterial;
-pub use percent_encoding::{percent_decode, percent_encode};
-pub use scalars::ScalarColors;
-pub use uri_resolver::{UriResolver, read_file};
+
+// What the functions here take and return.
+pub use gltf_import::{
+    ExtensionUse, ImageLoading, ImportError, ImportOptions, Limits, MemoryFolder, NameOrIndex,
+    ScalarColors, UriResolver, decode_image, extension_use, percent_decode, percent_encode,
+};
 
 /// Compiles and runs the examples of the README.
 #[cfg(doctest)]

@@ -1,68 +1,13 @@
 //! Loading: the format is recognized, its reader makes the model, and the options complete it.
 
-use crate::uri_resolver::UriResolver;
-use crate::{
-    FileFormat, ImportError, Limits, MemoryFolder, NameOrIndex, ScalarColors, gltf, obj, ply, stl,
-    threemf, uri_resolver,
-};
+use crate::{FileFormat, obj, ply, stl, threemf};
 use glam::DVec3;
-use model::{Diagnostic, LengthUnit, Model, Severity, Timings, Topology, UpAxis, codes};
-use std::path::{Path, PathBuf};
-
-/// Options for loading a file.
-#[derive(Clone, Debug, Default)]
-pub struct ImportOptions {
-    /// The largest sizes that are accepted.
-    pub limits: Limits,
-    /// The folder below which all referenced files must be. Default: the folder of the file itself.
-    pub root: Option<PathBuf>,
-    /// Further folders that may hold referenced files: `..` and symbolic links may lead there.
-    /// Default: none.
-    pub allow_outside: Vec<PathBuf>,
-    /// Whether broken, missing or unknown data is left out with a warning instead of an error, as
-    /// long as something else is left to load. Limits hold all the same. Default: no.
-    pub lenient: bool,
-    /// The active scene. Default: the file's default scene, else its first.
-    pub scene: Option<NameOrIndex>,
-    /// The active material variant (KHR_materials_variants). Default: none.
-    pub variant: Option<NameOrIndex>,
-    /// The colors of vertices by a scalar attribute. Default: the colors and materials of the file.
-    pub scalars: Option<ScalarColors>,
-    /// Whether images are decoded. Default: those that are visible.
-    pub images: ImageLoading,
-    /// The axis that points up in the file. Default: what the format says: z for STL and 3MF, y for
-    /// the others.
-    pub up: Option<UpAxis>,
-    /// The unit of the file's coordinates. Default: what the file declares, else the convention of
-    /// its format; see [`LengthUnit`].
-    pub length_unit: Option<LengthUnit>,
-    /// The largest angle between the normals of two faces that are shaded as one smooth surface, in
-    /// degrees, where a file has no normals. Default: 30.
-    pub crease_angle: Option<f64>,
-    /// Stopwatch for the stages of loading. Default: none.
-    pub timings: Timings,
-}
-
-/// Treatment of a file's images.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum ImageLoading {
-    /// Images that visible surfaces use are decoded; no other is read.
-    #[default]
-    Decode,
-    /// No image is decoded, but the headers of all are read.
-    Headers,
-}
-
-/// The crease angle where the options name none, in degrees.
-const DEFAULT_CREASE_ANGLE: f64 = 30.0;
-
-impl ImportOptions {
-    /// The crease angle in degrees, in [0, 180].
-    pub(crate) fn crease_degrees(&self) -> f64 {
-        let angle = self.crease_angle.filter(|angle| angle.is_finite());
-        angle.unwrap_or(DEFAULT_CREASE_ANGLE).clamp(0.0, 180.0)
-    }
-}
+use gltf_import::{
+    ImportError, ImportOptions, Limits, MemoryFolder, UriResolver, check_file_size,
+    check_scene_items, import_gltf, missing_file, read_file,
+};
+use model::{Diagnostic, Model, Severity, Topology, codes};
+use std::path::Path;
 
 /// Loads a model; its content decides which [format](FileFormat) it is, and its name only where
 /// the content does not say.
@@ -86,7 +31,7 @@ impl ImportOptions {
 /// its rules; requires an unsupported extension; exceeds a limit; has no such scene, variant or
 /// scalar attribute as the options ask for.
 pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
-    let read = || uri_resolver::read_file(path, &options.limits, "");
+    let read = || read_file(path, &options.limits, "");
     let load_bytes = || {
         let bytes = options.timings.measure("read", read)?;
         let resolver = UriResolver::new(path, bytes.len(), options)?;
@@ -98,10 +43,7 @@ pub fn load(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> 
         }
         None => load_bytes(),
     };
-    loaded.map_err(|diagnostic| ImportError {
-        file: path.to_owned(),
-        diagnostic: Box::new(diagnostic),
-    })
+    loaded.map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
 /// Loads a model from a file in memory, as [`load`] does; `name` stands for its path in messages.
@@ -115,10 +57,7 @@ pub fn load_bytes(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<M
     let path = Path::new(name);
     let loaded = UriResolver::in_memory(bytes.len(), options)
         .and_then(|resolver| import_model(path, bytes, &resolver, options));
-    loaded.map_err(|diagnostic| ImportError {
-        file: path.to_owned(),
-        diagnostic: Box::new(diagnostic),
-    })
+    loaded.map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
 /// Loads a model from a file of a folder in memory, as [`load`] does from one of the disk.
@@ -143,16 +82,13 @@ pub fn load_from_memory(
     options: &ImportOptions,
 ) -> Result<Model, ImportError> {
     let import = || {
-        let missing = || uri_resolver::missing_file("", path);
+        let missing = || missing_file("", path);
         let bytes = folder.file(path).ok_or_else(missing)?;
         let resolver = UriResolver::in_memory_folder(folder, path, bytes.len(), options);
-        uri_resolver::check_file_size(bytes.len(), &options.limits)?;
+        check_file_size(bytes.len(), &options.limits)?;
         import_model(Path::new(path), bytes, &resolver, options)
     };
-    import().map_err(|diagnostic| ImportError {
-        file: PathBuf::from(path),
-        diagnostic: Box::new(diagnostic),
-    })
+    import().map_err(|diagnostic| ImportError::new(path, diagnostic))
 }
 
 /// Imports a file whose bytes have been read; the file name in `path` becomes the model's name.
@@ -167,7 +103,7 @@ pub fn import_model(
 ) -> Result<Model, Diagnostic> {
     let format = FileFormat::recognize(path, bytes)?;
     let import = match format {
-        FileFormat::Gltf => gltf::import_gltf,
+        FileFormat::Gltf => import_gltf,
         FileFormat::Stl => stl::import_stl,
         FileFormat::Obj => obj::import_obj,
         FileFormat::Ply => ply::import_ply,
@@ -188,7 +124,7 @@ fn complete_model(
     model.length_unit = options.length_unit.unwrap_or(model.length_unit);
     if let Some(colors) = &options.scalars {
         if !matches!(format, FileFormat::Gltf | FileFormat::Ply) {
-            return Err(colors.unsupported_in(format));
+            return Err(colors.unsupported_in(format.name()));
         }
         let active = colors.find_among(&model.scalar_attributes, "")?;
         model.active_scalar_attribute = Some(active);
@@ -239,5 +175,5 @@ pub(crate) fn check_scene_limits(model: &Model, limits: &Limits) -> Result<(), D
         let what = format!("the model has {nodes} nodes");
         return Err(Diagnostic::limit_exceeded("", &what, "nodes", limits.nodes as u64));
     }
-    gltf::check_scene_items(model, limits)
+    check_scene_items(model, limits)
 }

@@ -31,11 +31,11 @@ mod vertex_sharing;
 
 pub use phong::PhongMaterial;
 
-use super::ImportOptions;
-use super::memory_budget::MemoryBudget;
 use super::text::{Token, decode_text};
-use super::uri_resolver::UriResolver;
-use super::warnings::ImportWarnings;
+use gltf_import::ImportOptions;
+use gltf_import::ImportWarnings;
+use gltf_import::MemoryBudget;
+use gltf_import::UriResolver;
 use model::{Diagnostic, LengthUnit, Material, Mesh, Model, Node, Primitive, UpAxis};
 use mtl::MtlMaterial;
 use parser::ObjFile;

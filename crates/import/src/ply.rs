@@ -21,13 +21,13 @@ mod primitives;
 mod tests;
 mod vertices;
 
-use super::memory_budget::MemoryBudget;
-use super::texture_images::{TextureImage, store_images};
-use super::uri_resolver::UriResolver;
-use super::warnings::ImportWarnings;
-use super::{ImportOptions, ScalarColors};
 use body::Body;
 pub(super) use faces::Faces;
+use gltf_import::ImportWarnings;
+use gltf_import::MemoryBudget;
+use gltf_import::UriResolver;
+use gltf_import::{ImportOptions, ScalarColors};
+use gltf_import::{TextureImage, store_images};
 use header::Header;
 use model::{AlphaMode, Diagnostic, Material, Mesh, Model, Node, Sampler, Texture, TextureInfo};
 pub(super) use primitives::{array_bytes, build_primitives};

@@ -17,13 +17,13 @@ mod binary;
 mod facet_color;
 mod solid;
 
-use super::ImportOptions;
 use super::file_format::FileFormat;
-use super::memory_budget::MemoryBudget;
 use super::text::decode_text;
-use super::uri_resolver::UriResolver;
-use super::warnings::ImportWarnings;
 use binary::BinaryFile;
+use gltf_import::ImportOptions;
+use gltf_import::ImportWarnings;
+use gltf_import::MemoryBudget;
+use gltf_import::UriResolver;
 use model::{Diagnostic, LengthUnit, Material, Mesh, Model, Node, UpAxis, codes};
 use solid::Solid;
 use std::fs::File;

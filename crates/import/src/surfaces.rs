@@ -5,8 +5,8 @@
 //! surface, so that a border between two colors is no crease.
 
 use super::corner_vertices::{CornerAttributes, CornerVertices};
-use super::normals::normalize_normals;
 use super::polygons::{CreaseNormals, Smoothing, VertexWelder};
+use gltf_import::normalize_normals;
 use model::{Primitive, Topology};
 use std::borrow::Cow;
 

@@ -23,12 +23,12 @@ mod properties;
 mod tests;
 mod xml;
 
-use super::ImportOptions;
 use super::text::decode_text;
-use super::texture_images::{TextureImage, store_images};
-use super::uri_resolver::UriResolver;
-use super::warnings::ImportWarnings;
 use assembly::{Assembly, Placement};
+use gltf_import::ImportOptions;
+use gltf_import::ImportWarnings;
+use gltf_import::UriResolver;
+use gltf_import::{TextureImage, store_images};
 use model::{Diagnostic, Model, TextureInfo, UpAxis};
 use model_part::{ModelPart, ObjectReference, PartReader};
 use package::Package;

@@ -8,13 +8,13 @@ use crate::metadata::{Metadata, short_name};
 /// Crates that only one part of the code may name, so that they can be replaced, and the paths of
 /// that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
-    ("gltf", &["crates/import/src"]),
+    ("gltf", &["crates/gltf-import/src"]),
     ("ron", &["crates/pipeline/src/scene"]),
     (
         "serde",
         &[
             "crates/pipeline/src/scene",
-            "crates/import/src/gltf/located_json.rs",
+            "crates/gltf-import/src/gltf/located_json.rs",
             "crates/alberti/src/batch",
         ],
     ),
@@ -42,8 +42,9 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("picture", Some(&["files"])),
     ("page", Some(&["homog", "picture"])),
     ("model", Some(&["homog", "raster", "files"])),
-    ("import", Some(&["homog", "files", "model"])),
-    ("gltf-check", Some(&["model", "import"])),
+    ("gltf-import", Some(&["files", "model"])),
+    ("import", Some(&["files", "model", "gltf-import"])),
+    ("gltf-check", Some(&["model", "gltf-import", "import"])),
     ("shade", Some(&["homog", "camera", "raster", "picture", "model"])),
     ("drawing", None),
     ("sheet", None),
@@ -159,7 +160,7 @@ mod tests {
             places("crates/pipeline/src/scene/file.rs"),
             ["crates/pipeline/src/scene/file.rs:2"]
         );
-        assert_eq!(places("crates/import/src/mesh.rs"), [""; 0]);
+        assert_eq!(places("crates/gltf-import/src/mesh.rs"), [""; 0]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use super::elements::NONE;
 use crate::text::LineCounter;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use std::collections::BTreeMap;
 
 /// Different statements that warnings name.

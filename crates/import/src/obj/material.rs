@@ -25,7 +25,7 @@ use super::mtl::MtlMaterial;
 use super::phong::{PhongMaterial, color_beside_texture, double_sided_matte, linear_color};
 use super::scene::to_name;
 use super::textures::TextureTable;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::{AlphaMode, Anisotropy, Clearcoat, Emission, Material, NormalTexture, Sheen};
 
 /// A material of a library. Textures that it needs are entered in the table.

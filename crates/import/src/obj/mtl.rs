@@ -6,7 +6,7 @@
 
 use super::statements::StatementReader;
 use crate::text::{LineCounter, Token, parse_f32};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use std::collections::BTreeMap;
 
 /// A material as the library describes it; `None` for what it does not say.

@@ -8,7 +8,7 @@ use super::fault_counts::FaultCounts;
 use super::parts::FLAT_GROUP;
 use super::statements::StatementReader;
 use crate::text::{LineCounter, Token, parse_f32, parse_integer};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 

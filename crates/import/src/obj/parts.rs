@@ -5,7 +5,7 @@ use super::elements::{Corner, ElementState, NONE};
 use super::parser::ObjFile;
 use crate::polygons::{PolygonKind, Triangulator};
 use crate::text::LineCounter;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::{Diagnostic, Topology, codes};
 use std::collections::BTreeMap;
 

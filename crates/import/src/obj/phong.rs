@@ -1,6 +1,6 @@
 //! Phong shading of MTL libraries as metallic-roughness materials.
 
-use crate::srgb::linear_from_srgb;
+use gltf_import::linear_from_srgb;
 use model::{AlphaMode, Material, Specular};
 
 /// Diffuse color, sRGB encoded, where a library gives none.

@@ -5,10 +5,10 @@ use super::elements::{Corner, NONE};
 use super::parser::ObjFile;
 use super::parts::{Part, split_elements};
 use super::vertex_sharing::VertexSharing;
-use crate::normals::normalize_normals;
 use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
-use crate::srgb::linear_from_srgb;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
+use gltf_import::linear_from_srgb;
+use gltf_import::normalize_normals;
 use model::{Diagnostic, Primitive, Topology};
 
 /// A primitive with the group that it belongs to.

@@ -3,7 +3,8 @@
 mod materials;
 mod shapes;
 
-use crate::{ImportError, ImportOptions, load_bytes};
+use crate::load_bytes;
+use gltf_import::{ImportError, ImportOptions};
 use model::{Model, Primitive, Topology};
 
 /// Reads an OBJ file in memory.

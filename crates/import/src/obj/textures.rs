@@ -3,10 +3,10 @@
 
 use super::mtl::MtlTexture;
 use super::shorten;
-use crate::ImportOptions;
-use crate::texture_images::{TextureImage, store_images};
-use crate::uri_resolver::UriResolver;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportOptions;
+use gltf_import::ImportWarnings;
+use gltf_import::UriResolver;
+use gltf_import::{TextureImage, store_images};
 use model::{Diagnostic, Image, ImageInfo, Model, Sampler, Texture, TextureInfo, WrapMode};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::header::{PlyElement, PlyProperty};
 use super::vertices::{color_channel, linearize_colors};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::Diagnostic;
 
 /// Polygons, one after the other.

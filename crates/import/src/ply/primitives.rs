@@ -5,9 +5,10 @@ use super::faces::Faces;
 use super::vertices::Vertices;
 use crate::corner_vertices::CornerAttributes;
 use crate::polygons::{PolygonKind, Triangulator};
+use crate::surfaces;
 use crate::surfaces::Surface;
-use crate::warnings::ImportWarnings;
-use crate::{ImportOptions, surfaces};
+use gltf_import::ImportOptions;
+use gltf_import::ImportWarnings;
 use model::{Model, Primitive, Topology};
 
 /// Bytes that the arrays of the primitives take at most.

@@ -1,7 +1,8 @@
 //! PLY files made by hand: what they are read as, and what is said about broken ones.
 
-use crate::srgb::linear_from_srgb;
-use crate::{ImportOptions, ScalarColors, load_bytes};
+use crate::load_bytes;
+use gltf_import::linear_from_srgb;
+use gltf_import::{ImportOptions, ScalarColors};
 use model::{AlphaMode, Colormap, Diagnostic, Model, Topology};
 
 fn load(bytes: &[u8]) -> Model {

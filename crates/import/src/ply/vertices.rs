@@ -2,8 +2,8 @@
 
 use super::body::Body;
 use super::header::{Header, PlyElement, PlyProperty, ScalarType};
-use crate::srgb::{linear_from_srgb, linear_table};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
+use gltf_import::{linear_from_srgb, linear_table};
 use model::Diagnostic;
 
 /// Where in a row the value of a property that is not used goes.

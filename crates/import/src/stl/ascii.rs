@@ -16,9 +16,9 @@
 
 use super::solid::Solid;
 use super::truncated;
-use crate::Limits;
 use crate::text::{LineCounter, TextScanner, Token, parse_f32};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
+use gltf_import::Limits;
 use model::{Diagnostic, codes};
 
 /// Reads the solids of a text.

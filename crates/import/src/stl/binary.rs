@@ -10,8 +10,8 @@
 use super::facet_color::FacetColors;
 use super::solid::Solid;
 use super::{HEADER_BYTES, TRIANGLE_BYTES, declared_triangles, truncated};
-use crate::memory_budget::MemoryBudget;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
+use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::io::Read;
 

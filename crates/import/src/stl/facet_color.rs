@@ -8,7 +8,7 @@
 //! A file is of the second kind if its header has `COLOR=` and four bytes. Other programs write 0
 //! in all facets.
 
-use crate::srgb::linear_from_srgb;
+use gltf_import::linear_from_srgb;
 use model::{Material, Primitive};
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use super::facet_color::FacetColors;
 use crate::polygons::{CreaseNormals, Smoothing, VertexWelder};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::Primitive;
 
 /// The most triangles that wait for their vertices.

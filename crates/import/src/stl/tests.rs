@@ -1,7 +1,8 @@
 //! STL files of every form, whole and broken, and what becomes of them.
 
 use super::*;
-use crate::{ImportOptions, load_bytes};
+use crate::load_bytes;
+use gltf_import::ImportOptions;
 use model::{Model, Severity};
 
 /// A binary file of these triangles, each with its attribute.
@@ -250,7 +251,7 @@ fn sixty_five_thousand_solids() {
     let text = ascii(" ").repeat(65_537).replace("endsolid the part", "endsolid the part\n");
     let model = read(text.as_bytes());
     assert_eq!(model.meshes.len(), 65_537);
-    let limits = crate::Limits { nodes: 100, ..crate::Limits::default() };
+    let limits = gltf_import::Limits { nodes: 100, ..gltf_import::Limits::default() };
     let options = ImportOptions { limits, ..ImportOptions::default() };
     let error = load_bytes("part.stl", text.as_bytes(), &options).unwrap_err();
     assert_eq!(error.diagnostic.code, codes::LIMIT_EXCEEDED);

@@ -5,8 +5,8 @@
 //! decompressed is bounded twice, by the size that the directory declares and by the memory budget,
 //! so that no archive is larger than its limits whatever its entries say.
 
-use crate::memory_budget::MemoryBudget;
 use fdeflate::Decompressor;
+use gltf_import::MemoryBudget;
 use model::{Diagnostic, codes};
 use std::borrow::Cow;
 

@@ -5,8 +5,8 @@
 
 use super::model_part::ObjectReference;
 use super::package::Package;
-use crate::limits::Limits;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
+use gltf_import::Limits;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, Model, Node};
 use std::collections::BTreeMap;

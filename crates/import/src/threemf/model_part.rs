@@ -6,8 +6,8 @@ use super::package::Package;
 use super::properties::{GroupKind, Palette, PartProperties, parse_id, parse_number};
 use super::xml::{Element, XmlReader};
 use crate::text::{TextScanner, parse_f64};
-use crate::warnings::ImportWarnings;
 use glam::{DMat4, DVec4};
+use gltf_import::ImportWarnings;
 use homog::{Affine, Model as ModelSpace};
 use model::{Diagnostic, LengthUnit, Material};
 

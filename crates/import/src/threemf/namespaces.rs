@@ -1,7 +1,7 @@
 //! Namespaces of 3MF: the core specification, its extensions, and which of them are read.
 
 use super::xml::Element;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::{Diagnostic, codes};
 
 /// How far a namespace is read.

@@ -7,7 +7,7 @@ use crate::corner_vertices::CornerAttributes;
 use crate::surfaces;
 use crate::surfaces::Surface;
 use crate::text::{parse_f32, parse_integer};
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
 use model::{Diagnostic, Mesh, Primitive};
 use std::collections::BTreeMap;
 

@@ -3,11 +3,11 @@
 
 use super::archive::{Archive, Entry};
 use super::xml::{Element, XmlReader};
-use crate::limits::Limits;
-use crate::memory_budget::MemoryBudget;
-use crate::percent_encoding::percent_decode;
 use crate::text::decode_text;
-use crate::warnings::ImportWarnings;
+use gltf_import::ImportWarnings;
+use gltf_import::Limits;
+use gltf_import::MemoryBudget;
+use gltf_import::percent_decode;
 use model::{Diagnostic, codes};
 use std::borrow::Cow;
 use std::collections::BTreeMap;

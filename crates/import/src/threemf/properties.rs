@@ -12,8 +12,8 @@
 //! then needs is one look-up. Colors are sRGB in the file and linear here.
 
 use super::xml::Element;
-use crate::srgb::linear_table;
 use crate::text::{TextScanner, parse_f32, parse_integer};
+use gltf_import::linear_table;
 use model::{AlphaMode, Material, Sampler, Texture, TextureFilter, TextureInfo, WrapMode};
 use std::collections::BTreeMap;
 

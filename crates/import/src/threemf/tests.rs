@@ -1,6 +1,7 @@
 //! 3MF files made by hand: what they are read as, and what is said about broken and hostile ones.
 
-use crate::{ImportError, ImportOptions, Limits, load_bytes};
+use crate::load_bytes;
+use gltf_import::{ImportError, ImportOptions, Limits};
 use model::{AlphaMode, LengthUnit, Model, UpAxis};
 
 /// A zip archive of entries that are stored (method 0) or deflated (8).

@@ -1,7 +1,8 @@
 //! Material libraries and their textures, in folders that the tests make.
 
 use super::{SQUARE, primitives, warnings};
-use crate::{ImageLoading, ImportOptions, load};
+use crate::load;
+use gltf_import::{ImageLoading, ImportOptions};
 use model::{AlphaMode, Material, Model, TextureInfo, WrapMode};
 use std::path::{Path, PathBuf};
 

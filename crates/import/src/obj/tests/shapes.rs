@@ -1,7 +1,8 @@
 //! Vertex data, elements, groups and normals.
 
 use super::{SQUARE, primitives, read, read_leniently, triangle_count, warnings};
-use crate::{ImportOptions, Limits, load_bytes};
+use crate::load_bytes;
+use gltf_import::{ImportOptions, Limits};
 use model::{Primitive, Topology, codes};
 
 #[test]

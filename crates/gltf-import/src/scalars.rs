@@ -4,7 +4,6 @@
 //! here they become vertex colors. The surfaces then have one plain white material, so that shading
 //! shows their shape and no texture covers the colors.
 
-use super::FileFormat;
 use super::srgb::linear_from_srgb;
 use super::warnings::ImportWarnings;
 use model::{Colormap, Diagnostic, codes};
@@ -35,7 +34,7 @@ impl ScalarColors {
     ///
     /// # Errors
     /// [`NO_SUCH_ITEM`](codes::NO_SUCH_ITEM), with a list of those that there are.
-    pub(super) fn find_among(&self, names: &[String], location: &str) -> Result<usize, Diagnostic> {
+    pub fn find_among(&self, names: &[String], location: &str) -> Result<usize, Diagnostic> {
         let wanted = self.attribute.as_str();
         let bare_wanted = bare_name(wanted);
         let find = |is_wanted: &dyn Fn(&str) -> bool| names.iter().position(|name| is_wanted(name));
@@ -58,9 +57,10 @@ impl ScalarColors {
         })
     }
 
-    /// The error of a format that has no scalar attributes.
-    pub(super) fn unsupported_in(&self, format: FileFormat) -> Diagnostic {
-        let (attribute, format) = (&self.attribute, format.name());
+    /// The error of a format, by its name, that has no scalar attributes.
+    #[must_use]
+    pub fn unsupported_in(&self, format: &str) -> Diagnostic {
+        let attribute = &self.attribute;
         let message = format!("vertices in {format} have no scalar attributes like `{attribute}`");
         let help = "convert the model to PLY or glTF with the attribute";
         Diagnostic::error(codes::NO_SUCH_ITEM, "", message, help)
@@ -69,7 +69,7 @@ impl ScalarColors {
     /// The color of each value, linear with alpha 1; the ranges of several arrays are one.
     ///
     /// Values that are not finite get a warning with their number.
-    pub(super) fn color_arrays<T: Copy + Into<f64>>(
+    pub fn color_arrays<T: Copy + Into<f64>>(
         &self,
         arrays: &[&[T]],
         location: &str,
@@ -107,7 +107,7 @@ impl ScalarColors {
 }
 
 /// The name of an attribute without the underscore that custom attributes of glTF begin with.
-pub(super) fn bare_name(name: &str) -> &str {
+pub(crate) fn bare_name(name: &str) -> &str {
     name.strip_prefix('_').unwrap_or(name)
 }
 

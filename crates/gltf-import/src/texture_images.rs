@@ -3,11 +3,10 @@
 //!
 //! A broken image costs a warning, never the model.
 
-use super::ImageLoading;
-use super::ImportOptions;
-use super::image_decoder::{self, EncodedImage};
-use super::parallel_decoding::decode_images;
-use super::warnings::ImportWarnings;
+use crate::gltf::check_image_size;
+use crate::image_decoder::{self, EncodedImage};
+use crate::parallel_decoding::decode_images;
+use crate::{ImageLoading, ImportOptions, ImportWarnings};
 use model::{Diagnostic, Image, ImageHeader, ImageInfo, Model};
 use std::borrow::Cow;
 
@@ -15,17 +14,18 @@ use std::borrow::Cow;
 const SHOWN_WITHOUT_IMAGE: &str = "the surface is shown without it";
 
 /// An image that a material names.
-pub(super) struct TextureImage<'a> {
+#[derive(Debug)]
+pub struct TextureImage<'a> {
     /// Its name in the file that refers to it.
-    pub(super) name: String,
+    pub name: String,
     /// Where that file refers to it, for messages.
-    pub(super) location: String,
+    pub location: String,
     /// The encoded bytes, or the reason why there are none; `None` if nothing visible needs it.
-    pub(super) bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
+    pub bytes: Option<Result<Cow<'a, [u8]>, Diagnostic>>,
 }
 
 /// Decodes images and stores them in the model, each at its index.
-pub(super) fn store_images<'a>(
+pub fn store_images<'a>(
     model: &mut Model,
     files: Vec<TextureImage<'a>>,
     options: &ImportOptions,
@@ -41,7 +41,7 @@ pub(super) fn store_images<'a>(
             let size = image_decoder::image_size(&bytes)
                 .map_err(|problem| Diagnostic::invalid(&location, problem))?;
             let limits = &options.limits;
-            super::gltf::check_image_size(size.0, size.1, &mut texels_left, limits, &location)?;
+            check_image_size(size.0, size.1, &mut texels_left, limits, &location)?;
             Ok((bytes, size))
         };
         match bytes.map(|bytes| bytes.and_then(check)) {

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 /// The linear value of an sRGB encoded one; both are in [0, 1].
-pub(super) fn linear_from_srgb(encoded: f32) -> f32 {
+pub fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.04045 {
         encoded / 12.92
     } else {
@@ -12,7 +12,7 @@ pub(super) fn linear_from_srgb(encoded: f32) -> f32 {
 }
 
 /// The linear value of each 8-bit sRGB code.
-pub(super) fn linear_table() -> &'static [f32; 256] {
+pub fn linear_table() -> &'static [f32; 256] {
     static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
     TABLE.get_or_init(|| std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0)))
 }

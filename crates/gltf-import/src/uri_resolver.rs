@@ -28,7 +28,7 @@ pub struct UriResolver<'a> {
     /// The limits in effect.
     pub limits: &'a Limits,
     /// Whether a missing file is only a warning; see [`ImportOptions::lenient`].
-    pub(crate) lenient: bool,
+    pub lenient: bool,
     /// Bytes that have been read so far.
     bytes_read: Cell<u64>,
 }
@@ -84,7 +84,7 @@ impl<'a> UriResolver<'a> {
     }
 
     /// A resolver for a file of a folder in memory: its assets are in the same folder.
-    pub(crate) fn in_memory_folder(
+    pub fn in_memory_folder(
         folder: &'a MemoryFolder,
         path: &str,
         length: usize,
@@ -319,7 +319,7 @@ fn unreadable_file(pointer: &str, path: &Path, error: &std::io::Error) -> Diagno
 }
 
 /// The error for a file that is not there.
-pub(crate) fn missing_file(pointer: &str, name: &str) -> Diagnostic {
+pub fn missing_file(pointer: &str, name: &str) -> Diagnostic {
     let message = format!("the file {name:?} does not exist");
     Diagnostic::error(codes::IO_ERROR, pointer, message, "put it beside the model")
 }
@@ -328,7 +328,7 @@ pub(crate) fn missing_file(pointer: &str, name: &str) -> Diagnostic {
 ///
 /// # Errors
 /// It is larger than the limit.
-pub(crate) fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic> {
+pub fn check_file_size(length: usize, limits: &Limits) -> Result<(), Diagnostic> {
     let (length, allowed) = (length as u64, limits.file_bytes);
     if length <= allowed {
         return Ok(());

@@ -41,9 +41,9 @@ mod untyped_members;
 
 pub use document::check_json_limits;
 pub use extensions::{ExtensionUse, extension_use};
-pub(super) use images::check_image_size;
+pub(crate) use images::check_image_size;
 pub use meshopt::CompressedView;
-pub(super) use scene_graph::check_scene_items;
+pub use scene_graph::check_scene_items;
 
 use super::ImportOptions;
 use super::uri_resolver::UriResolver;
@@ -56,7 +56,10 @@ use model::{Diagnostic, Model};
 use std::path::Path;
 
 /// Imports a glTF file whose bytes have been read.
-pub(super) fn import_gltf(
+///
+/// # Errors
+/// The file breaks a rule, requires an extension that is not supported, or exceeds a limit.
+pub fn import_gltf(
     _path: &Path,
     bytes: &[u8],
     resolver: &UriResolver<'_>,

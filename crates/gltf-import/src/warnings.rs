@@ -11,8 +11,8 @@ use model::{Diagnostic, Severity, codes};
 const MAX_WARNINGS: usize = 500;
 
 /// Collector of warnings while a file is read.
-#[derive(Default)]
-pub(super) struct ImportWarnings {
+#[derive(Debug, Default)]
+pub struct ImportWarnings {
     /// Whether errors are downgraded to warnings where something is left to load.
     lenient: bool,
     /// Stored warnings, in the order in which they were found.
@@ -23,12 +23,12 @@ pub(super) struct ImportWarnings {
 
 impl ImportWarnings {
     /// An empty list; `lenient` decides what [`Self::downgrade_if_lenient`] does.
-    pub(super) fn new(lenient: bool) -> Self {
+    pub fn new(lenient: bool) -> Self {
         Self { lenient, ..Self::default() }
     }
 
     /// Adds a warning about something that was replaced or corrected.
-    pub(super) fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
+    pub fn push_warning(&mut self, pointer: &str, message: impl Into<String>) {
         self.push(warning(codes::LEFT_OUT, pointer, message.into()));
     }
 
@@ -42,7 +42,7 @@ impl ImportWarnings {
     }
 
     /// Adds an error as a warning; `consequence` says what is left out or replaced because of it.
-    pub(super) fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
+    pub fn downgrade(&mut self, diagnostic: &Diagnostic, consequence: &str) {
         self.push(warning(
             diagnostic.code,
             &diagnostic.location,
@@ -54,7 +54,7 @@ impl ImportWarnings {
     ///
     /// Limits and the requested scene or variant are never waived: those errors are returned
     /// always.
-    pub(super) fn downgrade_if_lenient(
+    pub fn downgrade_if_lenient(
         &mut self,
         diagnostic: Diagnostic,
         consequence: &str,
@@ -67,14 +67,14 @@ impl ImportWarnings {
     }
 
     /// Moves the warnings of another list to the end of this one.
-    pub(super) fn append_warnings(&mut self, other: Self) {
+    pub fn append_warnings(&mut self, other: Self) {
         let Self { list, omitted: left_out, .. } = other;
         list.into_iter().for_each(|warning| self.push(warning));
         self.omitted += left_out;
     }
 
     /// The stored warnings, and one that counts the others.
-    pub(super) fn into_list(mut self) -> Vec<Diagnostic> {
+    pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.omitted > 0 {
             let message = format!("{} more warnings are not listed", self.omitted);
             self.list.push(warning(codes::LEFT_OUT, "", message));

@@ -21,7 +21,7 @@ pub(super) type DecodeResult = Result<Image, String>;
 /// Decodes images on all processors.
 ///
 /// The calling thread takes part; the results are in the order of `encoded`.
-pub(super) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
+pub(crate) fn decode_images(encoded: &[EncodedImage<'_>]) -> Vec<DecodeResult> {
     let Ok(((), decoded)) =
         decode_images_alongside(encoded, &Timings::default(), || Ok::<_, Infallible>(()));
     decoded

@@ -5,11 +5,11 @@ use model::{Primitive, Topology};
 
 /// Numbers of normals that had to be corrected.
 #[derive(Default, Debug, PartialEq, Eq)]
-pub(super) struct NormalRepairs {
+pub struct NormalRepairs {
     /// Normals with a direction that were not of unit length.
-    pub(super) lengths: usize,
+    pub lengths: usize,
     /// Normals without a direction (zero, infinite, not a number).
-    pub(super) replaced: usize,
+    pub replaced: usize,
 }
 
 /// Normalizes all normals. One without a direction is replaced by the area-weighted mean of the
@@ -20,7 +20,7 @@ pub(super) struct NormalRepairs {
 ///
 /// The time is linear; the sums over triangles are computed only if some normal has no direction.
 /// The comparison of the squared length skips the square root for normals that are right already.
-pub(super) fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
+pub fn normalize_normals(primitive: &mut Primitive) -> NormalRepairs {
     let mut repairs = NormalRepairs::default();
     let Some(mut normals) = primitive.normals.take() else { return repairs };
     let mut undirected = Vec::new();

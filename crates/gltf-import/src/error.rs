@@ -19,3 +19,11 @@ pub struct ImportError {
     /// Boxed, so that a `Result` with this error stays small.
     pub diagnostic: Box<Diagnostic>,
 }
+
+impl ImportError {
+    /// The error of a file that a diagnostic stopped.
+    #[must_use]
+    pub fn new(file: impl Into<PathBuf>, diagnostic: Diagnostic) -> Self {
+        Self { file: file.into(), diagnostic: Box::new(diagnostic) }
+    }
+}
