@@ -52,8 +52,9 @@ impl ImportWarnings {
 
     /// Adds an error as a warning if reading leniently, and returns it otherwise.
     ///
-    /// Limits and the requested scene or variant are never waived: those errors are returned
-    /// always.
+    /// # Errors
+    /// The error itself, if reading is strict. Limits and the requested scene or variant are never
+    /// waived.
     pub fn downgrade_if_lenient(
         &mut self,
         diagnostic: Diagnostic,

@@ -16,6 +16,9 @@ const AFTER: &str = "```\n";
 
 /// Lines of sources, tests left out, past which a crate is cut in two.
 const MAX_CRATE_LINES: usize = 13_000;
+/// Crates that are still to be cut, and what they may have until then.
+const STILL_WHOLE: &[(&str, usize)] =
+    &[("drawing", 13_500), ("pipeline", 29_500), ("alberti", 20_800)];
 
 /// The map where it is not what the manifests say.
 pub fn outdated_map() -> Result<Vec<Violation>, String> {
@@ -79,8 +82,10 @@ pub fn crate_lengths(sources: &[Source]) -> Vec<Violation> {
     };
     let too_long = |(name, _): &(&str, _)| {
         let lines = lines(name);
-        (lines > MAX_CRATE_LINES).then(|| {
-            let message = format!("{lines} lines, where {MAX_CRATE_LINES} are allowed: cut it");
+        let whole = STILL_WHOLE.iter().find(|(whole, _)| whole == name);
+        let most = whole.map_or(MAX_CRATE_LINES, |(_, most)| *most);
+        (lines > most).then(|| {
+            let message = format!("{lines} lines, where {most} are allowed: cut it");
             Violation::new(format!("crates/{name}"), message)
         })
     };

@@ -295,6 +295,9 @@ fn is_scene_root(
 ///
 /// A primitive counts as one more item, so that many empty ones are not free. For skinned meshes
 /// vertices and joints count as well, and for instanced meshes vertices.
+///
+/// # Errors
+/// The scene shows more than a limit allows.
 pub fn check_scene_items(model: &Model, limits: &Limits) -> Result<(), Diagnostic> {
     let sum = |count: fn(&Primitive) -> usize| -> Vec<u64> {
         let of_mesh = |mesh: &Mesh| mesh.primitives.iter().map(|p| count(p) as u64 + 1).sum();
