@@ -27,7 +27,7 @@ fn materials_and_nodes_are_listed_by_their_names() {
     document.write_file(&sandbox, "model");
     let run = sandbox.run(&["info", "model.gltf"]);
     let lines: Vec<&str> = run.stdout.lines().map(str::trim).collect();
-    assert!(lines.contains(&"0 glaze; 1 unnamed"), "{}", run.stdout);
+    assert!(lines.contains(&"0 glaze; 1 without a name"), "{}", run.stdout);
     assert!(lines.iter().any(|line| line.starts_with("0 plate")), "{}", run.stdout);
 }
 

@@ -116,23 +116,29 @@ fn describe_model(model: &Model) -> String {
 
 /// The materials by index and name: what overrides in scene files and `--material` choose by.
 fn material_names(model: &Model) -> String {
-    let name = |(at, material): (usize, &model::Material)| {
-        format!("{at} {}", material.name.as_deref().unwrap_or("unnamed"))
-    };
-    model.materials.iter().enumerate().map(name).collect::<Vec<_>>().join("; ")
+    let names = model.materials.iter().map(|material| material.name.as_deref());
+    named_items(names, usize::MAX)
 }
 
-/// The first nodes by index and name; `--json` lists all.
+/// The first nodes that have names, by index and name; `--json` lists all.
 fn node_names(model: &Model) -> String {
-    let name = |(at, node): (usize, &model::Node)| {
-        format!("{at} {}", node.name.as_deref().unwrap_or("unnamed"))
-    };
-    let mut names: Vec<String> =
-        model.nodes.iter().enumerate().take(LISTED_NODES).map(name).collect();
-    if let Some(others) = model.nodes.len().checked_sub(LISTED_NODES).filter(|more| *more > 0) {
-        names.push(format!("and {others} more in --json"));
+    named_items(model.nodes.iter().map(|node| node.name.as_deref()), LISTED_NODES)
+}
+
+/// The items that have names, each with its index, and how many have none: exporters leave hundreds
+/// without.
+fn named_items<'a>(names: impl Iterator<Item = Option<&'a str>>, most: usize) -> String {
+    let (mut listed, mut unlisted, mut unnamed) = (Vec::new(), 0, 0);
+    for (index, name) in names.enumerate() {
+        match name {
+            Some(name) if listed.len() < most => listed.push(format!("{index} {name}")),
+            Some(_) => unlisted += 1,
+            None => unnamed += 1,
+        }
     }
-    names.join("; ")
+    listed.extend((unlisted > 0).then(|| format!("{unlisted} more in --json")));
+    listed.extend((unnamed > 0).then(|| format!("{unnamed} without a name")));
+    listed.join("; ")
 }
 
 /// The number of meshes, primitives and vertices in the file.
