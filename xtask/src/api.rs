@@ -20,7 +20,8 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 19] = [
+const CRATES: [&str; 20] = [
+    "arcs",
     "camera",
     "clip",
     "drawing",

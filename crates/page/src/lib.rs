@@ -11,7 +11,6 @@
 //! | --- | --- |
 //! | `page` | the page, its layers, pens and polylines |
 //! | `svg`, `pdf`, `dxf`, `canvas` | the four formats |
-//! | `arcs` | arcs and circles recognized in polylines |
 //! | `line_type`, `dash_pattern` | line types and widths of ISO 128, dashes fitted to a line |
 //! | `label`, `stroke_font` | text as strokes of a pen: Latin, Greek, some Han |
 //! | `page_clip` | what is drawn in a rectangle, or beyond the border, is removed |
@@ -19,7 +18,6 @@
 //!
 //! Nothing here knows models or views. Equal pages give equal bytes.
 
-mod arcs;
 mod canvas;
 mod dash_pattern;
 mod dxf;
@@ -34,7 +32,6 @@ mod pdf;
 mod stroke_font;
 mod svg;
 
-pub use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 pub use canvas::{draw_layers_over, picture_to_pixmap, pixmap_to_picture};
 pub use dxf::{DxfOptions, DxfUnit};
 pub use label::{Label, TextAlign};

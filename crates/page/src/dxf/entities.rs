@@ -4,8 +4,8 @@ use super::DxfOptions;
 use super::layers::escape_unicode;
 use super::skeleton::{FIRST_ENTITY, MODEL_SPACE};
 use super::tags::TagWriter;
-use crate::arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use crate::page::{Group, GroupContent, HatchArea, PagePoint, Polyline, TextLine};
+use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use glam::DVec2;
 
 /// Millimeters in a micrometer.
@@ -121,7 +121,7 @@ impl EntityWriter {
     /// Writes a line of the page as a circle, an arc, a line or a polyline.
     fn write_line(&mut self, layer: &str, line: &Polyline) {
         let tolerance = self.options.arc_tolerance / MICROMETER;
-        match recognize_arcs(line, tolerance) {
+        match recognize_arcs(&line.points, line.closed, tolerance) {
             LineShape::Circle(circle) => {
                 self.begin("CIRCLE", layer, "AcDbCircle");
                 self.write_circle(circle);
@@ -228,7 +228,7 @@ impl EntityWriter {
 
     /// Writes a loop around a hatch, the first of which is external.
     fn write_hatch_loop(&mut self, line: &Polyline, is_first: bool) {
-        let vertices: Vec<ArcVertex> = match recognize_arcs(line, 0.0) {
+        let vertices: Vec<ArcVertex> = match recognize_arcs(&line.points, line.closed, 0.0) {
             LineShape::Path(vertices, _) => vertices,
             LineShape::Circle(_) | LineShape::Arc(..) => Vec::new(),
         };

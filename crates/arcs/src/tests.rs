@@ -1,7 +1,6 @@
 //! Arcs against circles that are known, and polygons that must stay as they are.
 
 use super::*;
-use crate::page::to_micrometers;
 use core::f64::consts::TAU;
 
 /// Five micrometers.
@@ -16,15 +15,16 @@ fn on_circle(center: [f64; 2], radius: f64, [from, to]: [f64; 2], steps: u32) ->
     (0..=steps).map(point).collect()
 }
 
-fn line(points: &[DVec2], closed: bool) -> Polyline {
-    let points: Vec<PagePoint> = points.iter().copied().map(to_micrometers).collect();
-    Polyline { points, closed }
+/// The points on a grid of micrometers.
+fn grid(points: &[DVec2]) -> Vec<[i32; 2]> {
+    let to_grid = |point: &DVec2| (*point * 1000.0).to_array().map(|c| libm::round(c) as i32);
+    points.iter().map(to_grid).collect()
 }
 
-fn polygon(center: [f64; 2], radius: f64, sides: u32) -> Polyline {
+fn polygon(center: [f64; 2], radius: f64, sides: u32) -> Vec<[i32; 2]> {
     let mut points = on_circle(center, radius, [0.01, 1.01], sides);
     points.pop();
-    line(&points, true)
+    grid(&points)
 }
 
 fn vertices(curve: LineShape) -> Vec<ArcVertex> {
@@ -38,7 +38,7 @@ fn vertices(curve: LineShape) -> Vec<ArcVertex> {
 fn circles_of_thirteen_sides_and_more_are_circles() {
     for (sides, radius) in [(13, 3.0), (16, 0.4), (24, 40.0), (32, 1.5), (90, 0.9), (720, 95.0)] {
         let LineShape::Circle(circle) =
-            recognize_arcs(&polygon([20.5, -7.0], radius, sides), TOLERANCE)
+            recognize_arcs(&polygon([20.5, -7.0], radius, sides), true, TOLERANCE)
         else {
             panic!("{sides} sides")
         };
@@ -51,7 +51,7 @@ fn circles_of_thirteen_sides_and_more_are_circles() {
 fn polygons_of_few_corners_stay_polygons() {
     for sides in 3..=12 {
         let polygon = polygon([0.0, 0.0], 30.0, sides);
-        let vertices = vertices(recognize_arcs(&polygon, TOLERANCE));
+        let vertices = vertices(recognize_arcs(&polygon, true, TOLERANCE));
         assert_eq!(vertices.len(), sides as usize);
         assert!(vertices.iter().all(|vertex| vertex.bulge == 0.0), "{sides}");
     }
@@ -60,12 +60,12 @@ fn polygons_of_few_corners_stay_polygons() {
         .iter()
         .flat_map(|&at| on_circle([0.0, 0.0], 50.0, [at, at], 1).into_iter().take(1))
         .collect();
-    let vertices = vertices(recognize_arcs(&line(&points, false), TOLERANCE));
+    let vertices = vertices(recognize_arcs(&grid(&points), false, TOLERANCE));
     assert!(vertices.len() == 10 && vertices.iter().all(|vertex| vertex.bulge == 0.0));
     // Without a tolerance nothing is an arc.
     let circle = polygon([0.0, 0.0], 30.0, 90);
     assert!(
-        matches!(recognize_arcs(&circle, 0.0), LineShape::Path(points, true) if points.len() == 90)
+        matches!(recognize_arcs(&circle, true, 0.0), LineShape::Path(points, true) if points.len() == 90)
     );
 }
 
@@ -73,7 +73,7 @@ fn polygons_of_few_corners_stay_polygons() {
 fn an_arc_has_the_angles_of_its_ends() {
     for [from, to] in [[0.1, 0.4], [0.7, 1.2], [0.4, 0.1], [0.05, 0.9]] {
         let points = on_circle([5.0, 6.0], 12.0, [from, to], 40);
-        let LineShape::Arc(circle, [start, end]) = recognize_arcs(&line(&points, false), TOLERANCE)
+        let LineShape::Arc(circle, [start, end]) = recognize_arcs(&grid(&points), false, TOLERANCE)
         else {
             panic!("{from} to {to}")
         };
@@ -91,7 +91,7 @@ fn a_slot_is_two_lines_and_two_half_turns() {
     points.extend(on_circle([-10.0, 0.0], 4.0, [0.25, 0.75], 16));
     for shift in [0, 3, 16, 20] {
         points.rotate_left(shift);
-        let vertices = vertices(recognize_arcs(&line(&points, true), TOLERANCE));
+        let vertices = vertices(recognize_arcs(&grid(&points), true, TOLERANCE));
         assert_eq!(vertices.len(), 4, "{shift}: {vertices:?}");
         let bulges: Vec<f64> =
             vertices.iter().map(|vertex| vertex.bulge).filter(|bulge| *bulge != 0.0).collect();
@@ -105,7 +105,7 @@ fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
     // The first step ends halfway, as where a line becomes hidden.
     points[0] = points[0].lerp(points[1], 0.9);
     assert!(
-        matches!(recognize_arcs(&line(&points, false), TOLERANCE), LineShape::Path(v, _) if v.len() == 2 || v.len() == 3)
+        matches!(recognize_arcs(&grid(&points), false, TOLERANCE), LineShape::Path(v, _) if v.len() == 2 || v.len() == 3)
     );
     // Of many short steps some are left out.
     let mut fine = on_circle([0.0, 0.0], 20.0, [0.0, 1.0], 600);
@@ -115,5 +115,5 @@ fn steps_cut_short_at_the_ends_and_collinear_points_left_out_are_no_matter() {
         count += 1;
         count % 3 != 0
     });
-    assert!(matches!(recognize_arcs(&line(&fine, true), TOLERANCE), LineShape::Circle(_)));
+    assert!(matches!(recognize_arcs(&grid(&fine), true, TOLERANCE), LineShape::Circle(_)));
 }

@@ -16,8 +16,16 @@
 //! - each step turns by less than 29.5°: about the angle from which a bend is a crease.
 //!
 //! A regular polygon with up to twelve corners therefore stays a polygon.
+//!
+//! | item | subject |
+//! | --- | --- |
+//! | [`recognize_arcs`] | the curve of a polyline |
+//! | [`LineShape`] | a circle, an arc, or a path of sides and arcs |
+//! | [`ArcVertex`] | a vertex of such a path, with the bulge of DXF |
+//!
+//! The points of a polyline are whole numbers: micrometers of a page, or steps of a grid of one's
+//! own.
 
-use crate::page::{PagePoint, Polyline};
 use glam::DVec2;
 
 /// The least number of points of an arc.
@@ -26,7 +34,7 @@ const MIN_ARC_POINTS: usize = 8;
 /// Steps of this angle and more are corners.
 const MAX_STEP_DEGREES: f64 = 29.5;
 
-/// The part by which steps may differ; the grid of the page adds to it.
+/// The part by which steps may differ; the grid adds to it.
 const STEP_TOLERANCE: f64 = 0.02;
 
 /// The greatest radius in spans of the points: flatter runs are too uncertain.
@@ -38,14 +46,14 @@ const MAX_SWEEP: f64 = 0.97 * core::f64::consts::TAU;
 /// A vertex of a polyline whose sides are lines and arcs.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ArcVertex {
-    /// In micrometers of the page.
+    /// In steps of the grid.
     pub point: DVec2,
     /// The tangent of a quarter of the angle of the arc to the next vertex; positive where it turns
     /// from x to y, 0 for a line.
     pub bulge: f64,
 }
 
-/// A circle in micrometers of the page.
+/// A circle in steps of the grid.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Circle {
     /// The center.
@@ -54,55 +62,57 @@ pub struct Circle {
     pub radius: f64,
 }
 
-/// A line of the page as lines and arcs.
+/// A polyline as lines and arcs.
 #[derive(Clone, PartialEq, Debug)]
 pub enum LineShape {
     /// A full circle.
     Circle(Circle),
     /// One arc from an angle to a greater one in radians, from x to y.
     Arc(Circle, [f64; 2]),
-    /// Sides and arcs.
+    /// Sides and arcs; whether the last vertex is joined to the first.
     Path(Vec<ArcVertex>, bool),
 }
 
-/// The curve of a line, with arcs where its points lie on circles within a tolerance in micrometers;
-/// with a tolerance of 0 there are none.
-pub fn recognize_arcs(line: &Polyline, tolerance: f64) -> LineShape {
-    let points: Vec<DVec2> = line.points.iter().copied().map(grid_point).collect();
+/// The curve of a polyline, with arcs where its points lie on circles within a tolerance in steps of
+/// the grid; with a tolerance of 0 there are none.
+///
+/// It has two points or more, neighbors differ, and `closed` is whether the last one is joined to
+/// the first, which is not repeated.
+#[must_use]
+pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> LineShape {
+    let points: Vec<DVec2> = points.iter().copied().map(grid_point).collect();
     let straight = |points: &[DVec2]| -> Vec<ArcVertex> {
         points.iter().map(|&point| ArcVertex { point, bulge: 0.0 }).collect()
     };
     if tolerance <= 0.0 || points.len() < MIN_ARC_POINTS {
-        return LineShape::Path(straight(&points), line.closed);
+        return LineShape::Path(straight(&points), closed);
     }
-    if line.closed
-        && let Some(circle) = full_circle(&points, tolerance)
-    {
+    if closed && let Some(circle) = full_circle(&points, tolerance) {
         return LineShape::Circle(circle);
     }
     // A closed line is begun at a corner, so that no arc is cut in two by its first point.
-    let start = if line.closed { corner_index(&points, tolerance) } else { 0 };
+    let start = if closed { corner_index(&points, tolerance) } else { 0 };
     let mut ring: Vec<DVec2> = points[start..].iter().chain(&points[..start]).copied().collect();
-    if line.closed {
+    if closed {
         ring.push(ring[0]);
     }
     let vertices = arc_vertices(&ring, tolerance);
     if let [from, to] = vertices[..]
         && from.bulge != 0.0
-        && !line.closed
+        && !closed
         && let Some(circle) = circle_of(&ring, tolerance)
     {
         return LineShape::Arc(circle, arc_angles(circle, [from.point, to.point], from.bulge));
     }
     let mut vertices = vertices;
-    if line.closed {
+    if closed {
         vertices.pop();
     }
-    LineShape::Path(vertices, line.closed)
+    LineShape::Path(vertices, closed)
 }
 
 /// A point of the grid as a vector.
-fn grid_point([x, y]: PagePoint) -> DVec2 {
+fn grid_point([x, y]: [i32; 2]) -> DVec2 {
     DVec2::new(f64::from(x), f64::from(y))
 }
 
@@ -210,7 +220,7 @@ fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
     let inner = &angles[1..angles.len() - 1];
     let longest = inner.iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
     let sense = if inner.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    // Both points of a step are up to 0.7 micrometers beside their place on the grid.
+    // Both points of a step are up to 0.7 steps of the grid beside their place on the grid.
     let slack = longest * STEP_TOLERANCE + 2.0 / circle.radius;
     let is_short =
         |angle: f64| circle.radius * (1.0 - libm::cos(0.5 * angle)) <= tolerance && angle > 0.0;
@@ -260,6 +270,11 @@ fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
     let start = if bulge > 0.0 { angle(from) } else { angle(to) };
     [start, start + sweep]
 }
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 #[cfg(test)]
 mod tests;

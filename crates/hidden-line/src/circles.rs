@@ -6,10 +6,10 @@
 //! circle.
 
 use crate::edges::FeatureChain;
+use arcs::{ArcVertex, Circle, LineShape, recognize_arcs};
 use core::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use homog::{Point, Vector, World};
-use page::{ArcVertex, Circle, LineShape, Polyline, recognize_arcs};
 
 /// A circle in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -82,9 +82,8 @@ impl ChainPlane {
 /// The circles and arcs of a chain, within a tolerance in units of the world.
 pub(crate) fn circles_of_chain(chain: &FeatureChain, tolerance: f64) -> Vec<WorldCircle> {
     let Some(plane) = ChainPlane::of_chain(chain, tolerance) else { return Vec::new() };
-    let points = chain.points.iter().map(|point| plane.to_grid(*point)).collect();
-    let line = Polyline { points, closed: chain.is_closed };
-    match recognize_arcs(&line, tolerance * plane.steps) {
+    let points: Vec<[i32; 2]> = chain.points.iter().map(|point| plane.to_grid(*point)).collect();
+    match recognize_arcs(&points, chain.is_closed, tolerance * plane.steps) {
         LineShape::Circle(circle) => vec![plane.to_world(circle, TAU)],
         LineShape::Arc(circle, [start, end]) => vec![plane.to_world(circle, end - start)],
         LineShape::Path(vertices, is_closed) => {
