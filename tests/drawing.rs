@@ -13,7 +13,7 @@ mod views;
 
 use alberti_tests::harness::{Tally, data_folder, map_parallel, run_program, sample_cases};
 use alberti_tests::project_root;
-use drawing::{Agreement, DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
+use hidden_line::{Agreement, DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
 use import::{ImportOptions, load};
 use model::Model;
 use std::path::{Path, PathBuf};
@@ -166,7 +166,7 @@ fn measure_agreement(
     let agreement = |options: &DrawOptions| {
         let drawing =
             draw(&scene.drawing_subject(), options, 1).map_err(|error| error.to_string())?;
-        let agreement = verify_with_z_buffer(&scene.drawing_subject(), &drawing)
+        let agreement = verify_with_z_buffer(&scene.drawing_subject(), &drawing.segments)
             .map_err(|error| error.to_string())?;
         Ok::<_, String>((agreement, drawing))
     };

@@ -9,7 +9,7 @@
 //! what is sensible, because the program has to refuse that.
 
 use alberti_tests::harness::{Tally, map_parallel};
-use drawing::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
+use hidden_line::{DrawOptions, HiddenEdges, LineDrawing, draw, verify_with_z_buffer};
 use import::{ImportOptions, load};
 use model::{Model, ModelInstance};
 use pipeline::scene::reference::Shape;
@@ -231,7 +231,8 @@ fn check_scene(text: &str, models: &[(&'static str, Arc<Model>)]) -> Result<Verd
     let subject = scene.drawing_subject();
     let options = DrawOptions { hidden_edges: HiddenEdges::Retained, ..DrawOptions::default() };
     let drawing = draw(&subject, &options, 1).map_err(|error| error.to_string())?;
-    let agreement = verify_with_z_buffer(&subject, &drawing).map_err(|error| error.to_string())?;
+    let agreement =
+        verify_with_z_buffer(&subject, &drawing.segments).map_err(|error| error.to_string())?;
     // Models in the distance have few lines, of which one point is much: two pixels are allowed.
     let visible = agreement.visible_length.max(1000.0);
     let denied = agreement.denied_length / visible;

@@ -22,7 +22,7 @@ pub fn judge_leaves(folder: &Path) -> Result<Vec<String>, String> {
     for (name, style) in all_styles() {
         let (picture, warnings, scene) = render_leaves(folder, style, false)?;
         if matches!(scene.style, Style::Wireframe | Style::Lines(_)) {
-            if !warnings.contains(&Warning::CutOutsDrawnWhole) {
+            if !warnings.contains(&Warning::Lines(hidden_line::Warning::CutOutsDrawnWhole)) {
                 faults.push(format!("{name} draws whole leaves and does not say so: {warnings:?}"));
             }
             continue;

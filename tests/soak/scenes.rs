@@ -1,7 +1,7 @@
 //! Random scenes, rendered by one thread and by two: no panic, no NaN, no difference.
 
 use crate::scene_text::{SceneFiles, random_scene_text};
-use drawing::{DrawOptions, draw};
+use hidden_line::{DrawOptions, draw};
 use homog::PixelRect;
 use pipeline::render::draw_lines;
 use pipeline::render::passes::{Pass, PassValues, render_passes};

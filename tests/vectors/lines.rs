@@ -4,7 +4,7 @@ use crate::vectors::Runner;
 use crate::vectors::numbers::{parse_array, parse_number, parse_numbers, zip_arrays};
 use camera::Camera;
 use camera::ViewProjection;
-use drawing::{Occluders, Projector, Tolerance};
+use hidden_line::{Occluders, Projector, Tolerance};
 use homog::{Point, Vector, World};
 use projection::{Convention, Frustum, Orthographic};
 use serde_json::Value;

@@ -20,7 +20,7 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 20] = [
+const CRATES: [&str; 21] = [
     "arcs",
     "camera",
     "clip",
@@ -29,6 +29,7 @@ const CRATES: [&str; 20] = [
     "files",
     "gltf-check",
     "gltf-import",
+    "hidden-line",
     "homog",
     "import",
     "model",
@@ -72,7 +73,7 @@ pub fn run_api(arguments: &[String]) -> Outcome {
     create_folder(&project_root().join(FOLDER))?;
     let mut faults = Vec::new();
     for name in CRATES {
-        let listing = crate_listing(&target_folder().join("doc").join(name))?;
+        let listing = crate_listing(&target_folder().join("doc").join(name.replace('-', "_")))?;
         let path = project_root().join(FOLDER).join(format!("{name}.txt"));
         if bless {
             fs::write(&path, &listing).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -114,6 +114,7 @@ fn build_wheel(environment: &VirtualEnvironment, is_release: bool) -> Result<Pat
         // In the program `pipeline` runs once a command; here it fills passes, and drawings are made in loops.
         maturin.args(["--config", "profile.release.package.alberti-pipeline.opt-level=3"]);
         maturin.args(["--config", "profile.release.package.alberti-drawing.opt-level=2"]);
+        maturin.args(["--config", "profile.release.package.alberti-hidden-line.opt-level=2"]);
     }
     compile(|| run_command(&mut maturin))?;
     list_files(&folder, "whl")?.pop().ok_or_else(|| "there is no wheel".to_owned())

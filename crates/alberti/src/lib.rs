@@ -18,7 +18,7 @@
 //! | [`raster`] | coverage (`rasterize.rs`), depth test, multisampling, deterministic tiles |
 //! | [`model`] | files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
-//! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
+//! | [`hidden_line`], [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
 //! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
 
 mod animate;

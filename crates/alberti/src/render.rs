@@ -16,8 +16,8 @@ use super::progress::Progress;
 use super::render_job::RenderJob;
 use super::unused_flags::find_unused_flags;
 use super::{CliError, render_report, terminal_image};
-use drawing::{self, Agreement, DrawOptions, HiddenEdges};
 use files::visible_path;
+use hidden_line::{Agreement, DrawOptions, HiddenEdges};
 use import::{FileFormat, ImageLoading, ImportOptions};
 use pipeline::scene::file::SceneFile;
 use pipeline::scene::{Outputs, closest_name};
@@ -135,7 +135,7 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
 }
 
 /// Compares the scene's line drawing with its z-buffer image, with hidden lines removed (they are
-/// cut in `drawing/src/hidden_line`).
+/// cut in `hidden-line/src/visibility`).
 ///
 /// The drawing is made again, because dashed or drawn hidden lines would count as visible.
 ///
@@ -143,13 +143,12 @@ fn render_task(args: &RenderArgs, job: &RenderTask) -> Result<bool, CliError> {
 /// intersections of lines, in the image from coverage and depth of pixels. An error in one is
 /// therefore unlikely to be in the other.
 fn verify_drawing(scene: &Scene, threads: usize) -> Result<Agreement, CliError> {
-    let options = DrawOptions {
-        hidden_edges: HiddenEdges::Removed,
-        ..scene.style.line_style().to_draw_options()
-    };
-    let drawing = drawing::draw(&scene.drawing_subject(), &options, threads)
-        .map_err(pipeline::RenderError::from)?;
-    Ok(drawing::verify_with_z_buffer(&scene.drawing_subject(), &drawing)
+    let style = scene.style.line_style();
+    let options = DrawOptions { hidden_edges: HiddenEdges::Removed, ..style.to_draw_options() };
+    let (subject, fill) = (scene.drawing_subject(), style.to_fill_options());
+    let drawing =
+        drawing::draw(&subject, &options, &fill, threads).map_err(pipeline::RenderError::from)?;
+    Ok(hidden_line::verify_with_z_buffer(&subject, &drawing.segments)
         .map_err(pipeline::RenderError::from)?)
 }
 

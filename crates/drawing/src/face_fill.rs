@@ -6,13 +6,10 @@
 //! lines go over it.
 
 use super::FaceFill;
-use super::face_raster::rasterize_faces;
 use super::gray_fill::gray_pixel;
-use super::options::DrawOptions;
-use super::projector::Projector;
-use crate::DrawError;
 use camera::ViewProjection;
 use glam::DVec3;
+use hidden_line::{DrawError, Projector, rasterize_faces};
 use homog::{Vector, View};
 use picture::Picture;
 use shade::color::SrgbEncoder;
@@ -23,6 +20,30 @@ const AMBIENT_LIGHT: f64 = 0.35;
 
 /// The longest side of a fill image in pixels.
 const MAX_FILL_SIDE: f64 = 8192.0;
+
+/// The fill of faces under the lines of a drawing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct FillOptions {
+    /// The kind of fill. Default: none.
+    pub face_fill: FaceFill,
+    /// Pixels of the fill image for each pixel of the drawing. Default: 3.
+    pub scale: f64,
+}
+
+impl Default for FillOptions {
+    fn default() -> Self {
+        Self::new(FaceFill::None)
+    }
+}
+
+impl FillOptions {
+    /// A fill of this kind, at the resolution that it needs.
+    #[must_use]
+    pub fn new(face_fill: FaceFill) -> Self {
+        // Borders of areas must lie under the lines, which are a pixel wide or more.
+        Self { face_fill, scale: if face_fill == FaceFill::Gray { 6.0 } else { 3.0 } }
+    }
+}
 
 /// A directional light from above the viewer's left shoulder, fixed to the camera.
 #[derive(Clone, Copy, Debug)]
@@ -69,10 +90,10 @@ impl KeyLight {
 }
 
 /// Renders faces in one flat color each, or in the gray of their materials: an image of their
-/// visible parts, transparent where there is none.
+/// visible parts, transparent where there is none; `None` for other fills and without faces.
 ///
 /// Faces come with the linear color of their material, `None` for section caps, which are white, or
-/// have no gray. The image has `fill_scale` pixels for each pixel of the drawing, but no side above
+/// have no gray. The image has `fill.scale` pixels for each pixel of the drawing, but no side above
 /// [`MAX_FILL_SIDE`]; nothing is filtered, as its pixels are finer than those of the output.
 ///
 /// # Errors
@@ -81,14 +102,19 @@ pub(super) fn rasterize_fill(
     faces: impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)>,
     view_projection: &ViewProjection,
     size: [u32; 2],
-    options: &DrawOptions,
-) -> Result<Picture, DrawError> {
+    fill: &FillOptions,
+) -> Result<Option<Picture>, DrawError> {
+    let mut faces = faces.peekable();
+    let is_image = matches!(fill.face_fill, FaceFill::Flat | FaceFill::Gray);
+    if !is_image || faces.peek().is_none() {
+        return Ok(None);
+    }
     let longest = f64::from(size[0].max(size[1]));
-    let scale = options.fill_scale.min(MAX_FILL_SIDE / longest);
+    let scale = fill.scale.min(MAX_FILL_SIDE / longest);
     let [width, height] = size.map(|side| (f64::from(side) * scale).ceil().max(1.0) as u32);
     let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
     let key_light = KeyLight::new(view_projection, projector);
-    let is_gray = options.face_fill == FaceFill::Gray;
+    let is_gray = fill.face_fill == FaceFill::Gray;
     let mut colors: Vec<[u8; 4]> = Vec::new();
     let triangles = faces.map(|(vertices, surface)| {
         colors.push(if is_gray {
@@ -101,5 +127,5 @@ pub(super) fn rasterize_fill(
     });
     let ids = rasterize_faces(triangles, &projector, [width, height])?;
     let pixels = ids.into_iter().map(|id| id.map_or([0; 4], |id| colors[id as usize])).collect();
-    Ok(Picture { width, height, pixels })
+    Ok(Some(Picture { width, height, pixels }))
 }

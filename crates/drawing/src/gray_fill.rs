@@ -5,7 +5,7 @@
 //! fill do, and their borders are traced: they are off by about a pixel of a fine image, and lie
 //! under lines that are wider.
 
-use super::LineDrawing;
+use super::Drawing;
 use super::color_areas::{PixelCorner, trace_color_areas};
 use super::layout::Placement;
 use super::line_style::{FaceFill, LineStyle};
@@ -43,7 +43,7 @@ fn tint(level: u8, [ink, paper]: [Ink; 2]) -> Ink {
     [0, 1, 2].map(mixed)
 }
 
-impl LineDrawing {
+impl Drawing {
     /// The layers of a [gray](FaceFill::Gray) fill, one for each gray, which belong under the lines;
     /// none of another fill.
     ///

@@ -20,12 +20,11 @@ use super::line_density::Thinning;
 use super::line_style::{EdgeSelection, FaceFill, HiddenLines, LineStyle, LineWidths};
 use super::overlap_removal::{PageSegment, remove_overlaps};
 use super::polyline_chain::{PolylineChain, join_into_chains};
-use super::region::{Region, RegionHatching};
 use super::region_outline::{is_traced, outline_loops};
 use super::speckles::{LEAST_CHAIN_LENGTH, ShortChains, remove_speckles};
-use super::{EdgeClass, EdgeSegment, LineDrawing};
-use crate::Page;
+use crate::{Drawing, Page};
 use glam::DVec2;
+use hidden_line::{EdgeClass, EdgeSegment, Region, RegionHatching};
 use page::palette::{WHITE, ink_on_paper};
 use page::{
     Group, GroupContent, HatchArea, Ink, Layer, LineType, MILLIMETERS_PER_PIXEL, Pen, PlacedImage,
@@ -98,7 +97,7 @@ struct LineKinds<'a> {
     thinning: [Thinning; 2],
 }
 
-impl LineDrawing {
+impl Drawing {
     /// The drawing as a page of its own, 96 pixels to the inch.
     ///
     /// `title` is that of the document; `paper` fills the background, and decides between dark and
@@ -265,7 +264,7 @@ impl LineStyle {
 
 impl<'a> LineKinds<'a> {
     /// The kinds of lines that a style draws, and the range of depths.
-    fn new(drawing: &LineDrawing, style: &'a LineStyle, placement: Placement) -> Self {
+    fn new(drawing: &Drawing, style: &'a LineStyle, placement: Placement) -> Self {
         let depths = drawing.segments.iter().flat_map(|segment| segment.depths);
         let nearest = depths.clone().fold(0.0, f64::max);
         let farthest = depths.fold(nearest, f64::min);
@@ -386,11 +385,7 @@ impl<'a> LineKinds<'a> {
 /// Thinned are the lines that lie over each other: those of wireframes, and hidden ones. Visible
 /// lines of other styles show the drawing itself. Sheets are to scale, and have the widths and the
 /// ink that were asked for.
-fn thinning_for_style(
-    drawing: &LineDrawing,
-    style: &LineStyle,
-    placement: Placement,
-) -> [Thinning; 2] {
+fn thinning_for_style(drawing: &Drawing, style: &LineStyle, placement: Placement) -> [Thinning; 2] {
     if placement != Placement::PICTURE {
         return [Thinning::NONE; 2];
     }
@@ -431,39 +426,6 @@ fn selects_class(style: &LineStyle, class: EdgeClass, hidden: bool) -> bool {
         // Tangent edges have no bend to show: hidden ones are left out.
         EdgeClass::Tangent => !hidden || style.edges == EdgeSelection::Facets,
         _ => true,
-    }
-}
-
-impl EdgeClass {
-    /// All classes, the most important first.
-    pub const ALL: [Self; 10] = [
-        Self::Silhouette,
-        Self::Boundary,
-        Self::Crease,
-        Self::Intersection,
-        Self::Section,
-        Self::Marked,
-        Self::Tangent,
-        Self::Line,
-        Self::Hatching,
-        Self::Facet,
-    ];
-
-    /// The name of the class, in lower case.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Silhouette => "silhouette",
-            Self::Boundary => "boundary",
-            Self::Crease => "crease",
-            Self::Intersection => "intersection",
-            Self::Section => "section",
-            Self::Marked => "marked",
-            Self::Tangent => "tangent",
-            Self::Line => "line",
-            Self::Hatching => "hatching",
-            Self::Facet => "facet",
-        }
     }
 }
 

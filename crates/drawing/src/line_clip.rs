@@ -10,8 +10,9 @@
 //! middle: what one area keeps, its complement removes, and nothing is drawn twice. Depth is linear
 //! on the screen, so the depths of parts are interpolated.
 
-use super::{EdgeSegment, LineDrawing, Region, RegionEdge};
+use super::Drawing;
 use glam::DVec2;
+use hidden_line::{EdgeSegment, Region, RegionEdge};
 
 /// The number of corners of a disc where it is a polygon: its sides leave the circle by 0.02 % of
 /// the radius.
@@ -146,7 +147,7 @@ pub fn point_at([a, b]: [DVec2; 2], t: f64) -> DVec2 {
     if t == 1.0 { b } else { a.lerp(b, t) }
 }
 
-impl LineDrawing {
+impl Drawing {
     /// The part of the drawing inside or outside of an area. Regions outside are left out.
     pub fn clipped(mut self, area: &ClipArea, side: ClipSide) -> Self {
         let segments = self.segments.iter().flat_map(|segment| {
@@ -293,7 +294,7 @@ fn corners_between(center: DVec2, corners: &[DVec2], ends: [DVec2; 2]) -> Vec<DV
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::EdgeClass;
+    use hidden_line::EdgeClass;
     use picture::Picture;
 
     fn segment(ends: [DVec2; 2]) -> EdgeSegment {
@@ -301,9 +302,9 @@ mod tests {
         EdgeSegment { ends, depths: [0.0, 1.0], class, visible: true, object: 0, edge: 0 }
     }
 
-    fn drawing(ends: [DVec2; 2]) -> LineDrawing {
+    fn drawing(ends: [DVec2; 2]) -> Drawing {
         let size = DVec2::splat(100.0);
-        LineDrawing { size, segments: vec![segment(ends)], ..LineDrawing::default() }
+        Drawing { size, segments: vec![segment(ends)], ..Drawing::default() }
     }
 
     #[test]
@@ -329,12 +330,12 @@ mod tests {
     #[test]
     fn a_fill_goes_below_another_and_stands_where_there_is_none() {
         let ends = [DVec2::ZERO, DVec2::splat(100.0)];
-        let filled = |pixels: Vec<[u8; 4]>| LineDrawing {
+        let filled = |pixels: Vec<[u8; 4]>| Drawing {
             face_fill: Some(Picture { width: 2, height: 1, pixels }),
             ..drawing(ends)
         };
         let (red, green) = ([255, 0, 0, 255], [0, 255, 0, 255]);
-        let pixels = |upper: LineDrawing, lower: LineDrawing| {
+        let pixels = |upper: Drawing, lower: Drawing| {
             let mut merged = upper;
             merged.merge(lower);
             merged.face_fill.map(|fill| fill.pixels)

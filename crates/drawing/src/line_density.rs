@@ -11,8 +11,9 @@
 //! The measure is one number for all lines that are thinned together, and so has no borders in the
 //! drawing: the mean coverage that a point of a line finds around it.
 
-use crate::{EdgeSegment, LineDrawing};
+use crate::Drawing;
 use glam::DVec2;
+use hidden_line::EdgeSegment;
 
 /// The side of the squares in which coverage is measured, in pixels.
 const CELL_SIDE: f64 = 16.0;
@@ -41,7 +42,7 @@ impl Thinning {
     /// With `keeps_width` lines only become paler, for drawings whose widths are those of a
     /// standard.
     pub(crate) fn for_lines(
-        drawing: &LineDrawing,
+        drawing: &Drawing,
         width: f64,
         keeps_width: bool,
         selects: impl Fn(&EdgeSegment) -> bool,
@@ -59,7 +60,7 @@ impl Thinning {
 
 /// The mean coverage around the points of the selected segments: more than 1 where lines lie over
 /// each other.
-fn mean_coverage(drawing: &LineDrawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
+fn mean_coverage(drawing: &Drawing, width: f64, selects: impl Fn(&EdgeSegment) -> bool) -> f64 {
     let [columns, rows] =
         [drawing.size.x, drawing.size.y].map(|side| (side / CELL_SIDE).ceil().max(1.0));
     let mut lengths = vec![0.0; columns as usize * rows as usize];
@@ -83,10 +84,10 @@ fn mean_coverage(drawing: &LineDrawing, width: f64, selects: impl Fn(&EdgeSegmen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::EdgeClass;
+    use hidden_line::EdgeClass;
 
     /// A drawing of 160 × 160 pixels with so many horizontal lines from side to side.
-    fn drawing_of_lines(count: usize) -> LineDrawing {
+    fn drawing_of_lines(count: usize) -> Drawing {
         let segment = |line: usize| EdgeSegment {
             ends: [0.0, 160.0].map(|x| DVec2::new(x, 160.0 * (line as f64 + 0.5) / count as f64)),
             depths: [1.0; 2],
@@ -95,10 +96,10 @@ mod tests {
             object: 0,
             edge: 0,
         };
-        LineDrawing {
+        Drawing {
             size: DVec2::splat(160.0),
             segments: (0..count).map(segment).collect(),
-            ..LineDrawing::default()
+            ..Drawing::default()
         }
     }
 

@@ -1,7 +1,7 @@
 //! Line style: the selection of edges, hidden lines, pens and fills of a line drawing.
 
-use super::EdgeClass;
-use super::options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
+use super::face_fill::FillOptions;
+use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, SilhouetteMethod};
 use page::palette::{BLACK, BLUEPRINT_BLUE, GRAPHITE, WHITE};
 use page::{Cap, Ink, IsoLineGroup, Join, MILLIMETERS_PER_PIXEL};
 
@@ -232,11 +232,14 @@ impl LineStyle {
             silhouettes: self.silhouettes,
             outline_only: self.edges == EdgeSelection::Silhouette,
             hatch_spacing: self.hatch_spacing / MILLIMETERS_PER_PIXEL,
-            face_fill: self.face_fill,
-            // Borders of areas must lie under the lines, which are a pixel wide or more.
-            fill_scale: if self.face_fill == FaceFill::Gray { 6.0 } else { 3.0 },
             ..DrawOptions::default()
         }
+    }
+
+    /// The fill of a drawing for this style.
+    #[must_use]
+    pub fn to_fill_options(&self) -> FillOptions {
+        FillOptions::new(self.face_fill)
     }
 }
 

@@ -21,13 +21,10 @@ pub use point_label::{
     missing_glyph_warning, with_label_halos,
 };
 
-use super::edges::WeldedSurface;
-use super::hidden_line::Occluders;
 use super::line_style::HiddenLines;
-use super::projector::Projector;
-use crate::Subject;
 use camera::ViewProjection;
 use glam::{DMat4, DVec2, DVec3, DVec4};
+use hidden_line::{Occluders, Projector, Subject, WeldedSurface};
 use homog::{Bounds, Clip, Point, Projective, Vector, World};
 use page::palette::{BLUE, GRAY, GREEN, RED};
 use page::{

@@ -1,40 +1,25 @@
-//! Warnings: what a drawing leaves out, returned along with it.
+//! Warnings: what a page of a drawing leaves out, returned along with it.
 
 mod assembly;
 mod dimension;
 
 use crate::overlay::{LabelFault, SheetLabelFault};
 pub use assembly::AssemblyWarning;
+use core::cmp::Ordering;
 use core::fmt;
 pub use dimension::DimensionFault;
+use files::visible_excerpt;
 
 /// Something that a drawing leaves out or could not do, with the reason in its `Display` text.
 ///
-/// Warnings are sorted and each is reported once, so their order does not depend on threads. They
-/// are part of the result, not logged: the caller decides whether and where to print them.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+/// Warnings are sorted and each is reported once, so their order does not depend on threads:
+/// sections come first, then labels, then limits of work. They are part of the result, not logged:
+/// the caller decides whether and where to print them.
+#[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Warning {
-    /// The outline of a section does not close.
-    SectionOpen {
-        /// The name of the object.
-        object: String,
-    },
-    /// The outline of a section has too many points for a cap.
-    SectionTooComplex {
-        /// The name of the object.
-        object: String,
-    },
-    /// A section plane lies beside the models and removes nothing.
-    SectionMisses {
-        /// The number of the section, from 1.
-        number: usize,
-    },
-    /// A section plane lies beside the models, which are all on the side that is removed.
-    SectionRemovesAll {
-        /// The number of the section, from 1.
-        number: usize,
-    },
+    /// Something that its lines leave out.
+    Lines(hidden_line::Warning),
     /// No principal view of a sheet sees a section plane from the front or edge-on.
     SectionOblique {
         /// The number of the section, from 1.
@@ -103,10 +88,6 @@ pub enum Warning {
     },
     /// Something that the pages of an assembly leave out.
     Assembly(AssemblyWarning),
-    /// The textures of some materials cut out parts of their faces, and lines show these whole.
-    CutOutsDrawnWhole,
-    /// So many faces lie behind each other that small gaps between them count as closed.
-    CrowdApproximated,
     /// So many faces overlap that their outlines are traced on a grid, and are not exact.
     OutlinesTraced,
     /// Outlines over surfaces are left out, because copies have too many triangles.
@@ -116,42 +97,77 @@ pub enum Warning {
         /// The reason.
         reason: String,
     },
-    /// The search for intersection edges was cut off.
-    IntersectionsIncomplete,
-    /// The hatching was cut off.
-    HatchingIncomplete,
     /// The models have no size, or points only: no view of a sheet has a line.
     NothingDrawn,
     /// No view of a sheet is as large as a millimeter of the paper.
     ViewsTiny,
-    /// The search for hidden lines was cut off.
-    VisibilityIncomplete,
 }
 
 impl Warning {
+    /// The place of the warning in a report, among those of [`hidden_line::Warning::report_order`].
+    #[must_use]
+    pub const fn report_order(&self) -> u8 {
+        match self {
+            Self::Lines(warning) => warning.report_order(),
+            Self::SectionOblique { .. } => 20,
+            Self::ViewLeftOut { .. } => 21,
+            Self::DimensionLeftOut { .. } => 22,
+            Self::CutLineNotShown { .. } => 23,
+            Self::ViewOverlaps { .. } => 24,
+            Self::OverlayNotOnSheets { .. } => 25,
+            Self::LabelNotInView { .. } => 26,
+            Self::SectionsIgnored => 40,
+            Self::StyleIgnored => 41,
+            Self::AnaglyphIgnored => 42,
+            Self::ImagesNotInDxf => 43,
+            Self::LabelNotDrawn { .. } => 44,
+            Self::GlyphsMissing { .. } => 45,
+            Self::Assembly(_) => 50,
+            Self::OutlinesTraced => 70,
+            Self::OutlinesLeftOut => 71,
+            Self::PictureEmpty { .. } => 72,
+            Self::NothingDrawn => 90,
+            Self::ViewsTiny => 91,
+        }
+    }
+
+    /// The order of two warnings of one kind.
+    fn compare_values(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Self::Lines(a), Self::Lines(b)) => a.cmp(b),
+            (Self::SectionOblique { number: a }, Self::SectionOblique { number: b }) => a.cmp(b),
+            (
+                Self::DimensionLeftOut { dimension, fault },
+                Self::DimensionLeftOut { dimension: b, fault: c },
+            ) => (dimension, fault).cmp(&(b, c)),
+            (
+                Self::LabelNotInView { text, view, fault },
+                Self::LabelNotInView { text: b, view: c, fault: d },
+            ) => (text, view, fault).cmp(&(b, c, d)),
+            (Self::LabelNotDrawn { text, fault }, Self::LabelNotDrawn { text: b, fault: c }) => {
+                (text, fault).cmp(&(b, c))
+            }
+            (Self::Assembly(a), Self::Assembly(b)) => a.cmp(b),
+            _ => self.texts().cmp(&other.texts()),
+        }
+    }
+
+    /// The texts in the values of a warning.
+    fn texts(&self) -> [&str; 2] {
+        match self {
+            Self::ViewLeftOut { view: text }
+            | Self::CutLineNotShown { section: text }
+            | Self::OverlayNotOnSheets { overlay: text }
+            | Self::PictureEmpty { reason: text } => [text, ""],
+            Self::ViewOverlaps { view: text, other }
+            | Self::GlyphsMissing { text, characters: other } => [text, other],
+            _ => ["", ""],
+        }
+    }
+
     /// The text of a warning about a section plane; of others nothing.
     fn fmt_section(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::SectionOpen { object } => write!(
-                f,
-                "the cut through `{}` does not close, because its surface is open: \
-                 the section has no cap and no hatching there",
-                visible_text(object)
-            ),
-            Self::SectionTooComplex { object } => write!(
-                f,
-                "the cut through `{}` has too many points: \
-                 the section has no cap and no hatching",
-                visible_text(object)
-            ),
-            Self::SectionMisses { number } => {
-                write!(f, "section {number} cuts nothing: its plane lies beside the models")
-            }
-            Self::SectionRemovesAll { number } => write!(
-                f,
-                "section {number} would remove everything: all models lie on the side of its plane \
-                 that is cut away"
-            ),
             Self::SectionOblique { number } => write!(
                 f,
                 "section {number} has neither a cut line nor a view of its own on the sheet: its plane is \
@@ -167,7 +183,7 @@ impl Warning {
             Self::LabelNotDrawn { text, fault } => write!(
                 f,
                 "the label \"{}\" is not drawn: its point is {}",
-                visible_text(text),
+                visible_excerpt(text),
                 match fault {
                     LabelFault::BehindEye => "behind the eye",
                     LabelFault::Outside => "outside of the picture",
@@ -180,7 +196,7 @@ impl Warning {
             Self::LabelNotInView { text, view, fault } => write!(
                 f,
                 "the label \"{}\" is not in the {view}: {}",
-                visible_text(text),
+                visible_excerpt(text),
                 match fault {
                     SheetLabelFault::Far => {
                         "its point is too far from the models; move it nearer to them"
@@ -196,14 +212,30 @@ impl Warning {
     }
 }
 
+impl Ord for Warning {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_kind = self.report_order().cmp(&other.report_order());
+        by_kind.then_with(|| self.compare_values(other))
+    }
+}
+
+impl PartialOrd for Warning {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl From<hidden_line::Warning> for Warning {
+    fn from(warning: hidden_line::Warning) -> Self {
+        Self::Lines(warning)
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::SectionOpen { .. }
-            | Self::SectionTooComplex { .. }
-            | Self::SectionMisses { .. }
-            | Self::SectionRemovesAll { .. }
-            | Self::SectionOblique { .. } => self.fmt_section(f),
+            Self::Lines(warning) => warning.fmt(f),
+            Self::SectionOblique { .. } => self.fmt_section(f),
             Self::ViewLeftOut { view } => write!(
                 f,
                 "there is no place for the {view} beside the other views, and it is left out: \
@@ -230,7 +262,7 @@ impl fmt::Display for Warning {
             | Self::OverlayNotOnSheets { .. }
             | Self::LabelNotInView { .. } => self.fmt_overlay(f),
             Self::GlyphsMissing { text, characters } => {
-                let [characters, text] = [characters, text].map(|text| visible_text(text));
+                let [characters, text] = [characters, text].map(|text| visible_excerpt(text));
                 write!(
                     f,
                     "the letters of drawings lack {characters} of \"{text}\": \
@@ -242,35 +274,12 @@ impl fmt::Display for Warning {
             Self::SectionsIgnored
             | Self::StyleIgnored
             | Self::AnaglyphIgnored
-            | Self::CutOutsDrawnWhole
-            | Self::CrowdApproximated
             | Self::OutlinesTraced
             | Self::OutlinesLeftOut
-            | Self::IntersectionsIncomplete
-            | Self::HatchingIncomplete
             | Self::NothingDrawn
-            | Self::ViewsTiny
-            | Self::VisibilityIncomplete => f.write_str(self.fixed_text()),
+            | Self::ViewsTiny => f.write_str(self.fixed_text()),
         }
     }
-}
-
-/// Characters of a text beyond this number are left out of messages: names of parts have any length.
-const MAX_QUOTED: usize = 60;
-
-/// A text in which characters without a sign of their own, such as controls and those that change
-/// the direction of writing, are written by their code: `\u{202e}`. A long one is cut off.
-pub fn visible_text(text: &str) -> String {
-    let is_invisible = |c: char| {
-        files::is_terminal_control(c)
-            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{206f}')
-            || c == '\u{feff}'
-    };
-    let shown =
-        |c: char| if is_invisible(c) { c.escape_unicode().to_string() } else { c.to_string() };
-    let start = text.chars().take(MAX_QUOTED).map(shown);
-    let is_longer = text.chars().nth(MAX_QUOTED).is_some();
-    start.chain(is_longer.then(|| "...".to_owned())).collect()
 }
 
 impl Warning {
@@ -289,10 +298,6 @@ impl Warning {
                 "only PNG pictures have anaglyphs: \
                  this one shows the view of the scene's camera alone"
             }
-            Self::CrowdApproximated => {
-                "so many surfaces lie behind each other that lines behind gaps of a pixel or two are \
-                 left out: `--no-line-limits` draws them, and may take long"
-            }
             Self::OutlinesTraced => {
                 "so many faces overlap that their outlines are traced on a fine grid, and are not exact"
             }
@@ -300,28 +305,12 @@ impl Warning {
                 "the models have so many copies that their outlines would take long, and they are left \
                  out: `--no-line-limits` draws them"
             }
-            Self::CutOutsDrawnWhole => {
-                "textures cut shapes such as leaves out of some faces: lines show the edges of the \
-                 whole faces"
-            }
-            Self::IntersectionsIncomplete => {
-                "so many faces may intersect that not all were compared: \
-                 some intersection edges may be missing"
-            }
-            Self::HatchingIncomplete => {
-                "there are too many hatch lines, and some are missing: increase their spacing"
-            }
             Self::NothingDrawn => {
                 "the views are empty: the models have neither lines nor faces, or these have no size"
             }
             Self::ViewsTiny => {
                 "the views are smaller than a millimeter of the paper: \
                  set the unit of the model, or a larger scale"
-            }
-            Self::VisibilityIncomplete => {
-                "so many faces lie before and behind each other that not all lines were compared \
-                 with all of them, and some hidden lines are drawn: leave out parts of the model, \
-                 or simplify its meshes"
             }
             _ => "",
         }

@@ -26,7 +26,7 @@ pub use atomic_file::{AtomicFile, OutputError, write_file};
 pub use partial_files::{
     create_partial_file, forget_partial_file, register_partial_file, remove_partial_files,
 };
-pub use visible_text::{is_terminal_control, visible_path, visible_text};
+pub use visible_text::{is_terminal_control, visible_excerpt, visible_path, visible_text};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -41,6 +41,30 @@ pub fn visible_path(path: impl AsRef<Path>) -> String {
     visible_text(&path.as_ref().to_string_lossy()).into_owned()
 }
 
+/// Characters beyond this number are left out of an excerpt: names of parts have any length.
+const MAX_EXCERPT: usize = 60;
+
+/// The beginning of a text in a message, in which characters without a sign of their own, such as
+/// controls and those that change the direction of writing, are written by their code: `\u{202e}`.
+///
+/// ```
+/// assert_eq!(files::visible_excerpt("roof\u{200b}"), "roof\\u{200b}");
+/// assert_eq!(files::visible_excerpt(&"a".repeat(61)), "a".repeat(60) + "...");
+/// ```
+#[must_use]
+pub fn visible_excerpt(text: &str) -> String {
+    let is_invisible = |c: char| {
+        is_terminal_control(c)
+            || matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2060}'..='\u{206f}')
+            || c == '\u{feff}'
+    };
+    let shown =
+        |c: char| if is_invisible(c) { c.escape_unicode().to_string() } else { c.to_string() };
+    let start = text.chars().take(MAX_EXCERPT).map(shown);
+    let is_longer = text.chars().nth(MAX_EXCERPT).is_some();
+    start.chain(is_longer.then(|| "...".to_owned())).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

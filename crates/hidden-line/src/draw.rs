@@ -1,4 +1,4 @@
-//! Drawing a subject: candidate edges, hatching, hidden-line removal, face fill.
+//! Drawing a subject: candidate edges, hatching, hidden-line removal.
 //!
 //! ```text
 //!   models, sections ─► WeldedSurface          (once, for every view)
@@ -10,35 +10,45 @@
 //!                 ▼                             │
 //!            EdgeDivider ◄──────────────────────┘
 //!                 ▼
-//!   visible and hidden segments + flat fill = LineDrawing
+//!   visible and hidden segments = LineDrawing
 //! ```
 //!
 //! The surface depends on models and sections only, everything below it on the viewer too. Edges
 //! keep the order of their objects, so drawings are reproducible and diffs of files are small.
 
 use super::edges::{CandidateEdge, SectionCap, WeldedSurface, WorldMesh};
-use super::face_fill::{KeyLight, rasterize_fill};
-use super::hatching::Hatching;
-use super::hidden_line::{
-    DepthCover, MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge, TriangleMesh,
-    mesh_bvh,
-};
+use super::hatching::{FaceHatching, Hatching};
 use super::options::{DrawOptions, HiddenEdges};
 use super::parallel::map_in_order;
 use super::projector::Projector;
 use super::region::{Region, region_edges};
 use super::retained_points::idle_section_warnings;
 use super::view_cover::{Occluding, ViewCover, VisibleParts, view_cover};
-use super::{EdgeClass, EdgeSegment, FaceFill, LineDrawing, Placement, Warning};
+use super::visibility::{
+    DepthCover, MeshOccluders, OcclusionIntervals, OcclusionScratch, ProjectedEdge, TriangleMesh,
+    mesh_bvh,
+};
+use super::{EdgeClass, EdgeSegment, LineDrawing, Warning};
 use crate::{DrawError, Subject};
 use camera::ViewProjection;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use homog::Point;
 use model::{ModelInstance, Primitive, Topology};
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use viewport::Viewport;
+
+/// The faces of a subject that was drawn, for a fill under its lines.
+#[derive(Debug)]
+pub struct DrawnFaces(WeldedSurface);
+
+impl DrawnFaces {
+    /// Each face with the linear color of its material; `None` for section caps.
+    pub fn colored(&self) -> impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)> {
+        self.0.faces_with_colors()
+    }
+}
 
 /// Draws the edges of a subject with hidden-line removal, with up to `threads` threads.
 ///
@@ -51,6 +61,19 @@ pub fn draw(
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
+    Ok(draw_hatched(subject, options, FaceHatching::None, threads)?.0)
+}
+
+/// As [`draw`], with hatch lines on faces, and the faces that were drawn.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_hatched(
+    subject: &Subject<'_>,
+    options: &DrawOptions,
+    face_hatching: FaceHatching<'_>,
+    threads: usize,
+) -> Result<(LineDrawing, DrawnFaces), DrawError> {
     let projector = Projector::new(&subject.view_projection, &subject.viewport()?);
     if !options.is_unlimited {
         refuse_many_copies(subject.models)?;
@@ -67,7 +90,7 @@ pub fn draw(
     let cover = view_cover(&surface, projector, subject.size, options);
     let hiding = cover.as_ref().map(|view| &view.cover);
     let is_cut_off = surface.add_intersections(&mut candidates, options, hiding, threads);
-    let candidates = Candidates { edges: candidates, is_cut_off, cover };
+    let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
     let Subject { view_projection, size, .. } = subject;
     let mut drawing =
         draw_candidates(&surface, candidates, view_projection, *size, options, threads)?;
@@ -75,12 +98,12 @@ pub fn draw(
     drawing.warnings.extend(draws_whole.then_some(Warning::CutOutsDrawnWhole));
     drawing.warnings.extend(idle_section_warnings(subject.models, subject.sections));
     drawing.warnings.sort_unstable();
-    Ok(drawing)
+    Ok((drawing, DrawnFaces(surface)))
 }
 
 /// Draws a welded surface as one camera sees it, on an image of `size` pixels.
 ///
-/// A sheet draws the same surface from several sides; see [`draw`] for the rest.
+/// A sheet draws the same surface from several sides; see [`draw_hatched`] for the rest.
 ///
 /// # Errors
 /// As [`draw`].
@@ -89,6 +112,7 @@ pub fn draw_surface(
     view_projection: &ViewProjection,
     size: [u32; 2],
     options: &DrawOptions,
+    face_hatching: FaceHatching<'_>,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
@@ -97,17 +121,20 @@ pub fn draw_surface(
     // Other views need other intersections: all are found once, unless they are too many.
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     let is_cut_off = surface.add_intersections(&mut candidates, options, crowd, threads);
-    let candidates = Candidates { edges: candidates, is_cut_off, cover };
+    let candidates = Candidates { edges: candidates, is_cut_off, cover, face_hatching };
     draw_candidates(surface, candidates, view_projection, size, options, threads)
 }
 
-/// The edges of a surface that may be visible.
-struct Candidates {
+/// What may be visible of a surface.
+struct Candidates<'a> {
+    /// Its edges.
     edges: Vec<CandidateEdge>,
     /// Whether intersections are missing.
     is_cut_off: bool,
     /// What the surface hides of itself; `None` where hidden lines do not matter.
     cover: Option<ViewCover>,
+    /// The hatch lines of faces other than section caps.
+    face_hatching: FaceHatching<'a>,
 }
 
 /// Copies of meshes may have this many triangles together, and twice as many as the models have.
@@ -136,26 +163,23 @@ fn refuse_many_copies(models: &[ModelInstance]) -> Result<(), DrawError> {
 /// Draws the candidate edges of a surface, and its hatching, where they are visible.
 fn draw_candidates(
     surface: &WeldedSurface,
-    Candidates { mut edges, is_cut_off, cover }: Candidates,
+    Candidates { mut edges, is_cut_off, cover, face_hatching }: Candidates<'_>,
     view_projection: &ViewProjection,
     size: [u32; 2],
     options: &DrawOptions,
     threads: usize,
 ) -> Result<LineDrawing, DrawError> {
     let projector = Projector::new(view_projection, &Viewport::image(size[0], size[1])?);
-    let key_light = KeyLight::new(view_projection, projector);
     let mut warnings = surface.warnings().to_vec();
     warnings.extend(is_cut_off.then_some(Warning::IntersectionsIncomplete));
     let mut regions = outlines(surface, &projector, options);
-    for hatching in hatch_surface(surface, &key_light, &projector, options) {
+    for hatching in hatch_surface(surface, face_hatching, &projector, options) {
         regions.extend(hatching.regions);
         warnings.extend(hatching.is_cut_off.then_some(Warning::HatchingIncomplete));
         let class = EdgeClass::Hatching;
         let segments = hatching.segments.into_iter();
         edges.extend(segments.map(|(ends, object)| CandidateEdge { ends, class, object }));
     }
-    let is_traced = regions.iter().any(|region| Placement::PICTURE.traces_region(region));
-    warnings.extend(is_traced.then_some(Warning::OutlinesTraced));
     let crowd = cover.as_ref().and_then(ViewCover::crowd);
     warnings.extend(crowd.map(|_| Warning::CrowdApproximated));
     if let Some(view) = &cover {
@@ -163,16 +187,6 @@ fn draw_candidates(
         edges.retain(|edge| !view.cover.hides_segment(edge.ends));
     }
     edges.sort_by_key(|candidate| candidate.object);
-    let face_fill = match options.face_fill {
-        FaceFill::Flat | FaceFill::Gray if !surface.mesh().faces.is_empty() => {
-            let faces = surface.colored_faces().zip(&surface.mesh().faces);
-            let faces = faces.map(|((vertices, _, color), face)| {
-                (vertices, face.cap_section.is_none().then_some(color))
-            });
-            Some(rasterize_fill(faces, view_projection, size, options)?)
-        }
-        _ => None,
-    };
     let divider = EdgeDivider::new(surface, projector, options, crowd);
     let (segments, is_complete) = divider.divide_edges(&edges, threads);
     warnings.extend((!is_complete).then_some(Warning::VisibilityIncomplete));
@@ -183,7 +197,6 @@ fn draw_candidates(
         objects: surface.object_names().to_vec(),
         segments,
         regions,
-        face_fill,
         warnings,
     })
 }
@@ -208,10 +221,10 @@ fn outlines(surface: &WeldedSurface, projector: &Projector, options: &DrawOption
     caps.map(outline).collect()
 }
 
-/// The hatching of section caps, and that of all other faces if the fill asks for it.
+/// The hatching of section caps, and that of all other faces if one is asked for.
 fn hatch_surface(
     surface: &WeldedSurface,
-    key_light: &KeyLight,
+    face_hatching: FaceHatching<'_>,
     projector: &Projector,
     options: &DrawOptions,
 ) -> Vec<Hatching> {
@@ -221,19 +234,20 @@ fn hatch_surface(
     let (spacing, touching) = (options.hatch_spacing, surface.touch_tolerance().world);
     let caps = Hatching::hatch_caps(&surface.section_caps(), projector, spacing, touching);
     let mut hatchings = vec![caps];
-    let colors_count = options.face_fill == FaceFill::Hatching;
-    if colors_count || options.face_fill == FaceFill::ShadeHatching {
-        let faces = surface.colored_faces_without_caps().map(|(vertices, object, color)| {
-            let color = if colors_count { color } else { [1.0; 3] };
-            (vertices, object, key_light.face_luma(vertices, color))
-        });
-        hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
-    }
-    // Beside cuts, whose sign it is, a hatching of other faces would be misread.
-    if options.face_fill == FaceFill::PartHatching && !surface.is_cut() {
-        let faces = surface.colored_faces().map(|(vertices, object, _)| (vertices, object));
-        let boxes = surface.part_boxes();
-        hatchings.push(Hatching::hatch_parts(faces, boxes, projector, spacing, touching));
+    match face_hatching {
+        FaceHatching::ByLuma(luma) => {
+            let faces = surface
+                .colored_faces_without_caps()
+                .map(|(vertices, object, color)| (vertices, object, luma(vertices, color)));
+            hatchings.push(Hatching::hatch_faces_by_luma(faces, projector, spacing));
+        }
+        // Beside cuts, whose sign it is, a hatching of other faces would be misread.
+        FaceHatching::Parts if !surface.is_cut() => {
+            let faces = surface.colored_faces().map(|(vertices, object, _)| (vertices, object));
+            let boxes = surface.part_boxes();
+            hatchings.push(Hatching::hatch_parts(faces, boxes, projector, spacing, touching));
+        }
+        FaceHatching::Parts | FaceHatching::None => {}
     }
     hatchings
 }

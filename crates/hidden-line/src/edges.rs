@@ -26,7 +26,7 @@ mod weld;
 mod welded_surface;
 mod world_mesh;
 
-pub(super) use feature_edges::{FeatureChain, FeatureEdge};
+pub(crate) use feature_edges::{FeatureChain, FeatureEdge};
 pub use welded_surface::WeldedSurface;
-pub(super) use welded_surface::{CandidateEdge, SectionCap};
-pub(super) use world_mesh::WorldMesh;
+pub(crate) use welded_surface::{CandidateEdge, SectionCap};
+pub(crate) use world_mesh::WorldMesh;

@@ -3,7 +3,7 @@
 //! ```text
 //!  triangles ─► clip space ─► clip ─► divide, snap ─► Frame ─► visibility buffer of ids
 //! ```
-//! Flat fills color the ids, and the verification of drawings asks which face is in front. Each
+//! The check of drawings asks which face is in front, and fills of faces color the ids. Each
 //! sample is at a pixel center; faces are opaque and seen from both sides.
 
 use super::projector::Projector;
@@ -20,7 +20,7 @@ use raster::{Frame, Opacity, Samples, ScreenVertex};
 ///
 /// # Errors
 /// If the image is too large, or there are more triangles than ids.
-pub(super) fn rasterize_faces(
+pub fn rasterize_faces(
     triangles: impl Iterator<Item = [DVec3; 3]>,
     projector: &Projector,
     [width, height]: [u32; 2],

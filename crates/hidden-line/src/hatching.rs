@@ -12,15 +12,15 @@
 //! it is an edge like any other: clipped, projected, and divided by hidden-line removal.
 //!
 //! Section caps are hatched at 45°. Each part has a direction or a spacing of its own, the same
-//! wherever it is cut, so that neighbors differ; whole parts under a
-//! [`FaceFill::PartHatching`](crate::FaceFill) have such patterns too. Faces under a
-//! [`FaceFill::Hatching`](crate::FaceFill) are hatched by luma: the darker, the denser.
+//! wherever it is cut, so that neighbors differ; whole parts under [`FaceHatching::Parts`] have such
+//! patterns too. Faces under [`FaceHatching::ByLuma`] are hatched by luma: the darker, the denser.
 
 use super::edges::SectionCap;
-use super::hidden_line::Aabb;
 use super::projector::Projector;
 use super::region::{Region, RegionHatching, region_edges};
+use super::visibility::Aabb;
 use clip::{Volume, clip_triangle};
+use core::fmt;
 use glam::{DVec2, DVec3, DVec4};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -37,6 +37,30 @@ const HALF_SQRT_3: f64 = 0.866_025_403_784_438_6;
 /// Parts whose hatchings are compared with those of their neighbors: comparisons grow by the
 /// square.
 const MAX_COMPARED_PARTS: usize = 1 << 13;
+
+/// The hatch lines on faces, beside those on section caps.
+#[derive(Clone, Copy, Default)]
+pub enum FaceHatching<'a> {
+    /// No hatch lines.
+    #[default]
+    None,
+    /// Hatch lines on all faces of an object, at an angle and a spacing that its neighbors do not
+    /// have. Where section planes cut, only their cuts are hatched.
+    Parts,
+    /// Hatch lines by the luma of each face, 0 for black to 1 for white, the denser the darker it is.
+    /// The function takes the corners of a face in the world, and the linear color of its material.
+    ByLuma(&'a dyn Fn([DVec3; 3], [f32; 3]) -> f64),
+}
+
+impl fmt::Debug for FaceHatching<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::None => "None",
+            Self::Parts => "Parts",
+            Self::ByLuma(_) => "ByLuma",
+        })
+    }
+}
 
 /// A family of parallel lines on the screen.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -7,7 +7,6 @@
 
 use super::{Region, Warning};
 use glam::DVec2;
-use picture::Picture;
 
 /// The reason why an edge is drawn; the first that applies, in order of importance.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -32,6 +31,39 @@ pub enum EdgeClass {
     Hatching,
     /// Any other side of a triangle; drawn by wireframes only.
     Facet,
+}
+
+impl EdgeClass {
+    /// All classes, the most important first.
+    pub const ALL: [Self; 10] = [
+        Self::Silhouette,
+        Self::Boundary,
+        Self::Crease,
+        Self::Intersection,
+        Self::Section,
+        Self::Marked,
+        Self::Tangent,
+        Self::Line,
+        Self::Hatching,
+        Self::Facet,
+    ];
+
+    /// The name of the class, in lower case.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Silhouette => "silhouette",
+            Self::Boundary => "boundary",
+            Self::Crease => "crease",
+            Self::Intersection => "intersection",
+            Self::Section => "section",
+            Self::Marked => "marked",
+            Self::Tangent => "tangent",
+            Self::Line => "line",
+            Self::Hatching => "hatching",
+            Self::Facet => "facet",
+        }
+    }
 }
 
 /// A segment of an edge that is visible, or hidden, from end to end.
@@ -62,9 +94,6 @@ pub struct LineDrawing {
     pub segments: Vec<EdgeSegment>,
     /// The cut faces with their hatch lines, and the outlines if the options ask for them.
     pub regions: Vec<Region>,
-    /// The flat or gray fill under the lines, if the options ask for one and there are faces: an
-    /// image that fills the drawing. Of a gray fill its pixels are levels of gray, not colors.
-    pub face_fill: Option<Picture>,
     /// Warnings of the drawing, each once.
     pub warnings: Vec<Warning>,
 }
@@ -72,8 +101,6 @@ pub struct LineDrawing {
 impl LineDrawing {
     /// Whether there is nothing to see.
     pub fn is_empty(&self) -> bool {
-        let is_clear = |fill: &Picture| fill.pixels.iter().all(|pixel| pixel[3] == 0);
-        let has_fill = self.face_fill.as_ref().is_some_and(|fill| !is_clear(fill));
-        self.segments.is_empty() && self.regions.is_empty() && !has_fill
+        self.segments.is_empty() && self.regions.is_empty()
     }
 }

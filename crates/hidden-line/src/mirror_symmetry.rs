@@ -8,7 +8,7 @@
 use crate::circles::CIRCLE_TOLERANCE;
 use crate::edges::{FeatureEdge, WeldedSurface};
 use crate::feature_picker::{nearest_point_of_segment, nearest_point_of_triangle};
-use crate::hidden_line::{Aabb, Bvh, TriangleMesh};
+use crate::visibility::{Aabb, Bvh, TriangleMesh};
 use glam::DVec3;
 use homog::{Point, Vector, World};
 

@@ -1,14 +1,15 @@
 //! Options of hidden-line removal: the edge classes, the hidden parts and the faces that go into a
 //! drawing.
 //!
-//! They say what is computed. Pens, widths and the selection of layers are a
-//! [`LineStyle`](crate::LineStyle), which yields fitting options by
-//! [`LineStyle::to_draw_options`](crate::LineStyle::to_draw_options).
+//! They say what is computed, and nothing of pens, widths and colors.
 
-use super::{EdgeClass, FaceFill};
-use page::MILLIMETERS_PER_PIXEL;
+use super::EdgeClass;
+use viewport::MILLIMETERS_PER_INCH;
 
-/// The content of a line drawing; its appearance is a [`LineStyle`](crate::LineStyle).
+/// Pixels of a drawing to the inch, where nothing else is said: as in CSS.
+const PIXELS_PER_INCH: f64 = 96.0;
+
+/// The content of a line drawing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct DrawOptions {
     /// The edge classes that are drawn.
@@ -38,10 +39,6 @@ pub struct DrawOptions {
     /// Whether faces with parts that their textures cut out, such as leaves on rectangles, neither
     /// have edges nor hide any. Default: false.
     pub leaves_out_cut_outs: bool,
-    /// The fill of faces under the lines. Default: none.
-    pub face_fill: FaceFill,
-    /// Pixels of the fill image for each pixel of the drawing. Default: 3.
-    pub fill_scale: f64,
     /// About the greatest number of comparisons of edges with faces, and with boxes around faces:
     /// where it is reached, parts of edges that would be hidden are visible, and the drawing has
     /// the warning [`VisibilityIncomplete`](crate::Warning::VisibilityIncomplete). Each edge may
@@ -100,11 +97,9 @@ impl DrawOptions {
             asks_normals: true,
             silhouettes: SilhouetteMethod::Facets,
             outline_only: false,
-            hatch_spacing: 2.0 / MILLIMETERS_PER_PIXEL,
+            hatch_spacing: 2.0 / (MILLIMETERS_PER_INCH / PIXELS_PER_INCH),
             outlines: false,
             leaves_out_cut_outs: false,
-            face_fill: FaceFill::None,
-            fill_scale: 3.0,
             max_comparisons: 1 << 32,
             is_unlimited: false,
         }
@@ -147,7 +142,7 @@ impl DrawOptions {
 /// A set of edge classes, one bit for each.
 ///
 /// ```
-/// use drawing::{EdgeClass, EdgeClasses};
+/// use hidden_line::{EdgeClass, EdgeClasses};
 ///
 /// let outlines = EdgeClasses::NONE.with(EdgeClass::Silhouette).with(EdgeClass::Boundary);
 /// assert!(outlines.contains(EdgeClass::Boundary) && !outlines.contains(EdgeClass::Crease));

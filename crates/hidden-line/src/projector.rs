@@ -44,7 +44,9 @@ impl Projector {
     }
 
     /// The vector from a point to the eye; of length 1 in a parallel view.
-    pub(super) fn towards_viewer(&self, from: DVec3) -> DVec3 {
+    #[must_use]
+    #[inline]
+    pub fn towards_viewer(&self, from: DVec3) -> DVec3 {
         self.0.vector_to_viewer(Point::from_raw(from)).raw()
     }
 

@@ -25,12 +25,16 @@ pub struct Subject<'a> {
 
 impl Subject<'_> {
     /// The viewport of the whole image.
-    pub(crate) fn viewport(&self) -> Result<Viewport, ViewportError> {
+    ///
+    /// # Errors
+    /// If the image has no pixels, or too many.
+    pub fn viewport(&self) -> Result<Viewport, ViewportError> {
         Viewport::image(self.size[0], self.size[1])
     }
 
     /// The part of the image's height, from the top, that shows the view.
-    pub(crate) fn view_height(&self) -> f64 {
+    #[must_use]
+    pub fn view_height(&self) -> f64 {
         1.0 - f64::from(self.caption_height) / f64::from(self.size[1].max(1))
     }
 }

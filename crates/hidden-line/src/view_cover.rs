@@ -1,9 +1,9 @@
 //! What a view hides of itself as a whole, found before any two things are compared.
 
 use super::edges::WeldedSurface;
-use super::hidden_line::{DepthCover, TriangleMesh};
 use super::options::{DrawOptions, HiddenEdges};
 use super::projector::Projector;
+use super::visibility::{DepthCover, TriangleMesh};
 use glam::DVec3;
 
 /// The depths behind which nothing is visible in a view.

@@ -44,10 +44,10 @@ mod projected_edge;
 mod screen_bvh;
 
 pub use bvh::Aabb;
-pub(super) use bvh::Bvh;
-pub(super) use depth_cover::{DepthCover, ScreenBox};
+pub(crate) use bvh::Bvh;
+pub(crate) use depth_cover::{DepthCover, ScreenBox};
 pub use occluders::{EdgeParts, Occluders, Tolerance};
-pub(super) use occluders::{MeshOccluders, OcclusionScratch, mesh_bvh};
-pub(super) use occlusion_intervals::OcclusionIntervals;
-pub(super) use projected_edge::ProjectedEdge;
-pub(super) use screen_bvh::TriangleMesh;
+pub(crate) use occluders::{MeshOccluders, OcclusionScratch, mesh_bvh};
+pub(crate) use occlusion_intervals::OcclusionIntervals;
+pub(crate) use projected_edge::ProjectedEdge;
+pub(crate) use screen_bvh::TriangleMesh;

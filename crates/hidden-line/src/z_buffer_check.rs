@@ -10,7 +10,7 @@
 //!   z-buffer  ▓▓▓▓░░░░░░░░░░░░▒▒▒▒    ids of the nearest faces, at 4 × the resolution
 //! ```
 
-use super::LineDrawing;
+use super::EdgeSegment;
 use super::edges::WeldedSurface;
 use super::face_raster::rasterize_faces;
 use super::projector::Projector;
@@ -51,7 +51,8 @@ impl Agreement {
     }
 }
 
-/// Compares a drawing with the z-buffer image of its scene, at points half a pixel apart.
+/// Compares the segments of a drawing with the z-buffer image of its scene, at points half a pixel
+/// apart.
 ///
 /// Each point is unprojected with its depth and compared with the planes of the faces that the
 /// image shows within half a pixel. A visible point is denied if all of them are in front of it; a
@@ -62,11 +63,11 @@ impl Agreement {
 /// If the image has no pixels or is larger than a z-buffer may be.
 pub fn verify_with_z_buffer(
     subject: &Subject<'_>,
-    drawing: &LineDrawing,
+    segments: &[EdgeSegment],
 ) -> Result<Agreement, DrawError> {
     let image = ZBufferImage::rasterize_subject(subject)?;
     let mut agreement = Agreement::default();
-    for (index, segment) in drawing.segments.iter().enumerate() {
+    for (index, segment) in segments.iter().enumerate() {
         let [a, b] = segment.ends;
         let length = (b - a).length();
         let count = (length / SEARCH_RADIUS).ceil().max(1.0);

@@ -47,6 +47,7 @@ pub mod sequence;
 pub use cancel::CancelToken;
 pub use drawing;
 pub use files::{AtomicFile, OutputError, write_file};
+pub use hidden_line;
 pub use homog::PixelRect;
 pub use import;
 pub use model;
@@ -77,7 +78,7 @@ mod tests {
         assert_send_sync::<(picture::Picture, model::Timings, crate::CancelToken)>();
         assert_send_sync::<(crate::Renderer, crate::sequence::Sequence)>();
         assert_send_sync::<crate::explain::Explanation>();
-        assert_send_sync::<(drawing::Page, drawing::LineDrawing, sheet::Sheet)>();
+        assert_send_sync::<(drawing::Page, drawing::Drawing, sheet::Sheet)>();
         assert_send_sync::<(crate::SceneError, crate::ResolveError, crate::RenderError)>();
         assert_send_sync::<(files::OutputError, import::ImportError)>();
         assert_send_sync::<import::ImportOptions>();

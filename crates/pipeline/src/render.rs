@@ -114,7 +114,7 @@ pub enum RenderError {
     Viewport(#[from] viewport::ViewportError),
     /// The lines of the scene cannot be drawn.
     #[error(transparent)]
-    Draw(#[from] drawing::DrawError),
+    Draw(#[from] hidden_line::DrawError),
     /// The rendering was cancelled by a [`CancelToken`](crate::CancelToken).
     #[error("the picture was cancelled")]
     Cancelled,

@@ -201,8 +201,8 @@ impl Scene {
 
     /// The input of a line drawing of the scene.
     #[must_use]
-    pub fn drawing_subject(&self) -> drawing::Subject<'_> {
-        drawing::Subject {
+    pub fn drawing_subject(&self) -> hidden_line::Subject<'_> {
+        hidden_line::Subject {
             models: &self.models,
             view_projection: self.view_projection,
             size: [self.image.width, self.image.height],

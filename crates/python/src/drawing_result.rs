@@ -8,7 +8,8 @@ use crate::native_camera::NativeCamera;
 use crate::rendering::thread_count;
 use crate::scene_options::apply_options;
 use crate::subject::Subject;
-use pipeline::drawing::{self, EdgeClass, Page};
+use drawing::Page;
+use hidden_line::EdgeClass;
 use pipeline::{Scene, Timings, draw_lines, dxf_options};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -89,9 +90,10 @@ impl NativeDrawing {
     /// Names of the objects, and the segments: ends (N, 2, 2) in pixels with y down, visibility
     /// (N,), the class of each by its name, the object (N,), the edge (N,).
     fn lines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let options = self.scene.style.line_style().to_draw_options();
+        let style = self.scene.style.line_style();
+        let (options, fill) = (style.to_draw_options(), style.to_fill_options());
         let drawing = run_detached(py, |_| -> Fallible<_> {
-            Ok(drawing::draw(&self.scene.drawing_subject(), &options, self.threads)?)
+            Ok(drawing::draw(&self.scene.drawing_subject(), &options, &fill, self.threads)?)
         })?;
         let segments = &drawing.segments;
         let count = segments.len();

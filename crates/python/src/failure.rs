@@ -6,9 +6,9 @@
 //!  panics ───────────────┘
 //! ```
 
+use hidden_line::DrawError;
 use import::ImportError;
 use model::codes;
-use pipeline::drawing::DrawError;
 use pipeline::{RenderError, ResolveError, SceneError};
 use pyo3::prelude::*;
 

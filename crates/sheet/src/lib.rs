@@ -2,7 +2,7 @@
 //! with their parts lists.
 //!
 //! ```text
-//!   models ─► views ─► layout on the paper ─► dimensions, marks ─► pages of `drawing`
+//!   models ─► views ─► layout on the paper ─► dimensions, marks ─► pages
 //! ```
 //!
 //!  module | technique |

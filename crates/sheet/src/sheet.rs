@@ -67,11 +67,12 @@ use annotation::{AnnotationLayer, Extent};
 use camera::NamedView;
 use composition::ComposedDrawing;
 use drawing::{
-    DimensionFault, DrawError, FaceFill, HiddenLines, LineStyle, LineWidths, Overlay, Page,
-    Placement, Warning, missing_glyph_warning,
+    DimensionFault, FaceFill, HiddenLines, LineStyle, LineWidths, Overlay, Page, Placement,
+    Warning, missing_glyph_warning,
 };
 pub use frame_zones::SheetFrame;
 use glam::DVec2;
+use hidden_line::DrawError;
 use homog::{Plane, World};
 use length_format::LengthFormat;
 pub use length_format::{DecimalMark, DimensionUnit, NumberFormat};

@@ -29,7 +29,7 @@ const NAMED_BY: &[(&str, &[&str])] = &[
 /// nothing is said. The arrows of the code map.
 ///
 /// No stage depends on another one, `model` knows no scene, and `shade`, `drawing` and `sheet` do not
-/// know the pipeline that uses them.
+/// know the pipeline that uses them. `hidden-line` knows neither pictures nor pages.
 pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("homog", None),
     ("camera", Some(&["homog"])),
@@ -46,6 +46,20 @@ pub const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("gltf-import", Some(&["homog", "files", "model"])),
     ("import", Some(&["homog", "files", "model", "gltf-import"])),
     ("gltf-check", Some(&["model", "gltf-import", "import"])),
+    (
+        "hidden-line",
+        Some(&[
+            "homog",
+            "camera",
+            "projection",
+            "clip",
+            "viewport",
+            "raster",
+            "arcs",
+            "files",
+            "model",
+        ]),
+    ),
     ("shade", Some(&["homog", "camera", "raster", "picture", "model"])),
     ("drawing", None),
     ("sheet", None),
@@ -62,8 +76,11 @@ const STAGE_DEPENDENCIES: &[&str] = &["glam", "libm", "thiserror"];
 const EXTRA_DEPENDENCIES: &[(&str, &str)] = &[("raster", "fearless_simd")];
 
 /// Packages that a crate must not be built with, however indirectly: users of the library do not
-/// compile those of the program.
-const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[("pipeline", &["clap", "gif", "terminal_size"])];
+/// compile those of the program, and a program of lines compiles no decoder of pictures.
+const NEVER_BUILT_WITH: &[(&str, &[&str])] = &[
+    ("hidden-line", &["png", "zune-jpeg", "draco-core", "gltf", "tiny-skia", "pdf-writer"]),
+    ("pipeline", &["clap", "gif", "terminal_size"]),
+];
 
 /// The stages that promise to work without the standard library.
 pub const NO_STD: &[&str] = &["homog", "camera", "projection", "recognition", "clip", "viewport"];

@@ -10,9 +10,10 @@
 //! Labels are over the models, also where these hide the point.
 
 use super::{LETTER_HEIGHT, LINE_WIDTH, PicturePlane, overlay_layer};
-use crate::{Overlay, Subject, Warning};
+use crate::{Overlay, Warning};
 use camera::ViewProjection;
 use glam::{DVec2, DVec3};
+use hidden_line::Subject;
 use homog::{Point, World};
 use page::{
     Group, Ink, Label, Layer, MILLIMETERS_PER_PIXEL, Pen, Polyline, TextAlign, missing_glyphs,

@@ -1,7 +1,7 @@
 //! Warnings of assemblies: what their pages leave out.
 
-use super::visible_text;
 use core::fmt;
+use files::visible_excerpt;
 
 /// Something that the pages of an assembly leave out, with the reason in its `Display` text.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -58,14 +58,14 @@ impl fmt::Display for AssemblyWarning {
             Self::MassUnknown { part } => write!(
                 f,
                 "the mass of `{}` is not known: its mesh is not closed, so it has no volume",
-                visible_text(part)
+                visible_excerpt(part)
             ),
             Self::NamesUnreadable { name, count } => write!(
                 f,
                 "the letters of drawings lack characters of {count} {} in the parts list, \
                  such as \"{}\": boxes are in their place",
                 if *count == 1 { "name" } else { "names" },
-                visible_text(name)
+                visible_excerpt(name)
             ),
             Self::NotVisible { number, part, count } => write!(
                 f,
@@ -73,7 +73,7 @@ impl fmt::Display for AssemblyWarning {
                  view of the assembly, because other parts hide it or it has no size; \
                  an exploded view, or another axonometric view, may show what is hidden",
                 if *count == 1 { "item has" } else { "items have" },
-                visible_text(part)
+                visible_excerpt(part)
             ),
             Self::BalloonsLeftOut { number, count } => write!(
                 f,

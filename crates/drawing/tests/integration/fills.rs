@@ -1,8 +1,9 @@
 //! Fills of faces: grays of materials, and hatchings of shade and of parts.
 
 use super::stage::*;
-use drawing::EdgeClass::Hatching;
-use drawing::{DrawOptions, FaceFill, LineDrawing, LineStyle, Page, draw};
+use drawing::{Drawing, FaceFill, FillOptions, LineStyle, Page, draw};
+use hidden_line::DrawOptions;
+use hidden_line::EdgeClass::Hatching;
 use homog::{Normal, Plane, Point};
 use model::{Material, Model, Primitive};
 use page::{MILLIMETERS_PER_PIXEL, Polyline, to_millimeters};
@@ -21,9 +22,9 @@ fn colored_model(parts: Vec<(Primitive, [f32; 3])>) -> Model {
     Model { materials, ..build_model(primitives) }
 }
 
-fn filled(scene: &TestScene, face_fill: FaceFill) -> LineDrawing {
+fn filled(scene: &TestScene, face_fill: FaceFill) -> Drawing {
     let style = LineStyle { face_fill, hatch_spacing: 1.5, ..LineStyle::HIDDEN_REMOVED };
-    draw(&scene.drawing_subject(), &style.to_draw_options(), 1).unwrap()
+    draw(&scene.drawing_subject(), &style.to_draw_options(), &style.to_fill_options(), 1).unwrap()
 }
 
 fn page(scene: &TestScene, face_fill: FaceFill) -> Page {
@@ -79,7 +80,7 @@ fn shade_is_hatched_whatever_the_color() {
     let hatched = |color: [f32; 3], fill: FaceFill| {
         let model = colored_model(vec![(cuboid_mesh([-1.0; 3], [1.0; 3]), color)]);
         let drawing = filled(&drawing_scene(model, oblique_view()), fill);
-        segments_where(&drawing, is_visible_class(Hatching)).len()
+        drawing.segments.iter().filter(|line| is_visible_class(Hatching)(line)).count()
     };
     let [white, black] = [[1.0; 3], [0.0; 3]].map(|color| hatched(color, FaceFill::ShadeHatching));
     assert!(white > 10 && white == black, "{white} {black}");
@@ -87,7 +88,7 @@ fn shade_is_hatched_whatever_the_color() {
 }
 
 /// The directions of the hatch lines of each object, in degrees, and how many they are.
-fn hatch_lines(drawing: &LineDrawing) -> BTreeMap<u32, (i64, usize)> {
+fn hatch_lines(drawing: &Drawing) -> BTreeMap<u32, (i64, usize)> {
     let mut lines = BTreeMap::new();
     for line in drawing.segments.iter().filter(|line| line.class == Hatching) {
         let step = line.ends[1] - line.ends[0];
@@ -111,7 +112,9 @@ fn neighbors_are_hatched_differently() {
     assert!(lines[&2].1 > lines[&0].1, "{lines:?}");
     // Beside cuts nothing else is hatched.
     scene.sections = vec![Plane::through(Point::new(0.0, 0.0, 0.0), Normal::new(0.0, 0.0, -1.0))];
-    let options = |face_fill| DrawOptions { face_fill, ..DrawOptions::default() };
-    let of = |fill| draw(&scene.drawing_subject(), &options(fill), 1).unwrap().segments;
+    let options = DrawOptions::default();
+    let of = |fill| {
+        draw(&scene.drawing_subject(), &options, &FillOptions::new(fill), 1).unwrap().segments
+    };
     assert_eq!(of(FaceFill::PartHatching), of(FaceFill::None));
 }

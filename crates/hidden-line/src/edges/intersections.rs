@@ -15,8 +15,8 @@
 
 use super::seams::{BorderEdge, WeldRadii};
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::{Aabb, Bvh, DepthCover, ScreenBox};
 use crate::parallel::map_in_order;
+use crate::visibility::{Aabb, Bvh, DepthCover, ScreenBox};
 use glam::DVec3;
 use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering};

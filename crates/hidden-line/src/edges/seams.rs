@@ -12,7 +12,7 @@
 use super::half_edges::{HalfEdge, HalfEdges};
 use super::weld::remap_vertices;
 use super::world_mesh::{Face, WorldMesh};
-use crate::hidden_line::{Aabb, Bvh};
+use crate::visibility::{Aabb, Bvh};
 use glam::DVec3;
 
 /// The weld radius in diagonals of an object: 1/4096, the step of positions quantized to 12 bits.

@@ -17,8 +17,8 @@ use super::seams::{BorderEdge, WeldRadii, border_edges, split_at_t_junctions, we
 use super::section_cut::cut_mesh;
 use super::weld::weld_equal_vertices;
 use super::world_mesh::{Dot, Face, WorldMesh};
-use crate::hidden_line::{Aabb, Bvh, DepthCover, Tolerance, TriangleMesh, mesh_bvh};
 use crate::projector::Projector;
+use crate::visibility::{Aabb, Bvh, DepthCover, Tolerance, TriangleMesh, mesh_bvh};
 use crate::{DrawOptions, EdgeClass, EdgeClasses, SilhouetteMethod, Warning};
 use glam::DVec3;
 use homog::{Plane, Point, World};
@@ -189,7 +189,7 @@ impl WeldedSurface {
     }
 
     /// The tolerances of hidden-line removal for the size of this scene.
-    pub(crate) fn touch_tolerance(&self) -> Tolerance {
+    pub fn touch_tolerance(&self) -> Tolerance {
         Tolerance::for_scene(self.diagonal)
     }
 
@@ -233,6 +233,14 @@ impl WeldedSurface {
             let color = mesh.colors.get(face.material as usize).copied();
             let vertices = face.vertices.map(|vertex| mesh.points[vertex as usize]);
             (vertices, face.object, color.unwrap_or([1.0; 3]))
+        })
+    }
+
+    /// Each face with the linear color of its material; `None` for section caps.
+    pub fn faces_with_colors(&self) -> impl Iterator<Item = ([DVec3; 3], Option<[f32; 3]>)> {
+        let faces = self.colored_faces().zip(&self.mesh.faces);
+        faces.map(|((vertices, _, color), face)| {
+            (vertices, face.cap_section.is_none().then_some(color))
         })
     }
 

@@ -15,10 +15,10 @@
 //! together, sampled at the centers of cells as a z-buffer samples them: a gap of some pixels counts
 //! as closed, and the work is bounded by what can be seen.
 
-use super::super::projector::Projector;
 use super::depth_level::{DepthPlane, Level};
 use super::occluders::Tolerance;
 use super::projected_edge::ProjectedEdge;
+use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
 /// Cells along the longer side of the screen.

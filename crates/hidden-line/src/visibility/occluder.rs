@@ -15,8 +15,8 @@
 //! [`Occluder::overlap`] finds where both overlap on the screen, and
 //! [`OccluderInWorld::interval_behind`] the part of it in which the edge is behind.
 
-use super::super::projector::Projector;
 use super::{ProjectedEdge, Tolerance};
+use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
 /// A face on the screen, or a triangle of what clipping to the view volume left of it.

@@ -6,13 +6,13 @@
 //! whose part of the edge is hidden already. With n faces and evenly spread edges a query visits
 //! O(log n + k) of them, k being those it crosses on the screen.
 
-use super::super::projector::Projector;
 use super::bvh::{Aabb, Bvh};
 use super::crack_intervals::{CrackIntervals, SideIntervals};
 use super::occluder::{Occluder, OccluderInWorld, Occlusion, SideInterval, SideOverlap};
 use super::occlusion_intervals::OcclusionIntervals;
 use super::projected_edge::ProjectedEdge;
 use super::screen_bvh::{LeafTriangle, ScreenBvh, ScreenEdge, TriangleMesh};
+use crate::projector::Projector;
 use glam::DVec3;
 use homog::{Point, World};
 
@@ -63,7 +63,7 @@ pub struct EdgeParts {
 /// boxes.
 ///
 /// ```
-/// use drawing::{Occluders, Projector, Tolerance};
+/// use hidden_line::{Occluders, Projector, Tolerance};
 /// use camera::{Camera, ViewProjection};
 /// use homog::{Point, Vector};
 /// use projection::{Convention, Orthographic};

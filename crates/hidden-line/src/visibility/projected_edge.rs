@@ -12,7 +12,7 @@
 //!
 //! In a parallel projection r = q and both fractions are equal.
 
-use super::super::projector::Projector;
+use crate::projector::Projector;
 use glam::{DVec2, DVec3};
 
 /// An edge within the view volume, with the map between screen and world fractions.

@@ -14,10 +14,10 @@
 //! leaf that an edge meets are beside the edge or behind it: their boxes say so in the order of
 //! memory, and their vertices are not looked for.
 
-use super::super::projector::Projector;
 use super::bounds::{greatest, least, round_down, round_up};
 use super::bvh::{Bvh, NodeContents};
 use super::projected_edge::ProjectedEdge;
+use crate::projector::Projector;
 use clip::{ClipVertex, Outcode, Volume, clip_triangle};
 use glam::{DVec2, DVec3};
 

@@ -1,7 +1,7 @@
 //! Edge classification: silhouettes, boundaries, creases, T-junctions and marked edges.
 
 use super::stage::*;
-use drawing::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, draw};
+use hidden_line::{DrawOptions, EdgeClass, EdgeClasses, HiddenEdges, draw};
 use model::{EdgeList, EdgeVisibility, Primitive, PrimitiveEdges};
 
 /// The classes of all edges, facets too, in order.

@@ -7,7 +7,6 @@
 #![allow(unreachable_pub, reason = "the modules of a program have no other outside")]
 
 mod edges;
-mod fills;
 mod nearly_touching;
 mod sections;
 mod smoothness;

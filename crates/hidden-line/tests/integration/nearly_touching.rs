@@ -12,7 +12,7 @@
 
 use super::stage::*;
 use camera::{Basis, Slopes, ViewProjection, frame_oblique, frame_perspective};
-use drawing::{Agreement, DrawOptions, LineDrawing, draw, verify_with_z_buffer};
+use hidden_line::{Agreement, DrawOptions, LineDrawing, draw, verify_with_z_buffer};
 use homog::{Affine, Vector, View, World};
 use model::{ModelInstance, Primitive};
 use projection::{Convention, Frustum, Orthographic};
@@ -181,7 +181,7 @@ fn measure(number: u64) -> (LineDrawing, Agreement) {
     let scene = nearly_touching_scene(number);
     let subject = scene.drawing_subject();
     let drawing = draw(&subject, &DrawOptions::hidden_edges_removed(), 1).unwrap();
-    let agreement = verify_with_z_buffer(&subject, &drawing).unwrap();
+    let agreement = verify_with_z_buffer(&subject, &drawing.segments).unwrap();
     (drawing, agreement)
 }
 

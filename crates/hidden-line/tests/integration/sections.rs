@@ -1,9 +1,11 @@
 //! Section cuts through boxes, tubes and open surfaces, and the hatching of their caps.
 
 use super::stage::*;
-use drawing::EdgeClass::{Hatching, Section};
-use drawing::{DrawOptions, FaceFill, LineDrawing, Warning, draw, verify_with_z_buffer};
 use glam::DVec2;
+use hidden_line::EdgeClass::{Hatching, Section};
+use hidden_line::{
+    DrawOptions, FaceHatching, LineDrawing, Warning, draw, draw_hatched, verify_with_z_buffer,
+};
 use homog::{Normal, Plane, Point, World};
 use model::{Model, Primitive};
 use std::collections::BTreeMap;
@@ -98,7 +100,7 @@ fn a_cap_hides_what_is_behind_it() {
     let solids =
         vec![cuboid_mesh([-1.0; 3], [1.0; 3]), cuboid_mesh([-0.9, -0.3, -0.3], [-0.1, 0.3, 0.3])];
     let drawing = draw_scene_lines(&cut_scene(build_model(solids), &[plane_x(0.0)]));
-    let inner = |line: &drawing::EdgeSegment| line.object == 1;
+    let inner = |line: &hidden_line::EdgeSegment| line.object == 1;
     assert!(drawing.segments.iter().filter(|line| inner(line)).count() >= 12);
     assert_eq!(segments_where(&drawing, |line| inner(line) && line.visible).len(), 0);
 }
@@ -205,16 +207,16 @@ fn cut_drawings_agree_with_their_z_buffer_images() {
         let mut scene = cut_scene(build_model(solids), &[tilted]);
         let camera = camera::Camera::look_at(eye.into(), Point::ORIGIN, homog::Vector::Y).unwrap();
         scene.view_projection = camera::ViewProjection { camera, view_to_clip };
-        for tone in [FaceFill::None, FaceFill::Hatching, FaceFill::PartHatching] {
-            let options = DrawOptions {
-                face_fill: tone,
-                hatch_spacing: 8.0,
-                ..DrawOptions::hidden_edges_retained()
-            };
-            let drawing = draw(&scene.drawing_subject(), &options, 1).unwrap();
+        let gray = |_, _| 0.5;
+        for hatching in [FaceHatching::None, FaceHatching::ByLuma(&gray), FaceHatching::Parts] {
+            let options =
+                DrawOptions { hatch_spacing: 8.0, ..DrawOptions::hidden_edges_retained() };
+            let (drawing, _) =
+                draw_hatched(&scene.drawing_subject(), &options, hatching, 1).unwrap();
             assert_closed_outlines(&drawing);
             assert!(drawing.segments.iter().any(|line| line.class == Hatching && line.visible));
-            let agreement = verify_with_z_buffer(&scene.drawing_subject(), &drawing).unwrap();
+            let agreement =
+                verify_with_z_buffer(&scene.drawing_subject(), &drawing.segments).unwrap();
             assert!(agreement.visible_length > 1000.0);
             assert!(
                 agreement.disagreement_ratio() < 0.002,

@@ -1,8 +1,8 @@
 //! Hidden-line removal on solids in front of, inside and through each other.
 
 use super::stage::*;
-use drawing::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
-use drawing::{DrawOptions, HiddenEdges, draw};
+use hidden_line::EdgeClass::{Boundary, Crease, Intersection, Line, Silhouette};
+use hidden_line::{DrawOptions, HiddenEdges, draw};
 
 /// The outline of the cube [−1, 1]³ in the oblique picture, and the three edges within it.
 const OUTLINE: [Segment; 6] = [

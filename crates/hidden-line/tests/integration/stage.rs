@@ -2,7 +2,7 @@
 
 use camera::Camera;
 use camera::ViewProjection;
-use drawing::{DrawOptions, EdgeClass, EdgeSegment, LineDrawing, Subject, draw};
+use hidden_line::{DrawOptions, EdgeClass, EdgeSegment, LineDrawing, Subject, draw};
 use homog::{Affine, Clip, Plane, Point, Projective, Vector, View, World};
 use model::ModelInstance;
 use model::{Mesh, Model, Node, Primitive, Topology};

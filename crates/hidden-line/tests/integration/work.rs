@@ -1,7 +1,7 @@
 //! The bounds on the work of hidden-line removal, and crowds of faces.
 
 use super::stage::*;
-use drawing::{DrawOptions, LineDrawing, Warning, draw};
+use hidden_line::{DrawOptions, LineDrawing, Warning, draw};
 use homog::Affine;
 use model::{Model, ModelInstance};
 use std::sync::Arc;

@@ -4,7 +4,7 @@
 //! ```text
 //!  models ─► welded edges ─► exact visibility ─► chains ─► Page: layers of strokes, warnings
 //! ```
-//! The engine is the crate `drawing`; this module gives it the scene, and adds what belongs to the
+//! The engines are the crates `hidden_line` and `drawing`; this module gives it the scene, and adds what belongs to the
 //! picture: paper, backdrop, overlays, insets, caption. Shaded styles with outlines (toon) and the
 //! overlay of edges take the layers of such a drawing and put them over the surfaces.
 
@@ -12,8 +12,9 @@ use super::RenderError;
 use super::captions::{caption_layer, paper_color, strip_rect, text_warnings};
 use crate::Picture;
 use crate::scene::{ImageSpec, Inset, Scene, Style};
-use drawing::{DrawError, DrawOptions, LineStyle, LineWidths, Overlay, Page, Warning};
+use drawing::{LineStyle, LineWidths, Overlay, Page, Warning};
 use glam::DVec2;
+use hidden_line::{DrawError, DrawOptions};
 use homog::PixelRect;
 use model::Timings;
 use page::{
@@ -65,8 +66,9 @@ pub(super) fn draw_view(
 ) -> Result<Page, RenderError> {
     let style = scene.style.line_style();
     let options = DrawOptions { is_unlimited: scene.unlimited_lines, ..style.to_draw_options() };
-    let drawing =
-        timings.measure("lines", || drawing::draw(&scene.drawing_subject(), &options, threads))?;
+    let fill = style.to_fill_options();
+    let draw = || drawing::draw(&scene.drawing_subject(), &options, &fill, threads);
+    let drawing = timings.measure("lines", draw)?;
     let page = || {
         let mut page =
             drawing.to_page(&style, &scene.model_names(), paper_color(scene.image.background));
@@ -177,7 +179,7 @@ pub(super) fn surface_line_layers(
         is_unlimited: scene.unlimited_lines,
         ..style.to_draw_options()
     };
-    match drawing::draw(&scene.drawing_subject(), &options, threads) {
+    match drawing::draw(&scene.drawing_subject(), &options, &style.to_fill_options(), threads) {
         Ok(drawing) => Ok((drawing.to_page(&style, "", None).layers, None)),
         // The surfaces are there without them.
         Err(DrawError::TooManyCopies { .. }) => Ok((Vec::new(), Some(Warning::OutlinesLeftOut))),

@@ -16,7 +16,7 @@ use super::{Origin, SceneError};
 use angle::angle_points;
 use camera::NamedView;
 use core::f64::consts::TAU;
-use drawing::WorldCircle;
+use hidden_line::WorldCircle;
 use homog::{Point, World};
 use model::ModelInstance;
 use picking::{Picked, Picking};

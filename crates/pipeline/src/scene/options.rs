@@ -7,7 +7,8 @@
 use super::schema::named_values;
 use crate::render::passes::{Pass, PassEncoding};
 use camera::{CameraAxes, NamedView};
-use drawing::{EdgeSelection, FaceFill, HiddenLines, SilhouetteMethod};
+use drawing::{EdgeSelection, FaceFill, HiddenLines};
+use hidden_line::SilhouetteMethod;
 use model::{Colormap, LengthUnit, UpAxis};
 use page::{Cap, Join};
 use projection::{PixelCenters, PrincipalView, SheetAngle};

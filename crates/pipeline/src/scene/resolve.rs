@@ -341,7 +341,7 @@ fn framed_points(
     if sections.is_empty() || style.draws_surfaces() {
         return world_points(models);
     }
-    drawing::retained_points(models, sections, uncut)
+    hidden_line::retained_points(models, sections, uncut)
 }
 
 /// The image that a scene renders.

@@ -16,8 +16,8 @@
 use super::annotation::{AnnotationLayer, ViewAnnotations};
 use super::sheet_view::SheetView;
 use core::f64::consts::PI;
-use drawing::WorldCircle;
 use glam::DVec2;
+use hidden_line::WorldCircle;
 use viewport::DrawingScale;
 
 /// How far center lines reach beyond circle or part, in millimeters of paper.

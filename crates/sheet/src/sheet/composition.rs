@@ -17,11 +17,9 @@ use super::freehand::{freehand_circle, freehand_line};
 use super::sheet_view::SheetView;
 use super::surface_cache::SurfaceCache;
 use super::view_request::ViewSide;
-use drawing::{
-    ClipArea, ClipSide, HiddenLines, LineDrawing, LineStyle, RegionEdge, WeldedSurface, point_at,
-    region_edges,
-};
+use drawing::{ClipArea, ClipSide, Drawing, HiddenLines, LineStyle, point_at};
 use glam::DVec2;
+use hidden_line::{RegionEdge, WeldedSurface, region_edges};
 use homog::{Plane, Point, Vector, World};
 use viewport::DrawingScale;
 
@@ -72,7 +70,7 @@ pub(super) struct Break {
 
 /// A drawing with freehand lines, in pixels.
 pub(super) struct ComposedDrawing {
-    pub(super) drawing: LineDrawing,
+    pub(super) drawing: Drawing,
     pub(super) break_lines: Vec<Vec<DVec2>>,
 }
 
@@ -143,8 +141,8 @@ impl ComposedDrawing {
     }
 }
 
-impl From<LineDrawing> for ComposedDrawing {
-    fn from(drawing: LineDrawing) -> Self {
+impl From<Drawing> for ComposedDrawing {
+    fn from(drawing: Drawing) -> Self {
         Self { drawing, break_lines: Vec::new() }
     }
 }
@@ -174,7 +172,7 @@ impl ViewSide {
 
 impl PartDrawing<'_, '_> {
     /// The drawing of the object cut by these planes.
-    fn part(&mut self, sections: &[Plane<World>]) -> Result<LineDrawing, SheetError> {
+    fn part(&mut self, sections: &[Plane<World>]) -> Result<Drawing, SheetError> {
         let surface = self.surfaces.cut_by(sections);
         let is_uncut = sections.is_empty();
         let hidden_lines = if is_uncut { self.style.hidden_lines } else { HiddenLines::Removed };
@@ -191,7 +189,7 @@ impl PartDrawing<'_, '_> {
     ) -> Result<ComposedDrawing, SheetError> {
         let at: Vec<DVec2> = borders.iter().map(|point| self.view.pixel_of(*point)).collect();
         let course = self.view.direction_of(along).normalize_or(DVec2::X);
-        let mut composed: Option<LineDrawing> = None;
+        let mut composed: Option<Drawing> = None;
         let beyond = |point: DVec2| ClipArea::half_plane(point, course.perp());
         let before = |point: DVec2| ClipArea::half_plane(point, -course.perp());
         for (index, plane) in planes.iter().enumerate() {
@@ -250,7 +248,7 @@ impl PartDrawing<'_, '_> {
         let (along, size) = (DVec2::AXES[part.axis], whole.size);
         let across = DVec2::AXES[1 - part.axis];
         let mut break_lines = Vec::new();
-        let mut composed: Option<LineDrawing> = None;
+        let mut composed: Option<Drawing> = None;
         for (at, outward) in [(part.from, -1.0), (part.to, 1.0)] {
             let middle = size * 0.5 + along * (at * pixels + outward * HALF_BREAK * paper);
             let reach = across * size[1 - part.axis] * 0.5;
@@ -274,8 +272,8 @@ impl PartDrawing<'_, '_> {
         let (view_projection, size) = self.view.view_projection()?;
         let surface: &WeldedSurface = self.surfaces.cut_by(&[]);
         let viewport =
-            viewport::Viewport::image(size[0], size[1]).map_err(drawing::DrawError::from)?;
-        let projector = drawing::Projector::new(&view_projection, &viewport);
+            viewport::Viewport::image(size[0], size[1]).map_err(hidden_line::DrawError::from)?;
+        let projector = hidden_line::Projector::new(&view_projection, &viewport);
         let triangles = surface.occluder_triangles().map(|vertices| vertices.map(Point::raw));
         Ok(parts_within(line, &region_edges(triangles, &projector)))
     }

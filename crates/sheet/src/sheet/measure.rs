@@ -12,8 +12,9 @@
 
 use super::sheet_view::{SheetView, ViewName};
 use camera::NamedView;
-use drawing::{DimensionFault, WorldCircle};
+use drawing::DimensionFault;
 use glam::{DVec2, DVec3};
+use hidden_line::WorldCircle;
 use homog::{Plane, Point, World};
 
 /// Directions that differ by no more than this sine are parallel: a length that far out of the plane

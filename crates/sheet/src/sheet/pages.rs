@@ -21,11 +21,9 @@ use crate::assembly::{
     exploded_models, gather_parts, part_model,
 };
 use camera::NamedView;
-use drawing::{
-    Aabb, AssemblyWarning, EdgeSegment, HiddenLines, LineDrawing, LineStyle, Page, Placement,
-    Warning, WeldedSurface,
-};
+use drawing::{AssemblyWarning, Drawing, HiddenLines, LineStyle, Page, Placement, Warning};
 use glam::{DVec2, DVec3};
+use hidden_line::{Aabb, EdgeSegment, WeldedSurface};
 use homog::{Plane, World};
 use model::{ModelInstance, model_names, world_points};
 use page::palette::{BLACK, WHITE};
@@ -242,12 +240,7 @@ impl<'a> DrawnAssembly<'a> {
     }
 
     /// The layers of the paths of parts: narrow chain lines.
-    fn path_layers(
-        &self,
-        paths: &LineDrawing,
-        style: &LineStyle,
-        placement: Placement,
-    ) -> Vec<Layer> {
+    fn path_layers(&self, paths: &Drawing, style: &LineStyle, placement: Placement) -> Vec<Layer> {
         let mut layers = paths.to_layers(style, placement, "path-", self.ink);
         let width = self.sheet.line_width_group().narrow_width();
         for layer in &mut layers {
@@ -390,17 +383,17 @@ fn outermost_clear_spot(spots: &[VisibleSpot], view: &SheetView) -> Option<Visib
 }
 
 /// Takes the paths of the parts out of a drawing; they belong to its last object.
-fn take_paths(drawing: &mut LineDrawing, is_exploded: bool) -> LineDrawing {
+fn take_paths(drawing: &mut Drawing, is_exploded: bool) -> Drawing {
     let last = drawing.objects.len().wrapping_sub(1) as u32;
     let has_paths = is_exploded && drawing.objects.last().is_some_and(|name| name == PATHS);
     let is_path = |segment: &EdgeSegment| has_paths && segment.object == last;
     let (paths, lines) = drawing.segments.iter().copied().partition(is_path);
     drawing.segments = lines;
-    LineDrawing {
+    Drawing {
         size: drawing.size,
         objects: drawing.objects.clone(),
         segments: paths,
-        ..LineDrawing::default()
+        ..Drawing::default()
     }
 }
 

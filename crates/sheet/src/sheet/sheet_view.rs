@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   points of the models ─frame─► camera, depths, size      (SheetView::frame_points)
-//!   camera, window ─draw─► LineDrawing of 8192 pixels       (draw)
+//!   camera, window ─draw─► Drawing of 8192 pixels           (draw)
 //!   drawing, scale ─placement─► millimeters on the sheet    (placement)
 //! ```
 //!
@@ -13,8 +13,9 @@ use super::section_line::LetteredPlane;
 use super::{Placement, SheetError};
 use camera::{Basis, Camera, CameraError, FramingError, NamedView, ViewProjection, frame_parallel};
 use core::fmt;
-use drawing::{DrawOptions, FaceFill, LineDrawing, LineStyle, WeldedSurface, draw_surface};
+use drawing::{Drawing, FaceFill, FillOptions, LineStyle, draw_surface};
 use glam::DVec2;
+use hidden_line::{DrawOptions, WeldedSurface};
 use homog::{Plane, Point, Vector, World};
 use projection::{Convention, Orthographic};
 use viewport::DrawingScale;
@@ -205,7 +206,7 @@ impl SheetView {
         style: &LineStyle,
         scale: DrawingScale,
         threads: usize,
-    ) -> Result<LineDrawing, SheetError> {
+    ) -> Result<Drawing, SheetError> {
         let (view_projection, size) = self.view_projection()?;
         let window = self.window_size();
         // Millimeters of paper for a pixel.
@@ -215,12 +216,10 @@ impl SheetView {
             FaceFill::Gray => GRAY_DOTS_PER_MILLIMETER,
             _ => FILL_DOTS_PER_MILLIMETER,
         };
-        let options = DrawOptions {
-            hatch_spacing: style.hatch_spacing / pixel,
-            fill_scale: dots * pixel,
-            ..style.to_draw_options()
-        };
-        Ok(draw_surface(surface, &view_projection, size, &options, threads)?)
+        let options =
+            DrawOptions { hatch_spacing: style.hatch_spacing / pixel, ..style.to_draw_options() };
+        let fill = FillOptions { scale: dots * pixel, ..style.to_fill_options() };
+        Ok(draw_surface(surface, &view_projection, size, &options, &fill, threads)?)
     }
 
     /// The camera with its view volume, and the size of the drawing in pixels. Depths get a margin
@@ -246,7 +245,7 @@ impl SheetView {
     /// The placement of the view's drawing on the sheet: at this scale, centered at `center`.
     pub(super) fn placement(
         &self,
-        drawing: &LineDrawing,
+        drawing: &Drawing,
         scale: DrawingScale,
         center: DVec2,
     ) -> Placement {

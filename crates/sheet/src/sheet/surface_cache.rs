@@ -3,7 +3,7 @@
 //! Welding and the search for intersections depend on models and sections, not on the viewer. The
 //! three principal views of an uncut object share one surface; a sectional view needs its own.
 
-use drawing::WeldedSurface;
+use hidden_line::WeldedSurface;
 use homog::{Plane, World};
 use model::ModelInstance;
 

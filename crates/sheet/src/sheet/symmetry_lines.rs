@@ -4,7 +4,7 @@
 use super::Sheet;
 use super::view_mark::ViewMark;
 use super::view_plan::PlannedView;
-use drawing::FeaturePicker;
+use hidden_line::FeaturePicker;
 
 impl Sheet {
     /// Adds the lines of symmetry to views that look along a plane of symmetry, upright or level.

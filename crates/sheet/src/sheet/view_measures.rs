@@ -10,8 +10,9 @@ use super::measure::ViewDimension;
 use super::sheet_view::SheetView;
 use super::view_mark::ViewMark;
 use super::view_plan::{PlannedView, ViewPlan};
-use drawing::{FeaturePicker, Warning, WorldCircle};
+use drawing::Warning;
 use glam::DVec2;
+use hidden_line::{FeaturePicker, WorldCircle};
 use model::{ModelInstance, world_points};
 
 /// How far extension lines of overall dimensions may reach, in heights of letters.

@@ -24,8 +24,9 @@ use super::view_measures::ViewMeasures;
 use super::view_request::ViewPlace;
 use super::{Sheet, SheetError};
 use camera::NamedView;
-use drawing::{LineStyle, Warning, idle_section_warning, retained_points};
+use drawing::{LineStyle, Warning};
 use glam::DVec2;
+use hidden_line::{idle_section_warning, retained_points};
 use homog::{Bounds, Plane, Point, Vector, World};
 use model::{ModelInstance, world_points};
 use projection::SheetAngle;
@@ -125,7 +126,8 @@ impl<'a> PlanSubject<'a> {
         let points = world_points(models);
         let idle = |plane, number| idle_section_warning(&points, plane, number);
         let numbered = || sections.iter().copied().zip(1..);
-        let warnings = numbered().filter_map(|(plane, number)| idle(plane, number)).collect();
+        let warnings = numbered().filter_map(|(plane, number)| idle(plane, number));
+        let warnings = warnings.map(Warning::from).collect();
         let cutting =
             numbered().filter(|(plane, number)| idle(*plane, *number).is_none()).collect();
         // Along the axes the corners of the bounding box have the extents of all points.

@@ -9,7 +9,7 @@
 
 use super::sheet_view::SheetView;
 use crate::assembly::Part;
-use drawing::LineDrawing;
+use drawing::Drawing;
 use glam::{DVec2, DVec3};
 use homog::Point;
 use model::ModelInstance;
@@ -67,7 +67,7 @@ pub(super) fn find_visible_spots(
 /// their edges that is visible. `object` is the number of a part in the drawing of the view.
 pub(super) fn add_spots_on_edges(
     spots: &mut [Option<VisibleSpot>],
-    drawing: &LineDrawing,
+    drawing: &Drawing,
     object: impl Fn(usize) -> u32,
     view: &SheetView,
 ) {

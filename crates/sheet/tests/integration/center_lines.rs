@@ -3,8 +3,8 @@
 use super::boxes::{instance_of, sheet};
 use super::formats::read_svg;
 use super::lint::{faults, layer_extent};
-use drawing::FeaturePicker;
 use glam::{DVec2, DVec3};
+use hidden_line::FeaturePicker;
 use homog::{Affine, Point, World};
 use import::{ImportOptions, load};
 use model::{ModelInstance, Primitive};

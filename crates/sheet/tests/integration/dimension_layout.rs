@@ -3,8 +3,9 @@
 use super::boxes::{PAPERS, Random, box_model, plane, sheet};
 use super::dimensions::dimension;
 use super::lint::faults;
-use drawing::{Warning, WorldCircle};
+use drawing::Warning;
 use glam::DVec3;
+use hidden_line::WorldCircle;
 use homog::{Point, Vector, World};
 use projection::SheetAngle;
 use sheet::{Dimension, LengthDirection, Measure, Sheet};

@@ -1,8 +1,8 @@
 //! Angles between edges and between faces: the vertex, and a point on each side.
 
 use super::picking::Picked;
-use drawing::PickedFeature;
 use glam::DVec3;
+use hidden_line::PickedFeature;
 
 /// Edges whose nearest points are farther apart, as a part of the distance of their middles, do not
 /// lie in one plane.

@@ -5,8 +5,8 @@ use super::super::named_nodes::{node_names, objects_below};
 use super::super::suggest::suggest_name;
 use super::super::syntax::PathStep::{self, Field};
 use super::super::{Origin, SceneError};
-use drawing::{FeaturePicker, PickedFeature, WorldCircle};
 use glam::DVec3;
+use hidden_line::{FeaturePicker, PickedFeature, WorldCircle};
 use homog::{Bounds, Point, World};
 use model::ModelInstance;
 

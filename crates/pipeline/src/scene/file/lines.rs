@@ -3,7 +3,8 @@
 use crate::scene::color::Color;
 use crate::scene::number::{CreaseAngle, HandDrawn, HatchSpacing, Percent, Positive};
 use crate::scene::schema::{scene_enum, scene_struct};
-use drawing::{EdgeSelection, FaceFill, HiddenLines, SilhouetteMethod};
+use drawing::{EdgeSelection, FaceFill, HiddenLines};
+use hidden_line::SilhouetteMethod;
 use page::{Cap, Join};
 
 scene_struct! {

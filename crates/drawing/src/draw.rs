@@ -1,0 +1,78 @@
+//! Drawing of a subject with a fill: hidden lines, hatching by luma, an image of the faces.
+//!
+//! ```text
+//!   subject ─► hidden_line: segments, regions, faces ─┬─► Drawing
+//!                  ▲                                  │
+//!   key light ─► luma of each face              face_fill: a z-buffer image of colors
+//! ```
+
+use super::face_fill::{FillOptions, KeyLight, rasterize_fill};
+use crate::{Drawing, FaceFill};
+use camera::ViewProjection;
+use glam::DVec3;
+use hidden_line::{DrawError, DrawOptions, FaceHatching, Projector, Subject, WeldedSurface};
+use viewport::Viewport;
+
+/// Draws the edges of a subject with hidden-line removal and the fill of its faces, with up to
+/// `threads` threads; their number does not change the drawing.
+///
+/// # Errors
+/// As [`hidden_line::draw`], or if the image of the fill is out of range.
+pub fn draw(
+    subject: &Subject<'_>,
+    options: &DrawOptions,
+    fill: &FillOptions,
+    threads: usize,
+) -> Result<Drawing, DrawError> {
+    let Subject { view_projection, size, .. } = subject;
+    let luma = face_luma(view_projection, *size, fill.face_fill)?;
+    let hatching = face_hatching(fill.face_fill, &luma);
+    let (lines, faces) = hidden_line::draw_hatched(subject, options, hatching, threads)?;
+    let face_fill = rasterize_fill(faces.colored(), view_projection, *size, fill)?;
+    Ok(Drawing { face_fill, ..lines.into() })
+}
+
+/// Draws a welded surface as one camera sees it, with the fill of its faces, on an image of `size`
+/// pixels; see [`draw`] for the rest.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_surface(
+    surface: &WeldedSurface,
+    view_projection: &ViewProjection,
+    size: [u32; 2],
+    options: &DrawOptions,
+    fill: &FillOptions,
+    threads: usize,
+) -> Result<Drawing, DrawError> {
+    let luma = face_luma(view_projection, size, fill.face_fill)?;
+    let hatching = face_hatching(fill.face_fill, &luma);
+    let lines =
+        hidden_line::draw_surface(surface, view_projection, size, options, hatching, threads)?;
+    let face_fill = rasterize_fill(surface.faces_with_colors(), view_projection, size, fill)?;
+    Ok(Drawing { face_fill, ..lines.into() })
+}
+
+/// The luma of faces under the key light of a view, with the colors of their materials where the
+/// fill shows them.
+fn face_luma(
+    view_projection: &ViewProjection,
+    [width, height]: [u32; 2],
+    fill: FaceFill,
+) -> Result<impl Fn([DVec3; 3], [f32; 3]) -> f64, DrawError> {
+    let projector = Projector::new(view_projection, &Viewport::image(width, height)?);
+    let key_light = KeyLight::new(view_projection, projector);
+    let colors_count = fill == FaceFill::Hatching;
+    Ok(move |vertices, color| {
+        key_light.face_luma(vertices, if colors_count { color } else { [1.0; 3] })
+    })
+}
+
+/// The hatch lines that a fill consists of.
+fn face_hatching(fill: FaceFill, luma: &dyn Fn([DVec3; 3], [f32; 3]) -> f64) -> FaceHatching<'_> {
+    match fill {
+        FaceFill::Hatching | FaceFill::ShadeHatching => FaceHatching::ByLuma(luma),
+        FaceFill::PartHatching => FaceHatching::Parts,
+        FaceFill::None | FaceFill::Flat | FaceFill::Gray => FaceHatching::None,
+    }
+}

@@ -1,0 +1,46 @@
+//! Drawing: the lines of a view, and the fill of faces under them.
+
+use crate::Warning;
+use crate::layout::Placement;
+use glam::DVec2;
+use hidden_line::{EdgeSegment, LineDrawing, Region};
+use picture::Picture;
+
+/// A line drawing with the fill under its lines: what becomes layers of a page.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Drawing {
+    /// The width and height of the image in pixels.
+    pub size: DVec2,
+    /// The names of the objects, from the nodes of the models.
+    pub objects: Vec<String>,
+    /// Visible segments, and hidden ones if the options retain them.
+    pub segments: Vec<EdgeSegment>,
+    /// The cut faces with their hatch lines, and the outlines if the options ask for them.
+    pub regions: Vec<Region>,
+    /// The flat or gray fill under the lines, if the options ask for one and there are faces: an
+    /// image that fills the drawing. Of a gray fill its pixels are levels of gray, not colors.
+    pub face_fill: Option<Picture>,
+    /// Warnings of the drawing, each once.
+    pub warnings: Vec<Warning>,
+}
+
+impl Drawing {
+    /// Whether there is nothing to see.
+    pub fn is_empty(&self) -> bool {
+        let is_clear = |fill: &Picture| fill.pixels.iter().all(|pixel| pixel[3] == 0);
+        let has_fill = self.face_fill.as_ref().is_some_and(|fill| !is_clear(fill));
+        self.segments.is_empty() && self.regions.is_empty() && !has_fill
+    }
+}
+
+impl From<LineDrawing> for Drawing {
+    /// The lines without a fill; a warning is added if their outlines are not exact on a page.
+    fn from(lines: LineDrawing) -> Self {
+        let LineDrawing { size, objects, segments, regions, warnings } = lines;
+        let is_traced = regions.iter().any(|region| Placement::PICTURE.traces_region(region));
+        let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::Lines).collect();
+        warnings.extend(is_traced.then_some(Warning::OutlinesTraced));
+        warnings.sort_unstable();
+        Self { size, objects, segments, regions, face_fill: None, warnings }
+    }
+}

@@ -1,0 +1,68 @@
+//! Exact hidden-line removal of meshes: feature edges, visibility, sections with caps, hatching.
+//!
+//! ```text
+//!   models ─► edges ─► visible and hidden segments, by class and object
+//!             edges    visibility
+//! ```
+//!
+//! | module | technique |
+//! | --- | --- |
+//! | `draw` | the drawing of a subject: candidate edges, divided into visible and hidden segments |
+//! | `edges` | vertex welding, T-junctions, silhouettes and creases, section cuts with caps |
+//! | `visibility` | hidden-line removal by interval arithmetic over a BVH (Roberts, Appel 1967) |
+//! | `view_cover` | what a crowd of faces hides as a whole |
+//! | `hatching` | ISO 128-50 hatching of caps and of parts, hatching by luma of faces |
+//! | `region` | what faces cover on the screen, by winding numbers |
+//! | `feature_picker`, `circles`, `mirror_symmetry` | vertices, edges, faces and circles by their place; planes of symmetry |
+//! | `retained_points` | what section planes leave of models, for framing |
+//! | `face_raster`, `z_buffer_check` | faces in a z-buffer; a drawing checked against it |
+//!
+//! [`draw`](draw()) takes a [`Subject`], models with a camera, and returns a [`LineDrawing`]:
+//! segments in pixels. It knows no pens and no pages; the crate `drawing` makes pages of it.
+//!
+//! All geometry is f64 and runs through the stages of the pictures (`camera`, `projection`, `clip`,
+//! `viewport`), so a line drawing lies exactly over a picture of the same scene. Results do not
+//! depend on the number of threads.
+
+mod circles;
+mod draw;
+mod edges;
+mod error;
+mod face_raster;
+mod feature_picker;
+mod hatching;
+mod line_drawing;
+mod mirror_symmetry;
+mod options;
+mod parallel;
+mod projector;
+mod region;
+mod retained_points;
+mod subject;
+mod view_cover;
+mod visibility;
+mod warning;
+mod z_buffer_check;
+
+pub use circles::WorldCircle;
+pub use draw::{DrawnFaces, draw, draw_hatched, draw_surface};
+pub use edges::WeldedSurface;
+pub use error::DrawError;
+pub use face_raster::rasterize_faces;
+pub use feature_picker::{FeaturePicker, PickedFeature};
+pub use hatching::FaceHatching;
+pub use line_drawing::{EdgeClass, EdgeSegment, LineDrawing};
+pub use mirror_symmetry::MirrorSymmetry;
+pub use options::{DrawOptions, EdgeClasses, HiddenEdges, SilhouetteMethod};
+pub use projector::Projector;
+pub use region::{Region, RegionEdge, RegionHatching, region_edges};
+pub use retained_points::{idle_section_warning, retained_points};
+pub use subject::Subject;
+pub use visibility::{Aabb, EdgeParts, Occluders, Tolerance};
+pub use warning::Warning;
+pub use z_buffer_check::{Agreement, verify_with_z_buffer};
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

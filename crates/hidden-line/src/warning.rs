@@ -1,0 +1,109 @@
+//! Warnings: what a line drawing leaves out, returned along with it.
+
+use core::fmt;
+use files::visible_excerpt;
+
+/// Something that a line drawing leaves out or could not do, with the reason in its `Display` text.
+///
+/// Warnings are sorted and each is reported once, so their order does not depend on threads. They
+/// are part of the result, not logged: the caller decides whether and where to print them.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The outline of a section does not close.
+    SectionOpen {
+        /// The name of the object.
+        object: String,
+    },
+    /// The outline of a section has too many points for a cap.
+    SectionTooComplex {
+        /// The name of the object.
+        object: String,
+    },
+    /// A section plane lies beside the models and removes nothing.
+    SectionMisses {
+        /// The number of the section, from 1.
+        number: usize,
+    },
+    /// A section plane lies beside the models, which are all on the side that is removed.
+    SectionRemovesAll {
+        /// The number of the section, from 1.
+        number: usize,
+    },
+    /// The textures of some materials cut out parts of their faces, and lines show these whole.
+    CutOutsDrawnWhole,
+    /// So many faces lie behind each other that small gaps between them count as closed.
+    CrowdApproximated,
+    /// The search for intersection edges was cut off.
+    IntersectionsIncomplete,
+    /// The hatching was cut off.
+    HatchingIncomplete,
+    /// The search for hidden lines was cut off.
+    VisibilityIncomplete,
+}
+
+impl Warning {
+    /// The place of the warning in a report: sections, then labels, then limits of work. Crates
+    /// above put theirs between these numbers.
+    #[must_use]
+    pub const fn report_order(&self) -> u8 {
+        match self {
+            Self::SectionOpen { .. } => 0,
+            Self::SectionTooComplex { .. } => 1,
+            Self::SectionMisses { .. } => 2,
+            Self::SectionRemovesAll { .. } => 3,
+            Self::CutOutsDrawnWhole => 60,
+            Self::CrowdApproximated => 61,
+            Self::IntersectionsIncomplete => 80,
+            Self::HatchingIncomplete => 81,
+            Self::VisibilityIncomplete => 100,
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SectionOpen { object } => write!(
+                f,
+                "the cut through `{}` does not close, because its surface is open: \
+                 the section has no cap and no hatching there",
+                visible_excerpt(object)
+            ),
+            Self::SectionTooComplex { object } => write!(
+                f,
+                "the cut through `{}` has too many points: \
+                 the section has no cap and no hatching",
+                visible_excerpt(object)
+            ),
+            Self::SectionMisses { number } => {
+                write!(f, "section {number} cuts nothing: its plane lies beside the models")
+            }
+            Self::SectionRemovesAll { number } => write!(
+                f,
+                "section {number} would remove everything: all models lie on the side of its plane \
+                 that is cut away"
+            ),
+            Self::CutOutsDrawnWhole => f.write_str(
+                "textures cut shapes such as leaves out of some faces: lines show the edges of the \
+                 whole faces",
+            ),
+            Self::CrowdApproximated => f.write_str(
+                "so many surfaces lie behind each other that lines behind gaps of a pixel or two are \
+                 left out: `--no-line-limits` draws them, and may take long",
+            ),
+            Self::IntersectionsIncomplete => f.write_str(
+                "so many faces may intersect that not all were compared: \
+                 some intersection edges may be missing",
+            ),
+            Self::HatchingIncomplete => f.write_str(
+                "there are too many hatch lines, and some are missing: increase their spacing",
+            ),
+            Self::VisibilityIncomplete => f.write_str(
+                "so many faces lie before and behind each other that not all lines were compared \
+                 with all of them, and some hidden lines are drawn: leave out parts of the model, \
+                 or simplify its meshes",
+            ),
+        }
+    }
+}
