@@ -17,7 +17,7 @@ mod source;
 mod words;
 
 use crate::Outcome;
-pub use boundaries::NO_STD;
+pub use boundaries::{LAYERS, NO_STD};
 pub use source::{Source, rust_files};
 
 /// A broken rule: its location, and what to do about it.

@@ -1,0 +1,250 @@
+//! The search for the circle of a run of points.
+
+use glam::DVec2;
+
+/// The least number of points of an arc.
+const MIN_ARC_POINTS: usize = 8;
+
+/// Steps of this angle and more are corners.
+const MAX_STEP_DEGREES: f64 = 29.5;
+
+/// The part by which steps may differ; the grid adds to it.
+const STEP_TOLERANCE: f64 = 0.02;
+
+/// The greatest radius in spans of the points: flatter runs are too uncertain.
+const MAX_RADIUS_FACTOR: f64 = 50.0;
+
+/// The largest angle of one arc in a polyline, a little less than a turn: a bulge has no full circle.
+const MAX_SWEEP: f64 = 0.97 * core::f64::consts::TAU;
+
+/// A vertex of a polyline whose sides are lines and arcs.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ArcVertex {
+    /// In steps of the grid.
+    pub point: DVec2,
+    /// The tangent of a quarter of the angle of the arc to the next vertex; positive where it turns
+    /// from x to y, 0 for a line.
+    pub bulge: f64,
+}
+
+/// A circle in steps of the grid.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Circle {
+    /// The center.
+    pub center: DVec2,
+    /// The radius.
+    pub radius: f64,
+}
+
+/// A polyline as lines and arcs.
+#[derive(Clone, PartialEq, Debug)]
+pub enum LineShape {
+    /// A full circle.
+    Circle(Circle),
+    /// One arc from an angle to a greater one in radians, from x to y.
+    Arc(Circle, [f64; 2]),
+    /// Sides and arcs; whether the last vertex is joined to the first.
+    Path(Vec<ArcVertex>, bool),
+}
+
+/// The curve of a polyline, with arcs where its points lie on circles within a tolerance in steps of
+/// the grid; with a tolerance of 0 there are none.
+///
+/// It has two points or more, neighbors differ, and `closed` is whether the last one is joined to
+/// the first, which is not repeated.
+#[must_use]
+pub fn recognize_arcs(points: &[[i32; 2]], closed: bool, tolerance: f64) -> LineShape {
+    let points: Vec<DVec2> = points.iter().copied().map(grid_point).collect();
+    let straight = |points: &[DVec2]| -> Vec<ArcVertex> {
+        points.iter().map(|&point| ArcVertex { point, bulge: 0.0 }).collect()
+    };
+    if tolerance <= 0.0 || points.len() < MIN_ARC_POINTS {
+        return LineShape::Path(straight(&points), closed);
+    }
+    if closed && let Some(circle) = full_circle(&points, tolerance) {
+        return LineShape::Circle(circle);
+    }
+    // A closed line is begun at a corner, so that no arc is cut in two by its first point.
+    let start = if closed { corner_index(&points, tolerance) } else { 0 };
+    let mut ring: Vec<DVec2> = points[start..].iter().chain(&points[..start]).copied().collect();
+    if closed {
+        ring.push(ring[0]);
+    }
+    let vertices = arc_vertices(&ring, tolerance);
+    if let [from, to] = vertices[..]
+        && from.bulge != 0.0
+        && !closed
+        && let Some(circle) = circle_of(&ring, tolerance)
+    {
+        return LineShape::Arc(circle, arc_angles(circle, [from.point, to.point], from.bulge));
+    }
+    let mut vertices = vertices;
+    if closed {
+        vertices.pop();
+    }
+    LineShape::Path(vertices, closed)
+}
+
+/// A point of the grid as a vector.
+fn grid_point([x, y]: [i32; 2]) -> DVec2 {
+    DVec2::new(f64::from(x), f64::from(y))
+}
+
+/// The circle of a closed line, if all of its steps are equal.
+fn full_circle(points: &[DVec2], tolerance: f64) -> Option<Circle> {
+    let half = points.len() / 2;
+    let near = fit_circle([points[0], points[half / 2], points[half]])?;
+    let circle = best_circle(points, near.center)?;
+    let mut ring = points.to_vec();
+    ring.extend([points[0], points[1]]);
+    let is_round = has_arc_steps(&ring, circle, tolerance);
+    let turns = turn_sum(&ring[..=points.len()], circle);
+    (is_round && (turns.abs() - core::f64::consts::TAU).abs() < 1e-6).then_some(circle)
+}
+
+/// The sum of the angles of all steps about the center of a circle.
+fn turn_sum(points: &[DVec2], circle: Circle) -> f64 {
+    points.windows(2).map(|pair| step_angle(pair[0], pair[1], circle)).sum()
+}
+
+/// The angle of a step about the center of a circle, from −π to π.
+fn step_angle(from: DVec2, to: DVec2, circle: Circle) -> f64 {
+    let (a, b) = (from - circle.center, to - circle.center);
+    libm::atan2(a.perp_dot(b), a.dot(b))
+}
+
+/// The index of a point of a closed line where an arc begins or ends; 0 if there is none.
+fn corner_index(points: &[DVec2], tolerance: f64) -> usize {
+    let count = points.len();
+    let is_arc = |first: usize| {
+        // Four points of a trapezoid are on a circle too.
+        let five = [0, 1, 2, 3, 4].map(|k| points[(first + k) % count]);
+        fit_circle([five[0], five[2], five[4]])
+            .is_some_and(|circle| has_arc_steps(&five, circle, tolerance))
+    };
+    let is_corner = |index: &usize| {
+        let ends = is_arc(index + count - 4) && !is_arc(index + count - 3);
+        ends || is_arc(*index) && !is_arc(index + count - 1)
+    };
+    (0..count).find(is_corner).unwrap_or(0)
+}
+
+/// The vertices of an open run of points: a greedy pass, the longest arc from each point on.
+fn arc_vertices(points: &[DVec2], tolerance: f64) -> Vec<ArcVertex> {
+    let mut vertices = Vec::new();
+    let mut at = 0;
+    while at + 1 < points.len() {
+        let (length, bulge) = longest_arc(&points[at..], tolerance).unwrap_or((1, 0.0));
+        vertices.push(ArcVertex { point: points[at], bulge });
+        at += length;
+    }
+    vertices.push(ArcVertex { point: points[points.len() - 1], bulge: 0.0 });
+    vertices
+}
+
+/// The number of steps of the longest arc that begins with the first point, and its bulge.
+///
+/// The run is doubled while it is an arc, then halved down to its end, so that the time is
+/// O(n log n).
+fn longest_arc(points: &[DVec2], tolerance: f64) -> Option<(usize, f64)> {
+    let arc = |count: usize| {
+        let run = points.get(..count)?;
+        let circle = circle_of(run, tolerance)?;
+        let sweep = turn_sum(run, circle);
+        (sweep.abs() <= MAX_SWEEP).then(|| libm::tan(sweep * 0.25))
+    };
+    let mut best = (MIN_ARC_POINTS, arc(MIN_ARC_POINTS)?);
+    let mut step = MIN_ARC_POINTS;
+    let mut grows = true;
+    while step > 0 {
+        match arc(best.0 + step) {
+            Some(bulge) => {
+                best = (best.0 + step, bulge);
+                step *= if grows { 2 } else { 1 };
+            }
+            None => grows = false,
+        }
+        if !grows {
+            step /= 2;
+        }
+    }
+    Some((best.0 - 1, best.1))
+}
+
+/// The circle through a run of points that make an arc; `None` if they do not.
+fn circle_of(points: &[DVec2], tolerance: f64) -> Option<Circle> {
+    let last = points.len() - 1;
+    let circle = fit_circle([points[0], points[last / 2], points[last]])
+        .or_else(|| fit_circle([points[0], points[last / 3], points[2 * last / 3]]))?;
+    let spread = points.iter().fold(0.0, |most: f64, point| most.max(point.distance(points[0])));
+    let is_arc =
+        circle.radius <= MAX_RADIUS_FACTOR * spread && has_arc_steps(points, circle, tolerance);
+    is_arc.then_some(circle)
+}
+
+/// Whether the points of a run lie on a circle and its steps are those of an arc: they turn alike,
+/// and are equal but for short ones and the first and the last.
+fn has_arc_steps(points: &[DVec2], circle: Circle, tolerance: f64) -> bool {
+    let is_on = |point: &DVec2| (point.distance(circle.center) - circle.radius).abs() <= tolerance;
+    if !points.iter().all(is_on) {
+        return false;
+    }
+    let angles: Vec<f64> =
+        points.windows(2).map(|pair| step_angle(pair[0], pair[1], circle)).collect();
+    let inner = &angles[1..angles.len() - 1];
+    let longest = inner.iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+    let sense = if inner.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    // Both points of a step are up to 0.7 steps of the grid beside their place on the grid.
+    let slack = longest * STEP_TOLERANCE + 2.0 / circle.radius;
+    let is_short =
+        |angle: f64| circle.radius * (1.0 - libm::cos(0.5 * angle)) <= tolerance && angle > 0.0;
+    let mut turns = angles.iter().map(|angle| angle * sense);
+    let [first, last] = [angles[0], angles[angles.len() - 1]].map(|angle| angle * sense);
+    longest < MAX_STEP_DEGREES.to_radians()
+        && [first, last].iter().all(|&end| end > 0.0 && end <= longest + slack || is_short(end))
+        && turns.all(|turn| turn > 0.0)
+        && inner.iter().all(|angle| longest - angle * sense <= slack || is_short(angle * sense))
+}
+
+/// The circle through three points; `None` if they are on a line.
+fn fit_circle([a, b, c]: [DVec2; 3]) -> Option<Circle> {
+    let (b, c) = (b - a, c - a);
+    let doubled = 2.0 * b.perp_dot(c);
+    let (bb, cc) = (b.length_squared(), c.length_squared());
+    let center = DVec2::new(c.y * bb - b.y * cc, b.x * cc - c.x * bb) / doubled;
+    let radius = center.length();
+    (doubled != 0.0 && radius.is_finite()).then_some(Circle { center: a + center, radius })
+}
+
+/// The circle nearest to points in the sense of least squares (Kåsa 1976); `about` is a point near
+/// its center, for the sake of precision.
+fn best_circle(points: &[DVec2], about: DVec2) -> Option<Circle> {
+    let count = points.len() as f64;
+    let mean = points.iter().fold(DVec2::ZERO, |sum, point| sum + (*point - about)) / count;
+    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
+    for point in points {
+        let arm = *point - about - mean;
+        (xx, xy, yy) = (xx + arm.x * arm.x, xy + arm.x * arm.y, yy + arm.y * arm.y);
+        right += arm * (0.5 * arm.length_squared());
+    }
+    let determinant = xx * yy - xy * xy;
+    let shift = DVec2::new(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / determinant;
+    let center = about + mean + shift;
+    let radius = points.iter().map(|point| point.distance(center)).sum::<f64>() / count;
+    (radius.is_finite() && radius > 0.0).then_some(Circle { center, radius })
+}
+
+/// The angles of the ends of an arc, the first one less than the second by the angle of the arc.
+fn arc_angles(circle: Circle, [from, to]: [DVec2; 2], bulge: f64) -> [f64; 2] {
+    let angle = |point: DVec2| {
+        let arm = point - circle.center;
+        libm::atan2(arm.y, arm.x)
+    };
+    let sweep = 4.0 * libm::atan(bulge.abs());
+    let start = if bulge > 0.0 { angle(from) } else { angle(to) };
+    [start, start + sweep]
+}
+
+/// The example of the README, compiled as a documentation test.
+#[cfg(test)]
+mod tests;
