@@ -4,9 +4,10 @@ use crate::scene_text::{SceneFiles, random_scene_text};
 use drawing::{DrawOptions, draw};
 use homog::PixelRect;
 use pipeline::render::draw_lines;
-use pipeline::render::passes::{Pass, PassValues, render_passes};
+use pipeline::render::passes::{PassValues, render_passes};
 use pipeline::scene::Style;
 use pipeline::{Origin, Scene, Timings, render};
+use scene_file::Pass;
 
 use shade::Picture;
 use std::fs;

@@ -4,8 +4,8 @@
 
 use super::{CliError, print_message};
 use pipeline::scene::CameraPath;
-use pipeline::scene::file::{Choice, Finite, ModelFile};
 use pipeline::{Origin, ResolveError, Scene, SceneFile};
+use scene_file::file::{Choice, Finite, ModelFile};
 
 /// The state of a model; each flag replaces the field of the same name in a scene file.
 #[derive(Clone, Debug, Default, clap::Args)]

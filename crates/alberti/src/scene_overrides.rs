@@ -25,12 +25,12 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use colormap_flags::ColormapArgs;
 use model::import::ImportOptions;
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{
+use pipeline::{Origin, Scene};
+use projection::PrincipalView;
+use scene_file::file::{
     BackgroundFile, CameraChoice, CameraFile, Color, DEFAULT_PADDING, NonNegative, OverlayFile,
     PointSize, ProjectionFile, SceneFile, StyleFile, ViewFile,
 };
-use pipeline::{Origin, Scene};
-use projection::PrincipalView;
 use std::path::Path;
 
 /// Flags that replace fields of the scene.

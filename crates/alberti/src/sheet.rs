@@ -20,12 +20,10 @@ use assembly::AssemblyArgs;
 use drawing::{DxfOptions, FaceFill, HiddenLines, Page, Warning};
 use model::import::{ImageLoading, ImportOptions};
 use page_files::{PageNames, write_all};
-use pipeline::scene::file::{
-    AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile,
-};
 use pipeline::scene::{ResolveOptions, SheetContent, Style};
 use pipeline::{Origin, Picture, Scene};
 use projection::SheetAngle;
+use scene_file::file::{AxonometricView, DimensionsFile, PageOrientation, PaperSize, SheetFile};
 use sheet::{DecimalMark, DimensionUnit, SheetFrame, TitleBlockLanguage};
 use std::path::PathBuf;
 use viewport::{Paper, Resolution};
@@ -137,7 +135,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<(), CliError> {
     file.models.iter_mut().for_each(|model| args.model_state.apply_to(model));
     args.section.append_to(&mut file);
     // The sheet has views of its own: the scene's camera must not matter, not even if it is wrong.
-    file.camera = pipeline::scene::file::CameraFile::default();
+    file.camera = scene_file::file::CameraFile::default();
     let mut sheet_file = file.sheet.take().unwrap_or_default();
     apply_overrides(&mut sheet_file, args);
     // Lines have no textures.

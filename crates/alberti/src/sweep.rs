@@ -11,7 +11,7 @@ use camera::NamedView;
 use pipeline::Scene;
 use pipeline::demonstration::{Sweep, SweepParameter};
 use pipeline::scene::ResolveOptions;
-use pipeline::scene::file::{DEFAULT_PADDING, ViewFile};
+use scene_file::file::{DEFAULT_PADDING, ViewFile};
 use std::path::PathBuf;
 
 /// Arguments of `alberti sweep`.

@@ -10,7 +10,7 @@ use super::scene_overrides::SceneOverrideArgs;
 use clap::ValueEnum as _;
 use pipeline::Scene;
 use pipeline::scene::Style;
-use pipeline::scene::file::StyleFile;
+use scene_file::file::StyleFile;
 
 /// The warnings about the flags of a picture that `render` makes.
 pub(super) fn find_unused_flags(

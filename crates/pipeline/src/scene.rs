@@ -1,14 +1,13 @@
-//! The scene language: parsing, validation and resolution of scene files.
+//! Resolution of scene files: models are loaded, angles are radians, every default is decided.
 //!
 //! ```text
-//!  text ─► syntax tree ─► SceneFile ─► Scene ─► renderer, line drawings
-//!           syntax       schema, file   resolve
+//!  text ─► SceneFile ─► Scene ─► renderer, line drawings
+//!     scene_file    resolve
 //!               mistakes with carets ◄── validate
 //! ```
-//! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]): models are loaded,
-//! angles are radians, every default is decided, and every mistake is an error that points into the
-//! file. `file` declares the language; [`mod@reference`] lists the declarations; `vocabulary` knows
-//! the words of other programs.
+//! A scene is described in a file ([`SceneFile`], RON) and resolved ([`Scene`]); every mistake is an
+//! error that points into the file. The crate `scene_file` has the language, its [`mod@file`] what it
+//! declares.
 
 #[cfg(feature = "sheets")]
 mod assembly;
@@ -19,41 +18,28 @@ mod camera_path;
 mod camera_placement;
 mod caption;
 mod classical;
-mod color;
 pub(crate) mod depth_span;
 mod diagnostics;
 #[cfg(feature = "sheets")]
 mod dimensions;
-mod error;
 mod exposure;
-pub mod file;
 mod file_access;
-mod format;
 mod ground;
 mod hdr;
-mod include;
 mod insets;
 mod instances;
 mod lens;
 mod lights;
 mod lints;
 mod material_overrides;
-mod mistake;
-#[cfg(test)]
-mod mistakes;
 mod model_files;
 mod named_nodes;
-mod number;
-pub mod options;
 mod origin;
 mod outputs;
 mod overlays;
-mod parse;
-pub mod reference;
+mod read_scene;
 mod resolve;
 mod resolve_options;
-mod ron_text;
-mod schema;
 mod section;
 mod shadows;
 mod shared_scale;
@@ -63,38 +49,33 @@ mod sheet;
 mod sheet_errors;
 #[cfg(feature = "sheets")]
 mod sheet_views;
-mod source_text;
 mod style;
-mod suggest;
 mod surrounding_light;
-mod syntax;
 mod uncut;
 mod view_projection;
-mod vocabulary;
 
 pub use builder::SceneBuilder;
 pub use camera_path::CameraPath;
 pub(crate) use depth_span::DepthSpan;
-pub use error::{SceneError, SceneErrors};
-pub use file::SceneFile;
 pub(crate) use file_access::FileAccess;
-pub use format::format_source;
 pub use ground::{Ground, OcclusionArea};
 pub use insets::Inset;
 pub use lints::{Lint, lint_description, lint_scene};
-pub use model_files::select_animation;
+pub use model_files::{name_or_index, select_animation};
 pub use origin::Origin;
 pub use outputs::Outputs;
-pub use parse::parse_scene;
 pub use resolve::validate_scene;
 pub use resolve_options::ResolveOptions;
-pub use ron_text::scene_ron_options;
 #[cfg(feature = "sheets")]
 pub use sheet::{SheetContent, resolve_sheet};
 #[cfg(feature = "sheets")]
 pub use sheet_views::sheet_view_error;
-pub use source_text::SourceText;
-pub use suggest::closest_name;
+
+/// What an embedder needs of the scene language: to read a scene file, or to build one.
+pub use scene_file::{
+    SceneError, SceneErrors, SceneFile, SceneSource, SourceText, UnreadableScene, file,
+    format_source, options, parse_scene, reference, scene_ron_options,
+};
 
 use camera::ViewProjection;
 use drawing::{LineStyle, Overlay};
@@ -103,7 +84,6 @@ use model::import::ImportError;
 use model::{Colormap, ModelInstance};
 use raster::Samples;
 use shade::{Backdrop, Environment, Light, ToneMapper};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A resolved scene: the complete input of a renderer.
@@ -324,22 +304,8 @@ pub enum ResolveError {
     #[error(transparent)]
     Model(#[from] ImportError),
     /// The scene file cannot be read.
-    #[error("{}", unreadable_message(path, cause))]
-    Unreadable {
-        /// The scene file.
-        path: PathBuf,
-        /// Why it could not be read.
-        cause: std::io::Error,
-    },
-}
-
-/// Why a scene file cannot be read; one that is missing is reported as a missing model is.
-fn unreadable_message(path: &Path, cause: &std::io::Error) -> String {
-    let path = model::visible_path(path);
-    match cause.kind() {
-        std::io::ErrorKind::NotFound => format!("{path}: the file does not exist; check the name"),
-        _ => format!("cannot read {path}: {cause}"),
-    }
+    #[error(transparent)]
+    Unreadable(#[from] UnreadableScene),
 }
 
 impl From<SceneError> for ResolveError {

@@ -12,10 +12,10 @@ use pipeline::explain::{
     ApiConventions, Explanation, TransformChain, explain_homogeneous_point, explain_node,
     explain_pixel, explain_point, explain_segment, explain_transforms,
 };
-use pipeline::scene::file::Choice;
 use pipeline::{RenderError, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene_file::file::Choice;
 
 /// The subject of an explanation.
 enum ExplainedPart {

@@ -5,10 +5,10 @@
 
 use crate::arrays;
 use crate::failure::Failure;
-use pipeline::options::NamedOption;
-use pipeline::scene::file::Positive;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene_file::file::Positive;
+use scene_file::options::NamedOption;
 
 /// Options of a call.
 pub(crate) struct Keywords<'a, 'py>(pub(crate) &'a Bound<'py, PyDict>);

@@ -7,9 +7,7 @@ use model::ModelInstance;
 use model::import::{
     ImageLoading, ImportError, ImportOptions, Limits, NameOrIndex, check_bytes, load_bytes,
 };
-use pipeline::scene::file::{
-    CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile,
-};
+use scene_file::file::{CameraChoice, DEFAULT_PADDING, FromFile, SceneFile, StyleFile, ViewFile};
 use pipeline::{Origin, Scene, render};
 use std::path::PathBuf;
 use std::sync::Arc;

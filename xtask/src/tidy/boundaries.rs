@@ -9,11 +9,11 @@ use crate::metadata::{Metadata, short_name};
 /// that part.
 const NAMED_BY: &[(&str, &[&str])] = &[
     ("gltf", &["crates/model/src/import"]),
-    ("ron", &["crates/pipeline/src/scene"]),
+    ("ron", &["crates/scene-file/src"]),
     (
         "serde",
         &[
-            "crates/pipeline/src/scene",
+            "crates/scene-file/src",
             "crates/model/src/import/gltf/located_json.rs",
             "crates/alberti/src/batch",
         ],
@@ -46,6 +46,7 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("shade", Some(&["homog", "camera", "raster", "model"])),
     ("drawing", None),
     ("sheet", None),
+    ("scene-file", Some(&["camera", "projection", "model", "shade", "drawing", "sheet"])),
     ("pipeline", None),
     ("explorer", None),
     ("alberti", None),
@@ -154,10 +155,7 @@ mod tests {
                 .map(|fault| fault.location)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(
-            places("crates/pipeline/src/scene/file.rs"),
-            ["crates/pipeline/src/scene/file.rs:2"]
-        );
+        assert_eq!(places("crates/pipeline/src/render.rs"), ["crates/pipeline/src/render.rs:2"]);
         assert_eq!(places("crates/model/src/import/mesh.rs"), [""; 0]);
     }
 

@@ -4,7 +4,7 @@ use super::job::{BatchJob, JobGroup, ListLine};
 use super::picture_name::{NameSource, PictureName, check_picture_name, normal_parts};
 use super::render_flags::{FlagTable, flag_word, is_scene_name};
 use model::visible_text;
-use pipeline::scene::closest_name;
+use scene_file::closest_name;
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 

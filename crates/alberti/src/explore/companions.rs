@@ -8,7 +8,7 @@ use crate::referenced_files::referenced_files;
 use crate::render::is_scene_file;
 use model::import::Limits;
 use model::visible_path;
-use pipeline::scene::parse_scene;
+use scene_file::parse_scene;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};

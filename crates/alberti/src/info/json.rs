@@ -27,7 +27,7 @@ use model::{
     Animation, AnimationChannel, AnimationTarget, Interpolation, Model, NodeProperty, Primitive,
     Skin, Topology, UvTransform, UvTransformPart,
 };
-use pipeline::scene::file::Finite;
+use scene_file::file::Finite;
 use serde_json::{Value, json};
 
 /// The version of the JSON schema.

@@ -15,9 +15,10 @@
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_text};
 use model::{Model, Topology, visible_path};
-use pipeline::scene::file::NonNegative;
-use pipeline::scene::{ResolveOptions, format_source};
+use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, ResolveError, Scene};
+use scene_file::file::NonNegative;
+use scene_file::format_source;
 use shade::Light;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -13,7 +13,6 @@ use super::DemonstrationError;
 use super::number_format::format_short;
 use crate::explain::formula_ids;
 use crate::formulas::find_formula;
-use crate::scene::file::{CameraFile, ProjectionFile, SceneFile};
 use crate::scene::{Origin, Scene};
 use camera::ViewProjection;
 use drawing::Panels;
@@ -23,6 +22,7 @@ use model::ModelInstance;
 use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
+use scene_file::file::{CameraFile, ProjectionFile, SceneFile};
 
 /// The lines at the head of the page: two sentences.
 const INTRODUCTION: [&str; 4] = [

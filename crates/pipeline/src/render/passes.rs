@@ -14,11 +14,10 @@ mod buffer;
 mod exr;
 mod geometry;
 mod npy;
-mod pass;
 mod to_png;
 
 pub use buffer::{PassBuffer, PassValues};
-pub use pass::{Pass, PassEncoding};
+pub use scene_file::{Pass, PassEncoding};
 
 use super::RenderError;
 use super::context::RenderContext;

@@ -1,10 +1,10 @@
 //! Resolution of the pages of an assembly: exploded view, balloons, parts list, masses.
 
-use super::file::SheetFile;
-use super::suggest::suggest_name;
-use super::syntax::PathStep::{Field, Index};
-use super::{Origin, SceneError};
+use super::Origin;
 use model::ModelInstance;
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::SheetFile;
+use scene_file::{SceneError, suggest_name};
 use sheet::{AssemblyPages, ExplosionSettings, PartDensity, PartsList};
 
 /// The pages of a sheet that show models as an assembly.
@@ -17,7 +17,7 @@ pub(super) fn resolve_assembly(
     models: &[ModelInstance],
 ) -> Result<AssemblyPages, SceneError> {
     check_density_names(origin, file, models)?;
-    let density = |density: &super::file::DensityFile| PartDensity {
+    let density = |density: &scene_file::file::DensityFile| PartDensity {
         of: density.of.clone(),
         grams_per_cubic_centimeter: density.density.value(),
     };
@@ -26,7 +26,7 @@ pub(super) fn resolve_assembly(
         balloons: file.balloons,
         explosion: file.exploded.as_ref().map(|exploded| ExplosionSettings {
             axis: exploded.axis,
-            distance: exploded.distance.map(super::number::NonNegative::value),
+            distance: exploded.distance.map(scene_file::file::NonNegative::value),
         }),
         part_sheets: file.part_sheets,
         densities: file.densities.iter().map(density).collect(),

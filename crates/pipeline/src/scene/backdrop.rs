@@ -8,11 +8,12 @@
 //!  Gradient, Picture    a backdrop behind the models, over the clear color
 //! ```
 
-use super::file::{BackgroundFile, Color, EnvironmentFile, SceneFile, StyleFile};
-use super::surrounding_light::read_image_bytes;
-use super::syntax::PathStep::{self, Field};
-use super::{Origin, SceneError};
+use super::Origin;
+use super::surrounding_light::{may_have_environment, read_image_bytes};
 use model::import::decode_image;
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::{BackgroundFile, Color, SceneFile, StyleFile};
 use shade::Backdrop;
 use shade::BackdropImage;
 use shade::Gradient;
@@ -26,27 +27,6 @@ const MAX_GRADIENT_COLORS: usize = 16;
 const MAX_IMAGE_TEXELS: u64 = 1 << 26;
 /// The path of the background in a scene file; viewports have their own.
 const BACKGROUND_PATH: [PathStep<'static>; 2] = [Field("image"), Field("background")];
-
-impl SceneFile {
-    /// The paths of all environment and backdrop images and of the sheet's title block, relative to
-    /// the scene's folder.
-    ///
-    /// Insets may have backdrops of their own. The caller uses the list for access checks and for
-    /// finding changed files.
-    pub fn image_paths(&self) -> impl Iterator<Item = &str> {
-        let own = self.viewports.iter().filter_map(|viewport| viewport.background.as_ref());
-        let behind = own.chain(&self.image.background).filter_map(|background| match background {
-            BackgroundFile::Picture { path, .. } => Some(path.as_str()),
-            _ => None,
-        });
-        let around = match &self.environment {
-            Some(EnvironmentFile::File { path, .. }) => Some(path.as_str()),
-            _ => None,
-        };
-        let title_block = self.sheet.as_ref().and_then(|sheet| sheet.title_block.as_deref());
-        around.into_iter().chain(behind).chain(title_block)
-    }
-}
 
 /// An error that points into the background, at the value at the end of `rest`.
 fn background_error(
@@ -76,7 +56,7 @@ pub(super) fn resolve_background_color(
     };
     match background {
         BackgroundFile::Transparent => Ok([0.0; 4]),
-        BackgroundFile::Environment { .. } if !file.may_have_environment(origin) => {
+        BackgroundFile::Environment { .. } if !may_have_environment(origin, file) => {
             let help = Some("add one, such as environment: Studio()");
             let message = "the scene has no environment to show".to_owned();
             Err(background_error(origin, &[], message, help))

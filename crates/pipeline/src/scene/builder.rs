@@ -1,9 +1,9 @@
 //! Scenes of models that are in memory, without files.
 
-use super::file::{CameraFile, LightFile, SceneFile, StyleFile};
 use super::{Origin, ResolveError, Scene};
 use homog::{Affine, Model as ModelSpace, World};
 use model::{Mesh, Model, ModelInstance, Node, Primitive};
+use scene_file::file::{CameraFile, LightFile, SceneFile, StyleFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ impl Scene {
     /// Begins a scene of models in memory.
     ///
     /// ```
-    /// use pipeline::scene::file::{CameraFile, LightFile};
+    /// use scene_file::file::{CameraFile, LightFile};
     /// use pipeline::{Scene, render};
     ///
     /// let scene = Scene::builder()
@@ -120,7 +120,7 @@ impl SceneBuilder {
     ///
     /// ```
     /// use pipeline::Scene;
-    /// use pipeline::scene::file::{BackgroundFile, Color};
+    /// use scene_file::file::{BackgroundFile, Color};
     ///
     /// let sky = |file: &mut pipeline::SceneFile| {
     ///     file.image.background = Some(BackgroundFile::Color(Color([128, 160, 255])));

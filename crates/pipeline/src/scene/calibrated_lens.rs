@@ -1,11 +1,11 @@
 //! Resolution of `Intrinsics`: the lens of a calibrated camera for the picture that is drawn.
 
-use super::file::{Finite, ProjectionFile};
-use super::number::Positive;
-use super::syntax::PathStep::Field;
+use super::Origin;
 use super::view_projection::PROJECTION_PATH;
-use super::{Origin, SceneError};
 use projection::{Intrinsics, ProjectionError};
+use scene_file::PathStep::Field;
+use scene_file::SceneError;
+use scene_file::file::{Finite, Positive, ProjectionFile};
 
 /// Sides of pictures of one shape differ by this at most, in pixels: they are whole numbers.
 const SHAPE_TOLERANCE: f64 = 1.0;

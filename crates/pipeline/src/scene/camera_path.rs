@@ -7,15 +7,15 @@
 //! them, so the target stays in the center of the picture between keys too. A path whose last key
 //! has the values of its first is closed: its spline is periodic, smooth at that key too.
 
-use super::file::{
-    CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, ViewFile,
-};
-use super::number::Triple;
-use super::syntax::PathStep::{self, Field, Index};
 use super::view_projection::resolve_view_projection;
-use super::{ImageSpec, Origin, Scene, SceneError};
+use super::{ImageSpec, Origin, Scene};
 use camera::ViewProjection;
 use model::ModelInstance;
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{
+    CameraFile, CameraKeyFile, CurveFile, FieldOfView, ProjectionFile, SceneFile, Triple, ViewFile,
+};
 
 /// The most keyframes of a path.
 const MAX_KEYS: usize = 10_000;
@@ -218,7 +218,7 @@ fn interpolate_hermite([from, to]: [f64; 2], [out, into]: [f64; 2], t: f64) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::parse_scene;
+    use scene_file::parse_scene;
 
     fn path(fields: &str) -> Result<CameraPath, String> {
         let text = format!("Scene(models: [(path: \"a.glb\")], camera_path: ({fields}))");

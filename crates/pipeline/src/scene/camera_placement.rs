@@ -1,7 +1,7 @@
 //! How a scene file places the camera: by itself, by framing the models, or as one of theirs.
 
-use super::file::{CameraChoice, Finite, FromFile, RotationFile, Triple, ViewFile};
 use camera::{Camera, CameraError, Extrinsics};
+use scene_file::file::{CameraChoice, Finite, FromFile, RotationFile, Triple, ViewFile};
 
 /// Where the camera is.
 pub(super) enum CameraPlacement<'a> {

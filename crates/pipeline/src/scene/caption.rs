@@ -11,31 +11,12 @@
 //! The strip is a part of the picture, so that pictures with and without captions have one size,
 //! and a caption never covers what it is about.
 
-use super::file::SceneFile;
-use super::syntax::PathStep::Field;
-use super::{ImageSpec, Origin, SceneError};
+use super::{ImageSpec, Origin};
 use camera::ViewProjection;
 use glam::{DMat4, DVec2};
 use homog::{Clip, Projective};
-
-/// The height of the strip in pixels: letters of 12 pixels with room above and below.
-const STRIP_HEIGHT: u32 = 28;
-/// The strip takes at most one pixel row of so many of the picture.
-const LEAST_ROWS_PER_STRIP_ROW: u32 = 4;
-
-impl SceneFile {
-    /// The height in pixels of the strip for the caption; 0 without one.
-    pub(super) fn caption_height(&self) -> u32 {
-        let most = self.image.size.1 / LEAST_ROWS_PER_STRIP_ROW;
-        if self.caption.is_some() { STRIP_HEIGHT.min(most) } else { 0 }
-    }
-
-    /// Width and height in pixels of the part of the picture above the caption.
-    pub(super) fn view_size(&self) -> (u32, u32) {
-        let (width, height) = self.image.size;
-        (width, height - self.caption_height())
-    }
-}
+use scene_file::PathStep::Field;
+use scene_file::SceneError;
 
 /// The caption of a view.
 ///

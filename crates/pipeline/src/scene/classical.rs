@@ -6,9 +6,8 @@
 //! - Perspectives by vanishing points: the points fix the orientation of the eye and the slopes of
 //!   the window beside its line of sight; framing finds the position of the eye.
 
-use super::file::{Finite, FromFile, ProjectionFile};
+use super::Origin;
 use super::view_projection::{CameraResolver, PROJECTION_PATH, VIEW_PATH};
-use super::{Origin, SceneError};
 use camera::ViewProjection;
 use camera::{Basis, Camera, Slopes, frame_perspective};
 use glam::DVec3;
@@ -17,6 +16,8 @@ use projection::{
     Axonometric, Classical, ConstructedPerspective, Convention, Frustum, NPoint, Oblique,
     Orthographic, Planometric, PrincipalView, ProjectionError, Window,
 };
+use scene_file::SceneError;
+use scene_file::file::{Finite, FromFile, ProjectionFile};
 
 /// The axis-aligned bounding box of the projected vertices, in the space of the picture plane.
 #[derive(Clone, Copy, Debug)]

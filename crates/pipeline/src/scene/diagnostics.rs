@@ -6,12 +6,8 @@
 //!                                  out, for its mistakes could follow from that
 //! ```
 
-use super::include::FileMistake;
-use super::model_files::check_model_paths;
-use super::resolve::check_description;
-use super::syntax::PathStep::Field;
-use super::{Origin, ResolveError, SceneError, SceneErrors, SceneFile};
-use std::path::PathBuf;
+use super::{Origin, ResolveError};
+use scene_file::{SceneError, SceneErrors};
 
 /// The mistakes of a scene, as they are found.
 #[derive(Debug, Default)]
@@ -40,6 +36,11 @@ impl Diagnostics {
         self.errors.is_empty() && self.failure.is_none()
     }
 
+    /// Drops the mistakes that are not to be kept.
+    pub(super) fn retain(&mut self, is_kept: impl FnMut(&SceneError) -> bool) {
+        self.errors.retain(is_kept);
+    }
+
     /// The mistakes in the order of the files and of their texts, each once.
     pub(super) fn into_errors(mut self, origin: &Origin) -> Vec<SceneError> {
         let files: Vec<&str> = origin.included_files().collect();
@@ -66,40 +67,4 @@ impl Diagnostics {
         }
         value.ok_or_else(|| origin.error_at(&[], "the scene cannot be resolved", None).into())
     }
-}
-
-/// The mistakes in the texts of a scene's files, and those that what could be read has besides, as
-/// far as the models need not be loaded for that.
-pub(super) fn with_errors_of_description(
-    origin: &Origin,
-    file: &SceneFile,
-    mistakes: Vec<FileMistake>,
-    allowed: &[PathBuf],
-) -> Vec<SceneError> {
-    let mut faults = Diagnostics::default();
-    check_description(origin, file, allowed, &mut faults);
-    check_model_paths(origin, file, allowed, &mut faults);
-    // What contains a mistake, or is part of one, may be wrong because of it.
-    let is_independent = |error: &SceneError| {
-        mistakes.iter().all(|FileMistake { error: mistake, scope }| {
-            let (outer, inner) = (&error.span, scope);
-            let contains = outer.start <= inner.start && inner.end <= outer.end;
-            let is_part = inner.start <= outer.start && outer.end <= inner.end;
-            mistake.file != error.file || !(contains || is_part)
-        })
-    };
-    // A background that shows the environment needs one that could be read.
-    let environment = origin.error_at(&[Field("environment")], "", None);
-    let is_lost = |FileMistake { error, .. }: &FileMistake| {
-        error.file == environment.file
-            && environment.span.start <= error.span.start
-            && error.span.end <= environment.span.end
-    };
-    let lost_environment = file.environment.is_none() && mistakes.iter().any(is_lost);
-    let background = origin.error_at(&[Field("image"), Field("background")], "", None);
-    faults.errors.retain(|error| {
-        is_independent(error) && !(lost_environment && error.span == background.span)
-    });
-    faults.errors.extend(mistakes.into_iter().map(|mistake| mistake.error));
-    faults.into_errors(origin)
 }

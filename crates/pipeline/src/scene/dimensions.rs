@@ -10,9 +10,7 @@
 mod angle;
 mod picking;
 
-use super::file::{DimensionFile, DimensionView, PickFile, PlaceFile, SheetFile};
-use super::syntax::PathStep::{self, Field, Index};
-use super::{Origin, SceneError};
+use super::Origin;
 use angle::angle_points;
 use camera::NamedView;
 use core::f64::consts::TAU;
@@ -20,6 +18,9 @@ use drawing::WorldCircle;
 use homog::{Point, World};
 use model::ModelInstance;
 use picking::{Picked, Picking};
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{DimensionFile, DimensionView, PickFile, PlaceFile, SheetFile};
 use sheet::{Dimension, DimensionSide, LengthDirection, Measure};
 
 /// The most decimal places that a number may have.

@@ -4,9 +4,9 @@
 //! open. Without a scene file nobody has said how bright the picture shall be.
 
 use super::Origin;
-use super::file::SceneFile;
-use super::surrounding_light::has_lights;
+use super::surrounding_light::{has_default_light, has_lights};
 use model::{ModelInstance, world_points};
+use scene_file::file::SceneFile;
 use shade::Light;
 use std::f32::consts::PI;
 
@@ -30,7 +30,7 @@ pub(super) fn resolve_exposure(
     if let Some(exposure) = file.image.exposure_ev {
         return exposure.value();
     }
-    if !file.has_default_light(origin) || !has_lights(models) {
+    if !has_default_light(origin, file) || !has_lights(models) {
         return 0.0;
     }
     let at = |point: [f32; 3]| lights.iter().map(|light| illuminance(light, point)).sum::<f32>();

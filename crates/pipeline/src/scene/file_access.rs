@@ -1,10 +1,11 @@
 //! The files that a scene's environment and backdrop come from: read, or loaded already.
 
 use super::backdrop::resolve_backdrop;
-use super::file::EnvironmentFile;
 use super::surrounding_light::resolve_environment;
-use super::{Origin, Scene, SceneError, SceneFile};
+use super::{Origin, Scene};
 use model::ModelInstance;
+use scene_file::file::EnvironmentFile;
+use scene_file::{SceneError, SceneFile};
 use shade::{Backdrop, Environment};
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! The shadow catcher below the models: the smallest rectangle that their shadows need.
 
-use super::file::{GroundFile, SceneFile, ShadowsFile};
 use glam::DVec3;
 use homog::{Bounds, Point, World};
 use model::ModelInstance;
 use model::world_points;
+use scene_file::file::{GroundFile, SceneFile, ShadowsFile};
 use shade::Light;
 
 /// A horizontal rectangle that shows only shadows (shadow catcher).
@@ -65,7 +65,7 @@ pub(super) fn resolve_ground(
     let Some(GroundFile::Shadow { height, .. }) = file.ground else { return None };
     let bounds = Bounds::from_points(world_points(models))?;
     let (least, greatest) = (bounds.corners()[0].raw(), bounds.corners()[7].raw());
-    let height = height.map_or(least.y, super::number::Finite::value);
+    let height = height.map_or(least.y, scene_file::file::Finite::value);
     let reach = MAX_SHADOW_DIAGONALS * bounds.diagonal();
     let (mut low, mut high) = (least.min(greatest), least.max(greatest));
     for (light, corner) in lights.iter().flat_map(|light| bounds.corners().map(|c| (light, c))) {

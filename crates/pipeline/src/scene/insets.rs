@@ -8,13 +8,10 @@
 //! ```
 
 use super::diagnostics::Diagnostics;
-use super::file::{ImageFile, SceneFile, StereoFile, ViewportFile, ViewportsScale};
 use super::file_access::FileAccess;
-use super::number::Positive;
 use super::resolve::{resolve_image_size, resolve_without_insets};
 use super::shared_scale::share_scale_of_viewports;
-use super::syntax::PathStep::{Field, Index};
-use super::{Origin, ResolveError, Scene, SceneError};
+use super::{Origin, ResolveError, Scene};
 use camera::ViewProjection;
 use drawing::Ink;
 use glam::{DMat4, DVec4};
@@ -22,6 +19,9 @@ use homog::PixelRect;
 use homog::{Bounds, Point, Projective};
 use model::ModelInstance;
 use model::world_points;
+use scene_file::PathStep::{Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{ImageFile, Positive, SceneFile, StereoFile, ViewportFile, ViewportsScale};
 
 /// The most viewports of a scene.
 const MAX_VIEWPORTS: usize = 256;
@@ -117,7 +117,7 @@ fn resolve_viewport_rect(
     let place = |field: &'static str| [Field("viewports"), Index(number), Field(field)];
     let (region, field) = match (viewport.at, viewport.pixels) {
         (Some((x, y, w, h)), None) => {
-            let [x, y, w, h] = [x, y, w, h].map(super::number::Fraction::value);
+            let [x, y, w, h] = [x, y, w, h].map(scene_file::file::Fraction::value);
             // Rounded border by border, so that neighbours meet.
             let run = |from: f64, length: f64, side: u32| {
                 let end = libm::round((from + length) * f64::from(side));
@@ -259,11 +259,6 @@ fn shift_eye(view_projection: ViewProjection, aside: f64, plane: f64) -> Option<
         DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(-aside / plane, 0.0, 1.0, 0.0), DVec4::W);
     let view_to_clip = Projective::from_raw(view_projection.view_to_clip.raw() * slant);
     Some(ViewProjection { camera, view_to_clip })
-}
-
-/// Whether a field of the scene exists in viewports too, so that errors in it point there.
-pub(super) fn is_viewport_field(field: &str) -> bool {
-    matches!(field, "camera" | "style" | "overlays" | "caption")
 }
 
 #[cfg(test)]

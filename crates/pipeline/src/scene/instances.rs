@@ -4,13 +4,13 @@
 //!   model ─scale, rotate─► ─transform of the instance─► ─translate─► world
 //! ```
 
-use super::file::{Finite, InstanceFile, InstancesFile, ModelFile, SceneFile};
-use super::number::{Scale, Triple};
-use super::syntax::PathStep::{self, Field, Index};
-use super::{Origin, SceneError};
+use super::Origin;
 use homog::{Affine, Model as ModelSpace, Vector, World};
 use model::Model;
 use model::ModelInstance;
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{Finite, InstanceFile, InstancesFile, ModelFile, Scale, SceneFile, Triple};
 use std::sync::Arc;
 
 /// The most instances of all models in a scene.
@@ -40,22 +40,6 @@ pub(super) fn check_instance_counts(origin: &Origin, file: &SceneFile) -> Result
         }
     }
     Ok(())
-}
-
-impl ModelFile {
-    /// The number of instances of the model, at most `usize::MAX`.
-    #[must_use]
-    pub fn instance_count(&self) -> usize {
-        match &self.instances {
-            None => 1,
-            Some(InstancesFile::Grid { count: (x, y, z), .. }) => {
-                let sides = [x, y, z].map(|&side| side as usize);
-                sides.iter().fold(1, |product: usize, &side| product.saturating_mul(side))
-            }
-            Some(InstancesFile::Circle { count, .. }) => *count as usize,
-            Some(InstancesFile::List(list)) => list.len(),
-        }
-    }
 }
 
 /// The path of a model's `instances`, and of a value in them.
@@ -248,8 +232,8 @@ fn normalize_vector(v: [f64; 3]) -> Option<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::parse_scene;
     use homog::Point;
+    use scene_file::parse_scene;
 
     /// Where the copies have the point (0, 0, 1) of the model.
     fn instance_points(model: &str) -> Result<Vec<[f64; 3]>, String> {

@@ -8,16 +8,16 @@
 //!          └──┴──────────┴──┘
 //! ```
 
+use super::Origin;
 use super::calibrated_lens::calibrated_lens;
-use super::file::{FieldOfView, Finite, ProjectionFile};
-use super::number::Positive;
-use super::syntax::PathStep::Field;
 use super::view_projection::PROJECTION_PATH;
-use super::{Origin, SceneError};
 use homog::{Clip, Projective, View};
 use projection::{
     ApexMovedFrustum, Convention, Fov, Frustum, Orthographic, Perspective, ProjectionError, Window,
 };
+use scene_file::PathStep::Field;
+use scene_file::SceneError;
+use scene_file::file::{FieldOfView, Finite, Positive, ProjectionFile};
 
 /// The lens of a perspective: how wide it sees, and how far it is moved sideways.
 #[derive(Clone, Copy, PartialEq, Debug)]

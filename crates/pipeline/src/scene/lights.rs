@@ -1,16 +1,20 @@
 //! Resolution of lights: units, directions and shadows of the lights of a scene file, and the
 //! default key light.
 
+use super::Origin;
 use super::diagnostics::Diagnostics;
-use super::file::{EnvironmentFile, Finite, LightColor, LightFile, SceneFile, ShadowsFile};
-use super::number::{NonNegative, Positive, Triple};
 use super::shadows::resolve_shadow;
-use super::syntax::PathStep::{self, Field, Index};
-use super::{Origin, SceneError};
+use super::surrounding_light::effective_environment;
 use camera::ViewProjection;
 use homog::{Point, Vector, World};
 use model::LightKind;
 use model::ModelInstance;
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{
+    EnvironmentFile, Finite, LightColor, LightFile, NonNegative, Positive, SceneFile, ShadowsFile,
+    Triple,
+};
 use shade::{Light, Shadow};
 
 /// The irradiance of the default key light where nothing but ambient light is beside it, in lux.
@@ -77,7 +81,7 @@ pub(super) fn resolve_lights(
         return limit_shadow_maps(origin, file, theirs);
     }
     let key_light = |lux| default_key_light(view_projection, lux, shadow);
-    Ok(match file.effective_environment(origin, models) {
+    Ok(match effective_environment(origin, file, models) {
         None => vec![key_light(KEY_LUX), Light::Ambient { lux: [AMBIENT_LUX; 3] }],
         // A bare model has the same light with shadows and without.
         Some(EnvironmentFile::Studio { .. }) if origin.text.is_empty() => {
@@ -248,16 +252,6 @@ fn resolve_light(
             Light::Ambient { lux: scale_color(color, intensity) }
         }
     }))
-}
-
-impl LightFile {
-    /// The distance at which the light is cut off, in world units; `None` for unlimited lights.
-    const fn range(&self) -> Option<Positive> {
-        match self {
-            Self::Point { range, .. } | Self::Spot { range, .. } => *range,
-            Self::Directional { .. } | Self::FromModels | Self::Ambient { .. } => None,
-        }
-    }
 }
 
 /// The unit vector in world space in which a light travels, from the light to the scene.

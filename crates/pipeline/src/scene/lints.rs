@@ -42,14 +42,15 @@ mod stereo;
 mod text;
 mod visibility_survey;
 
-use super::file::{ProjectionFile, StyleFile, ViewFile};
 use super::lens::given_window;
-use super::syntax::PathStep::{Field, Index};
 use super::view_projection::select_lens;
-use super::{Origin, ResolveOptions, Scene, SceneError, SceneFile, Style};
+use super::{Origin, ResolveOptions, Scene, Style};
 use clip::PlaneIndex;
 use homog::Point;
 use model::CameraProjection;
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::{ProjectionFile, StyleFile, ViewFile};
+use scene_file::{SceneError, SceneFile};
 use visibility_survey::VisibilitySurvey;
 
 /// Aspect ratios that differ by no more than this fraction count as equal.

@@ -3,11 +3,11 @@
 //! An override replaces factors of metallic-roughness materials. The texture of a replaced factor
 //! goes with it, because glTF multiplies the two: red paint on a blue texture would be black.
 
-use super::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
-use super::suggest::suggest_name;
-use super::syntax::PathStep::{self, Field, Index};
-use super::{Origin, SceneError, SceneErrors};
+use super::Origin;
 use model::{AlphaMode, Emission, Material, Model};
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::file::{AlphaModeFile, Color, MaterialFile, MaterialsFile};
+use scene_file::{SceneError, SceneErrors, suggest_name};
 
 /// Changes the materials of the model with this number in the scene.
 ///

@@ -1,17 +1,18 @@
 //! The models of a scene: loaded, posed and copied to their places.
 
 use super::diagnostics::Diagnostics;
-use super::file::{Choice, Finite, MaterialFile, ModelFile, ScalarsFile};
-use super::instances;
 use super::material_overrides::override_materials;
 use super::origin::ModelSource;
 use super::resolve_options::ResolveOptions;
-use super::suggest::{closest_name, suggest_name};
-use super::syntax::PathStep::{Field, Index};
-use super::{Origin, ResolveError, SceneError, SceneErrors, SceneFile};
+use super::{Origin, ResolveError, instances};
 use model::codes::LIMIT_EXCEEDED;
-use model::import::{FileFormat, ImportError, ImportOptions, load, load_bytes, load_from_memory};
-use model::{LengthUnit, Model, ModelInstance, UpAxis};
+use model::import::{
+    FileFormat, ImportError, ImportOptions, NameOrIndex, load, load_bytes, load_from_memory,
+};
+use model::{LengthUnit, Model, ModelInstance, ScalarColors, UpAxis};
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::{Choice, Finite, MaterialFile, ModelFile, ScalarsFile};
+use scene_file::{SceneError, SceneErrors, SceneFile, closest_name, suggest_name};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -239,13 +240,13 @@ fn load_model(
         return Err(outside_folder_error(origin, number, entry).into());
     }
     let import = ImportOptions {
-        scene: entry.scene.clone().map(Into::into).or(options.import.scene.clone()),
-        variant: entry.variant.clone().map(Into::into).or(options.import.variant.clone()),
+        scene: entry.scene.clone().map(name_or_index).or(options.import.scene.clone()),
+        variant: entry.variant.clone().map(name_or_index).or(options.import.variant.clone()),
         // Flags replace what the scene file says.
         up: options.import.up.or(entry.up),
         length_unit: options.import.length_unit.or(entry.unit),
         crease_angle: options.import.crease_angle.or(resolve_crease(origin, number, entry)?),
-        scalars: entry.scalars.as_ref().map(Into::into).or(options.import.scalars.clone()),
+        scalars: entry.scalars.as_ref().map(scalar_colors).or(options.import.scalars.clone()),
         ..options.import.clone()
     };
     let loaded = match &origin.models {
@@ -262,6 +263,24 @@ fn load_model(
     }
     override_materials(origin, number, &entry.materials, &mut model)?;
     Ok(model)
+}
+
+/// A choice among the items of a model, as importers take it.
+#[must_use]
+pub fn name_or_index(choice: Choice) -> NameOrIndex {
+    match choice {
+        Choice::Index(at) => NameOrIndex::Index(at),
+        Choice::Name(name) => NameOrIndex::Name(name),
+    }
+}
+
+/// Colors by a scalar attribute, as importers take them.
+fn scalar_colors(file: &ScalarsFile) -> ScalarColors {
+    ScalarColors {
+        attribute: file.attribute.clone(),
+        colormap: file.colormap,
+        range: file.range.map(|(min, max)| [min.value(), max.value()]),
+    }
 }
 
 /// The crease angle of a model in degrees.

@@ -1,8 +1,9 @@
 //! Outputs of a scene: the bits per channel, and the passes that are written beside the picture.
 
-use super::syntax::PathStep::Field;
-use super::{Origin, SceneError, SceneFile};
+use super::Origin;
 use crate::render::passes::{Pass, PassEncoding};
+use scene_file::PathStep::Field;
+use scene_file::{SceneError, SceneFile};
 
 /// The outputs of a scene.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -36,8 +37,8 @@ impl Outputs {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{SceneErrors, parse_scene};
     use super::*;
+    use scene_file::{SceneErrors, parse_scene};
 
     fn outputs(text: &str) -> Result<Outputs, SceneErrors> {
         let text = format!("Scene(models: [(path: \"a.glb\")],\n  {text})");

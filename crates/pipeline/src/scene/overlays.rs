@@ -1,13 +1,13 @@
 //! Resolution of overlays: the view volumes of other cameras, and labels at points of the world.
 
-use super::file::OverlayFile;
-use super::number::{Finite, Positive};
-use super::syntax::PathStep::{Field, Index};
 use super::view_projection::resolve_view_projection;
-use super::{ImageSpec, Origin, SceneError};
+use super::{ImageSpec, Origin};
 use drawing::{Overlay, PointLabel, palette::ink_on_paper};
 use glam::DVec2;
 use model::ModelInstance;
+use scene_file::PathStep::{Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{Finite, OverlayFile, Positive};
 use shade::color::SrgbEncoder;
 
 /// The offset of labels in pixels, without and with a leader line: up and to the right.

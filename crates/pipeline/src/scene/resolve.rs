@@ -8,30 +8,28 @@ use super::backdrop::{is_blank_paper, resolve_background_color};
 use super::caption::resolve_caption;
 use super::diagnostics::Diagnostics;
 use super::exposure::resolve_exposure;
-use super::file::{BackgroundFile, GroundFile, ViewFile};
 use super::file_access::FileAccess;
 use super::ground::{resolve_ground, shadow_points};
 use super::insets::resolve_insets;
 use super::lights::{resolve_described_lights, resolve_lights, resolve_scene_shadow, scale_lights};
 use super::model_files::load_models;
-use super::number::Positive;
 use super::overlays::resolve_overlays;
 use super::resolve_options::ResolveOptions;
 use super::section::resolve_sections;
 use super::style::resolve_style;
-use super::surrounding_light::has_lights;
-use super::syntax::PathStep::Field;
+use super::surrounding_light::{effective_environment, has_default_light, has_lights};
 use super::uncut::resolve_uncut;
 use super::view_projection::{check_camera, resolve_view_of_points, resolve_view_projection};
-use super::{
-    CameraPath, ImageSpec, Origin, Outputs, ResolveError, Scene, SceneError, SceneFile, Style,
-};
+use super::{CameraPath, ImageSpec, Origin, Outputs, ResolveError, Scene, Style};
 use camera::ViewProjection;
 use drawing::Overlay;
 use homog::{Bounds, Plane, Point, World};
 use model::ModelInstance;
 use model::world_points;
 use raster::Samples;
+use scene_file::PathStep::Field;
+use scene_file::file::{BackgroundFile, GroundFile, Positive, ViewFile};
+use scene_file::{SceneError, SceneFile};
 use shade::{Backdrop, Environment, Light, ToneMapper, ToneMapping};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -288,7 +286,7 @@ impl SceneParts {
     ) -> Option<Scene> {
         let (image, style) = (self.image?, self.style?);
         let (mut view_projection, mut lights) = (self.view_projection?, self.lights?);
-        let has_environment = file.effective_environment(origin, models).is_some();
+        let has_environment = effective_environment(origin, file, models).is_some();
         let ground = resolve_ground(file, models, &lights, has_environment);
         let frames_shadows = matches!(file.ground, Some(GroundFile::Shadow { framed: true, .. }));
         let is_framed = frames_shadows && matches!(file.camera.view, ViewFile::Frame { .. });
@@ -306,7 +304,7 @@ impl SceneParts {
             file.radius.map_or_else(usual, Positive::value)
         });
         // The studio is calibrated to stay below 1. Lights of a model are of any brightness.
-        let has_model_lights = file.has_default_light(origin) && has_lights(models);
+        let has_model_lights = has_default_light(origin, file) && has_lights(models);
         let curve = if has_model_lights { ToneMapping::Neutral } else { ToneMapping::None };
         let curve = file.image.tone_mapping.unwrap_or(curve);
         // After the exposure, which would compensate for it.

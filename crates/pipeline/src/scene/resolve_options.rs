@@ -1,8 +1,9 @@
 //! Options of resolution: what the caller of a scene decides, not its file.
 
-use super::syntax::PathStep::Field;
-use super::{Origin, SceneError, SceneFile};
+use super::Origin;
 use model::import::ImportOptions;
+use scene_file::PathStep::Field;
+use scene_file::{SceneError, SceneFile};
 
 /// The most pixels that a scene may ask for by itself: 16,384 x 16,384.
 const MAX_PIXELS: u64 = 1 << 28;

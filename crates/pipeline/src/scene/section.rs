@@ -1,10 +1,11 @@
 //! Resolution of section planes.
 
+use super::Origin;
 use super::diagnostics::Diagnostics;
-use super::file::SectionFile;
-use super::syntax::PathStep::{Field, Index};
-use super::{Origin, SceneError};
 use homog::{Normal, Plane, Point, World};
+use scene_file::PathStep::{Field, Index};
+use scene_file::SceneError;
+use scene_file::file::SectionFile;
 
 /// More cuts than this are a slip, and each costs another pass over the models.
 const MAX_SECTIONS: usize = 16;

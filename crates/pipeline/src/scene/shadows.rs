@@ -1,8 +1,9 @@
 //! Resolution of shadow settings: the size of the shadow map, and how soft its shadows are.
 
-use super::file::ShadowsFile;
-use super::syntax::PathStep::{self, Field};
-use super::{Origin, SceneError};
+use super::Origin;
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::ShadowsFile;
 use shade::Shadow;
 
 /// The texels of a shadow map's longer side, by default.
@@ -24,6 +25,7 @@ pub(super) fn resolve_shadow(
         let help = Some("from 64 to 8192 are possible, such as 2048".to_owned());
         return Err(origin.error_at(&path, message, help));
     }
-    let degrees = softness_degrees.map_or(DEFAULT_SOFTNESS_DEGREES, super::number::Softness::value);
+    let degrees =
+        softness_degrees.map_or(DEFAULT_SOFTNESS_DEGREES, scene_file::file::Softness::value);
     Ok(Some(Shadow { resolution: size, softness: degrees.to_radians() as f32 }))
 }

@@ -7,14 +7,14 @@
 //! The shared scale is the least of those at which each view fits its rectangle.
 
 use super::caption::map_window;
-use super::file::{CameraFile, SceneFile, ViewFile, ViewportsScale};
 use super::insets::Inset;
 use super::lens::given_window;
-use super::syntax::PathStep::Field;
 use super::view_projection::PROJECTION_PATH;
-use super::{Origin, Scene, SceneError};
-use crate::scene::file::ProjectionFile;
+use super::{Origin, Scene};
 use glam::{DVec2, Vec4Swizzles};
+use scene_file::PathStep::Field;
+use scene_file::SceneError;
+use scene_file::file::{CameraFile, ProjectionFile, SceneFile, ViewFile, ViewportsScale};
 
 impl Scene {
     /// The scale of the view in pixels for a unit of the world; `None` in perspective, where it

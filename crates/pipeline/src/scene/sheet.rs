@@ -2,16 +2,17 @@
 
 use super::assembly::resolve_assembly;
 use super::dimensions::resolve_dimensions;
-use super::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 use super::sheet_views::resolve_sheet_views;
 use super::style::resolve_iso_group;
 use super::surrounding_light::read_image_bytes;
-use super::syntax::PathStep::{self, Field};
-use super::{Origin, Scene, SceneError, Style};
+use super::{Origin, Scene, Style};
 use camera::NamedView;
 use drawing::{LineStyle, LineWidths, Overlay};
 use homog::{Plane, World};
 use model::{LengthUnit, ModelInstance};
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::{AxonometricView, PageOrientation, PaperSize, SheetFile, SideView};
 use sheet::{DimensionUnit, NumberFormat, Sheet, TitleBlockTemplate, TitleBlockText};
 use std::path::PathBuf;
 use viewport::{DrawingScale, Paper};
@@ -60,7 +61,7 @@ pub(super) const SCALE_PATH: [PathStep<'static>; 2] = [Field("sheet"), Field("sc
 ///
 /// ```
 /// use pipeline::import::MemoryFolder;
-/// use pipeline::scene::file::{ModelFile, SheetFile};
+/// use scene_file::file::{ModelFile, SheetFile};
 /// use pipeline::scene::{SheetContent, resolve_sheet};
 /// use pipeline::{Origin, Scene, SceneFile};
 ///

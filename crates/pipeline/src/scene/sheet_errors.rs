@@ -2,15 +2,16 @@
 
 use super::assembly::resolve_assembly;
 use super::diagnostics::Diagnostics;
-use super::file::SheetFile;
 use super::section::resolve_sections;
 use super::sheet::{SCALE_PATH, SheetContent, resolve_sheet};
 use super::sheet_views::sheet_view_error;
 use super::style::resolve_style;
-use super::syntax::PathStep::{self, Field};
 use super::uncut::resolve_uncut;
-use super::{Origin, SceneError, SceneFile, Style};
+use super::{Origin, Style};
 use model::ModelInstance;
+use scene_file::PathStep::{self, Field};
+use scene_file::file::SheetFile;
+use scene_file::{SceneError, SceneFile};
 use sheet::SheetError;
 use std::path::PathBuf;
 

@@ -1,12 +1,12 @@
 //! Resolution of the views of a drawing sheet.
 
-use super::file::{AxisFile, SheetFile, SheetViewFile, ViewSideFile};
-use super::number::{Finite, Triple};
+use super::Origin;
 use super::sheet::resolve_scale;
-use super::syntax::PathStep::{self, Field, Index};
-use super::{Origin, SceneError};
 use glam::DVec2;
 use homog::{Point, Vector, World};
+use scene_file::PathStep::{self, Field, Index};
+use scene_file::SceneError;
+use scene_file::file::{AxisFile, Finite, SheetFile, SheetViewFile, Triple, ViewSideFile};
 use sheet::{SheetError, ViewPlace, ViewRequest, ViewSide};
 
 /// The views that a sheet asks for.

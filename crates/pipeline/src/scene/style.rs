@@ -1,10 +1,10 @@
 //! Resolution of the style: how surfaces and lines are drawn.
 
-use super::file::{LinesFile, StyleFile, WidthFile};
-use super::number::{CreaseAngle, Positive};
-use super::syntax::PathStep::{self, Field};
-use super::{Origin, SceneError, SceneFile, Style};
+use super::{Origin, Style};
 use drawing::{IsoLineGroup, LineStyle, LineWidths};
+use scene_file::PathStep::{self, Field};
+use scene_file::file::{CreaseAngle, LinesFile, Positive, StyleFile, WidthFile};
+use scene_file::{SceneError, SceneFile};
 
 /// The style of a scene.
 pub(super) fn resolve_style(origin: &Origin, file: &SceneFile) -> Result<Style, SceneError> {

@@ -3,11 +3,12 @@
 //! Prefiltering is the expensive part of a small scene, so the last few environments are cached by
 //! their content, across scenes and threads.
 
-use super::file::{BackgroundFile, EnvironmentFile, Finite, SceneFile};
+use super::Origin;
 use super::hdr::Panorama;
-use super::syntax::PathStep::{self, Field};
-use super::{Origin, SceneError};
 use model::ModelInstance;
+use scene_file::PathStep::{self, Field};
+use scene_file::SceneError;
+use scene_file::file::{BackgroundFile, EnvironmentFile, Finite, SceneFile};
 use shade::{Environment, PreethamSky, studio_radiance};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -25,43 +26,41 @@ pub(super) fn has_lights(models: &[ModelInstance]) -> bool {
     models.iter().any(|placed| placed.model.scene_lights().next().is_some())
 }
 
-impl SceneFile {
-    /// Whether nobody has said what light there is: a bare model, without a scene file.
-    pub(super) fn has_default_light(&self, origin: &Origin) -> bool {
-        origin.text.is_empty() && self.lights.is_none()
-    }
+/// Whether nobody has said what light there is: a bare model, without a scene file.
+pub(super) fn has_default_light(origin: &Origin, file: &SceneFile) -> bool {
+    origin.text.is_empty() && file.lights.is_none()
+}
 
-    /// Whether the scene may have an environment: the file alone does not always say.
-    pub(super) fn may_have_environment(&self, origin: &Origin) -> bool {
-        match self.environment {
-            Some(EnvironmentFile::Dark) => false,
-            Some(_) => true,
-            None => self.has_default_light(origin),
-        }
+/// Whether the scene may have an environment: the file alone does not always say.
+pub(super) fn may_have_environment(origin: &Origin, file: &SceneFile) -> bool {
+    match file.environment {
+        Some(EnvironmentFile::Dark) => false,
+        Some(_) => true,
+        None => has_default_light(origin, file),
     }
+}
 
-    /// The environment whose light the style shows; `None` without one.
-    ///
-    /// A bare model stands in the studio: metals show nothing but what is around them. With lights
-    /// of its own the studio is dimmed, so that they still matter.
-    pub(super) fn effective_environment(
-        &self,
-        origin: &Origin,
-        models: &[ModelInstance],
-    ) -> Option<EnvironmentFile> {
-        let default = || {
-            let studio = if has_lights(models) {
-                EnvironmentFile::DIMMED_STUDIO
-            } else {
-                EnvironmentFile::STUDIO
-            };
-            self.has_default_light(origin).then_some(studio)
+/// The environment whose light the style shows; `None` without one.
+///
+/// A bare model stands in the studio: metals show nothing but what is around them. With lights of
+/// its own the studio is dimmed, so that they still matter.
+pub(super) fn effective_environment(
+    origin: &Origin,
+    file: &SceneFile,
+    models: &[ModelInstance],
+) -> Option<EnvironmentFile> {
+    let default = || {
+        let studio = if has_lights(models) {
+            EnvironmentFile::DIMMED_STUDIO
+        } else {
+            EnvironmentFile::STUDIO
         };
-        let environment = self.environment.clone().or_else(default);
-        environment.filter(|environment| {
-            self.style.shows_environment() && *environment != EnvironmentFile::Dark
-        })
-    }
+        has_default_light(origin, file).then_some(studio)
+    };
+    let environment = file.environment.clone().or_else(default);
+    environment.filter(|environment| {
+        file.style.shows_environment() && *environment != EnvironmentFile::Dark
+    })
 }
 
 /// The key of an environment: its kind, all its numbers, and a hash of a file's bytes.
@@ -96,7 +95,7 @@ pub(super) fn resolve_environment(
     allowed: &[PathBuf],
     exposure_ev: f64,
 ) -> Result<Option<Arc<Environment>>, SceneError> {
-    let Some(environment) = file.effective_environment(origin, models) else { return Ok(None) };
+    let Some(environment) = effective_environment(origin, file, models) else { return Ok(None) };
     let degrees = |angle: Option<Finite>| angle.map_or(0.0, Finite::value);
     Ok(Some(match &environment {
         EnvironmentFile::Dark => return Ok(None),

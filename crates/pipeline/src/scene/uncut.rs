@@ -1,11 +1,11 @@
 //! Parts that section planes do not cut: shafts, bolts and others, by the names of their nodes.
 
-use super::file::SectionFile;
+use super::Origin;
 use super::named_nodes::{node_names, objects_below};
-use super::suggest::suggest_name;
-use super::syntax::PathStep::{Field, Index};
-use super::{Origin, SceneError};
 use model::ModelInstance;
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::SectionFile;
+use scene_file::{SceneError, suggest_name};
 
 /// The objects that no section cuts, in ascending order.
 ///

@@ -13,12 +13,8 @@ use super::camera_placement::CameraPlacement;
 use super::caption::map_window;
 use super::classical::check_classical_projection;
 use super::depth_span::DepthSpan;
-use super::file::{CameraChoice, CameraFile, Finite, FromFile, ProjectionFile, ViewFile};
 use super::lens::{Lens, check_lens, check_lens_fields, given_window};
-use super::number::Positive;
-use super::suggest::suggest_name;
-use super::syntax::PathStep::{self, Field};
-use super::{ImageSpec, Origin, SceneError};
+use super::{ImageSpec, Origin};
 use camera::ViewProjection;
 use camera::{Basis, Camera, NamedView, Slopes, frame_parallel, frame_perspective};
 use glam::DVec2;
@@ -30,6 +26,11 @@ use projection::{
     ApexMovedFrustum, Convention, Fov, Frustum, Intrinsics, Orthographic, Perspective,
     ProjectionError,
 };
+use scene_file::PathStep::{self, Field};
+use scene_file::file::{
+    CameraChoice, CameraFile, Finite, FromFile, Positive, ProjectionFile, ViewFile,
+};
+use scene_file::{SceneError, suggest_name};
 
 /// The path of the position and direction of the camera.
 pub(super) const VIEW_PATH: [PathStep<'static>; 2] = [Field("camera"), Field("view")];

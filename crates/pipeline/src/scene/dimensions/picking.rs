@@ -1,14 +1,14 @@
 //! Picking: points, edges, faces and circles by place and name, or an error that points at them.
 
-use super::super::file::{PickFile, PlaceFile};
+use super::super::Origin;
 use super::super::named_nodes::{node_names, objects_below};
-use super::super::suggest::suggest_name;
-use super::super::syntax::PathStep::{self, Field};
-use super::super::{Origin, SceneError};
 use drawing::{FeaturePicker, PickedFeature, WorldCircle};
 use glam::DVec3;
 use homog::{Bounds, Point, World};
 use model::ModelInstance;
+use scene_file::PathStep::{self, Field};
+use scene_file::file::{PickFile, PlaceFile};
+use scene_file::{SceneError, suggest_name};
 
 /// Faces that meet at more than this angle, in radians, have an edge that can be picked.
 const CREASE_ANGLE: f64 = core::f64::consts::FRAC_PI_6;

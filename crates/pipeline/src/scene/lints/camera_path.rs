@@ -1,10 +1,11 @@
 //! Lint of camera paths on which the picture turns over between keyframes.
 
 use super::Lint;
-use crate::scene::file::ViewFile;
-use crate::scene::syntax::PathStep::{Field, Index};
-use crate::scene::{CameraPath, Origin, SceneFile};
+use crate::scene::{CameraPath, Origin};
 use glam::DVec3;
+use scene_file::PathStep::{Field, Index};
+use scene_file::SceneFile;
+use scene_file::file::ViewFile;
 
 /// Between two keyframes the path is looked at in so many steps.
 const STEPS: u32 = 64;

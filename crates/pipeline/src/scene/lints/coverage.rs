@@ -1,7 +1,7 @@
 //! Lints of models that are hardly to be seen: specks in the picture.
 
 use super::{Lint, Linter, VisibilitySurvey};
-use crate::scene::syntax::PathStep::{Field, Index};
+use scene_file::PathStep::{Field, Index};
 
 /// Models whose rectangle in the picture has both sides below this fraction of the picture's: less
 /// than a thousandth of its area.

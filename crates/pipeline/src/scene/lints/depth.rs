@@ -2,8 +2,8 @@
 //! resolution.
 
 use super::{Lint, Linter};
-use crate::scene::file::{ProjectionFile, ViewFile};
-use crate::scene::syntax::PathStep::{Field, Index};
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::{ProjectionFile, ViewFile};
 
 /// A near plane is wasteful if the nearest vertex is this many times farther away. Resolution at a
 /// distance is inversely proportional to the near distance, so about two decimal digits are lost.
@@ -71,7 +71,7 @@ fn near_distance(adviser: &Linter<'_>) -> Option<f64> {
 
 /// The path of the value to underline: the plane's own field, or the model's camera, or the camera
 /// as a whole where planes are automatic.
-fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<crate::scene::syntax::PathStep<'a>> {
+fn plane_path<'a>(adviser: &Linter<'_>, plane: &'a str) -> Vec<scene_file::PathStep<'a>> {
     let given = matches!(
         adviser.file.camera.projection,
         Some(

@@ -1,9 +1,10 @@
 //! Lint of pictures of depth whose near parts are as white as their background.
 
 use super::Lint;
-use crate::scene::file::{BackgroundFile, StyleFile};
-use crate::scene::syntax::PathStep::Field;
-use crate::scene::{Origin, SceneFile};
+use crate::scene::Origin;
+use scene_file::PathStep::Field;
+use scene_file::SceneFile;
+use scene_file::file::{BackgroundFile, StyleFile};
 
 /// A background is white if all three bytes of its color are at least this.
 const WHITE: u8 = 0xd0;

@@ -1,9 +1,9 @@
 //! Lint of grounds that models stick through.
 
 use super::{Lint, Linter};
-use crate::scene::file::GroundFile;
-use crate::scene::syntax::PathStep::Field;
 use homog::Bounds;
+use scene_file::PathStep::Field;
+use scene_file::file::GroundFile;
 
 /// Models may be sunk into the ground by this fraction of their height.
 const SUNK: f64 = 0.01;

@@ -1,8 +1,8 @@
 //! Lint of instances that stand in one place, where one hides the others.
 
 use super::{Lint, Linter};
-use crate::scene::file::InstancesFile;
-use crate::scene::syntax::PathStep::{Field, Index};
+use scene_file::PathStep::{Field, Index};
+use scene_file::file::InstancesFile;
 
 /// Instances of a model that have the same transform, such as those of a grid with a step of 0.
 ///

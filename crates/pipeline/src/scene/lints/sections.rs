@@ -1,8 +1,8 @@
 //! Lint of section planes that cut nothing: before or behind all models.
 
 use super::{Lint, Linter};
-use crate::scene::syntax::PathStep::{Field, Index};
 use homog::{Bounds, Point, World};
+use scene_file::PathStep::{Field, Index};
 
 /// Distances up to this fraction of the models' diagonal count as touching.
 const TOUCHING: f64 = 1e-9;

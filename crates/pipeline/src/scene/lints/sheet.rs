@@ -2,8 +2,8 @@
 
 use super::{Lint, Linter};
 use crate::scene::sheet::{SheetContent, resolve_sheet};
-use crate::scene::syntax::PathStep::Field;
 use drawing::Warning;
+use scene_file::PathStep::Field;
 use std::path::PathBuf;
 
 /// The warnings that `alberti sheet` would give about the layout of the scene's sheet, whose title

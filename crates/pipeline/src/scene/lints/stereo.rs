@@ -1,8 +1,8 @@
 //! Lints of stereo pairs: eyes that see the same, and eyes too far apart to see one thing.
 
 use super::{Lint, Linter};
-use crate::scene::syntax::PathStep::Field;
 use homog::{Bounds, Point};
+use scene_file::PathStep::Field;
 
 /// Positions in the two pictures that differ by less than this many pixels look equal.
 const LEAST_PARALLAX: f64 = 1.0;

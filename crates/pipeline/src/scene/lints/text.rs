@@ -3,8 +3,8 @@
 use super::{Lint, Linter};
 use crate::scene::Scene;
 use crate::scene::origin::Origin;
-use crate::scene::syntax::PathStep::{Field, Index};
 use drawing::{LabelFault, Overlay, PointLabel, missing_glyph_warning};
+use scene_file::PathStep::{Field, Index};
 
 /// The lints of the texts in the scene's own view and in its viewports, each once.
 pub(super) fn lint_text(adviser: &Linter<'_>) -> Vec<Lint> {
