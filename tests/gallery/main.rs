@@ -9,8 +9,8 @@
 use alberti_tests::harness::map_parallel;
 use alberti_tests::project_root;
 use alberti_tests::statistics::PictureStatistics;
-use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, Scene, render};
+use scene::ResolveOptions;
 use scene_file::file::{
     DEFAULT_PADDING, EnvironmentFile, FromFile, GroundFile, SceneFile, StyleFile, ViewFile,
 };

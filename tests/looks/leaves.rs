@@ -4,8 +4,8 @@
 use super::styles::all_styles;
 use alberti_tests::gltf::{Document, float_bytes};
 use drawing::Warning;
-use pipeline::scene::{ResolveOptions, Style};
 use pipeline::{Origin, Picture, RenderContext, Renderer, Scene, Textures};
+use scene::{ResolveOptions, Style};
 use scene_file::file::{GroundFile, StyleFile};
 use scene_file::{SceneFile, parse_scene};
 use serde_json::json;

@@ -2,7 +2,7 @@
 //! the paper free.
 
 use super::BareModel;
-use pipeline::scene::Style;
+use scene::Style;
 use scene_file::file::StyleFile;
 
 /// The size of a thumbnail.

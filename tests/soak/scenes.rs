@@ -5,8 +5,8 @@ use drawing::{DrawOptions, draw};
 use homog::PixelRect;
 use pipeline::render::draw_lines;
 use pipeline::render::passes::{PassValues, render_passes};
-use pipeline::scene::Style;
 use pipeline::{Origin, Scene, Timings, render};
+use scene::Style;
 use scene_file::Pass;
 
 use shade::Picture;

@@ -20,7 +20,7 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 14] = [
+const CRATES: [&str; 15] = [
     "camera",
     "clip",
     "drawing",
@@ -31,6 +31,7 @@ const CRATES: [&str; 14] = [
     "projection",
     "raster",
     "recognition",
+    "scene",
     "scene_file",
     "shade",
     "sheet",

@@ -9,7 +9,7 @@ use super::render::thread_count;
 use clap::ValueEnum as _;
 use pipeline::Scene;
 use pipeline::demonstration::{NamedProjection, projection_panels};
-use pipeline::scene::ResolveOptions;
+use scene::ResolveOptions;
 use std::path::PathBuf;
 
 /// Arguments of `alberti compare-projections`.

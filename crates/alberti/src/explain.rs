@@ -16,8 +16,8 @@ use pipeline::explain::{
     explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,
     explain_triangle, explain_vertex,
 };
-use pipeline::scene::Inset;
 use pipeline::{Picture, Scene};
+use scene::Inset;
 use std::path::PathBuf;
 
 /// The longer side of the picture embedded in an HTML page, in pixels.

@@ -16,7 +16,7 @@ use model::{
     AlphaMode, CameraProjection, Diagnostic, LightKind, Model, PunctualLight, SceneRoots, Topology,
     visible_path, visible_text,
 };
-use pipeline::scene::select_animation;
+use scene::select_animation;
 use scene_file::file::Finite;
 use std::fmt::Write as _;
 
@@ -40,8 +40,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), CliError> {
 fn load_model(args: &InfoArgs) -> Result<Model, CliError> {
     let ModelStateArgs { scene, variant, animation, time } = &args.model_state;
     let options = ImportOptions {
-        scene: scene.clone().map(pipeline::scene::name_or_index),
-        variant: variant.clone().map(pipeline::scene::name_or_index),
+        scene: scene.clone().map(scene::name_or_index),
+        variant: variant.clone().map(scene::name_or_index),
         images: ImageLoading::Headers,
         ..args.load_options.import_options()
     };

@@ -2,7 +2,7 @@
 
 use super::CliError;
 use homog::PixelRect;
-use pipeline::scene::ImageSpec;
+use scene::ImageSpec;
 use scene_file::file::SceneFile;
 
 /// The rectangle of pixels to render, and the bits per channel.

@@ -10,7 +10,7 @@ use super::scene_overrides::named_view_parser;
 use camera::NamedView;
 use pipeline::Scene;
 use pipeline::demonstration::{Sweep, SweepParameter};
-use pipeline::scene::ResolveOptions;
+use scene::ResolveOptions;
 use scene_file::file::{DEFAULT_PADDING, ViewFile};
 use std::path::PathBuf;
 

@@ -17,10 +17,10 @@ use clap::ValueEnum;
 use deadline::Deadline;
 use model::import::{ImportError, ImportOptions};
 use model::{Limits, codes, visible_path, visible_text};
-use pipeline::scene::{ResolveOptions, Style};
 use pipeline::{
     OutputError, RenderContext, RenderError, Renderer, ResolveError, Scene, Textures, write_file,
 };
+use scene::{ResolveOptions, Style};
 use std::fs::OpenOptions;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

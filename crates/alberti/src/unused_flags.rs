@@ -9,7 +9,7 @@ use super::render::tasks::RenderTask;
 use super::scene_overrides::SceneOverrideArgs;
 use clap::ValueEnum as _;
 use pipeline::Scene;
-use pipeline::scene::Style;
+use scene::Style;
 use scene_file::file::StyleFile;
 
 /// The warnings about the flags of a picture that `render` makes.

@@ -25,7 +25,7 @@ pub use sweep::{Sweep, SweepParameter};
 pub use wraparound::wraparound_panels;
 
 use crate::render::RenderError;
-use crate::scene::ResolveError;
+use scene::ResolveError;
 
 /// A demonstration that cannot be computed.
 ///

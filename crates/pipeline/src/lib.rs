@@ -41,7 +41,6 @@ pub mod demonstration;
 pub mod explain;
 pub mod formulas;
 pub mod render;
-pub mod scene;
 pub mod sequence;
 
 pub use cancel::CancelToken;
@@ -49,11 +48,12 @@ pub use drawing;
 pub use homog::PixelRect;
 pub use model::{self, Timings, import};
 pub use render::{
-    MAX_IMAGE_SIDE, PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError,
-    draw_lines, dxf_options, render,
+    PreparedScene, RenderContext, RenderError, Renderer, Textures, WritePngError, draw_lines,
+    dxf_options, render,
 };
-pub use scene::options;
-pub use scene::{Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile};
+pub use scene::{
+    self, MAX_IMAGE_SIDE, Origin, ResolveError, Scene, SceneError, SceneErrors, SceneFile, options,
+};
 pub use shade::{self, AtomicFile, Channel, OutputError, Picture, PngRows, encode_png, write_file};
 #[cfg(feature = "sheets")]
 pub use sheet;

@@ -9,11 +9,11 @@
 
 use crate::Picture;
 use crate::render::{RenderContext, RenderError, Renderer, Textures};
-use crate::scene::{CameraPath, FileAccess, Origin, ResolveError, Scene};
 use camera::ViewProjection;
 use homog::{Affine, Point, World};
 use model::Model;
 use model::ModelInstance;
+use scene::{CameraPath, FileAccess, Origin, ResolveError, Scene};
 use scene_file::SceneFile;
 use scene_file::file::{CameraFile, ViewFile};
 use std::collections::BTreeMap;

@@ -47,6 +47,7 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("drawing", None),
     ("sheet", None),
     ("scene-file", Some(&["camera", "projection", "model", "shade", "drawing", "sheet"])),
+    ("scene", None),
     ("pipeline", None),
     ("explorer", None),
     ("alberti", None),

@@ -15,7 +15,7 @@
 use super::CheckResult;
 use model::{CheckReport, Diagnostic};
 use pipeline::SceneError;
-use pipeline::scene::Lint;
+use scene::Lint;
 use serde_json::{Value, json};
 
 /// The version of both schemas: it rises when a member is removed or changes its meaning. New

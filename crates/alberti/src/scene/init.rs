@@ -15,8 +15,8 @@
 use crate::load_options::LoadArgs;
 use crate::{CliError, print_message, print_text};
 use model::{Model, Topology, visible_path};
-use pipeline::scene::ResolveOptions;
 use pipeline::{Origin, ResolveError, Scene};
+use scene::ResolveOptions;
 use scene_file::file::NonNegative;
 use scene_file::format_source;
 use shade::Light;

@@ -45,7 +45,7 @@ fn a_png_is_that_of_the_scene_file() {
         assert!(command.contains(text), "{id}");
         let formatted = scene_file::format_source("scene.ron", text).expect("a scene file");
         assert_eq!(formatted, text, "{id}");
-        assert_eq!(pipeline::scene::lint_description(&origin, &file), [], "{id}");
+        assert_eq!(scene::lint_description(&origin, &file), [], "{id}");
     }
 }
 

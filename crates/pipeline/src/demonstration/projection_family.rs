@@ -13,7 +13,6 @@ use super::DemonstrationError;
 use super::number_format::format_short;
 use crate::explain::formula_ids;
 use crate::formulas::find_formula;
-use crate::scene::{Origin, Scene};
 use camera::ViewProjection;
 use drawing::Panels;
 use glam::DVec2;
@@ -22,6 +21,7 @@ use model::ModelInstance;
 use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
+use scene::{Origin, Scene};
 use scene_file::file::{CameraFile, ProjectionFile, SceneFile};
 
 /// The lines at the head of the page: two sentences.

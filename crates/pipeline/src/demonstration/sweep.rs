@@ -15,13 +15,13 @@ mod step;
 
 use super::DemonstrationError;
 use super::number_format::format_short;
-use crate::scene::Scene;
 use camera::ViewProjection;
 use camera::{NamedView, frame_parallel};
 use drawing::{Overlay, Page, Panel, Panels};
 use glam::DVec2;
 use homog::HPoint;
 use projection::{Convention, Orthographic};
+use scene::Scene;
 use std::fmt;
 use step::SweepBase;
 

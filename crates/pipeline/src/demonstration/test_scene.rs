@@ -1,6 +1,6 @@
 //! The test scene of the demonstrations.
 
-use crate::scene::{Origin, ResolveOptions, Scene};
+use scene::{Origin, ResolveOptions, Scene};
 use scene_file::SceneFile;
 use std::path::Path;
 

@@ -1,13 +1,13 @@
 //! Captions: the strip at the lower border of a picture, with a line of text.
 
 use crate::Picture;
-use crate::scene::{ImageSpec, Scene};
 use drawing::{
     Ink, Label, Layer, MILLIMETERS_PER_PIXEL, TextAlign, Warning, draw_layers_over, label_warnings,
     missing_glyph_warning, palette::ink_on_paper,
 };
 use glam::DVec2;
 use homog::PixelRect;
+use scene::{ImageSpec, Scene};
 use shade::Channel;
 use shade::color::SrgbEncoder;
 

@@ -27,11 +27,11 @@ use super::mip_chains::Textures;
 use super::primitive_assembly::assemble_with_opacity;
 use super::renderer::{RenderBuffers, Renderer};
 use super::shadow_maps::ShadowMapRenderer;
-use crate::scene::{Scene, Style};
 use geometry::{Hit, SceneGeometry};
 use homog::PixelRect;
 use model::Timings;
 use raster::{Fragment, Opacity, Samples, Surface};
+use scene::{Scene, Style};
 use shade::Channel;
 
 /// Renders passes of a region of a scene's picture, in the order of `wanted`, with up to `threads`

@@ -14,6 +14,7 @@ use super::captions::{draw_caption_over, text_warnings, view_rect};
 use super::context::RenderContext;
 use super::fragment_shading::{fragment_shading, style_shading};
 use super::image_tiles::{TileRegion, tile_regions, validate_region};
+use super::insets::{composite_into, covers_region, visible_rects};
 use super::line_drawing;
 use super::primitive_assembly::assemble_scene;
 use super::renderer::{RenderBuffers, Renderer};
@@ -21,10 +22,10 @@ use super::transmission_framebuffer::{
     compute_whole_occlusion, needs_framebuffer, render_framebuffer,
 };
 use crate::Picture;
-use crate::scene::Inset;
 use drawing::{Layer, Page, Warning, draw_layers_over};
 use homog::PixelRect;
 use raster::Surface;
+use scene::Inset;
 use shade::{AmbientOcclusion, Channel, TransmissionFramebuffer};
 
 /// A scene of which any region can be rendered; made by [`Renderer::prepare`].
@@ -158,16 +159,16 @@ impl<'a> PreparedScene<'a> {
         validate_region(scene.image, region)?;
         // The caption covers its strip, the insets may cover the view above it.
         let view = region.intersection(view_rect(scene.image));
-        if view.is_none_or(|view| Inset::covers_region(&scene.insets, view)) {
+        if view.is_none_or(|view| covers_region(&scene.insets, view)) {
             picture.resize(region.width, region.height);
         } else {
             self.render_below_insets(region, picture)?;
         }
         for (inset, prepared) in scene.insets.iter().zip(&mut self.insets) {
-            if let Some([in_picture, in_inset]) = inset.visible_rects(region) {
+            if let Some([in_picture, in_inset]) = visible_rects(inset, region) {
                 let mut pixels = Picture::default();
                 prepared.render_region(in_inset, &mut pixels)?;
-                inset.composite_into(&pixels, in_picture, region, picture);
+                composite_into(inset, &pixels, in_picture, region, picture);
             }
         }
         self.only_color.add_pixels(picture);

@@ -7,13 +7,13 @@
 use super::super::DemonstrationError;
 use super::super::number_format::format_short;
 use super::SweepParameter;
-use crate::scene::{DepthSpan, Scene};
 use camera::Camera;
 use camera::ViewProjection;
 use homog::{Affine, Bounds, Point, Vector, World};
 use projection::{
     Convention, Decomposed, Frustum, Orthographic, ProjectionError, Window, decompose,
 };
+use scene::{DepthSpan, Scene};
 
 /// The scene's view, decomposed into camera and parameters.
 ///

@@ -9,10 +9,10 @@ use crate::render::RenderError;
 use crate::render::image_tiles::ImageTile;
 use crate::render::screen_transform::{ScreenTransform, model_point};
 use crate::render::vertex_processing::{normal_matrix, transform_normal};
-use crate::scene::{Scene, Style};
 use glam::{DMat3, DVec3};
 use homog::{Affine, Clip, HPoint, Model, Normal, Point, Projective, Screen, View, World};
 use model::{Primitive, SkinnedPrimitive, Topology};
+use scene::{Scene, Style};
 use scene_file::Pass;
 use std::borrow::Cow;
 
