@@ -7,8 +7,8 @@ use super::panel_subject::PanelSubjectArgs;
 use super::progress::Progress;
 use super::render::thread_count;
 use clap::ValueEnum as _;
+use explorer::demonstration::{NamedProjection, projection_panels};
 use pipeline::Scene;
-use pipeline::demonstration::{NamedProjection, projection_panels};
 use scene::ResolveOptions;
 use std::path::PathBuf;
 

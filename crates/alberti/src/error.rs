@@ -8,8 +8,8 @@
 //! that solves the problem, as in rustc.
 
 use super::color;
+use explorer::demonstration::DemonstrationError;
 use model::import::ImportError;
-use pipeline::demonstration::DemonstrationError;
 use pipeline::{OutputError, RenderError, ResolveError, SceneError};
 use sheet::SheetError;
 

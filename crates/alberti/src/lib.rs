@@ -19,7 +19,7 @@
 //! | [`model`] | files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
 //! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
-//! | [`pipeline`] | scene files, the renderer, explain, demonstrations, sequences |
+//! | [`pipeline`] | scene files, the renderer, explain, sequences |
 
 mod animate;
 mod args;

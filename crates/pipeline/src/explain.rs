@@ -49,7 +49,7 @@ pub use matrix::{explain_matrix, explain_planar_matrix, without_rounding};
 pub use node::explain_node;
 pub use pixel::explain_pixel;
 pub use point::{VertexRef, explain_point, explain_transforms, explain_vertex};
-pub(crate) use projection_factors::formula_ids;
+pub use projection_factors::formula_ids;
 pub use segment::explain_segment;
 pub use transform_chain::TransformChain;
 pub use triangle::explain_triangle;

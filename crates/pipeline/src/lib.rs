@@ -25,7 +25,6 @@
 //! | many pictures without allocation | [`Renderer`] | its documentation |
 //! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
 //! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
-//! | lessons: projections, sweeps, depth curves | [`demonstration`] | its documentation |
 //! | models from memory | [`Origin::from_text_in_memory`], [`import::load_bytes`], [`Scene::from_models`] | |
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
@@ -37,7 +36,6 @@
 //! thread and exist side by side. Errors are typed and name the fault, its location and a remedy.
 
 mod cancel;
-pub mod demonstration;
 pub mod explain;
 pub mod formulas;
 pub mod render;

@@ -101,7 +101,8 @@ fn describe_projection(kind: &Decomposed) -> String {
 /// numbers them.
 ///
 /// Such as `PE-1, PE-3, VV-2`; `None` for a matrix that is not recognized.
-pub(crate) fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
+#[must_use]
+pub fn formula_ids(view_to_clip: Projective<View, Clip>) -> Option<&'static str> {
     let decomposition =
         decompose(view_to_clip.raw(), ApiConventions::Alberti.canonical_volume()).ok()?;
     formula_ids_of_kind(&decomposition.kind, ApiConventions::Alberti)

@@ -24,7 +24,7 @@ pub use projection_family::{NamedProjection, projection_panels};
 pub use sweep::{Sweep, SweepParameter};
 pub use wraparound::wraparound_panels;
 
-use crate::render::RenderError;
+use pipeline::render::RenderError;
 use scene::ResolveError;
 
 /// A demonstration that cannot be computed.

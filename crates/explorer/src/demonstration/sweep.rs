@@ -179,7 +179,7 @@ impl Sweep {
         {
             scene.view_projection = *view_projection;
             let title = format!("{} {}", self.parameter, format_short(value, 4));
-            let mut panel = crate::render::render_panel(
+            let mut panel = pipeline::render::render_panel(
                 &scene,
                 format!("step-{}", number + 1),
                 title,
@@ -210,7 +210,7 @@ fn add_volume_panel(
     let mut aside = scene.clone();
     aside.overlays = vec![Overlay::Volume(Box::new(scene.view_projection))];
     aside.view_projection = observer;
-    let volume = crate::render::render_panel(&aside, "volume", "view volume", threads)?.page;
+    let volume = pipeline::render::render_panel(&aside, "volume", "view volume", threads)?.page;
     let size = view.page.size;
     let below = size.y + PANEL_GAP;
     let mut page = Page::new(DVec2::new(size.x, below + size.y), view.page.title.clone(), None);

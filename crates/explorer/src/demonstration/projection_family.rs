@@ -11,13 +11,13 @@
 
 use super::DemonstrationError;
 use super::number_format::format_short;
-use crate::explain::formula_ids;
-use crate::formulas::find_formula;
 use camera::ViewProjection;
 use drawing::Panels;
 use glam::DVec2;
 use homog::{Clip, Projective, Vector, World};
 use model::ModelInstance;
+use pipeline::explain::formula_ids;
+use pipeline::formulas::find_formula;
 use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };
@@ -66,7 +66,7 @@ pub fn projection_panels(
         let file = SceneFile { camera, ..file.clone() };
         let mut scene = Scene::from_models(origin, &file, models)?;
         scene.image.background = [1.0; 4];
-        let panel = crate::render::render_panel(&scene, name, name.replace('-', " "), threads)?;
+        let panel = pipeline::render::render_panel(&scene, name, name.replace('-', " "), threads)?;
         let size = DVec2::new(scene.image.width.into(), scene.image.height.into());
         panels.push(panel.with_notes(projection_notes(projection, &scene.view_projection, size)));
         title = scene.model_names();
