@@ -20,10 +20,11 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 15] = [
+const CRATES: [&str; 16] = [
     "camera",
     "clip",
     "drawing",
+    "explain",
     "explorer",
     "homog",
     "model",

@@ -9,13 +9,13 @@ use super::number_list::{parse_number_list, parse_numbers};
 use super::render::thread_count;
 use super::scene_overrides::SceneOverrideArgs;
 use super::{CliError, print_json, print_text};
-use homog::{HPoint, Point, World};
-use model::{Model, ModelInstance, visible_text};
-use pipeline::explain::{
+use explain::{
     ApiConventions, BareMap, Explanation, TransformChain, VertexRef, explain_homogeneous_point,
     explain_node, explain_pixel, explain_point, explain_segment, explain_transforms,
     explain_triangle, explain_vertex,
 };
+use homog::{HPoint, Point, World};
+use model::{Model, ModelInstance, visible_text};
 use pipeline::{Picture, Scene};
 use scene::Inset;
 use std::path::PathBuf;

@@ -19,7 +19,10 @@
 //! | [`model`] | files to a checked model, validation, skinning and morph targets |
 //! | [`shade`] | glTF materials, lights, environments, tone mapping, picture encoders |
 //! | [`drawing`] | hidden-line drawings, sections, sheets to scale, SVG, PDF and DXF |
-//! | [`pipeline`] | scene files, the renderer, explain, sequences |
+//! | [`scene_file`] | the scene language: types, mistakes with carets, formatter, reference |
+//! | [`scene`](../scene/index.html) | resolution of scene files, lints |
+//! | [`pipeline`] | the renderer, passes, sequences |
+//! | [`explain`](../explain/index.html) | every step of a point, a triangle, a pixel, a matrix |
 
 mod animate;
 mod args;

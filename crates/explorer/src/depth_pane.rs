@@ -6,8 +6,8 @@ use crate::facts::Facts;
 use crate::number_text::decimals;
 use crate::words::{Words, words};
 use drawing::{Axis, AxisMark, Chart, Curve, Ink, Page, Spacing};
+use explain::ApiConventions;
 use glam::DVec2;
-use pipeline::explain::ApiConventions;
 use projection::{Convention, DepthFormat};
 use serde_json::{Value as Json, json};
 

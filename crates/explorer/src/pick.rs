@@ -1,9 +1,9 @@
 //! `pick`: why a pixel has its color, and where in the world it is.
 
 use crate::ExplorerError;
+use explain::{ApiConventions, Explanation, ItemValue, TransformChain, explain_pixel};
 use homog::{Point, World};
 use pipeline::Scene;
-use pipeline::explain::{ApiConventions, Explanation, ItemValue, TransformChain, explain_pixel};
 use scene::Style;
 use serde_json::{Value as Json, json};
 

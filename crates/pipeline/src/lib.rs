@@ -24,7 +24,8 @@
 //! | depth, normal, id of each pixel | [`mod@render::passes`] | `examples/depth_map.rs` |
 //! | many pictures without allocation | [`Renderer`] | its documentation |
 //! | pictures larger than memory | [`PreparedScene::write_png`] | its documentation |
-//! | every step of a point, a triangle, a pixel | [`explain`] | `examples/explain.rs` |
+//! | every step of a point, a triangle, a pixel | the crate `explain` | |
+//! | lessons: projections, sweeps, depth curves | the crate `explorer` | |
 //! | models from memory | [`Origin::from_text_in_memory`], [`import::load_bytes`], [`Scene::from_models`] | |
 //! | the syntax of scene files | [`scene::reference`] | |
 //! | a tour of the stages, with the file of each | [`mod@render`] | |
@@ -36,8 +37,6 @@
 //! thread and exist side by side. Errors are typed and name the fault, its location and a remedy.
 
 mod cancel;
-pub mod explain;
-pub mod formulas;
 pub mod render;
 pub mod sequence;
 
@@ -70,7 +69,6 @@ mod tests {
         assert_send_sync::<(crate::Origin, crate::SceneFile, crate::Scene)>();
         assert_send_sync::<(shade::Picture, model::Timings, crate::CancelToken)>();
         assert_send_sync::<(crate::Renderer, crate::sequence::Sequence)>();
-        assert_send_sync::<crate::explain::Explanation>();
         assert_send_sync::<(drawing::Page, drawing::LineDrawing, sheet::Sheet)>();
         assert_send_sync::<(crate::SceneError, crate::ResolveError, crate::RenderError)>();
         assert_send_sync::<(shade::OutputError, model::import::ImportError)>();

@@ -49,6 +49,7 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("scene-file", Some(&["camera", "projection", "model", "shade", "drawing", "sheet"])),
     ("scene", None),
     ("pipeline", None),
+    ("explain", None),
     ("explorer", None),
     ("alberti", None),
 ];

@@ -13,11 +13,11 @@ use super::DemonstrationError;
 use super::number_format::format_short;
 use camera::ViewProjection;
 use drawing::Panels;
+use explain::formula_ids;
+use explain::formulas::find_formula;
 use glam::DVec2;
 use homog::{Clip, Projective, Vector, World};
 use model::ModelInstance;
-use pipeline::explain::formula_ids;
-use pipeline::formulas::find_formula;
 use projection::{
     Convention, Decomposed, ProjectionClass, Window, decompose, principal_vanishing_points,
 };

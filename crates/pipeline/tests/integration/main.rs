@@ -1,7 +1,6 @@
 //! Tests of the public interface of `pipeline`, linked once.
 
 mod analytic;
-mod chapter;
 mod floor;
 mod furnace;
 mod ground;

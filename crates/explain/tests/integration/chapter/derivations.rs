@@ -2,12 +2,12 @@
 
 use super::resolve_text;
 use super::stages::{chain_of, close, numbers};
+use explain::{ApiConventions, BareMap, explain_transforms};
 use glam::{DMat4, DVec2};
 use homog::{HPoint, Point, Vector, View};
-use pipeline::explain::{ApiConventions, BareMap, explain_transforms};
 use projection::ProjectionClass;
 
-fn scene_with(projection: &str) -> pipeline::Scene {
+fn scene_with(projection: &str) -> scene::Scene {
     resolve_text(&format!(
         "Scene(models: [(path: \"crate.glb\", translation: (0, 0, -4))],
          camera: (view: LookTo(eye: (0, 0, 0), gaze: (0, 0, -1)), projection: {projection}),

@@ -1,10 +1,10 @@
 //! The color of a pixel explained: its triangles, the nearest surface point, and every stage to it.
 //!
-//! Run it with `cargo run -p alberti-pipeline --example explain -- model.glb 480 360`.
+//! Run it with `cargo run -p alberti-explain --example explain_pixel -- model.glb 480 360`.
 #![allow(clippy::print_stdout, reason = "an example speaks to its reader")]
 
-use pipeline::explain::{ApiConventions, TransformChain, explain_pixel};
-use pipeline::{Origin, Scene};
+use explain::{ApiConventions, TransformChain, explain_pixel};
+use scene::{Origin, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let names: Vec<String> = std::env::args().skip(1).collect();

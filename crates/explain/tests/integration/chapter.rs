@@ -8,8 +8,9 @@ mod stages;
 mod volumes;
 
 use homog::{HPoint, Model, Point, World};
-use pipeline::scene::parse_scene;
-use pipeline::{Origin, Picture, Scene, render};
+use pipeline::{Picture, render};
+use scene::parse_scene;
+use scene::{Origin, Scene};
 use std::path::Path;
 
 /// Resolves a scene of the committed models.

@@ -1,12 +1,12 @@
 //! The stages of the pipeline, one after the other, and a pixel's ray against the picture.
 
 use super::{pixel_position, render_scene, resolve_text};
-use homog::{Point, World};
-use pipeline::Scene;
-use pipeline::explain::{
+use explain::{
     ApiConventions, Explanation, ItemValue, TransformChain, VertexRef, explain_segment,
     explain_vertex,
 };
+use homog::{Point, World};
+use scene::Scene;
 use viewport::Viewport;
 
 /// The stages of a scene's camera in the project's own conventions.

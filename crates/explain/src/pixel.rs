@@ -14,9 +14,9 @@
 use super::point::{describe_node, model_point};
 use super::transform_chain::TransformChain;
 use super::{Explanation, Step};
-use crate::render::{FragmentSource, PixelFragments, ShadedFragment, inspect_pixel};
 use homog::{Point, World};
 use model::Topology;
+use pipeline::render::{FragmentSource, PixelFragments, ShadedFragment, inspect_pixel};
 use scene::Scene;
 
 /// Explains the color of a pixel; x and y count from the upper left corner.
