@@ -20,7 +20,8 @@ use std::fs;
 use std::process::Command;
 
 /// The libraries with a promise. The program's own library is not for callers.
-const CRATES: [&str; 16] = [
+const CRATES: [&str; 17] = [
+    "batch",
     "camera",
     "clip",
     "drawing",

@@ -50,7 +50,7 @@ pub use include::FileMistake;
 pub use parse::parse_scene;
 pub use pass::{Pass, PassEncoding};
 pub use ron_options::scene_ron_options;
-pub use scene_source::{SceneSource, UnreadableScene};
+pub use scene_source::{SceneSource, UnreadableScene, is_scene_file};
 pub use source_text::SourceText;
 pub use suggest::{closest_name, suggest_name};
 pub use syntax::PathStep;

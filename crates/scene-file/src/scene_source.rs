@@ -170,6 +170,16 @@ impl SceneSource {
     }
 }
 
+/// Whether a file is a scene, by its extension.
+///
+/// The content is not looked at: a file named `.ron` that is no scene gets the error message of a
+/// scene, with its line and column. The standard input, which has no extension, is recognized by
+/// its content instead.
+#[must_use]
+pub fn is_scene_file(input: &Path) -> bool {
+    input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"))
+}
+
 /// Whether a field of the scene exists in viewports too, so that errors in it point there.
 fn is_viewport_field(field: &str) -> bool {
     matches!(field, "camera" | "style" | "overlays" | "caption")

@@ -21,6 +21,7 @@
 //! | `sheet`, `sheet_views`, `dimensions`, `assembly` | drawing sheets |
 //! | `lints` | valid scenes that are probably not meant |
 //! | `builder` | scenes of models in memory |
+//! | `referenced_files` | the files that a model refers to, by a quick look |
 
 #[cfg(feature = "sheets")]
 mod assembly;
@@ -52,6 +53,7 @@ mod origin;
 mod outputs;
 mod overlays;
 mod read_scene;
+mod referenced_files;
 mod resolve;
 mod resolve_error;
 mod resolve_options;
@@ -86,6 +88,7 @@ pub use lints::{Lint, lint_description, lint_scene};
 pub use model_files::{name_or_index, select_animation};
 pub use origin::Origin;
 pub use outputs::Outputs;
+pub use referenced_files::referenced_files;
 pub use resolve::validate_scene;
 pub use resolve_error::ResolveError;
 pub use resolve_options::ResolveOptions;

@@ -15,7 +15,7 @@ const NAMED_BY: &[(&str, &[&str])] = &[
         &[
             "crates/scene-file/src",
             "crates/model/src/import/gltf/located_json.rs",
-            "crates/alberti/src/batch",
+            "crates/batch/src",
         ],
     ),
     (
@@ -49,6 +49,7 @@ const LAYERS: &[(&str, Option<&[&str]>)] = &[
     ("scene-file", Some(&["camera", "projection", "model", "shade", "drawing", "sheet"])),
     ("scene", None),
     ("pipeline", None),
+    ("batch", Some(&["model", "shade", "drawing", "scene-file", "scene"])),
     ("explain", None),
     ("explorer", None),
     ("alberti", None),

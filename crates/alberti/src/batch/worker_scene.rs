@@ -5,11 +5,12 @@
 use super::render_flags::RenderFlags;
 use crate::CliError;
 use crate::memory_limit::import_limits;
-use crate::render::{is_scene_file, open_input};
+use crate::render::open_input;
 use model::ModelInstance;
 use model::visible_path;
 use pipeline::import::ImportOptions;
 use pipeline::{Origin, Scene, SceneFile};
+use scene_file::is_scene_file;
 use std::path::Path;
 use std::time::SystemTime;
 

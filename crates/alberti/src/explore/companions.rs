@@ -4,11 +4,10 @@
 //! folder, also by a symbolic link, is left out.
 
 use crate::CliError;
-use crate::referenced_files::referenced_files;
-use crate::render::is_scene_file;
 use model::import::Limits;
 use model::visible_path;
-use scene_file::parse_scene;
+use scene::referenced_files;
+use scene_file::{is_scene_file, parse_scene};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};

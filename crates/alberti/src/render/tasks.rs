@@ -7,7 +7,7 @@ use crate::CliError;
 use crate::args::RenderArgs;
 use crate::format::OutputFormat;
 use crate::scene_overrides::SceneOverrideArgs;
-use crate::template::NameTemplate;
+use batch::NameTemplate;
 use clap::ValueEnum;
 use model::visible_path;
 use std::collections::BTreeMap;

@@ -4,7 +4,7 @@ use super::job::BatchJob;
 use super::pool::JobPolicy;
 use super::report::{FAILED, JobRecord};
 use super::worker_process::WorkerEnd;
-use crate::CliError;
+use crate::BatchError;
 use model::visible_text;
 
 /// The outcome of a step of a run.
@@ -14,21 +14,21 @@ pub(super) type Outcome = Result<(), RunStop>;
 #[derive(Debug)]
 pub(super) enum RunStop {
     /// A list cannot be read, or the output folder cannot be written: no fault of a job.
-    Fault(CliError),
+    Fault(BatchError),
     /// A worker was interrupted by this signal, and the run with it.
     Signal(i32),
 }
 
-impl From<CliError> for RunStop {
-    fn from(error: CliError) -> Self {
+impl From<BatchError> for RunStop {
+    fn from(error: BatchError) -> Self {
         Self::Fault(error)
     }
 }
 
-/// The most failures that are printed at the end of a run; the report has all.
-const MAX_PRINTED: usize = 20;
+/// The most failures that are told at the end of a run; the report has all.
+const MAX_TOLD: usize = 20;
 
-/// The failures that are printed at the end of a run: the first ones by the name of the picture.
+/// The failures that are told at the end of a run: the first ones by the name of the picture.
 #[derive(Debug, Default)]
 pub(super) struct FailureList {
     /// Name of the picture, and the message; sorted.
@@ -49,22 +49,22 @@ impl FailureList {
             format!("{}: {}", visible_text(&record.input), record.message)
         };
         self.first.insert(at, (record.output.clone(), text));
-        self.first.truncate(MAX_PRINTED);
+        self.first.truncate(MAX_TOLD);
     }
 
-    /// Prints the failures.
+    /// Tells the failures, one after the other.
     ///
     /// ```text
     /// failed: models/broken.glb: …
     /// failed: 17 more, which the report has
     /// ```
-    pub(super) fn print(&self) {
+    pub(super) fn tell(&self, mut tell: impl FnMut(&str)) {
         for (_, text) in &self.first {
-            crate::print_message("failed", text);
+            tell(text);
         }
         let rest = self.count - self.first.len();
         if rest > 0 {
-            crate::print_message("failed", &format!("{rest} more, which the report has"));
+            tell(&format!("{rest} more, which the report has"));
         }
     }
 }

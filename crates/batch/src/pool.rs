@@ -11,12 +11,12 @@ use super::merge::CurrentJobs;
 use super::outcome::{FailureList, Outcome, RunStop, failed_record, worker_end_message};
 use super::progress::RunProgress;
 use super::protocol::{PictureRequest, PictureTarget, WorkAnswer, WorkRequest};
-use super::render_flags::FlagTable;
 use super::report::{DONE, JobRecord, ReportWriter};
 use super::tar_output::TarOutput;
-use super::worker_process::{WorkerEnd, WorkerProcess};
-use crate::CliError;
-use pipeline::shade::register_partial_file;
+use super::worker_process::{WorkerEnd, WorkerProcess, WorkerProgram};
+use crate::BatchError;
+use crate::flag_table::FlagTable;
+use shade::register_partial_file;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -42,7 +42,9 @@ pub(super) struct BatchRun<'a> {
     /// The flags of the command.
     pub(super) flags: &'a [String],
     /// Which flags exclude each other.
-    pub(super) flag_table: FlagTable,
+    pub(super) flag_table: &'a FlagTable,
+    /// The program that workers run.
+    pub(super) program: WorkerProgram<'a>,
     /// The records of earlier runs; `None` if all jobs are run again.
     pub(super) earlier: Option<EarlierRecords>,
     /// The report of this run.
@@ -140,7 +142,7 @@ impl BatchRun<'_> {
         while !open.is_empty() {
             let running = match worker {
                 Some(running) => running,
-                None => worker.insert(WorkerProcess::start(self.policy.memory)?),
+                None => worker.insert(WorkerProcess::start(self.program, self.policy.memory)?),
             };
             let begin = Instant::now();
             let Err(end) = self.ask_worker(slot, &mut open, running)? else { break };
@@ -256,6 +258,6 @@ fn answered_record(job: &BatchJob, key: String, answer: WorkAnswer) -> Result<Jo
             };
             Ok(failed_record(job, key, seconds, message))
         }
-        WorkAnswer::Stopped { message } => Err(CliError::Usage(message).into()),
+        WorkAnswer::Stopped { message } => Err(BatchError::Unusable(message).into()),
     }
 }

@@ -3,7 +3,7 @@
 //! The file is replaced as a whole, so that a collector never reads half of it.
 
 use super::report::{FAILED, JobRecord, write_error};
-use crate::CliError;
+use crate::BatchError;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -12,24 +12,24 @@ const BOUNDS: [f64; 11] = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 30
 
 /// How the jobs of a run ended.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
-pub(super) struct RunCounts {
+pub struct RunCounts {
     /// Pictures that were rendered.
-    pub(super) rendered: u64,
+    pub rendered: u64,
     /// Pictures that were up to date.
-    pub(super) up_to_date: u64,
+    pub up_to_date: u64,
     /// Jobs that failed in this run.
-    pub(super) failed: u64,
+    pub failed: u64,
     /// Jobs that had failed in an earlier run.
-    pub(super) failed_before: u64,
+    pub failed_before: u64,
     /// Workers that were replaced.
-    pub(super) restarts: u64,
+    pub restarts: u64,
     /// The size of the pictures that were rendered, in bytes.
-    pub(super) bytes: u64,
+    pub bytes: u64,
     /// The time of the jobs of this run in seconds.
-    pub(super) seconds: f64,
-    /// How many jobs of this run took at most as long as each of [`BOUNDS`], and no less than the
+    pub seconds: f64,
+    /// How many jobs of this run took at most as long as each bound from 0.01 s to 1000 s, and no less than the
     /// bound before.
-    pub(super) histogram: [u64; BOUNDS.len()],
+    pub histogram: [u64; BOUNDS.len()],
 }
 
 impl RunCounts {
@@ -108,7 +108,7 @@ impl MetricsFile {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(super) fn write_counts(&self, counts: RunCounts, elapsed: f64) -> Result<(), CliError> {
+    pub(super) fn write_counts(&self, counts: RunCounts, elapsed: f64) -> Result<(), BatchError> {
         let mut name = self.path.file_name().unwrap_or_default().to_owned();
         // A collector reads files that end in .prom.
         name.push(format!(".{}.part", std::process::id()));
@@ -125,7 +125,7 @@ impl MetricsFile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::test_records::{ReportFolder, done_record, failed_record};
 
     #[test]
     fn buckets_are_cumulative_and_the_last_has_all() {

@@ -1,8 +1,7 @@
 //! A worker as its coordinator sees it: a process, requests to it, its answers, and how it ended.
 
 use super::protocol::{FramedAnswer, WorkAnswer, WorkRequest};
-use crate::CliError;
-use crate::program::program_command;
+use crate::BatchError;
 use std::io::{BufRead as _, BufReader, Read, Write as _};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -15,6 +14,9 @@ const MAX_ERROR_BYTES: usize = 2_048;
 
 /// The largest picture that is taken through the pipe.
 const MAX_PICTURE_BYTES: u64 = 1 << 32;
+
+/// Makes the command that starts the program whose hidden command `batch-worker` is a worker.
+pub type WorkerProgram<'a> = &'a (dyn Fn() -> std::io::Result<Command> + Sync);
 
 /// A running worker.
 pub(super) struct WorkerProcess {
@@ -40,15 +42,19 @@ pub(super) enum WorkerEnd {
 }
 
 impl WorkerProcess {
-    /// Starts a worker: the program itself, with the hidden command.
+    /// Starts a worker: the program of this command, with the hidden command `batch-worker`.
     ///
     /// The thread that starts it must live as long as the worker, which ends with it.
     ///
     /// # Errors
     /// If the system starts no further process.
-    pub(super) fn start(memory: Option<u64>) -> Result<Self, CliError> {
-        let fault = |cause| CliError::Usage(format!("cannot start a worker of the batch: {cause}"));
-        let mut command = program_command().map_err(fault)?;
+    pub(super) fn start(
+        program: WorkerProgram<'_>,
+        memory: Option<u64>,
+    ) -> Result<Self, BatchError> {
+        let fault =
+            |cause| BatchError::Unusable(format!("cannot start a worker of the batch: {cause}"));
+        let mut command = program().map_err(fault)?;
         // What a worker says at its end goes to the report, where a stack is of no use.
         command.arg("batch-worker").env("RUST_BACKTRACE", "0");
         if let Some(memory) = memory {
@@ -78,10 +84,10 @@ impl WorkerProcess {
     ///
     /// # Errors
     /// If the request cannot be written down.
-    pub(super) fn send(&mut self, request: &WorkRequest) -> Result<(), CliError> {
+    pub(super) fn send(&mut self, request: &WorkRequest) -> Result<(), BatchError> {
         self.error_text.lock().unwrap_or_else(PoisonError::into_inner).clear();
         let mut line = serde_json::to_vec(request)
-            .map_err(|error| CliError::Usage(format!("no request for a worker: {error}")))?;
+            .map_err(|error| BatchError::Unusable(format!("no request for a worker: {error}")))?;
         line.push(b'\n');
         let _ = self.requests.write_all(&line);
         Ok(())

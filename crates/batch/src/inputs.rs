@@ -2,7 +2,7 @@
 
 use super::job::{BatchJob, JobGroup};
 use super::picture_name::{NameSource, PictureName, normal_parts};
-use crate::CliError;
+use crate::BatchError;
 use model::FileFormat;
 use model::visible_path;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -24,7 +24,7 @@ pub(super) fn find_jobs(
     inputs: &[PathBuf],
     scene: Option<&Path>,
     picture_name: Option<&PictureName>,
-) -> Result<Vec<JobGroup>, CliError> {
+) -> Result<Vec<JobGroup>, BatchError> {
     let mut found = Vec::new();
     for input in inputs {
         if input.as_os_str() == "-" {
@@ -65,8 +65,8 @@ pub(super) fn unreadable_name(input: &Path) -> Option<String> {
 }
 
 /// The error of an input that cannot be read.
-fn read_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot read {}: {cause}", visible_path(path)))
+fn read_error(path: &Path, cause: &std::io::Error) -> BatchError {
+    BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
 }
 
 /// The extension of a path in lower case.
@@ -109,7 +109,7 @@ impl<'a> FolderSearch<'a> {
     ///
     /// # Errors
     /// If a folder cannot be read. A run must not silently leave out a part of its models.
-    fn run(mut self, found: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), CliError> {
+    fn run(mut self, found: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), BatchError> {
         self.visit(self.root, 0, found)?;
         while let Some((link, depth)) = self.links.pop_front() {
             self.visit(&link, depth, found)?;
@@ -123,7 +123,7 @@ impl<'a> FolderSearch<'a> {
         folder: &Path,
         depth: usize,
         found: &mut Vec<(PathBuf, PathBuf)>,
-    ) -> Result<(), CliError> {
+    ) -> Result<(), BatchError> {
         let fault = |cause: std::io::Error| read_error(folder, &cause);
         if depth > MAX_DEPTH || !self.visited.insert(folder.canonicalize().map_err(fault)?) {
             return Ok(());
@@ -186,13 +186,13 @@ fn name_outputs(found: Vec<(PathBuf, PathBuf)>) -> Vec<(PathBuf, String)> {
 fn name_by_template(
     found: Vec<(PathBuf, PathBuf)>,
     template: &PictureName,
-) -> Result<Vec<(PathBuf, String)>, CliError> {
+) -> Result<Vec<(PathBuf, String)>, BatchError> {
     let mut taken: BTreeMap<String, PathBuf> = BTreeMap::new();
     let mut named = Vec::new();
     for (at, (input, name)) in found.into_iter().enumerate() {
         let output = template.name_picture(NameSource { input: &name, line: at + 1, picture: 1 });
         if let Some(other) = taken.insert(output.to_lowercase(), input.clone()) {
-            return Err(CliError::Usage(format!(
+            return Err(BatchError::Unusable(format!(
                 "{} and {} would both be rendered to {output}\n  = help: add {{folder}}, {{name}} \
                  or {{line}} to --name",
                 visible_path(&other),

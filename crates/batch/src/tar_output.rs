@@ -9,8 +9,8 @@
 
 use super::report::{JobRecord, REPORTS_FOLDER, ReportWriter, write_error};
 use super::tar_format::{append_file, finish_archive};
-use crate::CliError;
-use pipeline::shade::{create_partial_file, forget_partial_file};
+use crate::BatchError;
+use shade::{create_partial_file, forget_partial_file};
 use std::fs::File;
 use std::io::{BufWriter, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -69,7 +69,7 @@ impl TarOutput {
         record: JobRecord,
         png: &[u8],
         report: &ReportWriter,
-    ) -> Result<(), CliError> {
+    ) -> Result<(), BatchError> {
         let mut state = self.lock();
         let mut open = match state.open.take() {
             Some(open) => open,
@@ -94,7 +94,7 @@ impl TarOutput {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub(super) fn finish(self, report: &ReportWriter) -> Result<(), CliError> {
+    pub(super) fn finish(self, report: &ReportWriter) -> Result<(), BatchError> {
         let mut state = self.lock();
         let last = state.open.take();
         last.map_or(Ok(()), |open| self.finish_tar(open, &mut state.next, report))
@@ -109,7 +109,7 @@ impl TarOutput {
         })
     }
 
-    fn create_tar(&self) -> Result<OpenTar, CliError> {
+    fn create_tar(&self) -> Result<OpenTar, BatchError> {
         let file = create_partial_file(&self.partial)
             .map_err(|cause| write_error(&self.partial, &cause))?;
         Ok(OpenTar { writer: BufWriter::with_capacity(BUFFER_BYTES, file), records: Vec::new() })
@@ -121,7 +121,7 @@ impl TarOutput {
         open: OpenTar,
         next: &mut u32,
         report: &ReportWriter,
-    ) -> Result<(), CliError> {
+    ) -> Result<(), BatchError> {
         let OpenTar { mut writer, mut records } = open;
         let written = finish_archive(&mut writer)
             .and_then(|()| writer.into_inner().map_err(std::io::IntoInnerError::into_error))
@@ -135,7 +135,7 @@ impl TarOutput {
     /// Gives the temporary file the first name that is free, and returns it.
     ///
     /// A hard link fails if another run has just taken the name; renaming would replace its file.
-    fn name_tar(&self, next: &mut u32) -> Result<String, CliError> {
+    fn name_tar(&self, next: &mut u32) -> Result<String, BatchError> {
         loop {
             let name = format!("{}-{:06}.tar", self.prefix, *next);
             let path = self.out_dir.join(&name);
@@ -191,10 +191,10 @@ fn with_extension_json(output: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::Shard;
-    use crate::batch::report_reader::read_reports;
-    use crate::batch::tar_format::read_archive;
-    use crate::batch::test_records::{ReportFolder, done_record};
+    use crate::Shard;
+    use crate::report_reader::read_reports;
+    use crate::tar_format::read_archive;
+    use crate::test_records::{ReportFolder, done_record};
 
     /// The names of the files in a tar file.
     fn names_in(folder: &ReportFolder, tar: &str) -> Vec<String> {

@@ -6,9 +6,8 @@ use super::key::KeyMaker;
 use super::report_reader::{RecordLine, read_reports};
 use super::tar_format::read_archive;
 use super::tar_output::sample_name;
-use crate::CliError;
+use crate::BatchError;
 use crate::content_digest::{ContentDigest, parse_sha256};
-use crate::messages::print_text;
 use model::visible_text;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -18,7 +17,7 @@ use std::path::Path;
 /// The size of the buffer in which tar files are read.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// Verifies the jobs and prints what is wrong, one picture a line, then the counts; whether nothing
+/// Verifies the jobs and tells what is wrong, one picture a line, then the counts; whether nothing
 /// is wrong.
 ///
 /// ```text
@@ -28,23 +27,24 @@ const BUFFER_BYTES: usize = 1 << 16;
 /// The models are hashed as for a run, and the pictures are read whole.
 ///
 /// # Errors
-/// If a list or a report cannot be read.
-pub(super) fn verify_jobs(
-    groups: impl Iterator<Item = Result<JobGroup, CliError>>,
+/// If a list or a report cannot be read, or `tell` fails.
+pub(super) fn verify_jobs<E: From<BatchError>>(
+    groups: impl Iterator<Item = Result<JobGroup, BatchError>>,
     keys: &KeyMaker,
     out_dir: &Path,
-) -> Result<bool, CliError> {
+    mut tell: impl FnMut(&str) -> Result<(), E>,
+) -> Result<bool, E> {
     let mut verifier = Verifier::read(out_dir)?;
     let mut counts = VerdictCounts::default();
     for group in groups {
         for job in group?.jobs {
             let verdict = verifier.verify_job(&job, &keys.job_key(&job));
             if let Some(problem) = counts.count_verdict(&verdict) {
-                print_text(&format!("{}: {problem}\n", visible_text(&job.output)))?;
+                tell(&format!("{}: {problem}\n", visible_text(&job.output)))?;
             }
         }
     }
-    print_text(&format!("{}\n", counts.summary()))?;
+    tell(&format!("{}\n", counts.summary()))?;
     Ok(counts.is_all_whole())
 }
 
@@ -120,7 +120,7 @@ enum RecordedPicture {
 
 impl<'a> Verifier<'a> {
     /// Reads all reports of an output folder.
-    fn read(out_dir: &'a Path) -> Result<Self, CliError> {
+    fn read(out_dir: &'a Path) -> Result<Self, BatchError> {
         let (mut records, mut tars) = (Vec::new(), BTreeMap::<String, u32>::new());
         read_reports(out_dir, |record, _| {
             let tar = record.tar.clone().map(|tar| {
@@ -231,11 +231,11 @@ impl RecordedPicture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::Shard;
-    use crate::batch::report::{JobRecord, ReportWriter};
-    use crate::batch::tar_output::TarOutput;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::Shard;
     use crate::content_digest::hexadecimal_sha256;
+    use crate::report::{JobRecord, ReportWriter};
+    use crate::tar_output::TarOutput;
+    use crate::test_records::{ReportFolder, done_record, failed_record};
     use std::path::PathBuf;
 
     /// The record of a picture of these bytes.

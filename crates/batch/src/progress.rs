@@ -7,9 +7,9 @@
 
 use super::metrics::{MetricsFile, RunCounts};
 use super::report::JobRecord;
-use crate::CliError;
+use crate::BatchError;
 use std::fmt::Write as _;
-use std::io::{IsTerminal as _, Write as _};
+use std::io::Write;
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -22,6 +22,22 @@ const TERMINAL_INTERVAL: Duration = Duration::from_millis(250);
 const LOG_INTERVAL: Duration = Duration::from_mins(1);
 /// The interval between two versions of the file of `--metrics`.
 const METRICS_INTERVAL: Duration = Duration::from_secs(1);
+
+/// Where the progress of a run is shown.
+pub struct ProgressDisplay {
+    /// The stream, such as the standard error stream.
+    pub stream: Box<dyn Write + Send>,
+    /// Whether it is a terminal, on which a line is written over and over; a log gets one a minute.
+    pub is_terminal: bool,
+}
+
+impl std::fmt::Debug for ProgressDisplay {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ProgressDisplay")
+            .field("is_terminal", &self.is_terminal)
+            .finish_non_exhaustive()
+    }
+}
 
 /// Counts the jobs of a run and shows how far it is; the threads share one.
 ///
@@ -48,7 +64,10 @@ impl RunProgress {
     ///
     /// # Errors
     /// If the file of `--metrics` cannot be written, which is noticed here, before any work is done.
-    pub(super) fn start(metrics: Option<&Path>) -> Result<Self, CliError> {
+    pub(super) fn start(
+        metrics: Option<&Path>,
+        display: ProgressDisplay,
+    ) -> Result<Self, BatchError> {
         let metrics = metrics.map(|path| Arc::new(MetricsFile::new(path)));
         if let Some(file) = &metrics {
             file.write_counts(RunCounts::default(), 0.0)?;
@@ -58,7 +77,7 @@ impl RunProgress {
             state: Arc::clone(&state),
             begin,
             metrics: metrics.clone(),
-            is_terminal: std::io::stderr().is_terminal(),
+            shown: display,
         };
         let (sender, receiver) = channel();
         let thread = std::thread::Builder::new().name("progress".to_owned());
@@ -93,7 +112,7 @@ impl RunProgress {
     ///
     /// # Errors
     /// If the file of `--metrics` cannot be written.
-    pub(super) fn finish(mut self) -> Result<RunCounts, CliError> {
+    pub(super) fn finish(mut self) -> Result<RunCounts, BatchError> {
         self.end_display();
         let counts = lock(&self.state).counts;
         if let Some(file) = &self.metrics {
@@ -127,7 +146,7 @@ struct DisplayLoop {
     state: Arc<Mutex<ProgressState>>,
     begin: Instant,
     metrics: Option<Arc<MetricsFile>>,
-    is_terminal: bool,
+    shown: ProgressDisplay,
 }
 
 impl DisplayLoop {
@@ -135,10 +154,10 @@ impl DisplayLoop {
     ///
     /// Errors are ignored here: a display that cannot be drawn is no reason to stop, and metrics
     /// that cannot be written are an error at the end.
-    fn run(self, wait: impl Fn(Duration) -> Result<(), RecvTimeoutError>) {
-        let interval = if self.is_terminal { TERMINAL_INTERVAL } else { METRICS_INTERVAL };
-        let interval =
-            if self.is_terminal || self.metrics.is_some() { interval } else { LOG_INTERVAL };
+    fn run(mut self, wait: impl Fn(Duration) -> Result<(), RecvTimeoutError>) {
+        let is_terminal = self.shown.is_terminal;
+        let interval = if is_terminal { TERMINAL_INTERVAL } else { METRICS_INTERVAL };
+        let interval = if is_terminal || self.metrics.is_some() { interval } else { LOG_INTERVAL };
         let (mut rate, mut logged, mut measured) = (JobRate::default(), self.begin, self.begin);
         while wait(interval) == Err(RecvTimeoutError::Timeout) {
             let (state, elapsed) = (*lock(&self.state), self.begin.elapsed().as_secs_f64());
@@ -148,17 +167,17 @@ impl DisplayLoop {
                 let _ = file.write_counts(state.counts, elapsed);
                 measured = Instant::now();
             }
-            if self.is_terminal {
+            if is_terminal {
                 let line = progress_line(&state, &mut rate, elapsed);
-                let _ = write!(std::io::stderr(), "\r\x1b[K{line}");
+                let _ = write!(self.shown.stream, "\r\x1b[K{line}");
             } else if logged.elapsed() >= LOG_INTERVAL {
                 let line = progress_line(&state, &mut rate, elapsed);
-                let _ = writeln!(std::io::stderr(), "{line}");
+                let _ = writeln!(self.shown.stream, "{line}");
                 logged = Instant::now();
             }
         }
-        if self.is_terminal {
-            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        if is_terminal {
+            let _ = write!(self.shown.stream, "\r\x1b[K");
         }
     }
 }
@@ -224,7 +243,7 @@ fn duration_words(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::test_records::{ReportFolder, done_record, failed_record};
 
     #[test]
     fn the_line_has_count_rate_failures_and_the_time_left() {
@@ -261,11 +280,15 @@ mod tests {
         assert_eq!(words, ["0 s", "99 s", "2 min", "2.0 h", "4.6 days"]);
     }
 
+    fn nowhere() -> ProgressDisplay {
+        ProgressDisplay { stream: Box::new(std::io::sink()), is_terminal: false }
+    }
+
     #[test]
     fn jobs_are_counted_and_written_at_the_end() {
         let folder = ReportFolder::new("progress");
         let path = folder.path().join("batch.prom");
-        let progress = RunProgress::start(Some(&path)).unwrap();
+        let progress = RunProgress::start(Some(&path), nowhere()).unwrap();
         progress.set_fraction(0.5);
         progress.count_record(&done_record("a.png", "k"));
         progress.count_record(&failed_record("b.png", "k"));
@@ -275,6 +298,7 @@ mod tests {
         assert_eq!((counts.rendered, counts.failed, counts.restarts), (1, 1, 1));
         assert_eq!((counts.up_to_date, counts.failed_before), (2, 1));
         assert!(folder.read_text("batch.prom").contains("{status=\"rendered\"} 1\n"));
-        assert!(RunProgress::start(Some(&folder.path().join("no/batch.prom"))).is_err());
+        let path = folder.path().join("no/batch.prom");
+        assert!(RunProgress::start(Some(&path), nowhere()).is_err());
     }
 }

@@ -14,7 +14,7 @@
 
 use super::Shard;
 use super::left_over::remove_left_over;
-use crate::CliError;
+use crate::BatchError;
 use model::visible_path;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write as _};
@@ -100,7 +100,7 @@ impl ReportWriter {
     ///
     /// # Errors
     /// If the file cannot be created, which is noticed here, before any work is done.
-    pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, CliError> {
+    pub(super) fn create(out_dir: &Path, shard: Shard) -> Result<Self, BatchError> {
         let folder = out_dir.join(REPORTS_FOLDER);
         std::fs::create_dir_all(&folder).map_err(|cause| write_error(&folder, &cause))?;
         remove_left_over(&folder);
@@ -135,7 +135,7 @@ impl ReportWriter {
     ///
     /// # Errors
     /// If it cannot be written: the disk is full, or the folder is gone.
-    pub(super) fn append_record(&self, record: &JobRecord) -> Result<(), CliError> {
+    pub(super) fn append_record(&self, record: &JobRecord) -> Result<(), BatchError> {
         self.append_records(std::slice::from_ref(record))
     }
 
@@ -143,7 +143,7 @@ impl ReportWriter {
     ///
     /// # Errors
     /// If they cannot be written; some of them may be in the report then.
-    pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), CliError> {
+    pub(super) fn append_records(&self, records: &[JobRecord]) -> Result<(), BatchError> {
         let lines: String = records.iter().map(JobRecord::to_line).collect();
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         open.has_records |= !records.is_empty();
@@ -159,7 +159,7 @@ impl ReportWriter {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(super) fn finish(self) -> Result<(), CliError> {
+    pub(super) fn finish(self) -> Result<(), BatchError> {
         let open = self.open.into_inner().unwrap_or_else(PoisonError::into_inner);
         if open.has_records {
             return open.file.sync_all().map_err(|cause| write_error(&self.path, &cause));
@@ -172,8 +172,8 @@ impl ReportWriter {
 }
 
 /// The error of a file or a folder that cannot be written.
-pub(super) fn write_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot write {}: {cause}", visible_path(path)))
+pub(super) fn write_error(path: &Path, cause: &std::io::Error) -> BatchError {
+    BatchError::Unusable(format!("cannot write {}: {cause}", visible_path(path)))
 }
 
 /// The number of a run in the name of its report: the part before the extension.
@@ -212,7 +212,7 @@ pub(super) fn host_name() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::test_records::{ReportFolder, done_record};
+    use crate::test_records::{ReportFolder, done_record};
 
     #[test]
     fn a_line_has_all_members_and_no_others() {

@@ -1,12 +1,13 @@
 //! The jobs of a run as they are needed: first those of inputs and folders, then those of a list,
 //! and of all of them those of this shard.
 
+use super::flag_table::FlagTable;
 use super::inputs::find_jobs;
 use super::job::JobGroup;
 use super::job_list::JobList;
 use super::picture_name::PictureName;
 use super::shard::{Shard, ShardBalance};
-use crate::CliError;
+use crate::BatchError;
 use std::path::{Path, PathBuf};
 
 /// Where the jobs of a run come from.
@@ -19,6 +20,8 @@ pub(super) struct JobSource<'a> {
     pub(super) scene: Option<&'a Path>,
     /// The template of `--name`.
     pub(super) picture_name: Option<&'a PictureName>,
+    /// The flags that lines of a list may have.
+    pub(super) flags: &'a FlagTable,
 }
 
 /// The groups of jobs of one shard, in order.
@@ -41,10 +44,12 @@ impl JobStream {
     ///
     /// # Errors
     /// If a folder or the list cannot be read.
-    pub(super) fn open(source: &JobSource<'_>, shard: Shard) -> Result<Self, CliError> {
+    pub(super) fn open(source: &JobSource<'_>, shard: Shard) -> Result<Self, BatchError> {
         let (scene, name) = (source.scene, source.picture_name);
         let inputs = find_jobs(source.inputs, scene, name)?;
-        let open = |path: &Path| JobList::open(path, scene.map(Path::to_owned), name.cloned());
+        let open = |path: &Path| {
+            JobList::open(path, scene.map(Path::to_owned), name.cloned(), source.flags)
+        };
         let balance = (!shard.has_all_jobs()).then(|| ShardBalance::new(shard));
         Ok(Self {
             input_count: inputs.len(),
@@ -90,7 +95,7 @@ impl JobStream {
 }
 
 impl Iterator for JobStream {
-    type Item = Result<JobGroup, CliError>;
+    type Item = Result<JobGroup, BatchError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {

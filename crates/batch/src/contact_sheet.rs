@@ -10,7 +10,7 @@
 use super::merge::MergeCounts;
 use super::report::write_error;
 use super::report_reader::{MERGED_REPORT, RecordLine, read_report};
-use crate::CliError;
+use crate::BatchError;
 use drawing::escape_markup;
 use model::import::percent_encode;
 use std::fmt::Write as _;
@@ -26,7 +26,7 @@ const PAGE_RECORDS: u64 = 500;
 ///
 /// # Errors
 /// If the report cannot be read or a page cannot be written.
-pub(super) fn write_contact_sheet(out_dir: &Path, counts: &MergeCounts) -> Result<(), CliError> {
+pub(super) fn write_contact_sheet(out_dir: &Path, counts: &MergeCounts) -> Result<(), BatchError> {
     let report = out_dir.join(MERGED_REPORT);
     let mut sheet = ContactSheet::new(out_dir, counts);
     for is_done in [true, false] {
@@ -58,7 +58,7 @@ impl<'a> ContactSheet<'a> {
     }
 
     /// Adds a record; writes the page before it, if that is full.
-    fn add_record(&mut self, record: &RecordLine<'_>) -> Result<(), CliError> {
+    fn add_record(&mut self, record: &RecordLine<'_>) -> Result<(), BatchError> {
         if self.records == PAGE_RECORDS {
             self.write_page()?;
             self.page += 1;
@@ -97,7 +97,7 @@ impl<'a> ContactSheet<'a> {
     }
 
     /// Writes the last page; there is one even without records.
-    fn finish(mut self) -> Result<(), CliError> {
+    fn finish(mut self) -> Result<(), BatchError> {
         self.write_page()?;
         (self.page + 1..)
             .map(|page| self.page_path(page))
@@ -107,7 +107,7 @@ impl<'a> ContactSheet<'a> {
     }
 
     /// Writes this page, unless it is there already, and empties it.
-    fn write_page(&mut self) -> Result<(), CliError> {
+    fn write_page(&mut self) -> Result<(), BatchError> {
         let mut page = String::from(PAGE_HEAD);
         let _ =
             writeln!(page, "<p>{} pictures, {} failed</p>", self.counts.done, self.counts.failed);
@@ -185,8 +185,8 @@ fn relative_url(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::merge::merge_reports;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::merge::merge_reports;
+    use crate::test_records::{ReportFolder, done_record, failed_record};
 
     /// The names of the pages of a report with this many pictures and failures.
     fn write_sheet(folder: &ReportFolder, done: usize, failed: usize) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Records of earlier runs, packed into 24 bytes each.
 
 use super::report_reader::{RecordLine, read_report, report_paths};
-use crate::CliError;
+use crate::BatchError;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -100,7 +100,7 @@ impl EarlierRecords {
     ///
     /// # Errors
     /// If a report cannot be read.
-    pub(super) fn read(out_dir: &Path) -> Result<Self, CliError> {
+    pub(super) fn read(out_dir: &Path) -> Result<Self, BatchError> {
         let mut records = Self { entries: Vec::new() };
         let mut tars: BTreeMap<String, bool> = BTreeMap::new();
         for (report, path) in (0..).zip(report_paths(out_dir)?) {
@@ -205,7 +205,7 @@ fn bytes_hash(bytes: impl Iterator<Item = u8>) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::test_records::{ReportFolder, done_record, failed_record};
 
     const DONE: Option<EarlierRecord> = Some(EarlierRecord::Done { bytes: 100, is_in_tar: false });
 

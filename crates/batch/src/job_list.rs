@@ -12,8 +12,8 @@ use super::job::{BatchJob, JobGroup, ListLine};
 use super::list_line::{LineReader, ListContext};
 use super::output_names::{OutputNames, same_output_fault};
 use super::picture_name::PictureName;
-use super::render_flags::FlagTable;
-use crate::CliError;
+use crate::BatchError;
+use crate::flag_table::FlagTable;
 use model::{visible_path, visible_text};
 use serde_json::{Map, Value};
 use std::fs::File;
@@ -43,7 +43,7 @@ pub(super) struct JobList {
 }
 
 impl JobList {
-    /// Opens a list; `-` is the standard input.
+    /// Opens a list; `-` is the standard input. `flags` are those that lines may have.
     ///
     /// A name in `.csv` is CSV, any other JSON lines; the standard input is JSON lines if it begins
     /// with a brace.
@@ -57,12 +57,13 @@ impl JobList {
         path: &Path,
         scene: Option<PathBuf>,
         picture_name: Option<PictureName>,
-    ) -> Result<Self, CliError> {
-        let list = Self::open_once(path, scene.clone(), picture_name.clone())?;
+        flags: &FlagTable,
+    ) -> Result<Self, BatchError> {
+        let list = Self::open_once(path, scene.clone(), picture_name.clone(), flags)?;
         if list.position.1.is_none() {
             return Ok(Self { outputs: Some(OutputNames::default()), ..list });
         }
-        Self::open_once(path, scene, picture_name)?.check_outputs()?;
+        Self::open_once(path, scene, picture_name, flags)?.check_outputs()?;
         Ok(list)
     }
 
@@ -70,12 +71,12 @@ impl JobList {
     ///
     /// # Errors
     /// If it cannot be read, or two lines have the same output.
-    fn check_outputs(mut self) -> Result<(), CliError> {
+    fn check_outputs(mut self) -> Result<(), BatchError> {
         let mut outputs = OutputNames::default();
         while let Some((number, members)) = self.next_members()? {
             let group = self.group_of(number, members);
             if let Some(fault) = repeated_output(&mut outputs, &group, number) {
-                return Err(CliError::Usage(format!("{}: {fault}", visible_text(&self.name))));
+                return Err(BatchError::Unusable(format!("{}: {fault}", visible_text(&self.name))));
             }
         }
         Ok(())
@@ -86,13 +87,15 @@ impl JobList {
         path: &Path,
         scene: Option<PathBuf>,
         picture_name: Option<PictureName>,
-    ) -> Result<Self, CliError> {
+        flags: &FlagTable,
+    ) -> Result<Self, BatchError> {
         let is_stdin = path.as_os_str() == "-";
         let (reader, length): (Box<dyn BufRead + Send>, _) = if is_stdin {
             (Box::new(BufReader::new(std::io::stdin())), None)
         } else {
-            let fault =
-                |cause| CliError::Usage(format!("cannot read {}: {cause}", visible_path(path)));
+            let fault = |cause| {
+                BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
+            };
             let file = File::open(path).map_err(fault)?;
             let length = file.metadata().map_err(fault)?;
             (Box::new(BufReader::new(file)), length.is_file().then_some(length.len()))
@@ -100,7 +103,7 @@ impl JobList {
         let folder = if is_stdin { Path::new("") } else { path.parent().unwrap_or(path) };
         let name = if is_stdin { "<stdin>".into() } else { path.to_string_lossy() };
         let context =
-            ListContext { folder: folder.to_owned(), scene, picture_name, flags: FlagTable::new() };
+            ListContext { folder: folder.to_owned(), scene, picture_name, flags: flags.clone() };
         let mut list = Self {
             reader,
             name: visible_text(&name).into(),
@@ -110,7 +113,7 @@ impl JobList {
             position: (0, length),
             outputs: None,
         };
-        let has_brace = |list: &mut Self| -> Result<bool, CliError> {
+        let has_brace = |list: &mut Self| -> Result<bool, BatchError> {
             let start = list.reader.fill_buf().map_err(|cause| list_error(&list.name, &cause))?;
             Ok(start.trim_ascii_start().first().is_none_or(|byte| *byte == b'{'))
         };
@@ -128,13 +131,13 @@ impl JobList {
     }
 
     /// Reads the header of a CSV file.
-    fn read_columns(&mut self) -> Result<(), CliError> {
+    fn read_columns(&mut self) -> Result<(), BatchError> {
         let header = match self.next_line()? {
             Some(line) => self.read_record(line)?,
             None => Ok(Vec::new()),
         };
         let fault = |what: &str| {
-            CliError::Usage(format!(
+            BatchError::Unusable(format!(
                 "{}:1: {what}\n  = help: the first line names the columns: input, and as needed \
                  output, scene and flags such as size",
                 self.name
@@ -164,7 +167,7 @@ impl JobList {
     ///
     /// # Errors
     /// If the list cannot be read, or the line is longer than any that a person or a program means.
-    fn next_line(&mut self) -> Result<Option<Vec<u8>>, CliError> {
+    fn next_line(&mut self) -> Result<Option<Vec<u8>>, BatchError> {
         let mut line = Vec::new();
         let mut limited = self.reader.by_ref().take(MAX_LINE_BYTES + 1);
         let read = limited.read_until(b'\n', &mut line);
@@ -172,7 +175,7 @@ impl JobList {
         self.line += 1;
         self.position.0 += length as u64;
         if length as u64 > MAX_LINE_BYTES {
-            return Err(CliError::Usage(format!(
+            return Err(BatchError::Unusable(format!(
                 "{}:{}: a line has {MAX_LINE_BYTES} bytes at most",
                 self.name, self.line
             )));
@@ -181,7 +184,7 @@ impl JobList {
     }
 
     /// The fields of the CSV record that begins with a line; the inner error is one of the record.
-    fn read_record(&mut self, first: Vec<u8>) -> Result<Result<Vec<String>, String>, CliError> {
+    fn read_record(&mut self, first: Vec<u8>) -> Result<Result<Vec<String>, String>, BatchError> {
         let (mut record, mut line) = (CsvRecord::default(), first);
         loop {
             let Ok(text) = std::str::from_utf8(&line) else {
@@ -200,7 +203,7 @@ impl JobList {
     }
 
     /// The members of the next line that is not empty, and its number; `None` at the end.
-    fn next_members(&mut self) -> Result<Option<(u64, Members)>, CliError> {
+    fn next_members(&mut self) -> Result<Option<(u64, Members)>, BatchError> {
         loop {
             let Some(line) = self.next_line()? else { return Ok(None) };
             let number = self.line;
@@ -251,7 +254,7 @@ impl JobList {
 }
 
 impl Iterator for JobList {
-    type Item = Result<JobGroup, CliError>;
+    type Item = Result<JobGroup, BatchError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         match self.next_members() {
@@ -309,6 +312,6 @@ fn wrong_line(line: ListLine, fault: &str) -> JobGroup {
 }
 
 /// The error of a list that cannot be read.
-fn list_error(name: &str, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot read {name}: {cause}"))
+fn list_error(name: &str, cause: &std::io::Error) -> BatchError {
+    BatchError::Unusable(format!("cannot read {name}: {cause}"))
 }

@@ -21,7 +21,7 @@ const MAX_SHARDS: usize = 1_000_000;
 ///
 /// Always `index < count`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Shard {
+pub struct Shard {
     /// The index of the shard, from 0.
     index: usize,
     /// The number of shards.
@@ -30,12 +30,13 @@ pub(super) struct Shard {
 
 impl Shard {
     /// The only shard of a run on one machine.
-    pub(super) const ALL_JOBS: Self = Self { index: 0, count: 1 };
+    pub const ALL_JOBS: Self = Self { index: 0, count: 1 };
 
     /// Whether there is only one shard.
     ///
     /// Only then can the run merge the reports: a shard does not know when the others are done.
-    pub(super) const fn has_all_jobs(self) -> bool {
+    #[must_use]
+    pub const fn has_all_jobs(self) -> bool {
         self.count == 1
     }
 
@@ -89,7 +90,7 @@ impl ShardBalance {
 /// # Errors
 /// If the text is not `I/N` with `1 <= I <= N`, or `auto` is used outside of an array job, or the
 /// array job has another number of tasks than `N`.
-pub(super) fn parse_shard(text: &str) -> Result<Shard, String> {
+pub fn parse_shard(text: &str) -> Result<Shard, String> {
     parse_shard_with(text, |name| std::env::var(name).ok().as_deref().and_then(parse_count))
 }
 

@@ -12,7 +12,7 @@ use std::path::{Component, Path};
 
 /// A template of names with the fields of a batch.
 #[derive(Clone, Debug)]
-pub(super) struct PictureName(NameTemplate);
+pub struct PictureName(NameTemplate);
 
 /// The source of the fields of a name.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ impl PictureName {
     ///
     /// # Errors
     /// If a field is unknown, or the name does not end in `.png`.
-    pub(super) fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, String> {
         if !has_png_extension(text) {
             return Err("pictures are PNG files: end the name in .png".to_owned());
         }

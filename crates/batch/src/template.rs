@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// A name with fields in braces; `{{` and `}}` are literal braces.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub(super) struct NameTemplate {
+pub struct NameTemplate {
     /// The pieces of the name, in order; literal text is never empty and never adjacent.
     parts: Vec<TemplatePart>,
 }
@@ -58,7 +58,7 @@ impl NameTemplate {
     /// # Errors
     /// If a brace has no partner or a field is unknown; the message lists the known fields. If there
     /// is a counter as of other programs, `%04d` or `####`.
-    pub(super) fn parse(
+    pub fn parse(
         text: &str,
         words: &[&'static str],
         numbers: &[&'static str],
@@ -90,7 +90,8 @@ impl NameTemplate {
     /// Whether the template has this field.
     ///
     /// Commands use it to distinguish a name for many files from a name for one.
-    pub(super) fn has_field(&self, field: &str) -> bool {
+    #[must_use]
+    pub fn has_field(&self, field: &str) -> bool {
         self.parts.iter().any(|part| match part {
             TemplatePart::Text(_) => false,
             TemplatePart::Word(name) | TemplatePart::Number(name, _) => *name == field,
@@ -101,7 +102,8 @@ impl NameTemplate {
     ///
     /// Characters of words that are no part of a file name become `_`, so that a value cannot lead
     /// to another folder. The field `{folder}` alone keeps its `/`.
-    pub(super) fn expand_fields(
+    #[must_use]
+    pub fn expand_fields(
         &self,
         word: impl Fn(&str) -> String,
         number: impl Fn(&str) -> usize,

@@ -5,7 +5,7 @@
 //! the files and no parse of the meshes. A name too many does no harm: it is a file that does
 //! not exist, or one whose change renders a picture again.
 
-use pipeline::import::{FileFormat, percent_decode};
+use model::import::{FileFormat, percent_decode};
 use serde_json::Value;
 use std::path::Path;
 
@@ -19,7 +19,8 @@ const MAX_WORDS: usize = 16;
 /// folder, in the order in which they are mentioned. `name` is its own.
 ///
 /// The textures of a material library are not among the names of the model that refers to it.
-pub(crate) fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
+#[must_use]
+pub fn referenced_files(name: &str, bytes: &[u8]) -> Vec<String> {
     let path = Path::new(name);
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mtl")) {
         return mtl_files(name, bytes);

@@ -9,9 +9,11 @@ const PIECE_BYTES: usize = 1 << 16;
 
 /// Size and SHA-256 of a content.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) struct ContentDigest {
-    pub(crate) bytes: u64,
-    pub(crate) sha256: [u8; 32],
+pub struct ContentDigest {
+    /// The number of bytes.
+    pub bytes: u64,
+    /// Their SHA-256.
+    pub sha256: [u8; 32],
 }
 
 impl ContentDigest {
@@ -19,7 +21,7 @@ impl ContentDigest {
     ///
     /// # Errors
     /// If the reader fails.
-    pub(crate) fn of_reader(reader: &mut dyn Read) -> std::io::Result<Self> {
+    pub fn of_reader(reader: &mut dyn Read) -> std::io::Result<Self> {
         let (mut hash, mut bytes, mut piece) = (Sha256::new(), 0, vec![0; PIECE_BYTES]);
         loop {
             let count = reader.read(&mut piece)?;
@@ -33,12 +35,14 @@ impl ContentDigest {
 }
 
 /// The SHA-256 of bytes in hexadecimal.
-pub(crate) fn hexadecimal_sha256(bytes: &[u8]) -> String {
+#[must_use]
+pub fn hexadecimal_sha256(bytes: &[u8]) -> String {
     to_hexadecimal(&Sha256::digest(bytes))
 }
 
 /// Bytes in hexadecimal, two digits each.
-pub(crate) fn to_hexadecimal(bytes: &[u8]) -> String {
+#[must_use]
+pub fn to_hexadecimal(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(2 * bytes.len());
     for byte in bytes {
         let _ = write!(text, "{byte:02x}");
@@ -47,7 +51,7 @@ pub(crate) fn to_hexadecimal(bytes: &[u8]) -> String {
 }
 
 /// Parses a SHA-256 in hexadecimal.
-pub(crate) fn parse_sha256(text: &str) -> Option<[u8; 32]> {
+pub(super) fn parse_sha256(text: &str) -> Option<[u8; 32]> {
     let mut sha256 = [0; 32];
     if text.len() != 2 * sha256.len() {
         return None;

@@ -10,33 +10,35 @@ use std::path::PathBuf;
 
 /// An input to load, and the pictures to render of it.
 #[derive(Serialize, Deserialize, Debug)]
-pub(super) struct WorkRequest {
+pub struct WorkRequest {
     /// The model or the scene.
     #[serde(with = "any_path")]
-    pub(super) input: PathBuf,
+    pub input: PathBuf,
     /// The pictures, at least one.
-    pub(super) pictures: Vec<PictureRequest>,
+    pub pictures: Vec<PictureRequest>,
 }
 
 /// A picture to render.
 #[derive(Serialize, Deserialize, Debug)]
-pub(super) struct PictureRequest {
+pub struct PictureRequest {
     /// The scene that the input is put into.
-    pub(super) scene: Option<PathBuf>,
+    pub scene: Option<PathBuf>,
     /// All flags of the picture.
-    pub(super) flags: Vec<String>,
+    pub flags: Vec<String>,
     /// Where the picture goes.
-    pub(super) target: PictureTarget,
+    pub target: PictureTarget,
 }
 
 /// Where a picture goes.
 #[derive(Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum PictureTarget {
+pub enum PictureTarget {
     /// To a file, which is written under another name first.
     File {
+        /// The file.
         #[serde(with = "any_path")]
         path: PathBuf,
+        /// The other name.
         #[serde(with = "any_path")]
         partial: PathBuf,
     },
@@ -46,30 +48,42 @@ pub(super) enum PictureTarget {
 
 /// An answer, and how many bytes of its picture follow the line.
 #[derive(Serialize, Deserialize, Debug)]
-pub(super) struct FramedAnswer {
-    pub(super) answer: WorkAnswer,
-    pub(super) follows: u64,
+pub struct FramedAnswer {
+    /// The answer.
+    pub answer: WorkAnswer,
+    /// The number of bytes.
+    pub follows: u64,
 }
 
 /// The result of a picture.
 #[derive(Serialize, Deserialize, PartialEq, Debug)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum WorkAnswer {
+pub enum WorkAnswer {
     /// It was rendered, and written unless it follows through the pipe.
     Done {
         /// Time in seconds, with loading, if that was for this picture.
         seconds: f64,
-        /// The number of warnings, and the first of them.
+        /// The number of warnings.
         warnings: usize,
+        /// The first warning; empty without one.
         message: String,
-        /// The size of the picture, and its SHA-256 in hexadecimal.
+        /// The size of the picture.
         bytes: u64,
+        /// Its SHA-256 in hexadecimal.
         sha256: String,
     },
     /// The model, the scene or a flag is at fault.
-    Failed { seconds: f64, message: String },
+    Failed {
+        /// Time in seconds.
+        seconds: f64,
+        /// What is wrong.
+        message: String,
+    },
     /// The output folder is at fault, so that no other picture can be written either.
-    Stopped { message: String },
+    Stopped {
+        /// What is wrong.
+        message: String,
+    },
 }
 
 /// Paths as text, or as bytes where they are not UTF-8.

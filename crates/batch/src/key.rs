@@ -9,10 +9,9 @@
 
 use super::job::BatchJob;
 use crate::content_digest::to_hexadecimal;
-use crate::referenced_files::referenced_files;
-use crate::render::is_scene_file;
-use pipeline::Origin;
-use pipeline::import::FileFormat;
+use model::import::FileFormat;
+use scene::{Origin, referenced_files};
+use scene_file::is_scene_file;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fs::File;
@@ -220,7 +219,7 @@ fn hash_part(hash: &mut Sha256, part: &[u8]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::test_records::ReportFolder;
+    use crate::test_records::ReportFolder;
 
     /// A job without a line.
     fn job_of(input: PathBuf) -> BatchJob {

@@ -4,7 +4,7 @@
 //! longest line.
 
 use super::report::{DONE, FAILED, REPORTS_FOLDER, run_number};
-use crate::CliError;
+use crate::BatchError;
 use model::visible_path;
 use std::borrow::Cow;
 use std::fs::File;
@@ -73,8 +73,8 @@ impl<'a> RecordLine<'a> {
 /// missing in a merged report. A folder that does not exist yet has no reports.
 pub(super) fn read_reports(
     out_dir: &Path,
-    mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), CliError>,
-) -> Result<(), CliError> {
+    mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
+) -> Result<(), BatchError> {
     for path in report_paths(out_dir)? {
         read_report(&path, &mut visit)?;
     }
@@ -87,8 +87,8 @@ pub(super) fn read_reports(
 /// If it cannot be read, or `visit` fails.
 pub(super) fn read_report(
     path: &Path,
-    mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), CliError>,
-) -> Result<(), CliError> {
+    mut visit: impl FnMut(&RecordLine<'_>, &[u8]) -> Result<(), BatchError>,
+) -> Result<(), BatchError> {
     // A pipe of this name would be waited for, a folder cannot be read.
     if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
         return Ok(());
@@ -118,7 +118,7 @@ pub(super) fn read_report(
 ///
 /// # Errors
 /// If the folder cannot be read.
-pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, CliError> {
+pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, BatchError> {
     let folder = out_dir.join(REPORTS_FOLDER);
     let mut paths = Vec::new();
     match std::fs::read_dir(&folder) {
@@ -139,14 +139,14 @@ pub(super) fn report_paths(out_dir: &Path) -> Result<Vec<PathBuf>, CliError> {
 }
 
 /// The error of a report that cannot be read.
-fn read_error(path: &Path, cause: &std::io::Error) -> CliError {
-    CliError::Usage(format!("cannot read {}: {cause}", visible_path(path)))
+fn read_error(path: &Path, cause: &std::io::Error) -> BatchError {
+    BatchError::Unusable(format!("cannot read {}: {cause}", visible_path(path)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::test_records::{ReportFolder, done_record, failed_record};
 
     /// The outputs of all records, in the order in which they are read.
     fn outputs(folder: &ReportFolder) -> Vec<String> {

@@ -13,8 +13,8 @@ mod sorted_chunks;
 use super::earlier_records::record_hash;
 use super::report::write_error;
 use super::report_reader::{MERGED_REPORT, RecordLine, read_reports};
-use crate::CliError;
-use pipeline::AtomicFile;
+use crate::BatchError;
+use shade::AtomicFile;
 use sorted_chunks::{Chunks, SortedLine};
 use std::io::Write as _;
 use std::path::Path;
@@ -24,17 +24,17 @@ const CHUNK_BYTES: usize = 8 << 20;
 
 /// The counts of a merged report.
 #[derive(Clone, PartialEq, Default, Debug)]
-pub(super) struct MergeCounts {
+pub struct MergeCounts {
     /// The number of pictures.
-    pub(super) done: u64,
+    pub done: u64,
     /// The number of jobs that failed.
-    pub(super) failed: u64,
+    pub failed: u64,
     /// The size of all pictures in bytes.
-    pub(super) bytes: u64,
+    pub bytes: u64,
     /// The time of all jobs in seconds: that of one worker for all of them.
-    pub(super) seconds: f64,
+    pub seconds: f64,
     /// The longest time of a job in seconds, and its input.
-    pub(super) longest: Option<(f64, String)>,
+    pub longest: Option<(f64, String)>,
 }
 
 /// The jobs of a run, by which a merged report is restricted to them.
@@ -72,7 +72,7 @@ impl CurrentJobs {
 pub(super) fn merge_reports(
     out_dir: &Path,
     current: Option<CurrentJobs>,
-) -> Result<MergeCounts, CliError> {
+) -> Result<MergeCounts, BatchError> {
     merge_in_chunks(out_dir, current, CHUNK_BYTES)
 }
 
@@ -81,7 +81,7 @@ fn merge_in_chunks(
     out_dir: &Path,
     mut current: Option<CurrentJobs>,
     chunk_bytes: usize,
-) -> Result<MergeCounts, CliError> {
+) -> Result<MergeCounts, BatchError> {
     if let Some(jobs) = &mut current {
         jobs.sort();
     }
@@ -156,7 +156,7 @@ struct MergedReport {
 }
 
 impl MergedReport {
-    fn create(path: &Path) -> Result<Self, CliError> {
+    fn create(path: &Path) -> Result<Self, BatchError> {
         let file = std::io::BufWriter::with_capacity(1 << 18, AtomicFile::create(path)?);
         Ok(Self { file, counts: MergeCounts::default() })
     }
@@ -169,7 +169,7 @@ impl MergedReport {
         self.file.write_all(b"\n")
     }
 
-    fn finish(self) -> Result<MergeCounts, CliError> {
+    fn finish(self) -> Result<MergeCounts, BatchError> {
         let file = self.file.into_inner().map_err(std::io::IntoInnerError::into_error)?;
         file.finish()?;
         Ok(self.counts)
@@ -190,8 +190,8 @@ impl MergeCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::report::JobRecord;
-    use crate::batch::test_records::{ReportFolder, done_record, failed_record};
+    use crate::report::JobRecord;
+    use crate::test_records::{ReportFolder, done_record, failed_record};
 
     /// Output, key and status of each merged record.
     fn merged(folder: &ReportFolder) -> Vec<(String, String, String)> {

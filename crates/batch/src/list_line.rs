@@ -2,7 +2,7 @@
 
 use super::job::{BatchJob, JobGroup, ListLine};
 use super::picture_name::{NameSource, PictureName, check_picture_name, normal_parts};
-use super::render_flags::{FlagTable, flag_word, is_scene_name};
+use crate::flag_table::{FlagTable, flag_word, is_scene_name};
 use model::visible_text;
 use scene_file::closest_name;
 use serde_json::{Map, Value};
